@@ -1,0 +1,69 @@
+#include "app/commands/devices.h"
+
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "app/data_files.h"
+#include "core/engines/engine.h"
+#include "core/engines/opencl_devices.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+std::string read_kernel(std::string_view name) {
+  std::ifstream in(data_file(name), std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void print_cpu() {
+  std::cout << "CPU engine (--engine cpu)\n";
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    Preset preset;
+    preset.rows = preset.columns = 2;
+    preset.precision = precision;
+    std::cout << "  " << name_of(precision) << ": " << make_engine(preset, {preset.rows, preset.columns}, 1)->name()
+              << '\n';
+  }
+  std::cout << "  OpenGL: positions are copied into a buffer when they moved\n";
+}
+
+std::string verdict(const OpenClProbe& probe) {
+  if (!probe.offered) return "not offered";
+  return probe.problem.empty() ? "works (a test kernel was built, run and checked)" : "fails: " + probe.problem;
+}
+
+void print_device(const OpenClDevice& device) {
+  std::cout << "\nOpenCL device: " << device.name << "\n  platform: " << device.platform
+            << "\n  version: " << device.version << ", driver " << device.driver
+            << "\n  compute units: " << device.compute_units << ", memory: " << (device.memory_bytes >> 20)
+            << " MiB\n  float: " << verdict(device.float_) << "\n  double: " << verdict(device.double_)
+            << "\n  OpenGL: "
+            << (device.gl_sharing ? "can share a buffer (cl_khr_gl_sharing)"
+                                  : "no cl_khr_gl_sharing, so positions pass through main memory")
+            << '\n';
+}
+
+int devices() {
+  print_cpu();
+  const OpenClInventory inventory = find_opencl_devices(read_kernel("kernels/probe.cl"));
+  for (const OpenClDevice& device : inventory.devices) print_device(device);
+  if (inventory.devices.empty())
+    std::cout << "\nNo OpenCL device was found" << (inventory.problem.empty() ? "" : " (" + inventory.problem + ")")
+              << ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.\n";
+  std::cout << "\nThis version steps on the CPU engine; OpenCL devices are found and tested, but do not step yet.\n";
+  return exit_done;
+}
+
+}  // namespace
+
+void add_devices_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("devices", "List the engines and OpenCL devices found, each tested");
+  command->footer("Example: tyglab devices");
+  command->callback([&action] { action = devices; });
+}
+
+}  // namespace tyglab

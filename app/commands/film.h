@@ -1,0 +1,33 @@
+// Pictures of a simulation without a window.
+#pragma once
+
+#include <filesystem>
+
+#include "app/viewport/camera.h"
+#include "app/viewport/cloth_renderer.h"
+#include "app/viewport/headless_context.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+struct PictureSize {
+  int width = 1280, height = 720;  ///< pixels
+};
+
+/// Draws a scene with a fixed camera and writes pictures.
+class Film {
+ public:
+  /// `view`: 1 to 5, 0: the preset's own. A texture that cannot be read is told on stderr. Throws GraphicsError.
+  Film(const Preset& preset, int view, PictureSize size);
+  /// Throws OutputError.
+  void shoot(Simulation& simulation, const std::filesystem::path& file);
+
+ private:
+  HeadlessContext context_;  // before what lives in it
+  ClothRenderer renderer_;
+  ViewOptions options_;
+  PictureSize size_;
+  Camera camera_;
+};
+
+}  // namespace tyglab

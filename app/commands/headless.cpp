@@ -1,0 +1,75 @@
+#include "app/commands/headless.h"
+
+#include <iostream>
+
+#include "app/commands/command_line.h"
+#include "app/commands/film.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/stepping.h"
+#include "app/sandbox/frame_costs.h"
+#include "core/notation/preset_io.h"
+#include "core/output/obj.h"
+#include "core/output/state_csv.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* folder = "tyglab-out";
+constexpr double default_seconds = 4;
+constexpr double frames_a_second = 60;  // of the window that is not there
+constexpr int pictures = 5;             // the first at the start, the last at the end
+
+void write_state(Simulation& simulation, const fs::path& file) {
+  write_state_csv(file, simulation.lattice(), simulation.read_raw(),
+                  {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
+}
+
+}  // namespace
+
+int run_headless(const SandboxOptions& options) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(std::string(folder) + ": the folder cannot be made: " + error.message());
+
+  const double seconds = options.frames > 0 ? options.frames / frames_a_second : default_seconds;
+  const std::int64_t steps = Length{seconds, {}}.in_steps(options.preset.dt, seconds);
+  const PictureSize size;
+  Simulation simulation(options.preset);
+  Film film(options.preset, 0, size);
+  const InterruptGuard guard;
+  Stepper stepper(simulation, steps, options.preset_label);
+  FrameCosts costs;
+
+  bool going = true;
+  for (int k = 0; k < pictures && going; ++k) {
+    const FrameCosts::Timer frame(costs, Part::frame);
+    {
+      const FrameCosts::Timer simulate(costs, Part::simulate);
+      const std::int64_t before = simulation.steps();
+      going = stepper.advance_to(steps * k / (pictures - 1));
+      costs.add_steps(simulation.steps() - before);
+    }
+    const FrameCosts::Timer draw(costs, Part::draw_cloth);
+    const fs::path file = fs::path(folder) / frame_name(options.preset_label, k, pictures, "png");
+    film.shoot(simulation, file);
+    std::cout << "Wrote " << file.string() << " (t = " << simulation.time() << " s)." << std::endl;
+  }
+  const fs::path state = fs::path(folder) / (options.preset_label + ".csv");
+  write_state(simulation, state);
+  std::cout << "Wrote " << state.string() << ", the last state." << std::endl;
+  if (!options.screenshot.empty()) {
+    film.shoot(simulation, options.screenshot);
+    std::cout << "Wrote " << options.screenshot.string() << '.' << std::endl;
+  }
+  if (!options.time_report.empty()) {
+    write_atomically(options.time_report,
+                     costs.json(size.width, size.height, simulation.engine().name(), options.preset_label));
+    std::cout << "Wrote " << options.time_report.string() << '.' << std::endl;
+  }
+  if (simulation.divergence())
+    std::cerr << "tyglab: " << options.preset_label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+  return stepper.interrupted() ? exit_interrupted : exit_done;
+}
+
+}  // namespace tyglab

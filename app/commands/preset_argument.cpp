@@ -1,0 +1,90 @@
+#include "app/commands/preset_argument.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "app/commands/command_line.h"
+#include "app/data_files.h"
+#include "core/notation/notation.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+
+std::vector<std::string> shipped_presets() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(data_file("presets")))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+PresetSource find_preset(const std::string& name_or_file) {
+  const std::vector<std::string> names = shipped_presets();
+  if (std::binary_search(names.begin(), names.end(), name_or_file))
+    return {data_file("presets/" + name_or_file + ".json"), name_or_file};
+  std::error_code error;
+  const fs::path file(name_or_file);
+  if (fs::exists(file, error)) return {file, file.stem().string()};
+  std::string problem = "'" + name_or_file + "' is neither a shipped preset nor a file.";
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  if (const auto near = nearest(name_or_file, known)) problem += " Did you mean '" + std::string(*near) + "'?";
+  throw PresetError(problem + " `tyglab presets` lists the shipped ones.");
+}
+
+void PresetArgument::add_to(CLI::App& command, bool required) {
+  command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
+      ->required(required);
+  command
+      .add_option("--set", settings,
+                  "Set a constant by the key of the preset file: --set k_s=500 --set \"W=[0,0,0.02]\"\n"
+                  "--set \"bodies[0].r=0.3\". Can be given many times")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_option("--integrator", integrator, "Numerical method: euler, improved_euler, verlet")->type_name("NAME");
+  command.add_option("--dt", dt, "Time step, s")->type_name("S");
+  command
+      .add_option("--engine", engine,
+                  "Where it runs: cpu, or opencl (this version finds OpenCL devices but does not step on them yet)")
+      ->type_name("cpu|opencl");
+  command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")->type_name("float|double");
+  command
+      .add_option("--threads", threads,
+                  "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay. "
+                  "The result is the same to the last bit")
+      ->type_name("N")
+      ->check(between(1, 256));
+}
+
+std::vector<std::string> PresetArgument::all_settings() const {
+  std::vector<std::string> all = settings;
+  const auto add = [&](const char* key, const std::string& value) {
+    if (!value.empty()) all.push_back(std::string(key) + "=" + value);
+  };
+  add("integrator", integrator);
+  add("dt", dt);
+  add("engine", engine);
+  add("precision", precision);
+  return all;
+}
+
+bool PresetArgument::typed() const {
+  return !preset.empty() || !all_settings().empty();
+}
+
+ResolvedPreset PresetArgument::resolve(const std::string& fallback) const {
+  ResolvedPreset resolved;
+  resolved.source = find_preset(preset.empty() ? fallback : preset);
+  resolved.preset = load_preset(resolved.source.file);
+  try {
+    resolved.preset = with_settings(resolved.preset, all_settings());
+  } catch (const PresetError& error) {
+    throw UsageError(error.what());
+  }
+  resolved.threads = threads;
+  return resolved;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,50 @@
+// The argument PRESET and the options that go with it wherever a preset goes.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+/// The names of the shipped presets, sorted.
+std::vector<std::string> shipped_presets();
+
+/// Where a preset comes from.
+struct PresetSource {
+  std::filesystem::path file;
+  std::string label;  ///< the shipped name, or the file's name without its extension: what outputs are called after
+};
+/// A shipped name, or else a file. Throws PresetError; an unknown name is answered with the nearest.
+PresetSource find_preset(const std::string& name_or_file);
+
+/// A preset with the command line's settings.
+struct ResolvedPreset {
+  Preset preset;
+  PresetSource source;
+  int threads = 1;  ///< at most, of the CPU engine
+};
+
+/// PRESET, --set, --integrator, --dt, --engine, --precision and --threads as typed.
+struct PresetArgument {
+  std::string preset;
+  std::vector<std::string> settings;
+  std::string integrator, dt, engine, precision;
+  int threads = 1;
+
+  /// Adds the argument and its options to a command. It must outlive the parsing.
+  void add_to(CLI::App& command, bool required);
+  /// Reads the preset (`fallback` where none was typed) and applies the settings: --set
+  /// first, then the options of their own. Throws PresetError for the file, UsageError for a setting.
+  ResolvedPreset resolve(const std::string& fallback = {}) const;
+  /// Whether anything of the scene was typed.
+  bool typed() const;
+
+ private:
+  std::vector<std::string> all_settings() const;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,62 @@
+#include "app/commands/presets.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "app/commands/preset_argument.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+int list() {
+  const std::vector<std::string> names = shipped_presets();
+  std::size_t width = 0;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  for (const std::string& name : names) {
+    const Preset preset = load_preset(find_preset(name).file);
+    std::cout << name << std::string(width - name.size() + 2, ' ') << preset.name << ". " << preset.description << '\n';
+  }
+  std::cout << "\nNext: `tyglab NAME` opens one, `tyglab presets show NAME` prints it.\n";
+  return exit_done;
+}
+
+int show(const std::string& name) {
+  std::cout << preset_to_json(load_preset(find_preset(name).file));
+  return exit_done;
+}
+
+int check(const std::string& file) {
+  const Preset preset = load_preset(file);
+  std::cout << file << " is a valid preset: " << preset.name << ", "
+            << (preset.kind == Kind::one_weight
+                    ? std::string("one weight")
+                    : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
+            << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ").\n";
+  return exit_done;
+}
+
+}  // namespace
+
+void add_presets_command(CLI::App& program, Action& action) {
+  auto word = std::make_shared<std::string>();
+  CLI::App* command = program.add_subcommand("presets", "List the shipped presets, show one, or judge a file");
+  command->require_subcommand(0, 1);
+  command->footer("Example: tyglab presets show denim > my_denim.json");
+  command->callback([&action, command] {
+    if (command->get_subcommands().empty()) action = list;
+  });
+
+  CLI::App* show_one = command->add_subcommand("show", "Print a preset as JSON, every key with its value");
+  show_one->add_option("NAME", *word, "A shipped preset's name or a preset file")->required();
+  show_one->footer("Example: tyglab presets show denim > my_denim.json");
+  show_one->callback([word, &action] { action = [word] { return show(*word); }; });
+
+  CLI::App* check_one = command->add_subcommand("check", "Judge a preset file: every key, type and range");
+  check_one->add_option("FILE", *word, "The file")->required();
+  check_one->footer("Example: tyglab presets check my_denim.json");
+  check_one->callback([word, &action] { action = [word] { return check(*word); }; });
+}
+
+}  // namespace tyglab

@@ -1,0 +1,125 @@
+#include "app/commands/render.h"
+
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/commands/film.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/preset_argument.h"
+#include "app/commands/stepping.h"
+#include "core/notation/preset_io.h"
+#include "core/output/obj.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int smallest_side = 16, largest_side = 8192;
+
+struct RenderOptions {
+  PresetArgument preset;
+  Length length;
+  int view = 0;
+  std::string size = "1280x720";
+  std::string png;
+  std::optional<double> fps;
+};
+
+/// "1280x720". Throws UsageError.
+PictureSize parse_size(const std::string& text) {
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+  const auto height = std::from_chars(cross ? width.ptr + 1 : end, end, size.height);
+  const auto fits = [](int side) { return side >= smallest_side && side <= largest_side; };
+  if (!cross || height.ec != std::errc{} || height.ptr != end || !fits(size.width) || !fits(size.height))
+    throw UsageError("--size " + text + ": must be WIDTHxHEIGHT in pixels, each " + std::to_string(smallest_side) +
+                     " to " + std::to_string(largest_side) + ", as 1280x720");
+  return size;
+}
+
+/// Whether --png names a folder for a sequence, rather than one picture.
+bool wants_sequence(const RenderOptions& options) {
+  const fs::path path(options.png);
+  std::error_code error;
+  const bool picture = path.extension() == ".png" && !fs::is_directory(path, error);
+  if (picture && options.fps)
+    throw UsageError("--png " + options.png + ": with --fps it names a folder, in which the pictures are numbered");
+  if (!picture && !options.fps && !path.extension().empty() && !fs::is_directory(path, error))
+    throw UsageError("--png " + options.png +
+                     ": pictures are written as F.png; for a sequence give a folder and --fps");
+  return !picture;
+}
+
+int render(const RenderOptions& options) {
+  const ResolvedPreset scene = options.preset.resolve();
+  const std::string& label = scene.source.label;
+  const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  const PictureSize size = parse_size(options.size);
+  const bool sequence = wants_sequence(options);
+  const FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);
+  if (sequence) {
+    std::error_code error;
+    fs::create_directories(options.png, error);
+    if (error) throw OutputError(options.png + ": the folder cannot be made: " + error.message());
+  } else {
+    require_writable(options.png);
+  }
+
+  Simulation simulation(scene.preset, scene.threads);
+  Film film(scene.preset, options.view, size);
+  const InterruptGuard guard;
+  Stepper stepper(simulation, steps, label);
+  std::int64_t frame = 0;
+  if (sequence) {
+    while (frame < plan.count() && stepper.advance_to(plan.step_of(frame))) {
+      film.shoot(simulation, fs::path(options.png) / frame_name(label, frame, plan.count(), "png"));
+      ++frame;
+    }
+  } else {
+    stepper.advance_to(steps);
+    film.shoot(simulation, options.png);
+  }
+
+  std::cout << label << ": t = " << simulation.time() << " s. Wrote " << options.png;
+  if (sequence) std::cout << " (" << frame << " pictures, " << plan.fps() << " to a second)";
+  std::cout << '.' << std::endl;
+  if (simulation.divergence()) {
+    std::cerr << "tyglab: " << label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+    return exit_diverged;
+  }
+  if (!stepper.interrupted()) return exit_done;
+  std::cerr << "tyglab: Interrupted; the pictures made so far are whole.\n";
+  return exit_interrupted;
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand("render", "Draw without a window or a display");
+  options->preset.add_to(*command, true);
+  options->length.add_to(*command, false);
+  command
+      ->add_option("--view", options->view,
+                   "1 textured triangles, 2 connections, 3 both where torn, 4 outlines, 5 points;\n"
+                   "the preset's own if it is not given")
+      ->type_name("1..5")
+      ->check(between(1, 5));
+  command->add_option("--size", options->size, "Size in pixels (1280x720 if it is not given)")->type_name("WxH");
+  command->add_option("--png", options->png, "The picture, or a folder for a sequence: DIR/PRESET_0000.png, …")
+      ->type_name("F.png|DIR")
+      ->required();
+  command->add_option("--fps", options->fps, "A sequence with that many pictures per second of simulated time")
+      ->type_name("F")
+      ->check(between(1e-6, 1e7));
+  command->footer(
+      "Examples: tyglab render flag --seconds 3 --view 1 --size 1920x1080 --png flag.png\n"
+      "          tyglab render denim --seconds 4 --png frames --fps 25");
+  command->callback([options, &action] { action = [options] { return render(*options); }; });
+}
+
+}  // namespace tyglab

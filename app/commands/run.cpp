@@ -1,0 +1,231 @@
+#include "app/commands/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/interrupt.h"
+#include "app/commands/preset_argument.h"
+#include "app/commands/stepping.h"
+#include "core/notation/preset_io.h"
+#include "core/output/obj.h"
+#include "core/output/point_cache.h"
+#include "core/output/series_csv.h"
+#include "core/output/state_csv.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RunOptions {
+  PresetArgument preset;
+  Length length;
+  std::string state, series, obj, pc2, json;
+  std::optional<double> fps;
+  std::optional<std::int64_t> series_every;
+};
+
+/// The files of a run. Each is right as far as it goes, however the run ends.
+class Outputs {
+ public:
+  Outputs(const RunOptions& options, const ResolvedPreset& scene, std::int64_t steps)
+      : options_(options), scene_(scene), plan_(options.fps, scene.preset.dt, steps) {
+    for (const std::string& file : {options.state, options.series, options.pc2})
+      if (!file.empty()) require_writable(file);
+    if (!options.json.empty() && options.json != "-") require_writable(options.json);
+    if (options.obj.empty()) return;
+    if (scene.preset.kind == Kind::one_weight)
+      throw UsageError("--obj writes cloth, and " + scene.source.label + " is one weight; --series writes its motion");
+    std::error_code error;
+    fs::create_directories(options.obj, error);
+    if (error) throw OutputError(options.obj + ": the folder cannot be made: " + error.message());
+  }
+
+  /// Opens what is written as the run goes.
+  void open(const Simulation& simulation) {
+    const Preset& preset = simulation.preset();
+    if (!options_.series.empty())
+      series_ = std::make_unique<SeriesCsv>(options_.series, series_columns(preset.kind), preset_hash(preset));
+    if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().size());
+  }
+
+  /// The next step at which something is to be written.
+  std::int64_t next_step() const {
+    std::int64_t next = std::numeric_limits<std::int64_t>::max();
+    if (wants_frames() && frame_ < plan_.count()) next = plan_.step_of(frame_);
+    if (series_) next = std::min(next, next_row());
+    return next;
+  }
+
+  /// Writes what is due at the present step.
+  void write_due(Simulation& simulation) {
+    const std::int64_t step = simulation.steps();
+    if (wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
+      const VectorField<double>& x = simulation.read().x;
+      if (cache_) cache_->add(x);
+      if (!options_.obj.empty())
+        write_obj(fs::path(options_.obj) / frame_name(scene_.source.label, frame_, plan_.count(), "obj"),
+                  simulation.tears(), x,
+                  {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps()});
+      ++frame_;
+    }
+    if (series_ && step == next_row()) {
+      series_->add(simulation.time(), series_values(simulation));
+      ++row_;
+    }
+  }
+
+  /// The state as the run ended. Returns what was written: kind, path, and frames where there are several.
+  Json finish(Simulation& simulation) {
+    Json files = Json::array();
+    if (!options_.state.empty()) {
+      write_state_csv(options_.state, simulation.lattice(), simulation.read_raw(),
+                      {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
+      files.push_back({{"kind", "state"}, {"path", options_.state}});
+    }
+    if (series_) files.push_back({{"kind", "series"}, {"path", options_.series}, {"rows", row_}});
+    if (!options_.obj.empty()) files.push_back({{"kind", "obj"}, {"path", options_.obj}, {"frames", frame_}});
+    if (cache_) files.push_back({{"kind", "pc2"}, {"path", options_.pc2}, {"frames", frame_}});
+    return files;
+  }
+
+ private:
+  bool wants_frames() const { return cache_ || !options_.obj.empty(); }
+  std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
+
+  const RunOptions& options_;
+  const ResolvedPreset& scene_;
+  FramePlan plan_;
+  std::unique_ptr<SeriesCsv> series_;
+  std::unique_ptr<PointCache> cache_;
+  std::int64_t frame_ = 0;  ///< frames written
+  std::int64_t row_ = 0;    ///< rows written
+};
+
+Json divergence_json(const std::optional<Divergence>& divergence) {
+  if (!divergence) return nullptr;
+  const Divergence& d = *divergence;
+  // JSON has no word for inf and nan: null.
+  return {{"t", d.t},         {"step", d.step},         {"i", d.i},
+          {"j", d.j},         {"quantity", d.quantity}, {"value", std::isfinite(d.value) ? Json(d.value) : Json()},
+          {"cause", d.cause}, {"remedy", d.remedy}};
+}
+
+/// What a run did, for programs.
+Json summary(const Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
+             double ns_per_particle_step, Json files) {
+  const Preset& preset = simulation.preset();
+  return {{"version", TYGLAB_VERSION},
+          {"preset", scene.source.label},
+          {"preset_hash", preset_hash(preset)},
+          {"status", status},
+          {"engine", name_of(preset.engine)},
+          {"precision", name_of(preset.precision)},
+          {"integrator", preset.integrator},
+          {"rows", simulation.lattice().rows},
+          {"columns", simulation.lattice().columns},
+          {"dt", preset.dt},
+          {"steps", simulation.steps()},
+          {"t", simulation.time()},
+          {"seconds", wall_seconds},
+          {"ns_per_particle_step", ns_per_particle_step},
+          {"torn", simulation.tears().torn_count()},
+          {"diverged", divergence_json(simulation.divergence())},
+          {"files", std::move(files)}};
+}
+
+std::string number(double value, int digits) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+/// The closing sentence.
+std::string closing(const Json& summary, const std::string& hint) {
+  const std::string label = summary["preset"];
+  std::string text = label + ": " + std::to_string(summary["steps"].get<std::int64_t>()) +
+                     " steps to t = " + number(summary["t"], 6) + " s, computed in " + number(summary["seconds"], 3) +
+                     " s (" + number(summary["ns_per_particle_step"], 3) + " ns per particle and step).";
+  std::string files;
+  for (const Json& file : summary["files"]) {
+    if (!files.empty()) files += ", ";
+    files += file["path"].get<std::string>();
+    if (file.contains("frames")) files += " (" + std::to_string(file["frames"].get<std::int64_t>()) + " frames)";
+  }
+  return text + (files.empty() ? hint : " Wrote " + files + ".");
+}
+
+int run(const RunOptions& options) {
+  const ResolvedPreset scene = options.preset.resolve();
+  const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  Outputs outputs(options, scene, steps);
+  Simulation simulation(scene.preset, scene.threads);
+  outputs.open(simulation);
+
+  const InterruptGuard guard;
+  const auto start = std::chrono::steady_clock::now();
+  Stepper stepper(simulation, steps, scene.source.label);
+  bool going = true;
+  do {
+    outputs.write_due(simulation);
+    going = stepper.advance_to(std::min(steps, outputs.next_step()));
+  } while (going && simulation.steps() < steps);
+  if (going) outputs.write_due(simulation);
+  const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const bool diverged = simulation.divergence().has_value();
+  const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
+  const Json told = summary(simulation, scene,
+                            diverged                ? "diverged"
+                            : stepper.interrupted() ? "interrupted"
+                                                    : "done",
+                            wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
+                            outputs.finish(simulation));
+  if (!options.json.empty() && options.json != "-") write_atomically(options.json, told.dump(2) + "\n");
+  if (options.json == "-") std::cout << told.dump(2) << std::endl;
+
+  std::ostream& out = options.json == "-" ? std::cerr : std::cout;
+  out << closing(told, options.json.empty() ? " Nothing was written: --state, --series, --obj, --pc2 name files." : "")
+      << std::endl;
+  if (diverged)
+    std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+  if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written is whole as far as it goes.\n";
+  return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "Simulate without a window and write files");
+  options->preset.add_to(*command, true);
+  options->length.add_to(*command, true);
+  command->add_option("--state", options->state, "Write the last state: i,j,x,y,z,vx,vy,vz of every particle (CSV)")
+      ->type_name("F.csv");
+  command
+      ->add_option("--series", options->series,
+                   "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"
+                   "units stand in the header. A row per frame of --fps")
+      ->type_name("F.csv");
+  command->add_option("--series-every", options->series_every, "A row every N steps instead")
+      ->type_name("N")
+      ->check(between(std::int64_t{1}, std::int64_t{1'000'000'000'000}));
+  command->add_option("--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
+  command->add_option("--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
+  command->add_option("--fps", options->fps, "Frames per second of simulated time (25 if it is not given)")
+      ->type_name("F")
+      ->check(between(1e-6, 1e7));
+  command->add_option("--json", options->json, "Write a summary for programs; - is standard output")->type_name("F");
+  command->footer(
+      "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"
+      "Exit codes: 0 done, 2 wrong command line, 3 wrong preset, 4 diverged, 5 no such engine, 6 not writable, "
+      "130 interrupted.");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace tyglab

@@ -1,0 +1,63 @@
+// How `run` and `render` bring a simulation forward: in portions, with progress, until it ends, diverges or Ctrl-C.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/commands/progress.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// How far to go: seconds or steps, whichever was typed.
+struct Length {
+  std::optional<double> seconds;
+  std::optional<std::int64_t> steps;
+
+  /// Adds --seconds, and --steps where `with_steps`.
+  void add_to(CLI::App& command, bool with_steps);
+  /// Steps of dt; `default_seconds` where nothing was typed. Throws UsageError if they are too many to count.
+  std::int64_t in_steps(double dt, double default_seconds) const;
+};
+
+/// The steps after which a frame is shown or written, `fps` to a second of simulated time; frame 0 is the start.
+class FramePlan {
+ public:
+  /// Throws UsageError if frames would lie closer together than steps. Without `fps`: 25, or 1/dt where dt is longer.
+  FramePlan(std::optional<double> fps, double dt, std::int64_t steps);
+  double fps() const { return fps_; }
+  std::int64_t count() const { return count_; }
+  std::int64_t step_of(std::int64_t frame) const;
+
+ private:
+  double fps_;
+  double steps_a_frame_;
+  std::int64_t count_;
+};
+
+class Stepper {
+ public:
+  Stepper(Simulation& simulation, std::int64_t steps, const std::string& what);
+  /// Advances to that step. False if it ended before: diverged, or interrupted.
+  bool advance_to(std::int64_t step);
+  bool interrupted() const { return interrupted_; }
+  /// Wall time of the stepping alone, s.
+  double seconds() const { return seconds_; }
+
+ private:
+  void advance_portion(std::int64_t step);
+
+  Simulation& simulation_;
+  std::int64_t steps_;
+  Progress progress_;
+  std::int64_t portion_ = 1;
+  double seconds_ = 0;
+  bool interrupted_ = false;
+};
+
+/// When, where and why a run diverged, and what to do, as sentences.
+std::string divergence_text(const Divergence& divergence);
+
+}  // namespace tyglab

@@ -1,0 +1,28 @@
+// Where the program's own files are: presets, shaders, kernels, textures.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace tyglab {
+
+/// A file that belongs to the program is missing. `what()` names it and what to do.
+class DataFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The folder with presets/, shaders/, kernels/ and textures/: ../share/tyglab beside the folder of the executable, in
+/// the build tree as after `cmake --install`.
+const std::filesystem::path& data_folder();
+
+/// A file (or folder) of the program, as "shaders/cloth.vert". Throws DataFileError if it is missing.
+std::filesystem::path data_file(std::string_view name);
+
+/// The file that a preset's `view.texture` means: a bare name is looked for among the shipped textures first, anything
+/// else (and a bare name that is not shipped) is a path. Need not exist.
+std::filesystem::path texture_file(const std::string& name);
+
+}  // namespace tyglab

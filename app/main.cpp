@@ -1,0 +1,31 @@
+// Tyglab's one binary: picks a command; nothing else.
+#include "app/commands/command_line.h"
+#include "app/commands/devices.h"
+#include "app/commands/presets.h"
+#include "app/commands/render.h"
+#include "app/commands/run.h"
+#include "app/commands/sandbox.h"
+
+int main(int argc, char** argv) {
+  tyglab::Action action;
+  CLI::App program(
+      "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
+      "Without a command it opens the sandbox with PRESET, or as it was left the last time.",
+      "tyglab");
+  program.set_version_flag("--version", "tyglab " TYGLAB_VERSION);
+  program.footer(
+      "Examples: tyglab denim\n"
+      "          tyglab run denim --seconds 2 --state denim.csv\n"
+      "`tyglab COMMAND --help` says what a command takes.");
+  tyglab::add_sandbox_command(program, action);
+  tyglab::add_run_command(program, action);
+  tyglab::add_render_command(program, action);
+  tyglab::add_presets_command(program, action);
+  tyglab::add_devices_command(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return tyglab::exit_of_parsing(program, error);
+  }
+  return tyglab::run_action(action);
+}

@@ -1,0 +1,107 @@
+// What must be decided or known now, over the viewport: the banner after a divergence, and messages.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/panels.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+/// Height of text wrapped to a width.
+float wrapped_height(const ImFont& font, const std::string& text, float width) {
+  return font.CalcTextSizeA(font.FontSize, 1e9f, width, text.data(), text.data() + text.size()).y;
+}
+
+void draw_wrapped(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text, float width) {
+  draw.AddText(&font, font.FontSize, at, color, text.data(), text.data() + text.size(), width);
+}
+
+std::string what_happened(const Divergence& d) {
+  char text[256];
+  std::snprintf(text, sizeof text, "At t = %.4g s (step %lld), particle (%d, %d): %s = %s.", d.t,
+                static_cast<long long>(d.step), d.i, d.j, d.quantity.c_str(), short_number(d.value).c_str());
+  return text;
+}
+
+std::string sentence(std::string text) {
+  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
+  if (!text.empty() && text.back() != '.') text += '.';
+  return text;
+}
+
+}  // namespace
+
+void banner(App& app) {
+  const auto& divergence = app.simulation->divergence();
+  if (!divergence) return;
+  const Tokens& c = app.theme.colors;
+  const glm::vec2 size = app.viewport.size();
+  const float width = std::min(app.theme.px(560), size.x - app.theme.px(32)), padding = app.theme.px(16);
+  const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
+  const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
+  const std::string happened = what_happened(*divergence), why = sentence(divergence->cause) + " " + sentence(divergence->remedy);
+  const float gap = app.theme.px(6), buttons = app.theme.px(30);
+  const float happened_height = wrapped_height(text, happened, inner), why_height = wrapped_height(text, why, inner);
+  const float height = 2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
+  const ImVec2 lo{std::round(app.viewport.box.lo.x + (size.x - width) / 2), app.viewport.box.hi.y - height - app.theme.px(20)};
+  const ImVec2 hi{lo.x + width, lo.y + height};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(8));
+  draw.AddRect(lo, hi, c.danger, app.theme.px(8), 0, std::max(1.f, app.theme.px(1.5f)));
+  draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(app.fonts, icon::warning, "!"));
+  float y = lo.y + padding;
+  const float x = lo.x + padding + icon;
+  draw_text(draw, title, {x, y}, c.text, "The simulation diverged");
+  y += title.FontSize + gap;
+  draw_wrapped(draw, text, {x, y}, c.text, happened, inner);
+  y += happened_height + gap;
+  draw_wrapped(draw, text, {x, y}, c.quiet, why, inner);
+  y += why_height + app.theme.px(12);
+  ImGui::SetCursorScreenPos({x, y});
+  if (text_button(app, "Restart", !app.history.can_undo())) app.command(Command::restart);
+  tooltip(app, gui::item_id(), "From the start, with the constants as they are", "R");
+  if (app.history.can_undo()) {
+    ImGui::SameLine();
+    if (text_button(app, "Undo last change and restart", true)) app.command(Command::undo_and_restart);
+  }
+  cover_viewport(app, lo, hi);
+}
+
+void message_list(App& app) {
+  app.messages.age(app.ui.now);
+  const Tokens& c = app.theme.colors;
+  const ImFont& font = *app.fonts.text;
+  const float padding = app.theme.px(12), icon_width = app.theme.px(24), close = app.theme.px(22);
+  const float most = std::min(app.theme.px(460), app.viewport.size().x - app.theme.px(32));
+  float y = app.viewport.box.lo.y + app.theme.px(52);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto& list = app.messages.list();
+  std::size_t dismissed = list.size();
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Message& message = list[k];
+    const bool note = message.severity == Message::Severity::note;
+    const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
+    const float inner = most - 2 * padding - icon_width - close;
+    const float height = std::max(wrapped_height(font, message.text, inner) + 2 * app.theme.px(9), app.theme.px(36));
+    const ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
+    draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(6));
+    draw.AddRectFilled(lo, {lo.x + app.theme.px(3), hi.y}, color, app.theme.px(6), ImDrawFlags_RoundCornersLeft);
+    draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
+              icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
+    draw_wrapped(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, message.text, inner);
+    ImGui::SetCursorScreenPos({hi.x - close - app.theme.px(6), lo.y + app.theme.px(7)});
+    ImGui::PushID(int(k));
+    if (quiet_button(app, "dismiss", icon::close, "x", "Dismiss")) dismissed = k;
+    ImGui::PopID();
+    cover_viewport(app, lo, hi);
+    y = hi.y + app.theme.px(8);
+  }
+  if (dismissed < list.size()) app.messages.dismiss(dismissed);
+}
+
+}  // namespace tyglab

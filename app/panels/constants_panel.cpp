@@ -1,0 +1,198 @@
+// The constants at the left, in the order of the report, and the picked particle below them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <vector>
+
+#include "app/panels/constant_row.h"
+#include "app/panels/curves.h"
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/panels.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+#include "core/integrators/scheme.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+struct Section {
+  const char* name;
+  std::string_view block;  ///< of the preset file; rows that no section lists come into the section of their block
+  std::vector<std::string_view> keys;
+};
+
+const std::array<Section, 6>& sections() {
+  static const std::array<Section, 6> list{{
+      {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
+      {"Springs", "forces", {"k_s", "k_b", "k_d", "k"}},
+      {"Outer forces", "", {"g", "W"}},
+      {"Tearing", "tearing", {"F_max", "F_release"}},
+      {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
+      {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
+  }};
+  return list;
+}
+
+/// Whether the constant plays a part in this scene.
+bool applies(const PresetRow& row, const Preset& preset) {
+  if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
+  if (row.key == "tolerance") return preset.integrator == "dopri5";
+  if (row.key == "iterations") return preset.integrator == "xpbd";
+  return !row.only_one_kind || row.only == preset.kind;
+}
+
+std::vector<const PresetRow*> rows_of(const Section& wanted) {
+  std::vector<const PresetRow*> rows;
+  for (std::string_view key : wanted.keys)
+    if (const PresetRow* row = find_row(key)) rows.push_back(row);
+  for (const PresetRow& row : notation()) {
+    const bool listed = std::any_of(sections().begin(), sections().end(), [&](const Section& s) {
+      return std::find(s.keys.begin(), s.keys.end(), row.key) != s.keys.end();
+    });
+    if (!listed && !row.section.empty() && row.section == wanted.block) rows.push_back(&row);
+  }
+  return rows;
+}
+
+std::string order_text(const Scheme& scheme) {
+  char text[64];
+  if (scheme.order_damped == scheme.order_undamped) {
+    std::snprintf(text, sizeof text, "order %d", scheme.order_undamped);
+  } else {
+    std::snprintf(text, sizeof text, "order %d with damping, %d without", scheme.order_damped, scheme.order_undamped);
+  }
+  return text;
+}
+
+void integrator_row(App& app) {
+  const Tokens& c = app.theme.colors;
+  const Scheme& now = scheme(app.preset().integrator);
+  const float width = app.ui.row_width;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const std::string label = "      " + std::string(now.title) + " (" + std::string(now.equation) + ")";
+  const bool open = begin_combo(app, "##integrator", label.c_str(), width);
+  const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (!open) {
+    draw.AddCircleFilled({lo.x + app.theme.px(15), middle}, app.theme.px(4.5f), integrator_color(c, now.name), 20);
+    const std::string order = order_text(now);
+    const float x = lo.x + width - app.theme.px(34) - text_width(*app.fonts.small, order);
+    if (x > lo.x + text_width(*app.fonts.text, label) + app.theme.px(16))
+      draw_text(draw, *app.fonts.small, {x, middle - app.fonts.small->FontSize / 2}, c.quiet, order);
+    tooltip(app, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
+    return;
+  }
+  for (const Scheme& choice : schemes()) {
+    const std::string name = std::string(choice.title) + " (" + std::string(choice.equation) + ")";
+    if (ImGui::Selectable(name.c_str(), choice.name == now.name) && choice.name != now.name) {
+      Preset next = app.preset();
+      next.integrator = choice.name;
+      app.propose(std::move(next));
+    }
+    tooltip(app, ImGui::GetID(name.c_str()), order_text(choice) + ". " + std::string(choice.note));
+  }
+  ImGui::EndCombo();
+}
+
+void scale_resolution(App& app, double q) { app.propose(with_resolution(app.preset(), q)); }
+
+void resolution_row(App& app) {
+  static constexpr const char* tip =
+      "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, L/q, "
+      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. Tears are "
+      "mended.";
+  labelled_row(app, "divide", [&](float) {
+    const Preset& preset = app.preset();
+    const float gap = app.theme.px(6);
+    const bool coarser = preset.rows >= 3 && (preset.columns >= 3 || preset.columns == 1);
+    if (text_button(app, "÷ 2", false, coarser)) scale_resolution(app, 0.5);
+    tooltip(app, gui::item_id(), tip);
+    ImGui::SameLine(0, gap);
+    const bool finer = preset.rows * 2 - 1 <= 4096 && preset.columns * 2 - 1 <= 4096;
+    if (text_button(app, "× 2", false, finer)) scale_resolution(app, 2);
+    tooltip(app, gui::item_id(), tip);
+    ImGui::SameLine(0, app.theme.px(12));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    char text[64];
+    std::snprintf(text, sizeof text, "%d particles", preset.rows * preset.columns);
+    draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {at.x, at.y + app.theme.px(8)}, app.theme.colors.quiet, text);
+    ImGui::Dummy({1, app.theme.px(30)});
+  });
+}
+
+std::string pins_text(const Pins& pins) {
+  static const std::map<Pins::Mode, std::string> names{
+      {Pins::Mode::none, "none"},           {Pins::Mode::top_row, "top row"},   {Pins::Mode::top_corners, "top corners"},
+      {Pins::Mode::four_corners, "four corners"}, {Pins::Mode::left_column, "left column"}, {Pins::Mode::boundary, "boundary"}};
+  const auto it = names.find(pins.mode);
+  return it != names.end() ? it->second : "own list (" + std::to_string(pins.list.size()) + ")";
+}
+
+void pins_row(App& app) {
+  labelled_row(app, "pins", [&](float width) {
+    const Pins& pins = app.preset().pins;
+    const bool open = begin_combo(app, "##pins", pins_text(pins).c_str(), width);
+    if (!open) {
+      tooltip(app, gui::item_id(), "Particles that never move.", "Right double-click a particle to pin or unpin it");
+      return;
+    }
+    for (Pins::Mode mode : {Pins::Mode::none, Pins::Mode::top_row, Pins::Mode::top_corners, Pins::Mode::four_corners,
+                            Pins::Mode::left_column, Pins::Mode::boundary}) {
+      if (!ImGui::Selectable(pins_text({mode, {}}).c_str(), pins.mode == mode) || pins.mode == mode) continue;
+      Preset next = app.preset();
+      next.pins = {mode, {}};
+      app.propose(std::move(next));
+    }
+    ImGui::EndCombo();
+  });
+}
+
+void rows(App& app, const Section& wanted) {
+  for (const PresetRow* row : rows_of(wanted))
+    if (applies(*row, app.preset())) constant_row(app, *row);
+}
+
+bool empty(const Section& wanted, const Preset& preset) {
+  for (const PresetRow* row : rows_of(wanted))
+    if (applies(*row, preset)) return false;
+  return true;
+}
+
+}  // namespace
+
+void constants_sections(App& app) {
+  const bool cloth = app.preset().kind == Kind::cloth;
+  for (const Section& wanted : sections()) {
+    if (empty(wanted, app.preset())) continue;
+    const std::string_view name = wanted.name;
+    if (name == "Cloth" && cloth) body_sections(app);
+    if (!section(app, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
+    if (name == "Integrator") integrator_row(app);
+    rows(app, wanted);
+    if (name == "Cloth" && cloth) resolution_row(app), pins_row(app);
+  }
+}
+
+void constants_panel(App& app, const Region& region) {
+  const float padding = app.theme.px(16);
+  if (!begin_region("constants", region, app.theme.colors.panel, {padding, app.theme.px(6)})) return end_region();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(2)));
+  const float below = particle_panel_height(app);
+  // The scrollbar stands in the margin, so that rows are as wide as the particle's read-outs below.
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  app.ui.row_width = room.x;
+  gui::begin_child("rows", {room.x + padding - app.theme.px(3), room.y - below});
+  constants_sections(app);
+  view_section(app);
+  ImGui::Dummy({0, app.theme.px(4)});
+  ImGui::EndChild();
+  particle_panel(app);
+  ImGui::PopStyleVar();
+  end_region();
+}
+
+}  // namespace tyglab

@@ -1,0 +1,48 @@
+#include "app/panels/curves.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+namespace tyglab {
+
+const Variable& variable(std::string_view key) {
+  const auto list = variables();
+  const auto it = std::find_if(list.begin(), list.end(), [&](const Variable& v) { return v.key == key; });
+  if (it == list.end()) throw std::logic_error("no variable is called " + std::string(key));
+  return *it;
+}
+
+CurveStyle curve_style(const Tokens& c, std::string_view key) {
+  if (key == "F_s") return {c.blue, LineStyle::solid, 1.8f};
+  if (key == "F_b") return {c.green, LineStyle::dashed, 1.8f};
+  if (key == "F_d") return {c.magenta, LineStyle::dotted, 2.2f};
+  if (key == "F_g") return {c.yellow, LineStyle::long_dash, 1.8f};
+  if (key == "F_int") return {c.sky, LineStyle::dash_dot, 1.8f};
+  if (key == "F_ext") return {c.orange, LineStyle::sparse_dots, 2.4f};
+  return {c.text, LineStyle::solid, 1.2f};
+}
+
+ImU32 integrator_color(const Tokens& c, std::string_view name) {
+  if (name == "verlet") return c.blue;
+  if (name == "improved_euler") return c.green;
+  if (name == "euler") return c.magenta;
+  return c.accent;
+}
+
+std::vector<std::string> force_column_names() {
+  std::vector<std::string> names;
+  for (std::string_view key : force_keys) names.push_back(std::string(key) + " [N]");
+  return names;
+}
+
+std::array<double, Plots::forces_count> force_values(const ParticleReadout& r) {
+  return {glm::length(r.F),   glm::length(r.F_s),   glm::length(r.F_b),  glm::length(r.F_d),
+          glm::length(r.F_g), glm::length(r.F_int), glm::length(r.F_ext)};
+}
+
+std::array<double, Plots::forces_count> force_values(const ForceSummary& s) {
+  return {s.F, s.F_s, s.F_b, s.F_d, s.F_g, s.F_int, s.F_ext};
+}
+
+}  // namespace tyglab

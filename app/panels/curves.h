@@ -1,0 +1,30 @@
+// The forces of table B.1 as they are plotted, listed and drawn as arrows: one colour and line style each, everywhere.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/panels/theme.h"
+#include "app/panels/ui_state.h"
+#include "core/notation/notation.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// Keys of the plotted forces, in the order of Plots::forces' columns.
+inline constexpr std::array<std::string_view, Plots::forces_count> force_keys{"F",   "F_s",   "F_b",  "F_d",
+                                                                              "F_g", "F_int", "F_ext"};
+const Variable& variable(std::string_view key);
+CurveStyle curve_style(const Tokens& colors, std::string_view key);
+/// The colours of figure 3.2: blue Verlet, green improved Euler, magenta Euler; further methods take the accent.
+ImU32 integrator_color(const Tokens& colors, std::string_view name);
+/// "F_s [N]", …
+std::vector<std::string> force_column_names();
+/// Magnitudes in the order of force_keys, N.
+std::array<double, Plots::forces_count> force_values(const ParticleReadout& readout);
+std::array<double, Plots::forces_count> force_values(const ForceSummary& summary);
+
+}  // namespace tyglab

@@ -1,0 +1,61 @@
+// Fonts: Inter for text, STIX Italic for symbols, JetBrains Mono for numbers, Fork Awesome for icons, all Debian's.
+#pragma once
+
+#include <imgui.h>
+
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+struct Fonts {
+  ImFont* text = nullptr;       ///< 14 at scale 1, with icons
+  ImFont* small = nullptr;      ///< 12, quiet labels and section heads
+  ImFont* title = nullptr;      ///< 14, semibold, with icons
+  ImFont* brand = nullptr;      ///< 17, semibold
+  ImFont* large_icons = nullptr;  ///< 18, icons alone
+  ImFont* huge = nullptr;       ///< 40, semibold: PAUSED
+  ImFont* symbol = nullptr;     ///< 19, italic
+  ImFont* subscript = nullptr;  ///< 13, italic
+  ImFont* mono = nullptr;       ///< 13
+  bool icons = false;           ///< whether the icon font was found
+  std::vector<std::string> notes;  ///< what was missing, and what stands in for it
+};
+
+/// Fills Dear ImGui's atlas anew at exact sizes; the atlas' texture must be made again afterwards. Missing fonts fall
+/// back to DejaVu, then to Dear ImGui's own.
+Fonts build_fonts(float scale);
+
+/// Icons of Fork Awesome by their meaning.
+namespace icon {
+inline constexpr const char* play = "\xEF\x81\x8B";
+inline constexpr const char* pause = "\xEF\x81\x8C";
+inline constexpr const char* step = "\xEF\x81\x91";
+inline constexpr const char* restart = "\xEF\x81\x89";
+inline constexpr const char* undo = "\xEF\x83\xA2";
+inline constexpr const char* redo = "\xEF\x80\x9E";
+inline constexpr const char* scissors = "\xEF\x83\x84";
+inline constexpr const char* expand = "\xEF\x81\xA5";
+inline constexpr const char* compress = "\xEF\x81\xA6";
+inline constexpr const char* help = "\xEF\x81\x99";
+inline constexpr const char* open = "\xEF\x81\xBC";
+inline constexpr const char* save = "\xEF\x83\x87";
+inline constexpr const char* download = "\xEF\x80\x99";
+inline constexpr const char* warning = "\xEF\x81\xB1";
+inline constexpr const char* error = "\xEF\x81\x97";
+inline constexpr const char* info = "\xEF\x81\x9A";
+inline constexpr const char* down = "\xEF\x84\x87";
+inline constexpr const char* right = "\xEF\x84\x85";
+inline constexpr const char* plus = "\xEF\x81\xA7";
+inline constexpr const char* trash = "\xEF\x87\xB8";
+inline constexpr const char* close = "\xEF\x80\x8D";
+inline constexpr const char* hand = "\xEF\x89\x95";
+inline constexpr const char* move = "\xEF\x82\xB2";
+}  // namespace icon
+
+/// The icon, or the word where the icon font is missing.
+inline const char* icon_or(const Fonts& fonts, const char* glyph, const char* word) {
+  return fonts.icons ? glyph : word;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,97 @@
+// F1: what mouse and keys do.
+#include <algorithm>
+
+#include "app/panels/panels.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+struct Entry {
+  const char *keys, *does;
+};
+
+constexpr Entry mouse[] = {
+    {"Right drag", "grabs a particle and pulls it"},
+    {"Right click", "picks a particle: its forces are shown"},
+    {"Right double-click", "pins or unpins a particle"},
+    {"Left drag", "cuts the springs upwards"},
+    {"Left drag on a sphere", "moves the sphere"},
+    {"Middle or Ctrl+left drag", "orbits; with Shift pans"},
+    {"Wheel, two fingers", "zooms; with Shift pans"},
+    {"Drop a file", "opens a preset, or takes a picture as texture"},
+};
+constexpr Entry keys[] = {
+    {"Space", "pauses and runs"},
+    {"→ or O", "makes one step of dt"},
+    {"R or Backspace", "restarts the motion, keeps the constants"},
+    {"1 to 5", "the five views"},
+    {"F", "frames the cloth"},
+    {"Tab", "hides the panels"},
+    {"F1 · F11", "this help · full screen"},
+    {"Ctrl+O · Ctrl+S", "opens · saves a preset"},
+    {"Ctrl+Shift+S", "saves it under another name"},
+    {"Ctrl+Z · Ctrl+Shift+Z", "undoes · redoes a change of constants"},
+    {"Ctrl++ · Ctrl+- · Ctrl+0", "larger, smaller, normal text"},
+    {"Ctrl+Q", "quits"},
+};
+constexpr Entry sliders[] = {
+    {"Drag · Shift drag", "changes · ten times finer"},
+    {"Double-click", "back to the preset's value"},
+    {"Double-click or Ctrl+click the number", "types a value"},
+    {"← → · Ctrl · Shift", "steps · finer · coarser"},
+    {"Tab, ↑ ↓ · Esc", "next slider · back to the cloth"},
+};
+
+template <std::size_t N>
+void table(App& app, const char* title, const Entry (&entries)[N], float column) {
+  const Tokens& c = app.theme.colors;
+  ImGui::PushFont(app.fonts.title);
+  wrapped(app, title, c.text);
+  ImGui::PopFont();
+  for (const Entry& entry : entries) {
+    const float x = ImGui::GetCursorPosX();
+    wrapped(app, entry.keys, c.accent);
+    ImGui::SameLine(x + column);
+    wrapped(app, entry.does, c.text);
+  }
+  ImGui::Dummy({0, app.theme.px(4)});
+}
+
+}  // namespace
+
+void help_overlay(App& app) {
+  if (!app.ui.help) return;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float column = app.theme.px(190), width = std::min(app.theme.px(960), window.x - app.theme.px(32));
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - app.theme.px(32)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(24), app.theme.px(20)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(5)));
+  ImGui::SetNextWindowFocus();
+  if (ImGui::Begin("help", nullptr,
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    const bool wide = width > app.theme.px(860);
+    const ImVec2 start = ImGui::GetCursorPos();
+    table(app, "In the viewport", mouse, column);
+    table(app, "On sliders", sliders, wide ? column + app.theme.px(60) : column);
+    const float half = ImGui::GetCursorPosY();
+    if (wide) ImGui::SetCursorPos({start.x + (width - 2 * start.x) * 0.56f, start.y});
+    ImGui::BeginGroup();
+    table(app, "Keys", keys, column);
+    wrapped(app, "A slider or text field in use keeps its keys; Esc gives them back.", app.theme.colors.quiet);
+    ImGui::EndGroup();
+    ImGui::SetCursorPosY(std::max(half, ImGui::GetCursorPosY()));
+    if (text_button(app, "Close", true)) app.ui.help = false;
+    const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    cover_viewport(app, lo, {lo.x + size.x, lo.y + size.y});
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(4);
+}
+
+}  // namespace tyglab

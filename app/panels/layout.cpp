@@ -1,0 +1,79 @@
+// Where the regions are: top bar, constants, viewport, plots, status; the borders between them drag.
+#include <algorithm>
+#include <cmath>
+
+#include "app/panels/dialogs.h"
+#include "app/panels/panels.h"
+
+namespace tyglab {
+namespace {
+
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav |
+                                   ImGuiWindowFlags_NoScrollWithMouse;
+
+/// A border that drags: changes `width` (at scale 1) of the region on its left (sign 1) or right (sign -1).
+void splitter(App& app, const char* id, float x, float top, float bottom, float& width, float sign) {
+  const float grip = app.theme.px(8);
+  const Region region{{x - grip / 2, top}, {grip, bottom - top}};
+  ImGui::SetNextWindowPos(region.at);
+  ImGui::SetNextWindowSize(region.size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
+  if (ImGui::Begin(id, nullptr, (fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground)) {
+    ImGui::InvisibleButton("grip", region.size);
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+      ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+      ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, app.theme.colors.accent, app.theme.px(2));
+    }
+    if (ImGui::IsItemActive())
+      width = std::clamp(width + sign * ImGui::GetIO().MouseDelta.x / app.theme.scale, 240.f, 900.f);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  app.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
+}
+
+}  // namespace
+
+bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding) {
+  ImGui::SetNextWindowPos(region.at);
+  ImGui::SetNextWindowSize(region.size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ground);
+  return ImGui::Begin(name, nullptr, fixed);
+}
+
+void end_region() {
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
+}
+
+void draw_layout(App& app, ImVec2 window) {
+  Layout& layout = app.settings.layout;
+  const bool panels = app.ui.panels;
+  const float top = panels ? app.theme.px(48) : 0;
+  const float bottom = panels && layout.status ? app.theme.px(30) : 0;
+  const float height = std::max(window.y - top - bottom, 1.f);
+  // Side regions never take more than two fifths of the window each, whatever the scale of text.
+  const float most = 0.4f * window.x;
+  float left = panels && layout.left ? std::round(std::min(layout.left_width * app.theme.scale, most)) : 0;
+  float right = panels && layout.right ? std::round(std::min(layout.right_width * app.theme.scale, most)) : 0;
+  if (window.x - left - right < app.theme.px(240)) right = 0;
+  app.ui.viewport_left = left;
+  app.ui.plots.forces_shown = app.ui.plots.height_shown = false;
+
+  viewport_panel(app, {{left, top}, {window.x - left - right, height}});
+  if (panels) top_bar(app, {{0, 0}, {window.x, top}});
+  if (left > 0) constants_panel(app, {{0, top}, {left, window.y - top}});
+  if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});
+  if (bottom > 0) status_bar(app, {{left, window.y - bottom}, {window.x - left - right, bottom}});
+  if (left > 0) splitter(app, "left border", left, top, window.y, layout.left_width, 1);
+  if (right > 0) splitter(app, "right border", window.x - right, top, window.y, layout.right_width, -1);
+  help_overlay(app);
+  dialogs(app);
+  app.viewport.blocked = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+}
+
+}  // namespace tyglab

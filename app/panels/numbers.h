@@ -1,0 +1,19 @@
+// Numbers as a panel shows and reads them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace tyglab {
+
+/// A constant: up to four significant digits, "310", "0.002", "1.2e-4".
+std::string short_number(double value);
+/// A read-out that does not dance: always three significant digits, "3.41e-3", "12.0".
+std::string steady_number(double value);
+/// What somebody typed: a comma counts as a decimal point, a unit after it is skipped. None if it is not a number.
+std::optional<double> typed_number(std::string_view text);
+/// Rounded to that many significant digits.
+double rounded(double value, int digits);
+
+}  // namespace tyglab

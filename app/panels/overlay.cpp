@@ -1,0 +1,143 @@
+// What is drawn over the cloth: what would be grabbed or cut, the picked particle with its forces, PAUSED.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/panels/curves.h"
+#include "app/panels/panels.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+ImVec2 vec(glm::vec2 v) { return {v.x, v.y}; }
+
+/// Pixel in the window of a particle, if it is before the camera.
+std::optional<ImVec2> on_screen(const App& app, glm::dvec3 world) {
+  const auto pixel = app.camera.project(world, app.viewport.size());
+  if (!pixel || !std::isfinite(pixel->x) || !std::isfinite(pixel->y) || std::abs(pixel->x) > 1e5f || std::abs(pixel->y) > 1e5f)
+    return std::nullopt;
+  return vec(*pixel + app.viewport.box.lo);
+}
+
+std::optional<ImVec2> particle_on_screen(App& app, Pins::Site site) {
+  return on_screen(app, app.simulation->positions().at(site.i, site.j));
+}
+
+void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {
+  // A dark rim keeps it visible on a light cloth.
+  draw.AddCircle(at, app.theme.px(radius), faded(app.theme.colors.ground, 0.6f), 32, app.theme.scale * (width + 2));
+  draw.AddCircle(at, app.theme.px(radius), color, 32, app.theme.scale * width);
+}
+
+void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view key) {
+  const CurveStyle style = curve_style(app.theme.colors, key);
+  const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
+  if (length < app.theme.px(10)) return;
+  const float ux = dx / length, uy = dy / length, head = app.theme.px(9);
+  const ImVec2 neck{to.x - ux * head, to.y - uy * head};
+  draw.AddLine(from, neck, faded(app.theme.colors.ground, 0.55f), app.theme.px(5));
+  const ImVec2 line[2] = {from, neck};
+  CurveStyle thick = style;
+  thick.width = 2.6f;
+  draw_styled_line(draw, line, 2, thick, app.theme.scale);
+  draw.AddTriangleFilled(to, {neck.x - uy * head * 0.5f, neck.y + ux * head * 0.5f},
+                         {neck.x + uy * head * 0.5f, neck.y - ux * head * 0.5f}, style.color);
+  if (length < app.theme.px(24)) return;
+  const float width = symbol_width(app.fonts, key), away = app.theme.px(16), high = app.theme.px(9), pad = app.theme.px(4);
+  const ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
+  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high}, {middle.x + width / 2 + pad, middle.y + high + pad / 2},
+                     faded(app.theme.colors.ground, 0.7f), app.theme.px(5));
+  draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, key, style.color);
+}
+
+/// F_s, F_b, F_d, F_g to one scale: the longest takes about 90 pixels. The scale moves slowly, so that growth is seen.
+void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
+  const ParticleReadout r = app.simulation->particle(app.picked->i, app.picked->j);
+  const std::pair<std::string_view, glm::dvec3> forces[] = {{"F_s", r.F_s}, {"F_b", r.F_b}, {"F_d", r.F_d}, {"F_g", r.F_g}};
+  double longest = 0;
+  for (const auto& [key, force] : forces) longest = std::max(longest, glm::length(force));
+  if (!std::isfinite(longest) || longest <= 0) return;
+  double& scale = app.ui.arrow_scale;
+  scale = scale <= 0 || longest > 20 * scale ? longest : scale + 0.05 * (longest - scale);
+  const double depth = glm::dot(r.x - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
+  const double metres_per_pixel = 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y;
+  for (const auto& [key, force] : forces) {
+    const double pixels = std::min(glm::length(force) / scale, 1.6) * app.theme.px(90);
+    if (pixels < 1) continue;
+    if (const auto to = on_screen(app, r.x + glm::normalize(force) * pixels * metres_per_pixel)) arrow(app, draw, from, *to, key);
+  }
+}
+
+void picked(App& app, ImDrawList& draw) {
+  if (!app.picked || app.preset().kind != Kind::cloth) return;
+  const auto at = particle_on_screen(app, *app.picked);
+  if (!at) return;
+  if (app.ui.force_arrows) force_arrows(app, draw, *at);
+  ring(app, draw, *at, 7, app.theme.colors.text, 2);
+}
+
+/// The pointer with its tool, and the particle that it would take.
+void pointer(App& app, ImDrawList& draw) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 mouse = vec(app.input.at);
+  const float r = app.theme.px(8);
+  switch (app.tool.kind) {
+    case Tool::Kind::cut: {
+      ImGui::SetMouseCursor(ImGuiMouseCursor_None);
+      const char* scissors = icon_or(app.fonts, icon::scissors, "×");
+      draw_text(draw, *app.fonts.large_icons, {mouse.x - r + 1, mouse.y - r + 1}, c.ground, scissors);
+      draw_text(draw, *app.fonts.large_icons, {mouse.x - r, mouse.y - r}, c.magenta, scissors);
+      return;
+    }
+    case Tool::Kind::grab:
+      if (const auto held = app.simulation->held())
+        if (const auto at = particle_on_screen(app, *held)) {
+          if (std::hypot(at->x - mouse.x, at->y - mouse.y) > r) draw.AddLine(*at, mouse, faded(c.accent, 0.8f), app.theme.px(1.5f));
+          ring(app, draw, *at, 10, c.accent, 2.5f);
+          draw.AddCircleFilled(*at, app.theme.px(3.5f), c.accent, 16);
+        }
+      return;
+    case Tool::Kind::orbit:
+    case Tool::Kind::pan:
+    case Tool::Kind::body: ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll); return;
+    case Tool::Kind::right:
+    case Tool::Kind::none: break;
+  }
+  if (app.preset().kind != Kind::cloth) return;
+  if (body_under_pointer(app)) {
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    return;
+  }
+  if (const auto site = particle_under_pointer(app))
+    if (const auto at = particle_on_screen(app, *site)) {
+      const bool pinned = app.simulation->pinned(site->i, site->j);
+      ring(app, draw, *at, 5, pinned ? c.warning : c.accent, 2);
+    }
+}
+
+void paused(App& app, ImDrawList& draw) {
+  if (app.pacing.playing || app.simulation->divergence()) return;
+  const ImFont& font = *app.fonts.huge;
+  const char* word = "PAUSED";
+  const float width = text_width(font, word);
+  const glm::vec2 lo = app.viewport.box.lo, hi = app.viewport.box.hi;
+  const ImVec2 at{std::round((lo.x + hi.x - width) / 2), lo.y + app.theme.px(52)};
+  draw_text(draw, font, at, faded(app.theme.colors.text, 0.75f), word);
+  const char* how = "Space runs · → makes one step";
+  const ImFont& small = *app.fonts.text;
+  draw_text(draw, small, {std::round((lo.x + hi.x - text_width(small, how)) / 2), at.y + font.FontSize + app.theme.px(4)},
+            app.theme.colors.quiet, how);
+}
+
+}  // namespace
+
+void viewport_overlay(App& app) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  picked(app, draw);
+  pointer(app, draw);
+  paused(app, draw);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,40 @@
+// The regions of the window, one file each.
+#pragma once
+
+#include <imgui.h>
+
+#include "app/sandbox/app.h"
+
+namespace tyglab {
+
+/// A region's place, pixels.
+struct Region {
+  ImVec2 at, size;
+};
+
+void top_bar(App& app, const Region& region);
+void constants_panel(App& app, const Region& region);
+/// Contents of the constants panel, section by section.
+void constants_sections(App& app);
+void body_sections(App& app);
+void view_section(App& app);
+/// The picked particle's variables of table B.1; part of the constants panel.
+void particle_panel(App& app);
+float particle_panel_height(const App& app);
+void plots_panel(App& app, const Region& region);
+void viewport_panel(App& app, const Region& region);
+/// What is drawn over the cloth: markers, arrows, PAUSED.
+void viewport_overlay(App& app);
+void banner(App& app);
+void message_list(App& app);
+void status_bar(App& app, const Region& region);
+void help_overlay(App& app);
+
+/// Starts a region as a fixed window with the given ground.
+bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding);
+void end_region();
+
+/// All regions, with the borders between them that drag.
+void draw_layout(App& app, ImVec2 window);
+
+}  // namespace tyglab

@@ -1,0 +1,138 @@
+// Every variable of table B.1, live, for the picked particle.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "app/panels/curves.h"
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/panels.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+constexpr std::array<std::string_view, 7> forces{"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"};
+constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
+
+glm::dvec3 value_of(const ParticleReadout& r, std::string_view key) {
+  if (key == "F_s") return r.F_s;
+  if (key == "F_b") return r.F_b;
+  if (key == "F_d") return r.F_d;
+  if (key == "F_g") return r.F_g;
+  if (key == "F_int") return r.F_int;
+  if (key == "F_ext") return r.F_ext;
+  if (key == "F") return r.F;
+  if (key == "x") return r.x;
+  if (key == "v") return r.v;
+  return r.a;
+}
+
+std::string components(const glm::dvec3& v) {
+  return "(" + steady_number(v.x) + ", " + steady_number(v.y) + ", " + steady_number(v.z) + ")";
+}
+
+void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dvec3& value) {
+  if (!tooltip_due(app, id)) return;
+  const Tokens& c = app.theme.colors;
+  begin_tooltip(app);
+  ImGui::PushFont(app.fonts.title);
+  wrapped(app, std::string(what.quantity) + " · " + std::string(what.storhet), c.text);
+  ImGui::PopFont();
+  wrapped(app, what.help, c.text);
+  wrapped(app, components(value) + " " + std::string(what.unit), c.text);
+  wrapped(app, "equation (" + std::string(what.equation) + ")", c.quiet);
+  end_tooltip();
+}
+
+float line_height(const App& app) { return app.theme.px(22); }
+
+/// Symbol with the sample of its curve, magnitude, unit.
+void force_cell(App& app, std::string_view key, const ParticleReadout* readout, float width) {
+  const Tokens& c = app.theme.colors;
+  const Variable& what = variable(key);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float height = line_height(app), middle = std::round(lo.y + height / 2);
+  ImGui::PushID(key.data(), key.data() + key.size());
+  ImGui::InvisibleButton("variable", {width, height});
+  const glm::dvec3 value = readout != nullptr ? value_of(*readout, key) : glm::dvec3(0);
+  variable_tooltip(app, gui::item_id(), what, value);
+  ImGui::PopID();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(24), middle}};
+  draw_styled_line(draw, sample, 2, curve_style(c, key), app.theme.scale);
+  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(31), baseline_at(app.fonts, middle)}, what.symbol, c.text);
+  const float unit = app.theme.px(18);
+  const std::string text = readout != nullptr ? steady_number(glm::length(value)) : "–";
+  const ImFont& mono = *app.fonts.mono;
+  const float baseline = baseline_at(app.fonts, middle);
+  draw_on_baseline(draw, mono, {lo.x + width - unit - text_width(mono, text), baseline}, c.text, text);
+  draw_on_baseline(draw, *app.fonts.small, {lo.x + width - unit + app.theme.px(5), baseline}, c.quiet, what.unit);
+}
+
+/// Symbol, three components, unit.
+void motion_line(App& app, std::string_view key, const ParticleReadout* readout) {
+  const Tokens& c = app.theme.colors;
+  const Variable& what = variable(key);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = app.ui.row_width, height = line_height(app), middle = std::round(lo.y + height / 2);
+  ImGui::PushID(key.data(), key.data() + key.size());
+  ImGui::InvisibleButton("variable", {width, height});
+  const glm::dvec3 value = readout != nullptr ? value_of(*readout, key) : glm::dvec3(0);
+  variable_tooltip(app, gui::item_id(), what, value);
+  ImGui::PopID();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(31), baseline_at(app.fonts, middle)}, what.symbol, c.text);
+  const ImFont& mono = *app.fonts.mono;
+  const float baseline = baseline_at(app.fonts, middle), unit = app.theme.px(34), first = app.theme.px(48), column = (width - unit - first) / 3;
+  for (int k = 0; k < 3; ++k) {
+    const std::string text = readout != nullptr ? steady_number(value[k]) : "–";
+    const float end = lo.x + first + float(k + 1) * column;
+    draw_on_baseline(draw, mono, {end - text_width(mono, text), baseline}, c.text, text);
+  }
+  draw_on_baseline(draw, *app.fonts.small, {lo.x + width - unit + app.theme.px(5), baseline}, c.quiet, what.unit);
+}
+
+constexpr const char* head = "Picked particle";
+
+}  // namespace
+
+float particle_panel_height(const App& app) {
+  const float spacing = app.theme.px(2), title = app.theme.px(2) + app.theme.px(22) + 2 * spacing;
+  const bool open = app.settings.layout.folded.count(head) == 0;
+  const int lines = open ? int(forces.size() + 1) / 2 + int(motion.size()) : 0;
+  return title + float(lines) * (line_height(app) + spacing) + app.theme.px(8);
+}
+
+void particle_panel(App& app) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const bool open = section(app, head);
+  char where[64] = "none: right-click one";
+  if (app.picked) {
+    const bool pinned = app.simulation->pinned(app.picked->i, app.picked->j);
+    std::snprintf(where, sizeof where, "(%d, %d)%s", app.picked->i, app.picked->j, pinned ? ", pinned" : "");
+  }
+  if (app.preset().kind == Kind::one_weight) std::snprintf(where, sizeof where, "the weight");
+  const ImFont& small = *app.fonts.small;
+  const float width = app.ui.row_width, x = lo.x + app.theme.px(118);
+  const float y = lo.y + app.theme.px(4) + std::round((app.theme.px(22) - small.FontSize) / 2);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float end = x + text_width(small, where) + app.theme.px(8);
+  draw.AddRectFilled({x - app.theme.px(6), y}, {end, y + small.FontSize + 2}, c.panel);
+  draw_text(draw, small, {x, y}, c.text, where);
+  if (!open) return;
+  ParticleReadout readout;
+  const ParticleReadout* shown = nullptr;
+  if (app.picked) readout = app.simulation->particle(app.picked->i, app.picked->j), shown = &readout;
+  const float gap = app.theme.px(20), cell = std::floor((width - gap) / 2);
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    force_cell(app, forces[k], shown, cell);
+    if (k % 2 == 0 && k + 1 < forces.size()) ImGui::SameLine(0, gap);
+  }
+  for (std::string_view key : motion) motion_line(app, key, shown);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,191 @@
+// The plots at the right, as cards: live forces, and y(t) of the one weight.
+#include <algorithm>
+#include <cmath>
+
+#include "app/panels/curves.h"
+#include "app/panels/imgui_compat.h"
+#include "app/panels/panels.h"
+#include "app/panels/plot.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+/// A card's ground, with its title; the cursor goes inside it.
+class Card {
+ public:
+  Card(App& app, const char* id, std::string_view title, std::string_view note, float height) {
+    const Tokens& c = app.theme.colors;
+    const float padding = app.theme.px(12);
+    const ImVec2 lo = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    gui::begin_child(id, {width, height}, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, app.theme.px(8));
+    const float top = lo.y + padding;
+    draw_text(draw, *app.fonts.title, {lo.x + padding, top}, c.text, title);
+    const ImFont& small = *app.fonts.small;
+    const float note_x = lo.x + width - padding - text_width(small, note);
+    if (note_x > lo.x + 2 * padding + text_width(*app.fonts.title, title))
+      draw_text(draw, small, {note_x, top + app.fonts.title->Ascent - small.Ascent}, c.quiet, note);
+    inner_ = {{lo.x + padding, top + app.theme.px(24)}, {width - 2 * padding, height - 2 * padding - app.theme.px(24)}};
+    ImGui::SetCursorScreenPos(inner_.at);
+  }
+  ~Card() { ImGui::EndChild(); }
+  Card(const Card&) = delete;
+  Card& operator=(const Card&) = delete;
+  const Region& inner() const { return inner_; }
+
+ private:
+  Region inner_;
+};
+
+PlotFrame frame_of(App& app, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
+  const double window = app.ui.plots.window_s;
+  const double now = series.empty() ? app.simulation->time() : series.t().back();
+  const double end = std::max(now, window);
+  return {.x_min = end - window, .x_max = end, .log = log, .from_zero = true, .unit = unit, .when_empty = when_empty};
+}
+
+/// Clickable names of the curves; the rows that they take are `measure`d first.
+float legend(App& app, const Region& place, bool measure) {
+  Plots& plots = app.ui.plots;
+  const float line = app.theme.px(22), gap = app.theme.px(14), sample = app.theme.px(22);
+  float x = place.at.x, y = place.at.y;
+  for (std::size_t k = 0; k < force_keys.size(); ++k) {
+    const float width = sample + app.theme.px(6) + symbol_width(app.fonts, force_keys[k]);
+    if (x > place.at.x && x + width > place.at.x + place.size.x) x = place.at.x, y += line;
+    if (!measure) {
+      ImGui::SetCursorScreenPos({x, y});
+      ImGui::PushID(int(k));
+      if (ImGui::InvisibleButton("curve", {width, line})) plots.hidden[k] = !plots.hidden[k];
+      const float opacity = plots.hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
+      CurveStyle style = curve_style(app.theme.colors, force_keys[k]);
+      style.color = faded(style.color, opacity);
+      const float middle = std::round(y + line / 2);
+      const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
+      ImDrawList& draw = *ImGui::GetWindowDrawList();
+      draw_styled_line(draw, ends, 2, style, app.theme.scale);
+      draw_symbol(draw, app.fonts, {x + sample + app.theme.px(6), baseline_at(app.fonts, middle)}, force_keys[k],
+                  faded(app.theme.colors.text, opacity));
+      tooltip(app, gui::item_id(), std::string(variable(force_keys[k]).quantity) + " · " +
+                                           std::string(variable(force_keys[k]).storhet),
+              plots.hidden[k] ? "Click to show" : "Click to hide");
+      ImGui::PopID();
+    }
+    x += width + gap;
+  }
+  return y + line - place.at.y;
+}
+
+void zoom_time(App& app, float wheel) {
+  if (wheel != 0) app.ui.plots.window_s = std::clamp(app.ui.plots.window_s * std::pow(0.8, wheel), 0.1, 120.0);
+}
+
+void force_controls(App& app, const Region& inner) {
+  Plots& plots = app.ui.plots;
+  static constexpr const char* sources[] = {"Particle", "Sum", "Max"};
+  if (app.preset().kind == Kind::one_weight) {
+    plots.source = Source::particle;  // there is but one
+    ImGui::Dummy({0, app.theme.px(26)});
+  } else if (const int k = segments(app, "source", sources, 3, int(plots.source)); k >= 0 && k != int(plots.source)) {
+    plots.source = Source(k);
+    plots.forces.clear();
+  }
+  const float side = app.theme.px(22), gap = app.theme.px(4);
+  static constexpr const char* scales[] = {"log"};
+  const float log_width = text_width(*app.fonts.text, scales[0]) + 2 * app.theme.px(11);
+  const float right = inner.at.x + inner.size.x - 2 * (side + gap) - log_width;
+  ImGui::SameLine();
+  ImGui::SetCursorScreenPos({std::max(right, ImGui::GetCursorScreenPos().x), inner.at.y});
+  if (segments(app, "scale", scales, 1, plots.log ? 0 : -1) == 0) plots.log = !plots.log;
+  tooltip(app, gui::item_id(), plots.log ? "Back to a linear axis" : "A logarithmic axis");
+  ImGui::SameLine(0, gap);
+  const float y = inner.at.y + app.theme.px(2);
+  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, y});
+  if (quiet_button(app, "pause", plots.paused ? icon::play : icon::pause, plots.paused ? "run" : "hold",
+                   plots.paused ? "Let the plot run again" : "Hold the plot; the simulation goes on"))
+    plots.paused = !plots.paused;
+  ImGui::SameLine(0, gap);
+  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, y});
+  if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
+    app.command(Command::export_forces);
+}
+
+const char* force_title(const App& app) {
+  if (app.preset().kind == Kind::one_weight) return "Forces on the weight";
+  switch (app.ui.plots.source) {
+    case Source::sum: return "Forces, summed over the cloth";
+    case Source::maximum: return "Forces, largest on the cloth";
+    case Source::particle: break;
+  }
+  return "Forces on the picked particle";
+}
+
+void force_card(App& app, float height) {
+  Plots& plots = app.ui.plots;
+  const Card card(app, "forces", force_title(app), plots.paused ? "held" : plots.log ? "N, log" : "N", height);
+  const Region& inner = card.inner();
+  force_controls(app, inner);
+  std::vector<PlotCurve> curves;
+  for (std::size_t k = 0; k < force_keys.size(); ++k)
+    if (!plots.hidden[k])
+      curves.push_back({force_keys[k], curve_style(app.theme.colors, force_keys[k]), plots.forces.column(k)});
+  const float head = app.theme.px(34), legend_height = legend(app, inner, true);
+  const float plot_height = inner.size.y - head - legend_height - app.theme.px(6);
+  ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
+  const bool no_particle = plots.source == Source::particle && !app.picked;
+  const PlotFrame frame = frame_of(app, plots.forces, plots.log, "N",
+                                   no_particle ? "Right-click a particle to pick it" : "Press Space to run");
+  if (plot_height > app.theme.px(24))
+    zoom_time(app, draw_plot(app, "plot", {inner.size.x, plot_height}, plots.forces.t(), curves, frame));
+  legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
+}
+
+void height_card(App& app, float height) {
+  Plots& plots = app.ui.plots;
+  const Card card(app, "height", "Height of the weight, y(t)", "m", height);
+  const Region& inner = card.inner();
+  const float side = app.theme.px(22);
+  ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});
+  if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
+    app.command(Command::export_height);
+  const char* note = "Its colour is the integrator's, as in figure 3.2.";
+  draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {inner.at.x, inner.at.y + app.theme.px(3)}, app.theme.colors.quiet,
+            note);
+  const PlotCurve curve{"y", {integrator_color(app.theme.colors, app.preset().integrator), LineStyle::solid, 1.8f},
+                        plots.height.column(0)};
+  const float head = side + app.theme.px(6);
+  ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
+  PlotFrame frame = frame_of(app, plots.height, false, "m", "Press Space to run");
+  frame.from_zero = false;
+  zoom_time(app, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, plots.height.t(), {&curve, 1}, frame));
+}
+
+}  // namespace
+
+void plots_panel(App& app, const Region& region) {
+  Plots& plots = app.ui.plots;
+  const float margin = app.theme.px(12), gap = app.theme.px(12);
+  if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
+  const bool weight = app.preset().kind == Kind::one_weight;
+  const int cards = weight ? 2 : 1;
+  float available = ImGui::GetContentRegionAvail().y;
+  const bool tabs = cards > 1 && (available - gap * float(cards - 1)) / float(cards) < app.theme.px(240);
+  if (tabs) {
+    static constexpr const char* names[] = {"Height", "Forces"};
+    if (const int k = segments(app, "cards", names, 2, plots.tab); k >= 0) plots.tab = k;
+    available -= app.theme.px(26) + ImGui::GetStyle().ItemSpacing.y;
+  }
+  const float most = app.theme.px(420);
+  const float height = tabs ? available : std::min(most, (available - gap * float(cards - 1)) / float(cards));
+  plots.height_shown = weight && (!tabs || plots.tab == 0);
+  plots.forces_shown = !weight || !tabs || plots.tab == 1;
+  if (plots.height_shown) height_card(app, std::floor(height));
+  if (plots.height_shown && plots.forces_shown) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
+  if (plots.forces_shown) force_card(app, std::floor(height));
+  end_region();
+}
+
+}  // namespace tyglab

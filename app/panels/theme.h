@@ -1,0 +1,47 @@
+// Colours, sizes and line styles as tokens: every panel asks here, so that a further theme is one more table of tokens.
+#pragma once
+
+#include <imgui.h>
+
+#include <cmath>
+
+namespace tyglab {
+
+/// Colours by what they mean. Data colours are Okabe and Ito's, safe for the colour-blind.
+struct Tokens {
+  ImU32 ground, panel, field, field_hover, line, text, quiet, accent, on_accent;
+  ImU32 danger, warning, good;
+  ImU32 blue, green, magenta, yellow, vermilion, orange, sky;
+};
+Tokens dark_tokens();
+
+/// Tokens and sizes at the present scale of text (monitor's content scale times the user's).
+struct Theme {
+  Tokens colors = dark_tokens();
+  float scale = 1;
+  /// Whole pixels for a length given at scale 1; the rhythm of the layout is 8.
+  float px(float length) const { return std::round(length * scale); }
+};
+
+/// Sets Dear ImGui's style from the tokens.
+void apply_style(const Theme& theme);
+
+/// The colour with its opacity multiplied.
+ImU32 faded(ImU32 color, float opacity);
+/// Between two colours, t from 0 to 1.
+ImU32 mixed(ImU32 a, ImU32 b, float t);
+
+enum class LineStyle { solid, dashed, dotted, dash_dot, long_dash, sparse_dots };
+
+/// How a quantity is drawn wherever it appears: curve, legend, read-out, arrow.
+struct CurveStyle {
+  ImU32 color;
+  LineStyle line;
+  float width;  ///< at scale 1
+};
+
+/// A polyline in that style; `phase` carries the dash pattern on from one call to the next.
+void draw_styled_line(ImDrawList& draw, const ImVec2* points, int count, const CurveStyle& style, float scale,
+                      float* phase = nullptr);
+
+}  // namespace tyglab

@@ -1,0 +1,206 @@
+// Name of the preset, transport, time, engine.
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/panels.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+float bar_middle(App& app, float height) { return std::round((app.theme.px(48) - height) / 2); }
+
+void document_menu(App& app) {
+  if (!ImGui::BeginPopup("document")) return;
+  const auto item = [&](const char* label, const char* keys, Command command, bool enabled = true) {
+    if (ImGui::MenuItem(label, keys, false, enabled)) app.command(command);
+  };
+  item("Open…", "Ctrl+O", Command::open_dialog);
+  item("Save", "Ctrl+S", Command::save);
+  item("Save as…", "Ctrl+Shift+S", Command::save_as);
+  ImGui::Separator();
+  item("Undo", "Ctrl+Z", Command::undo, app.history.can_undo());
+  item("Redo", "Ctrl+Shift+Z", Command::redo, app.history.can_redo());
+  ImGui::Separator();
+  item("Restart the motion", "R", Command::restart);
+  item("Reset all constants to the preset", nullptr, Command::reset_constants, unsaved(app));
+  item("Reset everything", nullptr, Command::reset_everything);
+  ImGui::Separator();
+  item("Larger text", "Ctrl++", Command::larger_text);
+  item("Smaller text", "Ctrl+-", Command::smaller_text);
+  item("Normal text", "Ctrl+0", Command::normal_text);
+  ImGui::Separator();
+  if (ImGui::MenuItem("Constants", nullptr, app.settings.layout.left))
+    app.settings.layout.left = !app.settings.layout.left;
+  if (ImGui::MenuItem("Plots", nullptr, app.settings.layout.right))
+    app.settings.layout.right = !app.settings.layout.right;
+  if (ImGui::MenuItem("Hints", nullptr, app.settings.layout.status))
+    app.settings.layout.status = !app.settings.layout.status;
+  item("All panels", "Tab", Command::toggle_panels);
+  item("Full screen", "F11", Command::full_screen);
+  ImGui::Separator();
+  item("Quit", "Ctrl+Q", Command::quit);
+  ImGui::EndPopup();
+}
+
+/// Name of the preset, with a dot while it is not saved; opens the menu. Returns where it ends.
+float document_name(App& app, float x, float width) {
+  const Tokens& c = app.theme.colors;
+  const float height = app.theme.px(32), y = bar_middle(app, height);
+  const std::string& name = app.preset().name;
+  const float dot = unsaved(app) ? app.theme.px(18) : 0, padding = app.theme.px(10), arrow = app.theme.px(18);
+  const float text = std::min(text_width(*app.fonts.text, name), width - dot - 2 * padding - arrow);
+  ImGui::SetCursorScreenPos({x, y});
+  const float whole = text + dot + 2 * padding + arrow;
+  if (ImGui::InvisibleButton("name", {whole, height})) ImGui::OpenPopup("document");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + whole, y + height}, c.field, app.theme.px(5));
+  tooltip(app, gui::item_id(),
+          app.preset().name + (unsaved(app) ? ": changes have not been saved" : "") + "\n" + app.preset().description,
+          "Open Ctrl+O · save Ctrl+S");
+  const ImVec2 at{x + padding, std::round(y + (height - app.fonts.text->FontSize) / 2)};
+  draw.PushClipRect({x, y}, {at.x + text + 1, y + height}, true);
+  draw_text(draw, *app.fonts.text, at, c.text, name);
+  draw.PopClipRect();
+  const float middle = y + height / 2;
+  if (dot > 0) draw.AddCircleFilled({at.x + text + app.theme.px(10), middle}, app.theme.px(3.5f), c.warning, 16);
+  const float tip = at.x + text + dot + app.theme.px(10), r = app.theme.px(3.5f);
+  draw.AddTriangleFilled({tip - r, middle - r * 0.5f}, {tip + r, middle - r * 0.5f}, {tip, middle + r * 0.8f}, c.quiet);
+  document_menu(app);
+  return x + whole;
+}
+
+float transport(App& app, float x) {
+  const float gap = app.theme.px(6), y = bar_middle(app, app.theme.px(32));
+  ImGui::SetCursorScreenPos({x, y});
+  if (icon_button(app, "restart", icon::restart, "Restart", "Restart the motion; the constants stay", "R or Backspace"))
+    app.command(Command::restart);
+  ImGui::SameLine(0, gap);
+  const bool playing = app.pacing.playing;
+  if (icon_button(app, "play", playing ? icon::pause : icon::play, playing ? "Pause" : "Run", playing ? "Pause" : "Run",
+                  "Space", playing))
+    app.command(Command::toggle_play);
+  ImGui::SameLine(0, gap);
+  if (icon_button(app, "step", icon::step, "Step", "One step of dt, then pause", "→ or O")) app.command(Command::step);
+  return ImGui::GetItemRectMax().x;
+}
+
+/// A quiet label with a number after it; hidden where the bar has no room. Returns where it ends.
+float reading(App& app, float x, float end, const char* label, const std::string& value, const char* widest, ImU32 color,
+              const char* tip) {
+  const ImFont &small = *app.fonts.small, &mono = *app.fonts.mono;
+  const float label_width = *label != 0 ? text_width(small, label) + app.theme.px(8) : 0;
+  const float width = label_width + std::max(text_width(mono, widest), text_width(mono, value));
+  if (x + width > end) return x;
+  const float height = app.theme.px(32), y = bar_middle(app, height);
+  ImGui::SetCursorScreenPos({x, y});
+  ImGui::PushID(tip);
+  ImGui::InvisibleButton("reading", {width, height});
+  tooltip(app, gui::item_id(), tip);
+  ImGui::PopID();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float baseline = std::round(y + height / 2 + mono.FontSize * 0.36f);
+  draw_text(draw, small, {x, baseline - small.Ascent}, app.theme.colors.quiet, label);
+  draw_text(draw, mono, {x + label_width, baseline - mono.Ascent}, color, value);
+  return x + width + app.theme.px(18);
+}
+
+float speed_combo(App& app, float x, float end) {
+  static constexpr double speeds[] = {0.01, 0.03, 0.1, 0.25, 0.5, 1, 2};
+  const float width = app.theme.px(72), height = app.theme.px(26);
+  if (x + width > end) return x;
+  ImGui::SetCursorScreenPos({x, bar_middle(app, height)});
+  char shown[32];
+  std::snprintf(shown, sizeof shown, "%s ×", short_number(app.pacing.speed).c_str());
+  if (begin_combo(app, "##speed", shown, width)) {
+    for (double speed : speeds)
+      if (ImGui::Selectable((short_number(speed) + " ×").c_str(), speed == app.pacing.speed)) {
+        app.pacing.speed = speed;
+        app.pacing.restart_measure();
+      }
+    ImGui::EndCombo();
+  } else {
+    tooltip(app, gui::item_id(), "Speed: simulated time to real time. Below 1 is slow motion.");
+  }
+  return x + width + app.theme.px(18);
+}
+
+void readings(App& app, float x, float end) {
+  const Tokens& c = app.theme.colors;
+  char text[64];
+  std::snprintf(text, sizeof text, "t = %.3f s", app.simulation->time());
+  x = reading(app, x, end, "", text, "t = 00.000 s", c.text, "Simulated time");
+  x = speed_combo(app, x, end);
+  const double part = app.pacing.speed > 0 ? app.pacing.reached() / app.pacing.speed : 0;
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * app.pacing.reached());
+  const bool running = app.pacing.playing && !app.simulation->divergence();
+  x = reading(app, x, end, "real time", running ? text : "–", "100 %", !running ? c.quiet : part > 0.95 ? c.good : c.warning,
+              "Simulated time to real time, reached over the last half second. Amber: the machine does not keep up with the "
+              "speed wished.");
+  std::snprintf(text, sizeof text, "%d", app.pacing.steps_per_frame());
+  x = reading(app, x, end, "steps/frame", text, "000", c.text, "Steps of dt made between two pictures");
+  reading(app, x, end, "dt", short_number(app.preset().dt) + " s", "1.234e-4 s", c.text, "Time step, set at the left");
+}
+
+void engine_combo(App& app, float width) {
+  struct Choice {
+    const char* label;
+    EngineKind engine;
+    Precision precision;
+  };
+  static constexpr Choice choices[] = {{"CPU · float", EngineKind::cpu, Precision::float_},
+                                       {"CPU · double", EngineKind::cpu, Precision::double_},
+                                       {"OpenCL · float", EngineKind::opencl, Precision::float_},
+                                       {"OpenCL · double", EngineKind::opencl, Precision::double_}};
+  const Preset& preset = app.preset();
+  const char* shown = choices[0].label;
+  for (const Choice& choice : choices)
+    if (choice.engine == preset.engine && choice.precision == preset.precision) shown = choice.label;
+  if (!begin_combo(app, "##engine", shown, width)) {
+    tooltip(app, gui::item_id(), "Engine and precision. Now: " + app.simulation->engine().name());
+    return;
+  }
+  for (const Choice& choice : choices)
+    if (ImGui::Selectable(choice.label, choice.label == shown) && choice.label != shown) {
+      Preset next = preset;
+      next.engine = choice.engine, next.precision = choice.precision;
+      app.propose(std::move(next));
+    }
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+void top_bar(App& app, const Region& region) {
+  const Tokens& c = app.theme.colors;
+  if (!begin_region("top", region, c.panel, {0, 0})) return end_region();
+  const float margin = app.theme.px(16), button = app.theme.px(32), gap = app.theme.px(6), combo = app.theme.px(124);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImFont& brand = *app.fonts.brand;
+  draw_text(draw, brand, {margin, bar_middle(app, brand.FontSize)}, c.text, "Tyglab");
+  float x = margin + text_width(brand, "Tyglab") + app.theme.px(14);
+  x = document_name(app, x, std::min(app.theme.px(240), region.size.x * 0.2f)) + app.theme.px(16);
+  // Over the viewport's left edge where there is room, as if it belonged to it.
+  const float left = app.settings.layout.left && app.ui.panels ? app.ui.viewport_left + app.theme.px(12) : x;
+  x = transport(app, left > x && left < region.size.x * 0.4f ? left : x) + app.theme.px(18);
+  const float right = region.size.x - margin - 2 * button - gap;
+  const float engine = right - app.theme.px(16) - combo;
+  const bool room_for_engine = engine > x + app.theme.px(120);
+  readings(app, x, (room_for_engine ? engine : right) - app.theme.px(12));
+  if (room_for_engine) {
+    ImGui::SetCursorScreenPos({engine, bar_middle(app, app.theme.px(26))});
+    engine_combo(app, combo);
+  }
+  ImGui::SetCursorScreenPos({right, bar_middle(app, button)});
+  if (icon_button(app, "screen", app.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"))
+    app.command(Command::full_screen);
+  ImGui::SameLine(0, gap);
+  if (icon_button(app, "help", icon::help, "Help", "Mouse and keys", "F1", app.ui.help)) app.command(Command::toggle_help);
+  end_region();
+}
+
+}  // namespace tyglab

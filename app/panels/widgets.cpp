@@ -1,0 +1,201 @@
+#include "app/panels/widgets.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "app/panels/imgui_compat.h"
+#include "app/panels/symbol.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double tooltip_delay = 0.45;  // s
+
+/// A row of icons sits on the line of the text beside it.
+void centred_text(App& app, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU32 color, const char* text) {
+  const ImVec2 size = font.CalcTextSizeA(font.FontSize, 1e9f, 0, text);
+  draw_text(*ImGui::GetWindowDrawList(), font,
+            {std::round((lo.x + hi.x - size.x) / 2), std::round((lo.y + hi.y - size.y) / 2)}, color, text);
+  (void)app;
+}
+
+}  // namespace
+
+bool tooltip_due(App& app, ImGuiID id) {
+  if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return false;
+  app.ui.hover_seen = true;
+  if (app.ui.hovered != id) {
+    app.ui.hovered = id;
+    app.ui.hovered_since = app.ui.now;
+  }
+  return app.ui.now - app.ui.hovered_since > tooltip_delay;
+}
+
+void begin_tooltip(App& app) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(12), app.theme.px(10)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(6), app.theme.px(4)));
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(app.theme.px(340));
+}
+
+void end_tooltip() {
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar(2);
+}
+
+void wrapped(App&, std::string_view text, ImU32 color) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopStyleColor();
+}
+
+void tooltip(App& app, ImGuiID id, std::string_view text, std::string_view keys) {
+  if (!tooltip_due(app, id)) return;
+  begin_tooltip(app);
+  wrapped(app, text, app.theme.colors.text);
+  if (!keys.empty()) {
+    ImGui::PushFont(app.fonts.small);
+    wrapped(app, keys, app.theme.colors.quiet);
+    ImGui::PopFont();
+  }
+  end_tooltip();
+}
+
+bool icon_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip,
+                 std::string_view keys, bool lit) {
+  const Tokens& c = app.theme.colors;
+  const float side = app.theme.px(32);
+  const char* text = icon_or(app.fonts, glyph, word);
+  const float width = app.fonts.icons ? side : std::max(side, text_width(*app.fonts.text, text) + app.theme.px(12));
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(id, {width, side});
+  const ImU32 ground = lit ? c.accent : ImGui::IsItemActive() ? c.line : ImGui::IsItemHovered() ? c.field_hover : c.field;
+  const ImVec2 hi{lo.x + width, lo.y + side};
+  ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, app.theme.px(5));
+  centred_text(app, *app.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
+  tooltip(app, gui::item_id(), tip, keys);
+  return pressed;
+}
+
+bool quiet_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip) {
+  const Tokens& c = app.theme.colors;
+  const float side = app.theme.px(22);
+  const char* text = icon_or(app.fonts, glyph, word);
+  const float width = app.fonts.icons ? side : text_width(*app.fonts.text, text) + app.theme.px(8);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(id, {width, side});
+  const bool hovered = ImGui::IsItemHovered();
+  const ImVec2 hi{lo.x + width, lo.y + side};
+  if (hovered) ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, c.field_hover, app.theme.px(4));
+  centred_text(app, *app.fonts.text, lo, hi, hovered ? c.text : c.quiet, text);
+  tooltip(app, gui::item_id(), tip);
+  return pressed;
+}
+
+bool text_button(App& app, const char* label, bool strong, bool enabled) {
+  const Tokens& c = app.theme.colors;
+  ImGui::BeginDisabled(!enabled);
+  if (strong) {
+    ImGui::PushStyleColor(ImGuiCol_Button, c.accent);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, mixed(c.accent, c.text, 0.2f));
+    ImGui::PushStyleColor(ImGuiCol_ButtonActive, mixed(c.accent, c.ground, 0.2f));
+    ImGui::PushStyleColor(ImGuiCol_Text, c.on_accent);
+  }
+  const bool pressed = ImGui::Button(label, {0, app.theme.px(30)});
+  if (strong) ImGui::PopStyleColor(4);
+  ImGui::EndDisabled();
+  return pressed;
+}
+
+int segments(App& app, const char* id, const char* const* labels, int count, int chosen) {
+  const Tokens& c = app.theme.colors;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float height = app.theme.px(26), padding = app.theme.px(11), round = app.theme.px(5);
+  int clicked = -1;
+  ImGui::PushID(id);
+  const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(1, spacing.y));
+  for (int k = 0; k < count; ++k) {
+    if (k > 0) ImGui::SameLine();
+    const ImVec2 lo = ImGui::GetCursorScreenPos();
+    const ImVec2 hi{lo.x + text_width(*app.fonts.text, labels[k]) + 2 * padding, lo.y + height};
+    ImGui::PushID(k);
+    if (ImGui::InvisibleButton("segment", {hi.x - lo.x, height})) clicked = k;
+    const bool on = k == chosen;
+    const ImU32 ground = on ? c.accent : ImGui::IsItemHovered() ? c.field_hover : c.field;
+    const ImDrawFlags corners = (k == 0 ? ImDrawFlags_RoundCornersLeft : 0) |
+                                (k + 1 == count ? ImDrawFlags_RoundCornersRight : 0);
+    draw.AddRectFilled(lo, hi, ground, round, corners != 0 ? corners : ImDrawFlags_RoundCornersNone);
+    centred_text(app, *app.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
+    ImGui::PopID();
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopID();
+  return clicked;
+}
+
+bool check(App& app, const char* label, bool value) {
+  const Tokens& c = app.theme.colors;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float box = app.theme.px(16), height = app.theme.px(26), gap = app.theme.px(8);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const bool clicked = ImGui::InvisibleButton(label, {box + gap + text_width(*app.fonts.text, label), height});
+  const ImVec2 at{lo.x, std::round(lo.y + (height - box) / 2)};
+  const ImU32 ground = value ? c.accent : ImGui::IsItemHovered() ? c.line : c.field_hover;
+  draw.AddRectFilled(at, {at.x + box, at.y + box}, ground, app.theme.px(4));
+  if (value) {
+    const ImVec2 tick[3] = {{at.x + box * 0.24f, at.y + box * 0.52f},
+                            {at.x + box * 0.43f, at.y + box * 0.71f},
+                            {at.x + box * 0.77f, at.y + box * 0.30f}};
+    draw.AddPolyline(tick, 3, c.on_accent, ImDrawFlags_None, std::max(1.5f, app.theme.px(2)));
+  }
+  draw_text(draw, *app.fonts.text, {at.x + box + gap, std::round(lo.y + (height - app.fonts.text->FontSize) / 2)}, c.text,
+            label);
+  return clicked;
+}
+
+bool section(App& app, const char* name) {
+  const Tokens& c = app.theme.colors;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  auto& folded = app.settings.layout.folded;
+  const bool open = folded.count(name) == 0;
+  ImGui::Dummy({0, app.theme.px(2)});
+  const float height = app.theme.px(22), width = app.ui.row_width;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  if (ImGui::InvisibleButton(name, {width, height})) open ? void(folded.insert(name)) : void(folded.erase(name));
+  const ImU32 color = ImGui::IsItemHovered() ? c.text : c.quiet;
+  std::string capitals(name);
+  for (char& letter : capitals) letter = char(std::toupper(static_cast<unsigned char>(letter)));
+  const ImFont& font = *app.fonts.small;
+  const float top = std::round(lo.y + (height - font.FontSize) / 2), middle = std::round(lo.y + height / 2);
+  draw_text(draw, font, {lo.x, top}, color, capitals);
+  const float from = lo.x + text_width(font, capitals) + app.theme.px(10), arrow = app.theme.px(18);
+  draw.AddLine({from, middle}, {lo.x + width - arrow, middle}, c.line);
+  const float x = lo.x + width - app.theme.px(7), r = app.theme.px(3);
+  if (open) {
+    draw.AddTriangleFilled({x - r, middle - r * 0.6f}, {x + r, middle - r * 0.6f}, {x, middle + r * 0.8f}, color);
+  } else {
+    draw.AddTriangleFilled({x + r * 0.6f, middle - r}, {x + r * 0.6f, middle + r}, {x - r * 0.8f, middle}, color);
+  }
+  return open;
+}
+
+bool begin_combo(App& app, const char* id, const char* shown, float width) {
+  ImGui::SetNextItemWidth(width);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(6)));
+  const bool open = ImGui::BeginCombo(id, shown, ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
+  ImGui::PopStyleVar();
+  if (open) return true;
+  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+  const float r = app.theme.px(3.5f), x = hi.x - app.theme.px(13), y = std::round((lo.y + hi.y) / 2);
+  ImGui::GetWindowDrawList()->AddTriangleFilled({x - r, y - r * 0.5f}, {x + r, y - r * 0.5f}, {x, y + r * 0.8f},
+                                                app.theme.colors.quiet);
+  return false;
+}
+
+void cover_viewport(App& app, ImVec2 lo, ImVec2 hi) {
+  app.viewport.covers.push_back({{lo.x, lo.y}, {hi.x, hi.y}});
+}
+
+}  // namespace tyglab

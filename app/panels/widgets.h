@@ -1,0 +1,45 @@
+// Small things that panels are made of.
+#pragma once
+
+#include <imgui.h>
+
+#include <functional>
+#include <string_view>
+
+#include "app/sandbox/app.h"
+
+namespace tyglab {
+
+/// Whether the pointer has rested on the last item long enough for its tooltip.
+bool tooltip_due(App& app, ImGuiID id);
+/// A line of text as the tooltip of the last item; the keys that do the same stand after it, quietly.
+void tooltip(App& app, ImGuiID id, std::string_view text, std::string_view keys = {});
+
+/// Begins and ends a tooltip of the house's width and look.
+void begin_tooltip(App& app);
+void end_tooltip();
+void wrapped(App& app, std::string_view text, ImU32 color);
+
+/// A square button with an icon (or a word where the icon font is missing).
+bool icon_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip,
+                 std::string_view keys = {}, bool lit = false);
+/// A button with words; `strong` fills it with the accent.
+bool text_button(App& app, const char* label, bool strong = false, bool enabled = true);
+/// A quiet button without a ground: an icon that shows itself under the pointer.
+bool quiet_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip);
+
+/// Choices in a row of which one is taken. Returns the index clicked, or -1.
+int segments(App& app, const char* id, const char* const* labels, int count, int chosen);
+/// A check box of the house's look. Returns whether it was clicked.
+bool check(App& app, const char* label, bool value);
+
+/// Head of a section: small capitals and a line; a click folds it. Returns whether it is open.
+bool section(App& app, const char* name);
+
+/// A combo box whose list `fill` writes with ImGui::Selectable.
+bool begin_combo(App& app, const char* id, const char* shown, float width);
+
+/// Leaves an area of the window to the panel: presses on the viewport there are not the viewport's.
+void cover_viewport(App& app, ImVec2 lo, ImVec2 hi);
+
+}  // namespace tyglab

@@ -1,0 +1,74 @@
+// Everything of the sandbox that changes while it runs, in one place.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/panels/fonts.h"
+#include "app/panels/theme.h"
+#include "app/panels/ui_state.h"
+#include "app/sandbox/clock.h"
+#include "app/sandbox/frame_costs.h"
+#include "app/sandbox/history.h"
+#include "app/sandbox/input.h"
+#include "app/sandbox/messages.h"
+#include "app/sandbox/pointer.h"
+#include "app/sandbox/requests.h"
+#include "app/sandbox/settings.h"
+#include "app/viewport/camera.h"
+#include "app/viewport/cloth_renderer.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// The preset that was opened or saved last: what "unsaved" and every reset compare with.
+struct Document {
+  Preset saved;
+  std::string label;
+  std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+};
+
+struct App {
+  std::unique_ptr<Simulation> simulation;
+  Document document;
+  History history;
+  Pacing pacing;
+  std::int64_t steps_made = 0;  ///< in the last frame
+
+  std::unique_ptr<ClothRenderer> renderer;
+  Camera camera;
+  ViewOptions view;
+  Viewport viewport;
+  Tool tool;
+  std::optional<Pins::Site> picked;
+  bool redraw_cloth = true;   ///< something that the renderer's revision does not tell changed (a texture)
+  bool wants_framing = true;  ///< the camera is to frame the scene once the viewport's size is known
+
+  Theme theme;
+  Fonts fonts;
+  Ui ui;
+  Messages messages;
+  Settings settings;
+  InputQueue input;
+  std::vector<Request> requests;
+  FrameCosts costs;
+
+  bool full_screen = false;         ///< as the window is; a request asks to change it
+  bool toggle_full_screen = false;
+  bool scale_changed = true;        ///< fonts are to be built anew
+  bool quit = false;
+  bool scripted = false;            ///< --frames: nothing is restored, asked or remembered
+
+  const Preset& preset() const { return simulation->preset(); }
+  void request(Request request) { requests.push_back(std::move(request)); }
+  void command(Command command) { requests.emplace_back(request::Do{command}); }
+  /// Asks for the constants to become these.
+  void propose(Preset next, unsigned gesture = 0) {
+    requests.emplace_back(request::Apply{edit::Change{std::move(next)}, gesture});
+  }
+};
+
+}  // namespace tyglab

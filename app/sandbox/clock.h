@@ -1,0 +1,54 @@
+// How many steps of fixed dt a frame makes: simulated time runs at speed times real time as far as the budget allows.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyglab {
+
+class Pacing {
+ public:
+  bool playing = true;
+  double speed = 1;           ///< simulated seconds per real second wished
+  double budget_s = 0.012;    ///< wall time that a frame may spend on steps
+
+  /// Whole steps due after `real_seconds` more of real time (a pause in drawing counts as a tenth of a second at most),
+  /// not more than the budget is likely to allow.
+  int due(double real_seconds, double dt) {
+    const double wish = speed * std::min(real_seconds, 0.1);
+    wished_ += wish, elapsed_ += std::min(real_seconds, 0.1);
+    owed_ += wish;
+    const double steps = std::floor(owed_ / dt * (1 + 1e-12));
+    const double affordable = step_cost_s_ > 0 ? std::max(1.0, budget_s / step_cost_s_) : first_guess;
+    return int(std::min({steps, affordable, 1e7}));
+  }
+  /// Tells what became of them. What could not be made is dropped: the simulation then runs slower than wished.
+  void made(int steps, double dt, double wall_seconds) {
+    if (steps > 0) {
+      const double cost = wall_seconds / steps;
+      step_cost_s_ = step_cost_s_ > 0 ? 0.7 * step_cost_s_ + 0.3 * cost : cost;
+      steps_per_frame_ = steps;
+    }
+    got_ += steps * dt;
+    owed_ = std::clamp(owed_ - steps * dt, 0.0, dt);
+    if (elapsed_ < 0.5) return;
+    reached_ = wished_ > 0 ? std::min(got_ / wished_, 1.0) * speed : 0;
+    wished_ = got_ = elapsed_ = 0;
+  }
+  void forget_cost() { step_cost_s_ = 0; }
+  /// Starts measuring anew (after a pause, a change of speed).
+  void restart_measure() { wished_ = got_ = elapsed_ = owed_ = 0; }
+
+  double step_cost_s() const { return step_cost_s_; }
+  int steps_per_frame() const { return steps_per_frame_; }
+  /// Simulated seconds per real second reached over the last half second.
+  double reached() const { return reached_; }
+
+ private:
+  static constexpr double first_guess = 8;
+  double owed_ = 0, step_cost_s_ = 0;
+  double wished_ = 0, got_ = 0, elapsed_ = 0, reached_ = 0;
+  int steps_per_frame_ = 0;
+};
+
+}  // namespace tyglab

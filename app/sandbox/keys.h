@@ -1,0 +1,11 @@
+// Keys to commands, from the window's own callback: Dear ImGui drops short presses when frames are long.
+#pragma once
+
+namespace tyglab {
+
+struct App;
+
+/// Turns the frame's key presses into requests. A text field or slider in use keeps its keys.
+void handle_keys(App& app);
+
+}  // namespace tyglab

@@ -1,0 +1,43 @@
+// What the program tells its user: in the window, and in the log.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+struct Message {
+  enum class Severity { note, warning, error };
+  Severity severity;
+  std::string text;
+  double born;  ///< s, the window's clock; negative until first shown
+};
+
+class Messages {
+ public:
+  void note(std::string text) { add(Message::Severity::note, std::move(text)); }
+  void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
+  void error(std::string text) { add(Message::Severity::error, std::move(text)); }
+
+  /// Drops what has been shown long enough (errors stay longer).
+  void age(double now) {
+    for (Message& m : list_)
+      if (m.born < 0) m.born = now;
+    std::erase_if(list_, [&](const Message& m) { return now - m.born > lifetime(m.severity); });
+  }
+  void dismiss(std::size_t index) { list_.erase(list_.begin() + std::ptrdiff_t(index)); }
+  const std::vector<Message>& list() const { return list_; }
+
+ private:
+  static double lifetime(Message::Severity severity) { return severity == Message::Severity::note ? 5 : 20; }
+  void add(Message::Severity severity, std::string text) {
+    if (severity != Message::Severity::note) std::fprintf(stderr, "tyglab: %s\n", text.c_str());
+    std::erase_if(list_, [&](const Message& m) { return m.text == text; });
+    list_.push_back({severity, std::move(text), -1});
+    if (list_.size() > 4) list_.erase(list_.begin());
+  }
+  std::vector<Message> list_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,212 @@
+#include "app/sandbox/pointer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/sandbox/app.h"
+#include "app/sandbox/window.h"
+#include "app/viewport/picking.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double click_time = 0.4, hold_time = 0.35;  // s
+constexpr float click_slack = 4;                      // pixels at scale 1
+
+using ToolKind = Tool::Kind;
+
+float reach(const App& app) { return app.theme.px(24); }
+
+std::optional<Pins::Site> nearest_site(App& app, glm::vec2 at, bool free_only) {
+  Simulation& simulation = *app.simulation;
+  const auto skip = [&](int i, int j) { return free_only && simulation.pinned(i, j); };
+  const auto hit = nearest_particle(simulation.positions(), app.camera, at, app.viewport.size(), reach(app), skip);
+  if (!hit) return std::nullopt;
+  return Pins::Site{hit->i, hit->j};
+}
+
+/// The body that a press means: one that no particle near the pointer stands in front of.
+std::optional<int> body_pressed(App& app, glm::vec2 at) {
+  const std::vector<Body>& bodies = app.preset().bodies;
+  const auto body = body_under(bodies, app.camera, at, app.viewport.size());
+  if (!body) return std::nullopt;
+  const auto site = nearest_site(app, at, false);
+  if (!site) return body;
+  const glm::dvec3 eye(app.camera.eye());
+  const glm::dvec3 ray = app.camera.ray(at, app.viewport.size()), to_centre = bodies[*body].c - eye;
+  const double along = glm::dot(ray, to_centre), r = bodies[*body].r;
+  const double half_chord2 = r * r - (glm::dot(to_centre, to_centre) - along * along);
+  const double surface = along - std::sqrt(std::max(0.0, half_chord2));
+  const double particle = glm::dot(ray, app.simulation->positions().at(site->i, site->j) - eye);
+  return particle > surface + app.preset().L ? body : std::nullopt;
+}
+
+void start_left(App& app, glm::vec2 at) {
+  Tool& tool = app.tool;
+  if (const auto body = body_pressed(app, at)) {
+    tool.kind = ToolKind::body;
+    tool.body = *body;
+    tool.body_plane = app.preset().bodies[*body].c;
+    tool.body_offset = tool.body_plane - app.camera.unproject_in_camera_plane(at, tool.body_plane, app.viewport.size());
+  } else {
+    tool.kind = ToolKind::cut;
+    tool.path = {at};
+  }
+}
+
+void start(App& app, const PointerEvent& event, glm::vec2 at) {
+  Tool& tool = app.tool;
+  tool.button = event.button;
+  tool.press = tool.at = at;
+  tool.press_time = event.time;
+  const bool shift = (event.mods & GLFW_MOD_SHIFT) != 0, control = (event.mods & GLFW_MOD_CONTROL) != 0;
+  if (event.button == GLFW_MOUSE_BUTTON_MIDDLE || (event.button == GLFW_MOUSE_BUTTON_LEFT && control)) {
+    tool.kind = shift ? ToolKind::pan : ToolKind::orbit;
+  } else if (event.button == GLFW_MOUSE_BUTTON_LEFT) {
+    start_left(app, at);
+  } else if (event.button == GLFW_MOUSE_BUTTON_RIGHT) {
+    tool.kind = ToolKind::right;
+    tool.site = nearest_site(app, at, false);
+  }
+}
+
+void start_grab(App& app) {
+  Tool& tool = app.tool;
+  const auto site = nearest_site(app, tool.press, true);
+  if (!site || !apply_edit(app, edit::Grab{site->i, site->j})) {
+    tool.kind = ToolKind::none;
+    return;
+  }
+  tool.kind = ToolKind::grab;
+  tool.site = site;
+  if (app.picked != site) app.picked = site, app.ui.plots.forces.clear();
+}
+
+void pick_or_pin(App& app, const PointerEvent& event) {
+  Tool& tool = app.tool;
+  const bool twice = tool.site && tool.last_site == tool.site && event.time - tool.last_click < click_time;
+  if (twice) {
+    const auto [i, j] = *tool.site;
+    apply_edit(app, edit::Pin{i, j, !app.simulation->pinned(i, j)});
+    tool.last_click = -1;
+    return;
+  }
+  if (app.picked != tool.site && app.ui.plots.source == Source::particle) app.ui.plots.forces.clear();
+  app.picked = tool.site;
+  tool.last_click = event.time;
+  tool.last_site = tool.site;
+}
+
+void finish(App& app, const PointerEvent& event) {
+  Tool& tool = app.tool;
+  if (tool.kind == ToolKind::grab) apply_edit(app, edit::Release{});
+  if (tool.kind == ToolKind::right) pick_or_pin(app, event);
+  tool.kind = ToolKind::none;
+}
+
+void drag(App& app, glm::vec2 at) {
+  Tool& tool = app.tool;
+  const glm::vec2 moved = at - tool.at;
+  tool.at = at;
+  switch (tool.kind) {
+    case ToolKind::orbit: app.camera.orbit(moved.x, moved.y); break;
+    case ToolKind::pan: app.camera.pan(moved.x, moved.y, app.viewport.size().y); break;
+    case ToolKind::cut: tool.path.push_back(at); break;
+    case ToolKind::right:
+      if (glm::length(at - tool.press) > app.theme.px(click_slack)) start_grab(app);
+      break;
+    case ToolKind::none:
+    case ToolKind::grab:
+    case ToolKind::body: break;
+  }
+}
+
+void wheel(App& app, const PointerEvent& event) {
+  if (!app.viewport.takes(event.at)) return;
+  if ((event.mods & GLFW_MOD_SHIFT) != 0) {
+    app.camera.pan(event.wheel.x * app.theme.px(32), event.wheel.y * app.theme.px(32), app.viewport.size().y);
+  } else {
+    app.camera.zoom(event.wheel.y);
+  }
+}
+
+void cut(App& app) {
+  Tool& tool = app.tool;
+  std::vector<Pins::Site> sites;
+  if (tool.path.size() == 1) tool.path.push_back(tool.path.front());
+  for (std::size_t k = 1; k < tool.path.size(); ++k)
+    for (const Pins::Site& site : particles_near_path(app.simulation->positions(), app.camera, tool.path[k - 1],
+                                                      tool.path[k], app.viewport.size(), reach(app)))
+      if (std::find(sites.begin(), sites.end(), site) == sites.end()) sites.push_back(site);
+  tool.path = {tool.at};
+  if (!sites.empty()) apply_edit(app, edit::Cut{std::move(sites)});
+}
+
+void move_body(App& app) {
+  Tool& tool = app.tool;
+  if (tool.body < 0 || std::size_t(tool.body) >= app.preset().bodies.size()) {
+    tool.kind = ToolKind::none;
+    return;
+  }
+  const glm::dvec3 pointer = app.camera.unproject_in_camera_plane(tool.at, tool.body_plane, app.viewport.size());
+  const glm::dvec3 to = glm::clamp(pointer + tool.body_offset, glm::dvec3(-1e3), glm::dvec3(1e3));
+  if (to != app.preset().bodies[tool.body].c) apply_edit(app, edit::MoveBody{tool.body, to}, unsigned(tool.body) + 1);
+}
+
+/// What a held tool does every frame, whether the pointer moved or not.
+void hold(App& app) {
+  Tool& tool = app.tool;
+  if (tool.kind == ToolKind::right && tool.site && app.ui.now - tool.press_time > hold_time) start_grab(app);
+  if (tool.kind == ToolKind::cut) cut(app);
+  if (tool.kind == ToolKind::body) move_body(app);
+  if (tool.kind != ToolKind::grab) return;
+  const auto held = app.simulation->held();
+  if (!held) {
+    tool.kind = ToolKind::none;
+    return;
+  }
+  const glm::dvec3 through = app.simulation->positions().at(held->i, held->j);
+  tool.hand = app.camera.unproject_in_camera_plane(tool.at, through, app.viewport.size());
+}
+
+}  // namespace
+
+void handle_pointer(App& app) {
+  Tool& tool = app.tool;
+  for (const PointerEvent& event : app.input.pointer) {
+    const glm::vec2 at = event.at - app.viewport.box.lo;
+    switch (event.type) {
+      case PointerEvent::Type::press:
+        if (tool.kind == ToolKind::none && app.viewport.takes(event.at)) start(app, event, at);
+        break;
+      case PointerEvent::Type::move: drag(app, at); break;
+      case PointerEvent::Type::release:
+        if (tool.kind == ToolKind::none || event.button != tool.button) break;
+        drag(app, at);
+        hold(app);
+        finish(app, event);
+        break;
+      case PointerEvent::Type::wheel: wheel(app, event); break;
+    }
+  }
+  hold(app);
+}
+
+std::optional<Pins::Site> particle_under_pointer(App& app) {
+  if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return std::nullopt;
+  return nearest_site(app, app.input.at - app.viewport.box.lo, false);
+}
+
+bool body_under_pointer(App& app) {
+  if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
+  return body_pressed(app, app.input.at - app.viewport.box.lo).has_value();
+}
+
+void move_hand(App& app, int steps) {
+  if (app.tool.kind != ToolKind::grab || steps <= 0) return;
+  apply_edit(app, edit::MoveHand{app.tool.hand, steps});
+}
+
+}  // namespace tyglab

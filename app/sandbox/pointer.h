@@ -1,0 +1,61 @@
+// The pointer in the viewport: orbit, pan, zoom, pick, pin, grab, cut, drag a body. A drag belongs to whoever took the
+// press, until its button comes up.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <vector>
+
+#include "app/sandbox/input.h"
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+struct App;
+
+/// Where the viewport is in the window, and what lies over it.
+struct Viewport {
+  struct Box {
+    glm::vec2 lo{0}, hi{0};
+    bool contains(glm::vec2 p) const { return p.x >= lo.x && p.y >= lo.y && p.x < hi.x && p.y < hi.y; }
+  };
+  Box box;
+  std::vector<Box> covers;  ///< buttons and banners over it: presses there are theirs
+  bool blocked = false;     ///< a menu or dialog is open: every press is its own
+  glm::vec2 size() const { return box.hi - box.lo; }
+  bool takes(glm::vec2 p) const {
+    if (blocked || !box.contains(p)) return false;
+    for (const Box& cover : covers)
+      if (cover.contains(p)) return false;
+    return true;
+  }
+};
+
+/// What the pointer is doing in the viewport.
+struct Tool {
+  enum class Kind { none, orbit, pan, right, grab, cut, body };
+  Kind kind = Kind::none;       ///< right: the right button is down and has not moved yet
+  int button = 0;               ///< that ends it
+  glm::vec2 press{0}, at{0};    ///< pixels in the viewport
+  double press_time = 0;
+  std::vector<glm::vec2> path;  ///< the pointer's way in this frame, for cuts
+  int body = -1;
+  glm::dvec3 body_plane{0}, body_offset{0};
+  std::optional<Pins::Site> site;  ///< under the right press
+  glm::dvec3 hand{0};              ///< where the hand should go, m
+  // For double clicks of the right button.
+  double last_click = -1;
+  std::optional<Pins::Site> last_site;
+};
+
+/// Handles the frame's pointer events and what a held tool does every frame.
+void handle_pointer(App& app);
+/// The particle that a press would take, if the pointer is free over the viewport.
+std::optional<Pins::Site> particle_under_pointer(App& app);
+/// Whether a left press would take a body.
+bool body_under_pointer(App& app);
+/// Sends the hand to the pointer over the next `steps` steps.
+void move_hand(App& app, int steps);
+
+}  // namespace tyglab

@@ -1,0 +1,212 @@
+#include "app/sandbox/requests.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "app/data_files.h"
+#include "app/panels/dialogs.h"
+#include "app/panels/curves.h"
+#include "app/sandbox/app.h"
+#include "app/sandbox/document.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+/// Above this many particles a frame may take seconds, so the user is asked first.
+constexpr double large_cloth = 1e6;
+
+double particles(const Preset& preset) { return double(preset.rows) * preset.columns; }
+
+/// What follows from an edit that was taken.
+void follow_up(App& app, const Preset& before) {
+  const Preset& now = app.preset();
+  const Lattice& lattice = app.simulation->lattice();
+  if (app.picked && !lattice.contains(app.picked->i, app.picked->j)) app.picked.reset();
+  if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
+    app.tool.site.reset(), app.tool.last_site.reset();
+    if (app.tool.kind == Tool::Kind::grab) app.tool.kind = Tool::Kind::none;
+    app.ui.plots.forces.clear(), app.ui.plots.height.clear();
+  }
+  if (before.bodies.size() != now.bodies.size() && app.tool.kind == Tool::Kind::body) app.tool.kind = Tool::Kind::none;
+  app.pacing.forget_cost();
+}
+
+/// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
+bool take_texture(App& app, const Edit& edit) {
+  const auto* change = std::get_if<edit::Change>(&edit);
+  if (change == nullptr || change->preset.texture == app.preset().texture) return true;
+  if (const auto problem = app.renderer->set_texture(texture_file(change->preset.texture))) {
+    app.messages.error(*problem);
+    return false;
+  }
+  app.redraw_cloth = true;
+  return true;
+}
+
+void restart(App& app) {
+  if (!apply_edit(app, edit::Restart{})) return;
+  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
+  app.pacing.restart_measure();
+}
+
+void take_from_history(App& app, bool backwards) {
+  const auto preset = backwards ? app.history.undo(app.preset()) : app.history.redo(app.preset());
+  if (!preset) {
+    app.messages.note(backwards ? "There is nothing to undo." : "There is nothing to redo.");
+    return;
+  }
+  History kept = app.history;
+  Preset next = *preset;
+  next.mode = app.preset().mode;  // the view is not a change to undo
+  apply_edit(app, edit::Change{next});
+  app.history = std::move(kept);
+}
+
+void reset_everything(App& app) {
+  Preset next = app.document.saved;
+  apply_edit(app, edit::Change{next});
+  restart(app);
+  app.wants_framing = true;
+}
+
+void single_step(App& app) {
+  app.pacing.playing = false;
+  move_hand(app, 1);
+  app.steps_made += app.simulation->advance(1).steps;
+}
+
+void change_text_size(App& app, double factor) {
+  const double scale = factor == 0 ? 1 : app.settings.ui_scale * factor;
+  app.settings.ui_scale = std::clamp(scale, 0.5, 3.0);
+  app.scale_changed = true;
+}
+
+void apply(App& app, const request::Do& what) {
+  switch (what.command) {
+    case Command::restart: return restart(app);
+    case Command::reset_constants: apply_edit(app, edit::Change{app.document.saved}); return;
+    case Command::reset_everything: return reset_everything(app);
+    case Command::undo_and_restart: return take_from_history(app, true), restart(app);
+    case Command::toggle_play: app.pacing.playing = !app.pacing.playing, app.pacing.restart_measure(); return;
+    case Command::step: return single_step(app);
+    case Command::undo: return take_from_history(app, true);
+    case Command::redo: return take_from_history(app, false);
+    case Command::frame_cloth: app.wants_framing = true; return;
+    case Command::open_dialog: return open_dialog(app, Dialog::Kind::open);
+    case Command::save: return save_document(app);
+    case Command::save_as: return open_dialog(app, Dialog::Kind::save);
+    case Command::load_texture_dialog: return open_dialog(app, Dialog::Kind::texture);
+    case Command::export_forces: app.ui.dialog.height = false; return open_dialog(app, Dialog::Kind::export_csv);
+    case Command::export_height: app.ui.dialog.height = true; return open_dialog(app, Dialog::Kind::export_csv);
+    case Command::toggle_help: app.ui.help = !app.ui.help; return;
+    case Command::toggle_panels: app.ui.panels = !app.ui.panels; return;
+    case Command::full_screen: app.toggle_full_screen = true; return;
+    case Command::larger_text: return change_text_size(app, 1.1);
+    case Command::smaller_text: return change_text_size(app, 1 / 1.1);
+    case Command::normal_text: return change_text_size(app, 0);
+    case Command::quit: app.request(request::Quit{}); return;
+  }
+}
+
+void apply(App& app, const request::Apply& what) {
+  if (const auto* change = std::get_if<edit::Change>(&what.edit); change != nullptr && !what.confirmed) {
+    const double count = particles(change->preset);
+    if (count > large_cloth && count > 1.001 * particles(app.preset())) {
+      request::Apply agreed = what;
+      agreed.confirmed = true;
+      char text[160];
+      std::snprintf(text, sizeof text,
+                    "%d × %d is %.3g million particles. A frame may then take seconds. Build it all the same?",
+                    change->preset.rows, change->preset.columns, count / 1e6);
+      ask(app, Dialog::Kind::large_cloth, text, std::move(agreed));
+      return;
+    }
+  }
+  apply_edit(app, what.edit, what.gesture);
+  app.ui.last_change = app.ui.now;
+}
+
+void apply(App& app, const request::Open& what) {
+  if (!what.confirmed && unsaved(app)) {
+    request::Open agreed = what;
+    agreed.confirmed = true;
+    ask(app, Dialog::Kind::unsaved, "The changes of " + app.preset().name + " have not been saved.", std::move(agreed));
+    return;
+  }
+  open_document(app, what.file, what.shipped);
+}
+
+bool apply(App& app, const request::SavePreset& what) { return save_document_as(app, what.file, what.name); }
+
+void apply(App& app, const request::WriteCsv& what) {
+  const Series& series = what.height ? app.ui.plots.height : app.ui.plots.forces;
+  const std::vector<std::string> names = what.height ? std::vector<std::string>{"y [m]"} : force_column_names();
+  try {
+    write_atomically(what.file, series.csv(names, "tyglab series, t in s, preset hash " + preset_hash(app.preset())));
+    app.messages.note("Wrote " + what.file.string());
+  } catch (const OutputError& error) {
+    app.messages.error(error.what());
+  }
+}
+
+void apply(App& app, const request::LoadTexture& what) {
+  Preset next = app.preset();
+  next.texture = what.name;
+  apply_edit(app, edit::Change{next});
+}
+
+void apply(App& app, const request::Quit& what) {
+  if (!what.confirmed && !app.scripted && unsaved(app)) {
+    ask(app, Dialog::Kind::unsaved, "The changes of " + app.preset().name + " have not been saved.",
+        request::Quit{.confirmed = true});
+    return;
+  }
+  app.quit = true;
+}
+
+}  // namespace
+
+bool unsaved(const App& app) {
+  Preset saved = app.document.saved;
+  saved.mode = app.preset().mode;
+  return !(saved == app.preset());
+}
+
+bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
+  try {
+    if (const auto* change = std::get_if<edit::Change>(&edit))
+      if (const std::string wrong = check_preset(change->preset); !wrong.empty()) throw PresetError(wrong);
+    if (!take_texture(app, edit)) return false;
+    const Preset before = app.preset();
+    app.simulation->apply(edit);
+    if (before == app.preset()) return true;
+    Preset same_view = before;
+    same_view.mode = app.preset().mode;
+    if (!(same_view == app.preset())) app.history.record(before, gesture);
+    follow_up(app, before);
+    return true;
+  } catch (const std::bad_alloc&) {
+    app.messages.error("There is not enough memory for that. Nothing was changed; try fewer rows and columns.");
+  } catch (const std::exception& error) {
+    app.messages.error(error.what());
+  }
+  return false;
+}
+
+void apply_requests(App& app) {
+  // What these requests ask for in turn (a dialog, quitting) is applied in the next frame.
+  const std::vector<Request> requests = std::move(app.requests);
+  app.requests.clear();
+  for (const Request& request : requests) {
+    // What was to follow a saving (another preset, the end) does not where the saving failed: nothing may be lost.
+    if (const auto* save = std::get_if<request::SavePreset>(&request)) {
+      if (!apply(app, *save)) return;
+      continue;
+    }
+    std::visit([&](const auto& what) { apply(app, what); }, request);
+  }
+}
+
+}  // namespace tyglab

@@ -1,0 +1,80 @@
+// What panels, keys and menus ask for. They change nothing themselves: requests.cpp applies what they ask, in one place.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <variant>
+
+#include "core/edit.h"
+
+namespace tyglab {
+
+enum class Command {
+  restart,           ///< motion only; constants stay
+  reset_constants,   ///< to the preset's, motion stays
+  reset_everything,  ///< the preset, its start, the camera
+  undo_and_restart,
+  toggle_play,
+  step,
+  undo,
+  redo,
+  frame_cloth,
+  open_dialog,
+  save,
+  save_as,
+  load_texture_dialog,
+  export_forces,
+  export_height,
+  toggle_help,
+  toggle_panels,
+  full_screen,
+  larger_text,
+  smaller_text,
+  normal_text,
+  quit,
+};
+
+namespace request {
+/// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.
+struct Apply {
+  Edit edit;
+  unsigned gesture = 0;
+  bool confirmed = false;  ///< the user has agreed to a very large cloth
+};
+struct Do {
+  Command command;
+};
+/// Takes a preset from a file (label: how it is called). Asks first where changes would be lost, unless confirmed.
+struct Open {
+  std::filesystem::path file;
+  bool shipped = false;
+  bool confirmed = false;
+};
+struct SavePreset {
+  std::filesystem::path file;
+  std::string name;
+};
+struct WriteCsv {
+  std::filesystem::path file;
+  bool height = false;  ///< y(t) of the one weight, otherwise the forces
+};
+struct LoadTexture {
+  std::string name;  ///< shipped name or path
+};
+struct Quit {
+  bool confirmed = false;
+};
+}  // namespace request
+
+using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
+                             request::LoadTexture, request::Quit>;
+
+struct App;
+/// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.
+void apply_requests(App& app);
+/// Applies one edit at once (the pointer's tools). Returns whether it was taken.
+bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
+/// Whether the present constants differ from those of the file (the view apart).
+bool unsaved(const App& app);
+
+}  // namespace tyglab

@@ -1,0 +1,342 @@
+#include "app/sandbox/sandbox.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "app/commands/interrupt.h"
+#include "app/panels/curves.h"
+#include "app/panels/panels.h"
+#include "app/sandbox/app.h"
+#include "app/sandbox/document.h"
+#include "app/sandbox/keys.h"
+#include "app/sandbox/window.h"
+#include "app/viewport/graphics_error.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
+
+constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
+constexpr double gesture_end = 0.6;          // s without a change
+constexpr float text_scale_least = 0.5f, text_scale_most = 6;
+
+class Sandbox {
+ public:
+  explicit Sandbox(const SandboxOptions& options);
+  ~Sandbox() { app_.renderer.reset(); }  // while the window's context lives
+  Sandbox(const Sandbox&) = delete;
+  Sandbox& operator=(const Sandbox&) = delete;
+  int run();
+
+ private:
+  void start_preset();
+  void frame();
+  void wait_for_events();
+  void take_dropped_files();
+  void rescale();
+  void simulate(double real_seconds);
+  void sample();
+  void draw_cloth();
+  void draw_panels();
+  void present();
+  int write_outputs();
+  void remember();
+  bool idle() const;
+
+  SandboxOptions options_;
+  App app_;
+  Window window_;
+  Gui gui_;
+  int frames_ = 0;
+  int busy_frames_ = 4;  ///< Dear ImGui needs a few frames after an event to settle
+  double last_time_ = 0;
+  Image last_picture_;
+  std::uint64_t drawn_revision_ = ~0ull;
+  Camera drawn_camera_;
+  ViewOptions drawn_view_;
+  glm::ivec2 drawn_size_{0};
+};
+
+Settings settings_for(const SandboxOptions& options, App& app) {
+  std::string problem;
+  if (options.frames > 0) return {};
+  Settings settings = load_settings(problem);
+  if (!problem.empty()) app.messages.warning(problem);
+  return settings;
+}
+
+/// Members are made in order: settings come before the window that they size.
+App start_app(const SandboxOptions& options) {
+  App app;
+  app.scripted = options.frames > 0;
+  app.settings = settings_for(options, app);
+  // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
+  if (app.scripted) app.settings.width = 2560, app.settings.height = 1440;
+  app.ui.plots.log = app.settings.plot_log;
+  return app;
+}
+
+Sandbox::Sandbox(const SandboxOptions& options)
+    : options_(options),
+      app_(start_app(options)),
+      window_(options.width, options.height, app_.settings, app_.input),
+      gui_(window_.handle()) {
+  glfwSwapInterval(app_.scripted ? 0 : 1);
+  app_.renderer = std::make_unique<ClothRenderer>();
+  start_preset();
+  last_time_ = glfwGetTime();
+}
+
+void Sandbox::start_preset() {
+  const auto& session = app_.settings.session;
+  const bool restore = !options_.explicit_preset && !app_.scripted && session.has_value();
+  Preset present = restore ? session->preset : options_.preset;
+  make_simulation(app_, present);
+  take_document(app_, app_.preset());
+  app_.document.label = options_.preset_label;
+  app_.document.file = options_.preset_path;
+  if (!restore) {
+    app_.document.saved = options_.preset;
+    return;
+  }
+  app_.document.label = session->label;
+  app_.document.file = session->file;
+  // What was saved is on disk; where it is gone, the session itself is all there is.
+  try {
+    app_.document.saved = session->file.empty() ? session->saved : load_preset(session->file);
+  } catch (const std::exception& error) {
+    app_.messages.warning(std::string(error.what()) + " The last session's state is shown; save it under a name.");
+    app_.document.file.clear();
+  }
+}
+
+bool Sandbox::idle() const {
+  const bool still = !app_.pacing.playing || app_.simulation->divergence().has_value();
+  return still && !app_.scripted && busy_frames_ <= 0 && app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
+}
+
+void Sandbox::wait_for_events() {
+  if (window_.iconified()) {
+    glfwWaitEventsTimeout(0.5);
+  } else if (idle()) {
+    glfwWaitEventsTimeout(0.25);  // a text cursor blinks, a message fades
+  } else {
+    glfwPollEvents();
+  }
+  busy_frames_ = app_.input.anything ? 4 : busy_frames_ - 1;
+}
+
+void Sandbox::take_dropped_files() {
+  for (const std::string& name : app_.input.dropped) {
+    const std::filesystem::path file(name);
+    if (file.extension() == ".json") {
+      app_.request(request::Open{.file = file});
+    } else {
+      app_.request(request::LoadTexture{name});
+    }
+  }
+}
+
+void Sandbox::rescale() {
+  if (app_.input.scale_changed) app_.scale_changed = true;
+  if (!app_.scale_changed) return;
+  app_.scale_changed = false;
+  const float scale = window_.content_scale() * float(app_.settings.ui_scale);
+  app_.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
+  const bool first = app_.fonts.text == nullptr;
+  app_.fonts = build_fonts(app_.theme.scale);
+  apply_style(app_.theme);
+  if (!first) gui_.fonts_changed();
+  if (first)
+    for (const std::string& note : app_.fonts.notes) std::fprintf(stderr, "tyglab: %s\n", note.c_str());
+}
+
+void Sandbox::simulate(double real_seconds) {
+  const FrameCosts::Timer timer(app_.costs, Part::simulate);
+  Simulation& simulation = *app_.simulation;
+  if (!app_.pacing.playing || simulation.divergence()) return;
+  const double dt = app_.preset().dt;
+  const int due = app_.pacing.due(real_seconds, dt);
+  move_hand(app_, due);
+  const auto start = std::chrono::steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  int made = 0;
+  // In pieces, so that a wrong guess of a step's cost cannot hold the window up.
+  while (made < due && !simulation.divergence() && (made == 0 || spent() < app_.pacing.budget_s)) {
+    const double cost = app_.pacing.step_cost_s();
+    const int piece = cost > 0 ? std::clamp(int(0.25 * app_.pacing.budget_s / cost), 1, due - made) : 1;
+    const Advance advance = simulation.advance(piece);
+    made += advance.steps;
+    if (advance.released) app_.messages.note("The hand let go: its force exceeded F_release.");
+    if (advance.steps < piece) break;
+  }
+  app_.pacing.made(made, dt, spent());
+  app_.steps_made += made;
+}
+
+/// Data is collected only while a plot shows it, and only when the simulation moved.
+void Sandbox::sample() {
+  Plots& plots = app_.ui.plots;
+  if (app_.steps_made == 0 || plots.paused) return;
+  const double t = app_.simulation->time();
+  if (plots.forces_shown && plots.source == Source::particle && app_.picked) {
+    plots.forces.add(t, force_values(app_.simulation->particle(app_.picked->i, app_.picked->j)));
+  } else if (plots.forces_shown && plots.source != Source::particle) {
+    const auto reduction = plots.source == Source::sum ? Reduction::sum : Reduction::maximum;
+    plots.forces.add(t, force_values(app_.simulation->forces(reduction)));
+  }
+  if (plots.height_shown) {
+    const double y = app_.simulation->positions().at(0, 0).y;
+    plots.height.add(t, {&y, 1});
+  }
+}
+
+void Sandbox::draw_cloth() {
+  const glm::ivec2 window = window_.size(), framebuffer = window_.framebuffer_size();
+  const glm::vec2 magnified = window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1);
+  const glm::vec2 shown = app_.viewport.size();
+  const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
+  if (app_.wants_framing && shown.x > 1) {
+    app_.camera = scene_camera(app_.preset(), shown.x / shown.y);
+    app_.wants_framing = false;
+  }
+  app_.view.mode = app_.preset().mode;
+  app_.view.line_width = app_.theme.scale * 1.6f;
+  app_.view.point_size = app_.theme.scale * 9;
+  const bool same = app_.simulation->revision() == drawn_revision_ && app_.camera == drawn_camera_ &&
+                    app_.view == drawn_view_ && size == drawn_size_ && !app_.redraw_cloth;
+  if (same) return;
+  {
+    const FrameCosts::Timer timer(app_.costs, Part::upload);
+    app_.renderer->update(*app_.simulation, app_.view);
+  }
+  const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
+  app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
+  drawn_revision_ = app_.simulation->revision();
+  drawn_camera_ = app_.camera, drawn_view_ = app_.view, drawn_size_ = size;
+  app_.redraw_cloth = false;
+}
+
+void Sandbox::draw_panels() {
+  const FrameCosts::Timer timer(app_.costs, Part::panels);
+  SliderState& slider = app_.ui.slider;
+  slider.order = 0;
+  slider.focused_seen = false;
+  app_.ui.hover_seen = false;
+  gui_.begin_frame();
+  draw_layout(app_, ImGui::GetIO().DisplaySize);
+  // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
+  if (!slider.focused_seen || app_.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;
+  slider.wanted_order = -1;
+  slider.keys.clear();
+  slider.commit = slider.cancel = false;
+  if (!app_.ui.hover_seen) app_.ui.hovered = 0;
+}
+
+void Sandbox::present() {
+  {
+    const FrameCosts::Timer timer(app_.costs, Part::ui_draw);
+    const glm::ivec2 size = window_.framebuffer_size();
+    glViewport(0, 0, size.x, size.y);
+    const ImVec4 ground = ImGui::ColorConvertU32ToFloat4(app_.theme.colors.ground);
+    glClearColor(ground.x, ground.y, ground.z, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    gui_.draw();
+  }
+  if (frames_ + 1 == options_.frames && !options_.screenshot.empty()) last_picture_ = window_.pixels();
+  const FrameCosts::Timer timer(app_.costs, Part::swap);
+  glfwSwapBuffers(window_.handle());
+}
+
+void Sandbox::frame() {
+  const FrameCosts::Timer timer(app_.costs, Part::frame);
+  const double now = glfwGetTime();
+  const double elapsed = app_.scripted ? scripted_frame : now - last_time_;
+  last_time_ = now;
+  app_.ui.now = now;
+  app_.steps_made = 0;
+  app_.full_screen = window_.full_screen();
+  if (window_.wants_close()) window_.forget_close(), app_.request(request::Quit{});
+  rescale();
+  take_dropped_files();
+  handle_keys(app_);
+  apply_requests(app_);
+  handle_pointer(app_);
+  if (app_.toggle_full_screen) window_.toggle_full_screen(), app_.toggle_full_screen = false;
+  simulate(elapsed);
+  app_.costs.add_steps(app_.steps_made);
+  sample();
+  draw_cloth();
+  draw_panels();
+  present();
+  const bool quiet = !ImGui::IsAnyItemActive() && app_.tool.kind == Tool::Kind::none;
+  if (quiet && now - app_.ui.last_change > gesture_end) app_.history.end_gesture();
+  window_.set_title((unsaved(app_) ? "• " : "") + app_.preset().name + " – Tyglab");
+  app_.input.clear();
+  ++frames_;
+}
+
+int Sandbox::run() {
+  const InterruptGuard guard;
+  while (!app_.quit && !InterruptGuard::interrupted() && (options_.frames == 0 || frames_ < options_.frames)) {
+    const double start = glfwGetTime();
+    wait_for_events();
+    if (window_.framebuffer_size().x == 0) {
+      app_.input.clear();
+      continue;
+    }
+    frame();
+    // Where the driver does not wait for the screen, the program does.
+    const double left = window_.frame_time() - (glfwGetTime() - start) - 0.001;
+    if (!app_.scripted && left > 0.001) glfwWaitEventsTimeout(left);
+  }
+  remember();
+  const int code = write_outputs();
+  return code == done && InterruptGuard::interrupted() ? int(interrupted) : code;
+}
+
+int Sandbox::write_outputs() {
+  try {
+    if (!options_.screenshot.empty() && !last_picture_.rgb.empty()) write_png(options_.screenshot, last_picture_);
+    if (!options_.time_report.empty()) {
+      const glm::ivec2 size = window_.framebuffer_size();
+      write_atomically(options_.time_report,
+                       app_.costs.json(size.x, size.y, app_.simulation->engine().name(), app_.document.label));
+    }
+  } catch (const OutputError& error) {
+    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    return no_output;
+  }
+  return done;
+}
+
+void Sandbox::remember() {
+  if (app_.scripted) return;
+  Settings& settings = app_.settings;
+  window_.remember(settings);
+  settings.plot_log = app_.ui.plots.log;
+  settings.session = Session{app_.preset(), app_.document.saved, app_.document.label, app_.document.file};
+  try {
+    save_settings(settings);
+  } catch (const OutputError& error) {
+    std::fprintf(stderr, "tyglab: %s The settings of this session are not remembered.\n", error.what());
+  }
+}
+
+}  // namespace
+
+int run_sandbox(const SandboxOptions& options) {
+  try {
+    return Sandbox(options).run();
+  } catch (const GraphicsError& error) {
+    std::fprintf(stderr, "tyglab: %s\n", error.what());
+  } catch (const EngineError& error) {
+    std::fprintf(stderr, "tyglab: %s\n", error.what());
+  }
+  return no_device;
+}
+
+}  // namespace tyglab

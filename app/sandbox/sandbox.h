@@ -1,0 +1,26 @@
+// The sandbox: a window in which a preset is simulated, seen and handled.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+struct SandboxOptions {
+  Preset preset;
+  std::string preset_label;                ///< shipped name or file name, for the title
+  std::filesystem::path preset_path;       ///< empty if the preset does not come from a user's file
+  bool explicit_preset = false;            ///< otherwise the last session's preset is restored
+  int frames = 0;                          ///< ends after that many frames; 0: until the window is closed
+  std::filesystem::path screenshot;        ///< PNG of the last frame, empty: none
+  std::filesystem::path time_report;       ///< JSON of the frame's cost by part, empty: none
+  int width = 0, height = 0;               ///< of the window; 0: as in the last session
+};
+
+/// Runs until the window is closed or the frames are done. Returns an exit code: 0; 5 without a display or OpenGL 3.3;
+/// 6 if the screenshot or the time report could not be written; 130 when interrupted.
+int run_sandbox(const SandboxOptions& options);
+
+}  // namespace tyglab

@@ -1,0 +1,44 @@
+#include "app/sandbox/series.h"
+
+#include <cstdio>
+
+namespace tyglab {
+
+void Series::add(double t, std::span<const double> values) {
+  if (!t_.empty() && t <= t_.back()) {
+    if (t == t_.back()) return;
+    clear();
+  }
+  if (t_.size() >= most) {
+    // Half at a time, so that the cost of moving is spread over many samples.
+    const auto half = std::ptrdiff_t(most / 2);
+    t_.erase(t_.begin(), t_.begin() + half);
+    for (auto& column : columns_) column.erase(column.begin(), column.begin() + half);
+  }
+  t_.push_back(t);
+  for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(values[k]);
+}
+
+void Series::clear() {
+  t_.clear();
+  for (auto& column : columns_) column.clear();
+}
+
+std::string Series::csv(std::span<const std::string> names, std::string_view comment) const {
+  std::string text = "# " + std::string(comment) + "\nt";
+  for (const std::string& name : names) text += "," + name;
+  text += '\n';
+  char number[40];
+  for (std::size_t n = 0; n < t_.size(); ++n) {
+    std::snprintf(number, sizeof number, "%.9g", t_[n]);
+    text += number;
+    for (const auto& column : columns_) {
+      std::snprintf(number, sizeof number, ",%.9g", column[n]);
+      text += number;
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace tyglab

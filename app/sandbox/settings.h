@@ -1,0 +1,47 @@
+// What is remembered from one session to the next: window, layout, text size, the last preset.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+struct Layout {
+  float left_width = 320, right_width = 344;  ///< at scale 1
+  bool left = true, right = true, status = true;
+  std::set<std::string> folded{"Start"};      ///< sections of the constants that are closed
+  bool operator==(const Layout&) const = default;
+};
+
+/// The preset of the last session, with what was not saved.
+struct Session {
+  Preset preset;
+  Preset saved;                ///< as it was opened or saved; a user's file is read again
+  std::string label;
+  std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+};
+
+struct Settings {
+  int x = -1, y = -1, width = 1440, height = 860;  ///< of the window; x < 0: let the system choose
+  bool maximised = false;
+  double ui_scale = 1;
+  Layout layout;
+  bool plot_log = false;
+  std::optional<Session> session;
+};
+
+/// Folder of settings and the user's presets: $TYGLAB_CONFIG_DIR, $XDG_CONFIG_HOME/tyglab or ~/.config/tyglab; empty
+/// where none of them is known.
+std::filesystem::path config_folder();
+std::filesystem::path user_preset_folder();
+
+/// The settings, or the defaults and in `problem` a sentence when the file is there but of no use.
+Settings load_settings(std::string& problem);
+/// Writes them atomically. Throws OutputError.
+void save_settings(const Settings& settings);
+
+}  // namespace tyglab

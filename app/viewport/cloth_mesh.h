@@ -1,0 +1,56 @@
+// The cloth's buffers: positions straight from the solver's arrays, normals where a view is lit, and index lists.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <optional>
+
+#include "app/viewport/camera.h"
+#include "app/viewport/cloth_renderer.h"
+#include "app/viewport/cloth_topology.h"
+#include "app/viewport/gl_objects.h"
+#include "app/viewport/vertex_normals.h"
+
+namespace tyglab {
+
+class ClothMesh {
+ public:
+  /// The index lists, each made when a view first needs it and thrown away with the topology.
+  enum class List { triangles, straight, diagonal, bending, outlines, connections, particles, pins, count };
+
+  /// Uploads positions if `moved` and whatever else this view lacks.
+  void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
+  /// Draws a list that update() was asked for: GL_TRIANGLES, GL_LINES or GL_POINTS.
+  void draw(List list, GLenum primitive) const;
+  /// Draws one particle as a point.
+  void draw_particle(int i, int j) const;
+
+  const Bounds& bounds() const { return bounds_; }
+  int stride() const { return stride_; }
+  const Lattice& lattice() const { return lattice_; }
+
+ private:
+  struct IndexList {
+    gl::Buffer buffer;
+    GLsizei count = 0;
+    bool ready = false;
+  };
+  void upload_positions(const PositionView& positions);
+  void upload_normals(const ClothScene& scene);
+  void prepare(List list, const ClothScene& scene);
+  void set_attribute(GLuint attribute, gl::Buffer& buffer, const float* data, std::size_t count);
+
+  gl::VertexArray array_;
+  std::array<gl::Buffer, 3> position_buffers_, normal_buffers_;
+  std::array<IndexList, int(List::count)> lists_;
+  std::array<std::vector<float>, 3> converted_;  ///< of a solver in double
+  FloatPositions floats_;                        ///< valid during update() alone
+  Normals normals_;
+  std::optional<std::vector<std::uint32_t>> beside_tears_;
+  bool normals_ready_ = false;
+  Lattice lattice_;
+  int stride_ = 0;
+  Bounds bounds_;
+};
+
+}  // namespace tyglab

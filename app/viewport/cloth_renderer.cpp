@@ -1,0 +1,388 @@
+#include "app/viewport/cloth_renderer.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "app/viewport/cloth_mesh.h"
+#include "app/viewport/cloth_texture.h"
+#include "app/viewport/gl_objects.h"
+#include "app/viewport/render_target.h"
+#include "app/viewport/shadow_map.h"
+#include "app/viewport/solid_mesh.h"
+#include "app/viewport/staging.h"
+#include "app/viewport/weight_model.h"
+
+namespace tyglab {
+namespace {
+
+const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
+constexpr int texture_unit = 0, shadow_unit = 1;
+constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
+
+/// shaders/frame.glsl, in std140.
+struct FrameBlock {
+  glm::mat4 clip_from_world, shadow_from_world;
+  glm::vec4 eye, to_light, viewport, focus, background_top, background_bottom, grid;
+};
+
+/// What draw() finds bound, bound again when it ends, by an exception too.
+class SavedTarget {
+ public:
+  SavedTarget() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_);
+  }
+  ~SavedTarget() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+  }
+  SavedTarget(const SavedTarget&) = delete;
+  SavedTarget& operator=(const SavedTarget&) = delete;
+
+ private:
+  GLint draw_ = 0, read_ = 0, viewport_[4] = {};
+};
+
+}  // namespace
+
+struct ClothRenderer::Parts {
+  gl::Program background{{"background.vert", "background.frag"}};
+  gl::Program ground{{"ground.vert", "ground.frag"}};
+  gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
+  gl::Program cloth{{"cloth.vert", "cloth.frag"}};
+  gl::Program solid{{"solid.vert", "solid.frag"}};
+  gl::Program lines{{"lines.vert", "lines.frag", "lines.geom"}};
+  gl::Program points{{"points.vert", "points.frag"}};
+  gl::Program cloth_depth{{"cloth_depth.vert", "depth.frag"}};
+  gl::Program solid_depth{{"solid_depth.vert", "depth.frag"}};
+  gl::Buffer frame;
+  gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
+
+  ClothTexture texture;
+  ClothMesh mesh;
+  SolidMesh sphere{sphere_geometry(64, 40)};
+  SolidMesh spring, hanger, rest_line, equilibrium_line;
+  WeightModel weight_model;
+  ShadowMap shadow;
+  RenderTarget target;
+
+  Preset preset;
+  Bounds box;     ///< of all that casts shadows
+  Bounds framed;  ///< scene_bounds of the preset, kept as long as it
+  float ground_y = 0;
+  bool shadow_stale = true;
+  bool shadow_of_cloth = false;  ///< whether the cloth is in the shadow map: a net casts none
+  // What update() saw last.
+  const Simulation* simulation = nullptr;
+  std::uint64_t revision = 0, tear_revision = 0;
+
+  void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
+  void take_preset(const Preset& next);
+  void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
+  void draw_shadow(const ViewOptions& options);
+  void draw_background();
+  void draw_ground(const ViewOptions& options);
+  void draw_solid(const SolidMesh& mesh, glm::vec4 placed, glm::vec3 base, float gloss);
+  void draw_bodies(const ViewOptions& options);
+  void draw_weight(const ViewOptions& options);
+  void draw_triangles(const ViewOptions& options);
+  void draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width);
+  void draw_points(const ViewOptions& options);
+  void draw_marks(const ViewOptions& options);
+  void draw_opaque(const ViewOptions& options);
+  void draw_blended(const ViewOptions& options);
+  float scene_radius() const { return std::max(glm::length(framed.hi - framed.lo) / 2, 1e-4f); }
+  bool one_weight() const { return preset.kind == Kind::one_weight; }
+};
+
+ClothRenderer::ClothRenderer() : parts_(std::make_unique<Parts>()) {}
+ClothRenderer::~ClothRenderer() = default;
+
+std::optional<std::string> ClothRenderer::set_texture(const std::filesystem::path& file) {
+  try {
+    parts_->texture.load(file);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return std::nullopt;
+}
+
+void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
+  Parts& p = *parts_;
+  // Another simulation may stand where the last one stood, with the same count of changes.
+  const bool other = p.simulation != &simulation || !(p.preset == simulation.preset());
+  const bool moved = other || p.revision != simulation.revision();
+  const bool topology_changed = other || p.tear_revision != simulation.tear_revision();
+  p.simulation = &simulation;
+  p.revision = simulation.revision();
+  p.tear_revision = simulation.tear_revision();
+  const ClothScene scene{simulation.positions(), simulation.lattice(), simulation.tears(), simulation.preset(),
+                         [&](int i, int j) { return simulation.pinned(i, j); }};
+  p.take(scene, options, moved, topology_changed);
+}
+
+void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, bool topology_changed) {
+  parts_->simulation = nullptr;
+  parts_->take(scene, options, true, topology_changed);
+}
+
+void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& options, bool moved,
+                                bool topology_changed) {
+  mesh.update(scene, options, moved, topology_changed);
+  if (!moved) return;
+  shadow_stale = true;
+  if (!(preset == scene.preset) || framed.empty()) take_preset(scene.preset);
+  box = mesh.bounds();
+  if (one_weight()) {
+    weight_model = tyglab::weight_model(preset, scene.positions.at(0, 0));
+    spring.upload(weight_model.spring);
+    hanger.upload(weight_model.hanger);
+    rest_line.upload(weight_model.rest);
+    equilibrium_line.upload(weight_model.equilibrium);
+    box = framed;
+    box.add(weight_model.weight);
+  }
+  for (const Body& body : preset.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    box.add(glm::vec3(body.c) - float(body.r));
+    box.add(glm::vec3(body.c) + float(body.r));
+  }
+}
+
+void ClothRenderer::Parts::take_preset(const Preset& next) {
+  preset = next;
+  framed = scene_bounds(preset);
+  ground_y = float(ground_height(preset));
+  // Cloth that lies on a plane would flicker with the ground at the very same height.
+  ground_y -= 0.004f * glm::length(framed.hi - framed.lo);
+}
+
+void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& options, int width, int height) {
+  const glm::vec3 centre = (framed.lo + framed.hi) / 2.0f;
+  const float radius = scene_radius();
+  const glm::vec3 extent = box.empty() ? glm::vec3(1) : box.hi - box.lo;
+  FrameBlock block;
+  const glm::mat4 projection = camera.projection(float(width) / float(height));
+  block.clip_from_world = projection * camera.view();
+  block.shadow_from_world = ShadowMap::fit(box.empty() ? framed : box, to_light);
+  block.eye = glm::vec4(camera.eye(), 0.5f * float(height) * projection[1][1]);
+  block.to_light = glm::vec4(to_light, options.shadows ? 1 : 0);
+  block.viewport = glm::vec4(width, height, glm::length(extent) / ShadowMap::size, ground_y);
+  block.focus = glm::vec4(centre, radius);
+  block.background_top = glm::vec4(options.palette.background_top, 1);
+  block.background_bottom = glm::vec4(options.palette.background_bottom, 1);
+  block.grid = glm::vec4(options.palette.grid, grid_spacing(radius));
+  frame.write(GL_UNIFORM_BUFFER, &block, sizeof block);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.id());
+}
+
+void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
+  if (!options.shadows || (!shadow_stale && shadow_of_cloth == options.lit())) return;
+  shadow.begin();
+  if (!one_weight() && options.lit()) {
+    cloth_depth.use();
+    mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
+  }
+  solid_depth.use();
+  for (const Body& body : preset.bodies) {
+    if (body.shape != Body::Shape::sphere || one_weight()) continue;
+    solid_depth.set("placed", glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)));
+    sphere.draw();
+  }
+  if (one_weight()) {
+    solid_depth.set("placed", glm::vec4(0, 0, 0, 1));
+    spring.draw();
+    hanger.draw();
+    solid_depth.set("placed", glm::vec4(weight_model.weight, weight_model.radius));
+    sphere.draw();
+  }
+  shadow.end();
+  shadow_stale = false;
+  shadow_of_cloth = options.lit();
+}
+
+void ClothRenderer::Parts::draw_background() {
+  background.use();
+  glDepthMask(GL_FALSE);
+  glBindVertexArray(nothing.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
+  const glm::vec3 centre = (framed.lo + framed.hi) / 2.0f;
+  // The lines have faded out before the square ends (ground.frag).
+  const float half = 8.6f * scene_radius();
+  glEnable(GL_BLEND);
+  glBindVertexArray(nothing.id());
+  ground.use();
+  ground.set("area", glm::vec4(centre.x - half, centre.z - half, centre.x + half, centre.z + half));
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  if (options.shadows && !box.empty()) {
+    ground_shadow.use();
+    ground_shadow.set("shadow_map", shadow_unit);
+    ground_shadow.set("area", shadow_area(box, to_light, ground_y));
+    // Upon the lines, not flickering through them.
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1, -4);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+  }
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, glm::vec3 base, float gloss) {
+  solid.use();
+  solid.set("shadow_map", shadow_unit);
+  solid.set("placed", placed);
+  solid.set("base", base);
+  solid.set("gloss", gloss);
+  what.draw();
+}
+
+void ClothRenderer::Parts::draw_bodies(const ViewOptions& options) {
+  for (const Body& body : preset.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    draw_solid(sphere, glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)), options.palette.body, 0.12f);
+  }
+}
+
+void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
+  const glm::vec4 here(0, 0, 0, 1);
+  const Palette& colours = options.palette;
+  draw_solid(hanger, here, 0.6f * colours.body, 0.05f);
+  draw_solid(spring, here, colours.body, 0.5f);
+  draw_solid(sphere, glm::vec4(weight_model.weight, weight_model.radius), colours.lines, 0.25f);
+  solid.set("own_light", 1.0f);
+  draw_solid(rest_line, here, 0.8f * colours.points, 0);
+  draw_solid(equilibrium_line, here, colours.pins, 0);
+  solid.set("own_light", 0.0f);
+}
+
+void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
+  const Lattice& lattice = mesh.lattice();
+  const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
+  cloth.use();
+  cloth.set("cloth", texture_unit);
+  cloth.set("shadow_map", shadow_unit);
+  cloth.set("stride", mesh.stride());
+  cloth.set("texture_step", 1.0f / steps);
+  cloth.set("hem", options.palette.hem);
+  cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
+  mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
+}
+
+void ClothRenderer::Parts::draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width) {
+  lines.use();
+  lines.set("spacing", float(preset.L));
+  lines.set("max_width", width);
+  lines.set("ink", glm::vec4(colour, opacity));
+  glEnable(GL_BLEND);
+  mesh.draw(list, GL_LINES);
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
+  points.use();
+  points.set("spacing", float(preset.L));
+  points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
+  points.set("towards", 0.0f);
+  points.set("ink", glm::vec4(options.palette.points, 1));
+  points.set("rim", 0.0f);
+  points.set("ring", 0.0f);
+  glEnable(GL_BLEND);
+  mesh.draw(ClothMesh::List::particles, GL_POINTS);
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
+  points.use();
+  points.set("spacing", float(preset.L));
+  points.set("towards", 0.03f);
+  glEnable(GL_BLEND);
+  points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
+  points.set("ink", glm::vec4(options.palette.pins, 1));
+  points.set("rim", 1.2f);
+  points.set("ring", 0.0f);
+  mesh.draw(ClothMesh::List::pins, GL_POINTS);
+  if (options.highlighted) {
+    const float size = 1.8f * options.point_size;
+    points.set("diameter", glm::vec3(0, size, size));
+    points.set("ink", glm::vec4(options.palette.highlight, 1));
+    points.set("ring", 0.2f * options.point_size);
+    glDisable(GL_DEPTH_TEST);
+    mesh.draw_particle(options.highlighted->i, options.highlighted->j);
+    glEnable(GL_DEPTH_TEST);
+  }
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_opaque(const ViewOptions& options) {
+  if (one_weight()) return draw_weight(options);
+  draw_bodies(options);
+  if (options.lit()) draw_triangles(options);
+}
+
+void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
+  const Palette& colours = options.palette;
+  const float width = options.line_width;
+  switch (options.mode) {
+    case 2:
+      draw_lines(ClothMesh::List::diagonal, colours.lines, 0.5f, 0.7f * width);
+      draw_lines(ClothMesh::List::straight, colours.lines, 1, width);
+      if (options.bending) draw_lines(ClothMesh::List::bending, colours.bending, 1, 0.6f * width);
+      break;
+    case 3:
+      draw_lines(ClothMesh::List::connections, colours.lines, 1, width);
+      break;
+    case 4:
+      draw_lines(ClothMesh::List::outlines, colours.lines, 1, width);
+      break;
+    case 5:
+      draw_points(options);
+      break;
+    default:
+      break;
+  }
+  draw_marks(options);
+}
+
+void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int width, int height) {
+  Parts& p = *parts_;
+  const SavedTarget saved;
+  for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) glDisable(off);
+  for (const GLenum on : {GL_DEPTH_TEST, GL_MULTISAMPLE, GL_PROGRAM_POINT_SIZE}) glEnable(on);
+  glDepthMask(GL_TRUE);
+  glDepthFunc(GL_LEQUAL);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendEquation(GL_FUNC_ADD);
+
+  p.fill_frame(camera, options, width, height);
+  p.draw_shadow(options);
+  p.target.begin(width, height, options.samples);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  p.texture.bind(texture_unit);
+  p.shadow.bind(shadow_unit);
+  p.draw_opaque(options);
+  p.draw_background();
+  if (options.ground) p.draw_ground(options);
+  if (!p.one_weight()) p.draw_blended(options);
+  p.target.resolve();
+
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, 0);
+  glDisable(GL_DEPTH_TEST);
+}
+
+unsigned ClothRenderer::texture_id() const {
+  return parts_->target.texture();
+}
+Image ClothRenderer::pixels() const {
+  return parts_->target.pixels();
+}
+
+}  // namespace tyglab

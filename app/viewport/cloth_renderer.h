@@ -1,0 +1,86 @@
+// Draws a simulation: cloth (or one weight), bodies, ground, in the five views of 2.4. OpenGL 3.3 core.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/viewport/camera.h"
+#include "app/viewport/image.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// Colours of a theme, sRGB 0 to 1. The defaults are the dark theme's.
+struct Palette {
+  glm::vec3 background_top{0.169f, 0.188f, 0.231f};     // #2B303B
+  glm::vec3 background_bottom{0.086f, 0.094f, 0.114f};  // #16181D
+  glm::vec3 grid{0.357f, 0.404f, 0.478f};               // #5B677A
+  glm::vec3 hem{0.043f, 0.063f, 0.110f};                // #0B101C
+  glm::vec3 lines{0.337f, 0.706f, 0.914f};              // #56B4E9
+  glm::vec3 bending{0.0f, 0.620f, 0.451f};              // #009E73, F_b's
+  glm::vec3 points{0.902f, 0.910f, 0.925f};             // #E6E8EC
+  glm::vec3 pins{0.902f, 0.624f, 0.0f};                 // #E69F00
+  glm::vec3 highlight{1.0f, 1.0f, 1.0f};
+  glm::vec3 body{0.565f, 0.584f, 0.624f};
+  bool operator==(const Palette&) const = default;
+};
+
+/// How the viewport shows things. Widths and sizes in pixels of the target.
+struct ViewOptions {
+  int mode = 1;          ///< 1 triangles, 2 connections, 3 both, 4 outlines, 5 points
+  bool bending = false;  ///< bending springs too, in view 2
+  bool ground = true;
+  bool shadows = true;
+  Palette palette;
+  float line_width = 1.6f;  ///< the thickest; lines get thinner where they are dense
+  float point_size = 9;     ///< the largest; points get smaller where they are dense
+  std::optional<Pins::Site> highlighted;
+  int samples = 4;  ///< multisampling, 1: none
+  /// Whether the view shows surfaces of the cloth, which need normals and cast shadows.
+  bool lit() const { return mode == 1 || mode == 3; }
+  bool operator==(const ViewOptions&) const = default;
+};
+
+/// What is drawn, apart from where it comes from (Simulation, or a test).
+struct ClothScene {
+  PositionView positions;
+  const Lattice& lattice;
+  const Tears& tears;
+  const Preset& preset;
+  std::function<bool(int, int)> pinned;  ///< may be empty: none is
+};
+
+class ClothRenderer {
+ public:
+  /// Needs a current OpenGL 3.3 context whose functions are loaded. Throws GraphicsError (with the compiler's log) and
+  /// DataFileError.
+  ClothRenderer();
+  ~ClothRenderer();
+
+  /// Takes a picture as the cloth's texture. A bad file gives a sentence about it, and the old texture stays.
+  std::optional<std::string> set_texture(const std::filesystem::path& file);
+
+  /// Uploads what changed since the last call and what this view needs: nothing where nothing moved, normals only in
+  /// lit views, index lists only after tears or a change of view.
+  void update(Simulation& simulation, const ViewOptions& options);
+  /// The same without a Simulation. `topology_changed`: lattice, tears or pins differ from last time.
+  void update(const ClothScene& scene, const ViewOptions& options, bool topology_changed);
+
+  /// Draws into its own multisampled target of that size (pixels) and resolves it. Restores framebuffer and viewport.
+  void draw(const Camera& camera, const ViewOptions& options, int width, int height);
+
+  /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
+  unsigned texture_id() const;
+  /// What was drawn last.
+  Image pixels() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,20 @@
+// OpenGL without a window or a display.
+#pragma once
+
+namespace tyglab {
+
+/// An OpenGL 3.3 core context on EGL's surfaceless platform (Mesa), current in this thread while the object lives.
+class HeadlessContext {
+ public:
+  /// Makes it and loads the functions. Throws GraphicsError that names the packages to install.
+  HeadlessContext();
+  ~HeadlessContext();
+  HeadlessContext(const HeadlessContext&) = delete;
+  HeadlessContext& operator=(const HeadlessContext&) = delete;
+
+ private:
+  void* display_ = nullptr;
+  void* context_ = nullptr;
+};
+
+}  // namespace tyglab

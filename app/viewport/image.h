@@ -1,0 +1,24 @@
+// Pictures in memory and as files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+/// 8-bit sRGB, three bytes a pixel, rows from the top, no padding.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// Writes a PNG whole or not at all. Throws OutputError (core/notation/preset_io.h).
+void write_png(const std::filesystem::path& file, const Image& image);
+
+/// Reads PNG, JPEG, BMP or TGA (transparency is laid over white). At most 8192 pixels a side and 64 MB as a file.
+/// Throws std::runtime_error with a sentence that names the file and the cure.
+Image read_image(const std::filesystem::path& file);
+
+}  // namespace tyglab

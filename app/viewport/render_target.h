@@ -1,0 +1,31 @@
+// Where a frame is drawn: a multisampled picture with depth, and the plain texture it is resolved into.
+#pragma once
+
+#include <optional>
+
+#include "app/viewport/gl_objects.h"
+#include "app/viewport/image.h"
+
+namespace tyglab {
+
+class RenderTarget {
+ public:
+  /// Binds it for drawing, made anew where size or samples differ from last time. Throws GraphicsError.
+  void begin(int width, int height, int samples);
+  /// Resolves what was drawn into texture().
+  void resolve();
+  GLuint texture() const { return parts_ ? parts_->resolved.id() : 0; }
+  Image pixels() const;
+
+ private:
+  struct Parts {
+    gl::Framebuffer drawn, resolving;
+    gl::Renderbuffer colour, depth;
+    gl::Texture resolved;
+  };
+  void make();
+  std::optional<Parts> parts_;
+  int width_ = 0, height_ = 0, samples_ = 0;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,49 @@
+// Every change of a simulation is an edit: a value, applied in one place (Simulation::apply) between two steps. Undo,
+// replay, lockstep copies, --set and tests are the same thing seen from other sides.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <variant>
+#include <vector>
+
+#include "core/notation/preset.h"
+
+namespace tyglab::edit {
+
+/// Take these constants. The cloth is rebuilt only where rows, columns or kind differ; what counts at the start alone
+/// (x_0, v_0, tilt_deg, …) waits for the next restart unless no step has been made.
+struct Change {
+  Preset preset;
+};
+/// Back to the start with the present constants; tears are mended.
+struct Restart {};
+/// The hand takes particle (i, j). Pinned particles cannot be taken.
+struct Grab {
+  int i, j;
+};
+/// The hand goes to `to` (m), evenly over the next `steps` steps.
+struct MoveHand {
+  glm::dvec3 to;
+  int steps;
+};
+struct Release {};
+/// These particles lose their springs upwards (2.3.4).
+struct Cut {
+  std::vector<Pins::Site> sites;
+};
+struct Pin {
+  int i, j;
+  bool pinned;
+};
+/// Moves body `index` to centre `c` (sphere) or height `c.y` (plane).
+struct MoveBody {
+  int index;
+  glm::dvec3 c;
+};
+
+}  // namespace tyglab::edit
+
+namespace tyglab {
+using Edit = std::variant<edit::Change, edit::Restart, edit::Grab, edit::MoveHand, edit::Release, edit::Cut, edit::Pin,
+                          edit::MoveBody>;
+}

@@ -1,0 +1,244 @@
+#include "core/engines/cpu/cpu_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyglab::cpu {
+namespace {
+
+/// Elements a row takes: whole cache lines, so that every row is aligned for SIMD loads.
+template <class R>
+int row_stride(int columns) {
+  constexpr int line = 64 / int(sizeof(R));
+  return (columns + line - 1) / line * line;
+}
+
+/// x, v and F as a scheme's assignments leave them, in terms of what they were: finds whether the row sweep can make the
+/// update by itself.
+struct Combination {
+  double x, v, force;
+};
+
+void classify(ResolvedSweep& sweep, const Scheme& scheme) {
+  sweep.update = Update::force;
+  if (scheme.sweeps.size() != 1 || scheme.vectors != 2 || sweep.position != vector_x || sweep.velocity != vector_v) return;
+  Combination now[2] = {{1, 0, 0}, {0, 1, 0}};
+  for (const auto& assignment : sweep.assignments) {
+    Combination sum{0, 0, 0};
+    for (const auto [vector, factor] : assignment.terms) {
+      const Combination part = vector == acceleration ? Combination{0, 0, 1} : now[vector];
+      sum = {sum.x + factor * part.x, sum.v + factor * part.v, sum.force + factor * part.force};
+    }
+    now[assignment.target] = sum;
+  }
+  const auto [x, v] = now;
+  if (x.x != 1 || v.x != 0 || v.v != 1) return;
+  sweep.v_to_x = x.v, sweep.force_to_x = x.force, sweep.force_to_v = v.force;
+  sweep.update = x.v == 1 && x.force == v.force ? Update::displacement : Update::general;
+}
+
+/// Rows and threads that pay: a barrier costs about as much as a thousand particles.
+int useful_threads(const Lattice& lattice, int asked) {
+  constexpr int least_particles = 1500;
+  return std::clamp(std::min(lattice.size() / least_particles, lattice.rows / Band<float>::least_rows), 1, asked);
+}
+
+}  // namespace
+
+template <class R>
+CpuEngine<R>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads) {
+  cloth_.preset = preset;
+  cloth_.lattice = lattice;
+  cloth_.stride = row_stride<R>(lattice.columns);
+  cloth_.rows = row_sweeps<R>();
+  cloth_.fixed_begin.assign(std::size_t(lattice.rows) + 1, 0);
+  team_ = std::make_unique<Team>(useful_threads(lattice, threads));
+  const auto begin = [&](int n) { return int(std::int64_t(lattice.rows) * n / team_->size()); };
+  for (int n = 0; n < team_->size(); ++n) bands_.push_back(std::make_unique<Band<R>>(cloth_, begin(n), begin(n + 1)));
+  resolve();
+}
+
+template <class R>
+ResolvedSweep CpuEngine<R>::resolve(const Sweep& sweep) const {
+  ResolvedSweep out;
+  out.position = sweep.position, out.velocity = sweep.velocity;
+  out.k_d = cloth_.preset.k_d * std::pow(cloth_.preset.dt, sweep.velocity_dt_power);
+  for (const Assignment& assignment : sweep.assignments) {
+    auto& target = out.assignments.emplace_back();
+    target.target = assignment.target;
+    for (const Term& term : assignment.terms) {
+      const double factor = term.factor * std::pow(cloth_.preset.dt, term.dt_power);
+      target.terms.push_back({term.vector, term.vector == acceleration ? factor / cloth_.preset.m : factor});
+    }
+  }
+  return out;
+}
+
+template <class R>
+void CpuEngine<R>::resolve() {
+  scheme_ = &scheme(cloth_.preset.integrator);
+  cloth_.keeps_displacement = scheme_->keeps_displacement;
+  sweeps_.clear();
+  for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
+  cloth_.vectors.resize(std::size_t(scheme_->vectors));
+  backup_.resize(cloth_.vectors.size());
+  // Two rows and a vector more than the cloth has: the sweep loads neighbours before it masks those that are not there.
+  const std::size_t size = std::size_t(cloth_.lattice.rows + 2) * cloth_.stride + widest_vector / sizeof(R);
+  for (auto* fields : {&cloth_.vectors, &backup_})
+    for (auto& field : *fields)
+      if (field.x.empty()) field.resize(size);
+  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u);
+  free_motion_ = 0;
+}
+
+template <class R>
+void CpuEngine<R>::load(const State& state, const Tears& tears) {
+  const auto copy = [&](const Array<double>& from, R* to) {
+    for (int i = 0; i < cloth_.lattice.rows; ++i)
+      for (int j = 0; j < cloth_.lattice.columns; ++j) to[cloth_.row_begin(i) + j] = R(from[std::size_t(i) * cloth_.lattice.columns + j]);
+  };
+  copy(state.x.x, cloth_.component(vector_x, 0)), copy(state.x.y, cloth_.component(vector_x, 1)), copy(state.x.z, cloth_.component(vector_x, 2));
+  copy(state.v.x, cloth_.component(vector_v, 0)), copy(state.v.y, cloth_.component(vector_v, 1)), copy(state.v.z, cloth_.component(vector_v, 2));
+  // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
+  const Sweep start{vector_x, vector_v, 0, {scheme_->start}};
+  const ResolvedSweep resolved = resolve(start);
+  for (const auto& band : bands_) band->copy_halo(resolved);
+  for (const auto& band : bands_) band->sweep(resolved, tears, false);
+  set_fixed(std::vector<int>(pinned_), cloth_.held);
+  free_motion_ = 0;
+}
+
+template <class R>
+void CpuEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
+  const Scheme& next = scheme(preset.integrator);
+  if (&next == scheme_ && scheme_->keeps_displacement && preset.dt != cloth_.preset.dt) {
+    // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
+    accelerations(tears, acceleration_);
+    const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
+    for (int c = 0; c < 3; ++c) {
+      R* d = cloth_.component(vector_v, c);
+      const R* a = Cloth<R>::component(acceleration_, c);
+      for (std::size_t p = 0; p < acceleration_.x.size(); ++p) d[p] = keep * d[p] + add * a[p];
+    }
+  }
+  if (&next == scheme_) {
+    cloth_.preset = preset;
+    resolve();
+    return;
+  }
+  State state;
+  read(state, tears);
+  cloth_.preset = preset;
+  resolve();
+  load(state, tears);
+}
+
+template <class R>
+void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
+  pinned_.assign(pinned.begin(), pinned.end());
+  cloth_.held = held;
+  std::vector<int> all(pinned_);
+  if (held.particle >= 0) all.push_back(held.particle);
+  std::sort(all.begin(), all.end());
+  cloth_.fixed_columns.clear();
+  std::fill(cloth_.fixed_begin.begin(), cloth_.fixed_begin.end(), 0);
+  for (const int p : all) {
+    const int i = p / cloth_.lattice.columns, j = p % cloth_.lattice.columns;
+    cloth_.fixed_columns.push_back(j);
+    ++cloth_.fixed_begin[std::size_t(i) + 1];
+    const glm::dvec3 v = p == held.particle ? held.velocity : glm::dvec3(0);
+    for (int c = 0; c < 3; ++c) cloth_.component(vector_v, c)[cloth_.row_begin(i) + j] = R(v[c] * cloth_.velocity_scale());
+  }
+  for (std::size_t i = 1; i < cloth_.fixed_begin.size(); ++i) cloth_.fixed_begin[i] += cloth_.fixed_begin[i - 1];
+  cloth_.fixed.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()) + widest_vector, 0);
+  for (const int p : all) cloth_.fixed[p] = 1;
+  guards_.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()), 0);
+  for (const int p : all)
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj)
+        if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj; cloth_.lattice.contains(i, j))
+          guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
+}
+
+template <class R>
+void CpuEngine<R>::accelerations(const Tears& tears, Field& out) {
+  if (out.x.empty()) out.resize(cloth_.vectors[0].x.size());
+  ResolvedSweep look;
+  look.position = vector_x, look.velocity = vector_v;
+  look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
+  for (const auto& band : bands_) band->copy_halo(look);
+  for (const auto& band : bands_) band->accelerations(look, tears, out);
+}
+
+template <class R>
+void CpuEngine<R>::read(State& state, const Tears& tears) {
+  read_raw(state);
+  if (!scheme_->full_velocity_needs_a) return;
+  accelerations(tears, acceleration_);
+  const double half_dt = cloth_.preset.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
+  for (int i = 0; i < cloth_.lattice.rows; ++i)
+    for (int j = 0; j < cloth_.lattice.columns; ++j) {
+      const std::size_t to = std::size_t(i) * cloth_.lattice.columns + j, from = std::size_t(i) * cloth_.stride + j;
+      state.v.x[to] += half_dt * acceleration_.x[from];
+      state.v.y[to] += half_dt * acceleration_.y[from];
+      state.v.z[to] += half_dt * acceleration_.z[from];
+    }
+}
+
+template <class R>
+void CpuEngine<R>::read_raw(State& state) const {
+  const std::size_t n = std::size_t(cloth_.lattice.size());
+  if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
+  const double per_dt = scheme_->keeps_displacement ? cloth_.preset.dt : 1;
+  const auto copy = [&](const R* from, Array<double>& to, double divisor) {
+    for (int i = 0; i < cloth_.lattice.rows; ++i)
+      for (int j = 0; j < cloth_.lattice.columns; ++j)
+        to[std::size_t(i) * cloth_.lattice.columns + j] = double(from[std::size_t(i) * cloth_.stride + j]) / divisor;
+  };
+  copy(cloth_.component(vector_x, 0), state.x.x, 1), copy(cloth_.component(vector_x, 1), state.x.y, 1),
+      copy(cloth_.component(vector_x, 2), state.x.z, 1);
+  copy(cloth_.component(vector_v, 0), state.v.x, per_dt), copy(cloth_.component(vector_v, 1), state.v.y, per_dt),
+      copy(cloth_.component(vector_v, 2), state.v.z, per_dt);
+}
+
+template <class R>
+PositionView CpuEngine<R>::positions() const {
+  PositionView view{cloth_.lattice.rows, cloth_.lattice.columns, cloth_.stride};
+  for (int c = 0; c < 3; ++c) {
+    if constexpr (std::is_same_v<R, float>) view.f[c] = cloth_.component(vector_x, c);
+    else view.d[c] = cloth_.component(vector_x, c);
+  }
+  return view;
+}
+
+template <class R>
+std::size_t CpuEngine<R>::bytes() const {
+  std::size_t total = acceleration_.bytes() + cloth_.fixed.size() + guards_.size() +
+                      (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
+  for (const auto& band : bands_) total += band->bytes();
+  for (const auto* fields : {&cloth_.vectors, &backup_})
+    for (const Field& field : *fields) total += field.bytes();
+  return total;
+}
+
+template <class R>
+std::string CpuEngine<R>::name() const {
+  const int threads = team_->size();
+  return std::string("CPU, ") + cloth_.rows.target + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+template class CpuEngine<float>;
+template class CpuEngine<double>;
+
+}  // namespace tyglab::cpu
+
+namespace tyglab {
+
+std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice, int threads) {
+  if (preset.engine == EngineKind::opencl)
+    throw EngineError("the OpenCL engine cannot step a cloth in this version; use --engine cpu");
+  if (preset.precision == Precision::double_) return std::make_unique<cpu::CpuEngine<double>>(preset, lattice, threads);
+  return std::make_unique<cpu::CpuEngine<float>>(preset, lattice, threads);
+}
+
+}  // namespace tyglab

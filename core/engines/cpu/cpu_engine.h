@@ -1,0 +1,70 @@
+// The CPU engine: runs every explicit scheme in place over rows, in SIMD.
+#pragma once
+
+#include <memory>
+
+#include "core/engines/cpu/band.h"
+#include "core/engines/cpu/team.h"
+#include "core/engines/engine.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab::cpu {
+
+template <class R>
+class CpuEngine final : public Engine {
+ public:
+  CpuEngine(const Preset& preset, const Lattice& lattice, int threads);
+
+  void load(const State& state, const Tears& tears) override;
+  void set_preset(const Preset& preset, const Tears& tears) override;
+  void set_fixed(std::span<const int> pinned, Held held) override;
+  Advance advance(int steps, Tears& tears) override;
+  void read(State& state, const Tears& tears) override;
+  void read_raw(State& state) const override;
+  PositionView positions() const override;
+  std::size_t bytes() const override;
+  std::string name() const override;
+
+ private:
+  using Field = VectorField<R>;
+  struct Fault {
+    int i, j;
+    const char* quantity;
+    double value;
+  };
+  enum class End { none, fault, released };
+
+  void resolve();
+  ResolvedSweep resolve(const Sweep& sweep) const;
+  void accelerations(const Tears& tears, Field& out);
+
+  void tear_overloaded(Tears& tears);
+  void tear_row(Tears& tears, int direction, int i, double rest, R candidate);
+  bool guarded(int i, int j) const {
+    return !guards_.empty() && guards_[std::size_t(i) * cloth_.lattice.columns + j] != 0;
+  }
+  double distance2(std::ptrdiff_t a, std::ptrdiff_t b) const;
+  /// Looks at every particle and spring; if all is well, says how much motion may pass before the next look.
+  bool find_fault(const Tears& tears, Fault& fault);
+  bool finite(Fault& fault) const;
+  bool within_bounds(const Tears& tears, Fault& fault);
+  End finish_step(Tears& tears, Fault& fault);
+  /// Steps until done, the hand lets go, or a fault is found (end_ says which); returns the steps without fault.
+  int run(int steps, Tears& tears, Fault& fault);
+
+  Cloth<R> cloth_;
+  const Scheme* scheme_ = nullptr;
+  std::vector<ResolvedSweep> sweeps_;
+  std::vector<Field> backup_;
+  Tears tears_backup_;
+  Field acceleration_;                ///< used between steps alone (readouts, starts)
+  std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
+  std::vector<int> pinned_;
+  std::unique_ptr<Team> team_;
+  std::vector<std::unique_ptr<Band<R>>> bands_;
+  End end_ = End::none;
+  glm::dvec3 hand_force_{0};
+  double free_motion_ = 0;  ///< m that particles may still move before springs must be measured again
+};
+
+}  // namespace tyglab::cpu

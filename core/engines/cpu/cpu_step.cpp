@@ -1,0 +1,178 @@
+// Stepping: bands side by side, then what needs the whole cloth: tearing, the hand's release, the watch for divergence.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "core/engines/cpu/cpu_engine.h"
+#include "core/forces/spring-inl.h"
+
+namespace tyglab::cpu {
+namespace {
+
+constexpr int steps_between_backups = 256;  // a copy of the state costs about a step's memory traffic: under 1 %
+constexpr double longest_factor = 1000;     // a spring longer than that many rest lengths has diverged
+
+}  // namespace
+
+template <class R>
+double CpuEngine<R>::distance2(std::ptrdiff_t a, std::ptrdiff_t b) const {
+  double r2 = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double d = double(cloth_.component(vector_x, c)[b]) - double(cloth_.component(vector_x, c)[a]);
+    r2 += d * d;
+  }
+  return r2;
+}
+
+template <class R>
+void CpuEngine<R>::tear_overloaded(Tears& tears) {
+  for (int d = 0; d < stretch_directions; ++d) {
+    const double rest = directions[d].rest * cloth_.preset.L;
+    // First by squares in the state's precision, row by row in SIMD; then the few candidates exactly.
+    const double longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
+    const R candidate = R(longest * longest * (1 - 16 * double(std::numeric_limits<R>::epsilon())));
+    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i) tear_row(tears, d, i, rest, candidate);
+  }
+}
+
+template <class R>
+void CpuEngine<R>::tear_row(Tears& tears, int d, int i, double rest, R candidate) {
+  const Direction& dir = directions[d];
+  const std::ptrdiff_t here = cloth_.row_begin(i), other = cloth_.row_begin(dir.di) + dir.dj;
+  const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
+  const R *x = cloth_.component(vector_x, 0) + here, *y = cloth_.component(vector_x, 1) + here, *z = cloth_.component(vector_x, 2) + here;
+  int any = 0;
+  for (int j = begin; j < end; ++j) {
+    const R dx = x[j + other] - x[j], dy = y[j + other] - y[j], dz = z[j + other] - z[j];
+    any |= dx * dx + dy * dy + dz * dz > candidate;
+  }
+  if (!any) return;
+  for (int j = begin; j < end; ++j)
+    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, distance2(here + j, here + j + other)) > cloth_.preset.F_max &&
+        !guarded(i, j) && !guarded(i + dir.di, j + dir.dj))
+      tears.tear(d, i, j);
+}
+
+template <class R>
+bool CpuEngine<R>::finite(Fault& fault) const {
+  for (int i = 0; i < cloth_.lattice.rows; ++i)
+    for (int j = 0; j < cloth_.lattice.columns; ++j)
+      for (int which : {vector_x, vector_v})
+        for (int c = 0; c < 3; ++c) {
+          const double value = cloth_.component(which, c)[cloth_.row_begin(i) + j];
+          if (std::isfinite(value)) continue;
+          fault = {i, j, which == vector_x ? "position" : "velocity", value};
+          return false;
+        }
+  return true;
+}
+
+template <class R>
+bool CpuEngine<R>::within_bounds(const Tears& tears, Fault& fault) {
+  double slack = std::numeric_limits<double>::infinity();
+  if (cloth_.preset.kind == Kind::one_weight) {
+    const double bound = longest_factor * std::max(cloth_.preset.L, std::abs(cloth_.preset.offset));
+    const double away = std::abs(double(cloth_.component(vector_x, 1)[0]) - cloth_.preset.x_0.y);
+    fault = {0, 0, "distance from x_0", away};
+    free_motion_ = bound - away;
+    return free_motion_ >= 0;
+  }
+  for (int d = 0; d < int(directions.size()); ++d)
+    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i)
+      for (int j = 0; j < cloth_.lattice.columns; ++j) {
+        if (!cloth_.lattice.has_spring(d, i, j) || !tears.whole(d, i, j)) continue;
+        const std::ptrdiff_t a = cloth_.row_begin(i) + j, b = a + cloth_.row_begin(directions[d].di) + directions[d].dj;
+        const double length = std::sqrt(distance2(a, b));
+        const double left = longest_factor * directions[d].rest * cloth_.preset.L - length;
+        if (left < 0) {
+          fault = {i, j, "spring length", length};
+          return false;
+        }
+        slack = std::min(slack, left);
+      }
+  free_motion_ = slack;
+  return true;
+}
+
+template <class R>
+bool CpuEngine<R>::find_fault(const Tears& tears, Fault& fault) {
+  return !finite(fault) || !within_bounds(tears, fault);
+}
+
+/// Ends a step on one thread: says whether to go on.
+template <class R>
+typename CpuEngine<R>::End CpuEngine<R>::finish_step(Tears& tears, Fault& fault) {
+  const Preset& preset = cloth_.preset;
+  if (preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth) tear_overloaded(tears);
+  double largest = 0;
+  for (const auto& band : bands_) {
+    largest = std::max(largest, band->largest_way());
+    if (band->has_hand()) hand_force_ = band->hand_force();
+  }
+  // Two ends, each by at most √3 of its largest component.
+  free_motion_ -= 2 * std::numbers::sqrt3 * largest;
+  if (!(free_motion_ > 0) && find_fault(tears, fault)) return End::fault;
+  if (cloth_.held.particle >= 0 && preset.F_release > 0 && glm::length(hand_force_) > preset.F_release) return End::released;
+  return End::none;
+}
+
+template <class R>
+int CpuEngine<R>::run(int steps, Tears& tears, Fault& fault) {
+  int done = 0;
+  end_ = End::none;
+  team_->run([&](int number) {
+    Band<R>& band = *bands_[std::size_t(number)];
+    for (int n = 0; n < steps && end_ == End::none; ++n) {
+      band.begin_watch();
+      for (const ResolvedSweep& sweep : sweeps_) {
+        band.copy_halo(sweep);
+        team_->barrier();
+        band.sweep(sweep, tears, &sweep == &sweeps_.back());
+        team_->barrier();
+      }
+      if (number == 0) {
+        end_ = finish_step(tears, fault);
+        if (end_ != End::fault) ++done;
+      }
+      team_->barrier();
+    }
+  });
+  return done;
+}
+
+template <class R>
+Advance CpuEngine<R>::advance(int steps, Tears& tears) {
+  Advance result;
+  const int torn_before = tears.torn_count();
+  Fault fault{};
+  while (result.steps < steps && !result.diverged && !result.released) {
+    const int batch = std::min(steps - result.steps, steps_between_backups);
+    for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) backup_[n] = cloth_.vectors[n];
+    if (cloth_.preset.F_max > 0) tears_backup_ = tears;
+    const int done = run(batch, tears, fault);
+    result.diverged = end_ == End::fault;
+    result.released = end_ == End::released;
+    if (result.diverged) {
+      // The sweep works in place: return to the backup and repeat the good steps, which gives the same bits.
+      for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
+      if (cloth_.preset.F_max > 0) tears = tears_backup_;
+      run(done, tears, fault);
+      free_motion_ = 0;
+    }
+    result.steps += done;
+  }
+  result.i = fault.i, result.j = fault.j, result.value = fault.value;
+  if (result.diverged) result.quantity = fault.quantity;
+  result.torn = tears.torn_count() - torn_before;
+  for (const auto& band : bands_) result.left_inside += band->left_inside();
+  result.hand_force = cloth_.held.particle >= 0 ? hand_force_ : glm::dvec3(0);
+  return result;
+}
+
+// What cpu_engine.cpp, where the class is instantiated, needs of this file.
+template Advance CpuEngine<float>::advance(int, Tears&);
+template Advance CpuEngine<double>::advance(int, Tears&);
+
+}  // namespace tyglab::cpu

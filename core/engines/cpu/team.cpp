@@ -1,0 +1,78 @@
+#include "core/engines/cpu/team.h"
+
+#if defined(__x86_64__) || defined(__i386__)
+#include <immintrin.h>
+#endif
+
+#include <algorithm>
+
+namespace tyglab::cpu {
+namespace {
+
+// A step of a small cloth takes some microseconds, so a barrier must not sleep at once; but where other programs hold
+// the cores it must give them up.
+constexpr int spins_before_sleep = 2000;
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  _mm_pause();
+#endif
+}
+
+/// Returns once `value` is no longer `old`.
+template <class T>
+void wait_for_change(const std::atomic<T>& value, T old) {
+  for (int n = 0; n < spins_before_sleep; ++n) {
+    if (value.load() != old) return;
+    pause();
+  }
+  while (value.load() == old) value.wait(old);
+}
+
+}  // namespace
+
+Team::Team(int size) : size_(std::max(1, size)) {
+  for (int n = 1; n < size_; ++n) threads_.emplace_back([this, n] { serve(n); });
+}
+
+Team::~Team() {
+  closing_ = true;
+  ++started_;
+  started_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void Team::serve(int number) {
+  for (int seen = 0;;) {
+    wait_for_change(started_, seen);
+    seen = started_.load();
+    if (closing_) return;
+    (*work_)(number);
+    if (--working_ == 0) ++finished_, finished_.notify_all();
+  }
+}
+
+void Team::run(const std::function<void(int)>& work) {
+  if (size_ == 1) return work(0);
+  work_ = &work;
+  working_ = size_ - 1;
+  const int turn = finished_.load();
+  ++started_;
+  started_.notify_all();
+  work(0);
+  wait_for_change(finished_, turn);
+}
+
+void Team::barrier() {
+  if (size_ == 1) return;
+  const int turn = passed_.load();
+  if (waiting_.fetch_add(1) + 1 == size_) {
+    waiting_ = 0;
+    passed_ = turn + 1;
+    passed_.notify_all();
+  } else {
+    wait_for_change(passed_, turn);
+  }
+}
+
+}  // namespace tyglab::cpu

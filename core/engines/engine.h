@@ -1,0 +1,90 @@
+// Where a simulation runs. An engine owns the particles' arrays and steps them; everything else (time, edits, tears'
+// bookkeeping, files) is Simulation's.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/cloth/state.h"
+#include "core/cloth/tears.h"
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+/// A particle moved by the hand: a = 0, v = the hand's velocity.
+struct Held {
+  int particle = -1;           ///< i·columns + j; -1: nothing is held
+  glm::dvec3 velocity{0, 0, 0};
+};
+
+/// Why a run ended.
+struct Divergence {
+  double t = 0;                ///< s, end of the step that diverged
+  std::int64_t step = 0;       ///< number of that step, the first is 1
+  int i = 0, j = 0;            ///< particle (upper or left end of the spring)
+  std::string quantity;        ///< "position", "velocity", "spring length"
+  double value = 0;            ///< its value; may be non-finite
+  std::string cause;           ///< a sentence
+  std::string remedy;          ///< a sentence
+};
+
+/// What one call of Engine::advance did.
+struct Advance {
+  int steps = 0;               ///< steps completed
+  bool diverged = false;       ///< the next step diverged; the state is the one before it
+  int i = 0, j = 0;            ///< where, if diverged
+  std::string quantity;
+  double value = 0;
+  int torn = 0;                ///< stretch springs broken
+  int left_inside = 0;         ///< free particles still inside a body after the last step (overlapping bodies)
+  bool released = false;       ///< the hand's force exceeded F_release
+  glm::dvec3 hand_force{0, 0, 0};  ///< force on the held particle at the last step, N, before it was set to 0
+};
+
+/// Read-only view of the engine's own position arrays: particle (i, j) at index i·stride + j. One of f or d is set.
+struct PositionView {
+  int rows = 0, columns = 0, stride = 0;
+  const float* f[3] = {nullptr, nullptr, nullptr};
+  const double* d[3] = {nullptr, nullptr, nullptr};
+  glm::dvec3 at(int i, int j) const {
+    const std::size_t p = std::size_t(i) * stride + j;
+    return f[0] ? glm::dvec3(f[0][p], f[1][p], f[2][p]) : glm::dvec3(d[0][p], d[1][p], d[2][p]);
+  }
+};
+
+class Engine {
+ public:
+  virtual ~Engine() = default;
+
+  /// Takes positions and (full-step) velocities; the method's own start is applied.
+  virtual void load(const State& state, const Tears& tears) = 0;
+  /// Takes new constants, integrator, dt, bodies. The lattice and the precision are the same. Velocities are kept.
+  virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
+  virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
+  /// Up to `steps` steps; ends early on divergence or release of the hand. `tears` is updated by tearing.
+  virtual Advance advance(int steps, Tears& tears) = 0;
+  /// Positions and the velocities that belong to them (v + dt/2 a for Verlet).
+  virtual void read(State& state, const Tears& tears) = 0;
+  /// Positions and the velocities as the method holds them (d/dt for Verlet): what state files show.
+  virtual void read_raw(State& state) const = 0;
+  virtual PositionView positions() const = 0;
+  /// Bytes of all arrays that grow with the cloth.
+  virtual std::size_t bytes() const = 0;
+  /// "CPU, scalar": for people.
+  virtual std::string name() const = 0;
+};
+
+/// Makes the engine that the preset asks for, with at most so many threads (fewer where the cloth is too small for them
+/// to pay; the result is the same to the last bit). Throws EngineError if it is not there.
+std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice, int threads);
+
+class EngineError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,89 @@
+#include "core/forces/contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tyglab {
+namespace {
+
+constexpr int passes = 4;  // enough for the wedge of two bodies; more only helps where three meet
+
+/// Unit normal of the body's surface seen from x; +y at a sphere's centre.
+glm::dvec3 normal(const Body& body, const glm::dvec3& x) {
+  if (body.shape == Body::Shape::plane) return {0, 1, 0};
+  const glm::dvec3 out = x - body.c;
+  const double length = glm::length(out);
+  return length > 0 ? out / length : glm::dvec3(0, 1, 0);
+}
+
+glm::dvec3 nearest_surface_point(const Body& body, const glm::dvec3& x, const glm::dvec3& centre_normal) {
+  if (body.shape == Body::Shape::plane) return {x.x, body.y, x.z};
+  const glm::dvec3 n = x == body.c ? centre_normal : normal(body, x);
+  return body.c + body.r * n;
+}
+
+/// Where the line from x, inside, along n leaves the body.
+glm::dvec3 way_out(const Body& body, const glm::dvec3& x, const glm::dvec3& n) {
+  if (body.shape == Body::Shape::plane) return {x.x, body.y, x.z};
+  const glm::dvec3 q = x - body.c;
+  const double along = glm::dot(q, n);
+  return x + (std::sqrt(along * along - glm::dot(q, q) + body.r * body.r) - along) * n;
+}
+
+/// Normal part removed or reversed with restitution e, tangential part shortened by at most μ times the change.
+glm::dvec3 corrected_velocity(const Body& body, const glm::dvec3& v, const glm::dvec3& n) {
+  const double inward = glm::dot(v, n);
+  if (inward >= 0) return v;
+  const double change = (1 + body.restitution) * -inward;
+  const glm::dvec3 tangential = v - inward * n;
+  const double speed = glm::length(tangential);
+  const double left = speed > 0 ? std::max(0.0, 1 - body.friction * change / speed) : 0;
+  return left * tangential - body.restitution * inward * n;
+}
+
+void collide_one(const Body& body, double dt, double epsilon, Passage& p) {
+  const glm::dvec3 n = normal(body, p.old_x);
+  if (depth(body, p.old_x) > contact_tolerance(body, p.old_x, epsilon)) {
+    // It was inside already (the body was moved, a bad start): out along n, the nearest way from where it was. From a
+    // sphere's centre that is up, even if gravity has just moved it below.
+    p.x = way_out(body, p.x, n);
+    p.v -= std::min(0.0, glm::dot(p.v, n)) * n;
+    return;
+  }
+  p.v = corrected_velocity(body, p.v, n);
+  p.x = p.old_x + dt * p.v;
+  if (depth(body, p.x) > 0) p.x = nearest_surface_point(body, p.x, n);
+}
+
+}  // namespace
+
+double depth(const Body& body, const glm::dvec3& x) {
+  return body.shape == Body::Shape::plane ? body.y - x.y : body.r - glm::length(x - body.c);
+}
+
+double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon) {
+  const bool plane = body.shape == Body::Shape::plane;
+  const double largest = plane ? std::max(std::abs(x.y), std::abs(body.y))
+                               : std::max({glm::length(x), glm::length(body.c), body.r});
+  return 8 * epsilon * largest;
+}
+
+bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& p) {
+  for (int pass = 0; pass < passes; ++pass) {
+    bool touched = false;
+    for (const Body& body : bodies)
+      if (depth(body, p.x) > 0) {
+        // From the second pass on, what rounding leaves is accepted; the first must see every contact.
+        if (pass > 0 && depth(body, p.x) <= contact_tolerance(body, p.x, epsilon)) continue;
+        collide_one(body, dt, epsilon, p);
+        touched = true;
+      }
+    if (!touched) return true;
+  }
+  return std::none_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    return depth(body, p.x) > contact_tolerance(body, p.x, epsilon);
+  });
+}
+
+}  // namespace tyglab

@@ -1,0 +1,27 @@
+// Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"). In double for both precisions: few
+// particles touch a body, and a float's rounding would be seen as jitter.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+/// A particle over one step: position before, tentative position and velocity after.
+struct Passage {
+  glm::dvec3 old_x, x, v;
+};
+
+/// How deep `x` is inside the body, m; negative outside.
+double depth(const Body& body, const glm::dvec3& x);
+
+/// 8 units in the last place of the largest of |x|, |c|, r: what rounding can leave. `epsilon` is the state's.
+double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
+
+/// Corrects x and v of a passage for all bodies, in list order and repeatedly. Returns whether x is outside all of them
+/// afterwards (overlapping bodies can leave it inside one).
+bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& passage);
+
+}  // namespace tyglab

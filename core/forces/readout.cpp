@@ -1,0 +1,75 @@
+#include "core/forces/readout.h"
+
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "core/forces/spring-inl.h"
+#include "core/forces/wind-inl.h"
+
+namespace tyglab {
+namespace {
+using namespace HWY_NAMESPACE;  // the formulas for one double
+
+struct Look {
+  const State& state;
+  int columns;
+  glm::dvec3 x(int i, int j) const { return at(state.x, i, j); }
+  glm::dvec3 v(int i, int j) const { return at(state.v, i, j); }
+  glm::dvec3 at(const VectorField<double>& f, int i, int j) const {
+    const std::size_t p = std::size_t(i) * columns + j;
+    return {f.x[p], f.y[p], f.z[p]};
+  }
+};
+
+void add_spring(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj, ParticleForces& sum) {
+  const glm::dvec3 x_ij = look.x(oi, oj) - look.x(i, j);
+  const double r2 = glm::dot(x_ij, x_ij), rest = d.rest * p.L;
+  if (d.bending) {
+    sum.F_b += bend_factor(Spring<double>::of(p.k_b, rest, std::identity()), r2, 0.0) * x_ij;
+    return;
+  }
+  sum.F_s += stretch_factor(Spring<double>::of(p.k_s, rest, std::identity()), r2, 0.0) * x_ij;
+  sum.F_d -= p.k_d * (look.v(i, j) - look.v(oi, oj));
+}
+
+void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int j, ParticleForces& sum) {
+  const Lattice& lattice = tears.lattice();
+  for (int qi = i - 1; qi <= i; ++qi)
+    for (int qj = j - 1; qj <= j; ++qj)
+      for (int which = 0; which < 2; ++which) {
+        if (!lattice.contains(qi, qj) || !lattice.contains(qi + 1, qj + 1)) continue;
+        const auto& corners = quad_triangles[(qi + qj) & 1][which];
+        bool mine = false;
+        glm::dvec3 x[3];
+        for (int n = 0; n < 3; ++n) {
+          x[n] = look.x(qi + corners[n].di, qj + corners[n].dj);
+          mine |= qi + corners[n].di == i && qj + corners[n].dj == j;
+        }
+        if (!mine || !tears.triangle_whole(qi, qj, which)) continue;
+        sum.F_wind += wind_on_corner(x[1] - x[0], x[2] - x[0], p.W, 1.0 / 3, 0.0);
+      }
+}
+
+}  // namespace
+
+ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const State& state, int i, int j) {
+  const Lattice& lattice = tears.lattice();
+  const Look look{state, lattice.columns};
+  ParticleForces sum;
+  sum.F_g = {0, -p.m * p.g, 0};
+  if (p.kind == Kind::one_weight) {
+    sum.F_s.y = hooke(look.x(0, 0).y, p.x_0.y, p.k, 0.0, 0.0);
+    sum.F_d.y = -p.k_d * look.v(0, 0).y;
+    return sum;
+  }
+  for (int d = 0; d < int(directions.size()); ++d) {
+    const Direction& dir = directions[d];
+    if (lattice.has_spring(d, i, j) && tears.whole(d, i, j)) add_spring(p, look, dir, i, j, i + dir.di, j + dir.dj, sum);
+    const int oi = i - dir.di, oj = j - dir.dj;
+    if (lattice.has_spring(d, oi, oj) && tears.whole(d, oi, oj)) add_spring(p, look, dir, i, j, oi, oj, sum);
+  }
+  if (p.W != glm::dvec3(0)) add_wind(p, tears, look, i, j, sum);
+  return sum;
+}
+
+}  // namespace tyglab

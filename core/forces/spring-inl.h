@@ -1,0 +1,63 @@
+// Forces of springs (2.3) to (2.8), each formula once: V is a vector of the CPU engine's SIMD (simd-inl.h) or a plain
+// double. V brings multiply_add(a, b, c) = a·b + c, inverse_sqrt(r2) and if_greater(a, b, yes, no).
+// Included once for each SIMD target (hwy/foreach_target.h), so the guard toggles.
+#if defined(TYGLAB_SPRING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TYGLAB_SPRING_INL_H_
+#undef TYGLAB_SPRING_INL_H_
+#else
+#define TYGLAB_SPRING_INL_H_
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace tyglab::HWY_NAMESPACE {
+
+
+/// A spring shorter than this part of its rest length has no direction: its force is 0.
+inline constexpr double shortest = 1e-9;
+
+HWY_INLINE double multiply_add(double a, double b, double c) { return a * b + c; }
+HWY_INLINE double inverse_sqrt(double r2) { return 1 / std::sqrt(r2); }
+HWY_INLINE double if_greater(double a, double b, double yes, double no) { return a > b ? yes : no; }
+
+/// A spring's constants as the formulas take them.
+template <class V>
+struct Spring {
+  /// `fill` makes a V of a double.
+  template <class Fill>
+  static HWY_INLINE Spring of(double k, double rest, Fill fill) {
+    const double least = shortest * rest;
+    return {fill(k), fill(-k * rest), fill(rest * rest), fill(least * least)};
+  }
+  V k;              ///< N/m
+  V minus_tension;  ///< -k times rest length, N
+  V rest2;          ///< rest length squared, m²
+  V shortest2;      ///< square of the length under which a spring has no direction
+};
+
+/// F = factor · x_ij is F_s on particle i (2.5), for r2 = |x_ij|². Pulls only: 0 while |x_ij| <= rest.
+template <class V>
+HWY_INLINE V stretch_factor(const Spring<V>& s, V r2, V zero) {
+  return if_greater(r2, s.rest2, multiply_add(s.minus_tension, inverse_sqrt(r2), s.k), zero);
+}
+
+/// F = factor · x_ij is F_b on particle i (2.7, 2.8). Pushes only: 0 while |x_ij| >= rest.
+template <class V>
+HWY_INLINE V bend_factor(const Spring<V>& s, V r2, V zero) {
+  const V pushing = if_greater(s.rest2, r2, multiply_add(s.minus_tension, inverse_sqrt(r2), s.k), zero);
+  return if_greater(r2, s.shortest2, pushing, zero);
+}
+
+/// F_s of (2.5) as a number, N: what tearing compares with F_max.
+HWY_INLINE double stretch_tension(double k_s, double rest, double r2) { return std::max(0.0, k_s * (std::sqrt(r2) - rest)); }
+
+/// Force of the one weight's two-sided spring (2.3) and its damping: F = -k (x - x_0) - k_d v.
+HWY_INLINE double hooke(double x, double x_0, double k, double v, double k_d) { return -k * (x - x_0) - k_d * v; }
+
+}  // namespace tyglab::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

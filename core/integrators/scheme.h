@@ -1,0 +1,60 @@
+// Explicit integrators as data: a step is a few sweeps, each of which evaluates the force on every particle at one pair
+// of state vectors and then replaces some state vectors by linear combinations. One sweep in each engine runs them all;
+// a new scheme is one row in schemes.cpp.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace tyglab {
+
+/// State vectors of a scheme: 0 holds positions, 1 velocities (or, for Verlet, displacements), further ones stages.
+inline constexpr int vector_x = 0;
+inline constexpr int vector_v = 1;
+inline constexpr int acceleration = -1;  ///< stands for a(x, v) of the sweep in a term
+
+/// factor · dt^dt_power · vector
+struct Term {
+  int vector;
+  double factor;
+  int dt_power;
+};
+
+/// target := sum of terms. Assignments of a sweep are made in order, particle by particle.
+struct Assignment {
+  int target;
+  std::vector<Term> terms;
+};
+
+/// Evaluate a(vectors[position], vectors[velocity] · dt^velocity_dt_power), then assign.
+struct Sweep {
+  int position;
+  int velocity;
+  int velocity_dt_power;
+  std::vector<Assignment> assignments;
+};
+
+struct Scheme {
+  std::string_view name;      ///< in presets and on the command line
+  std::string_view title;     ///< for people
+  std::string_view equation;  ///< number in the report
+  std::string_view source;
+  int order_undamped;         ///< of the whole method (position and velocity), k_d = 0, smooth forces
+  int order_damped;           ///< k_d > 0
+  int vectors;                ///< state vectors that it keeps
+  bool keeps_displacement;    ///< vector 1 is d = dt·v, not v
+  std::string_view note;      ///< a sentence said where it is offered
+  std::vector<Sweep> sweeps;
+  /// What vector 1 becomes at the start, from v in vector 1 and a(x, v).
+  Assignment start;
+  /// The velocity that belongs to the position, from vector 1 and a at the present state.
+  Assignment full_velocity;
+  bool full_velocity_needs_a;
+};
+
+std::span<const Scheme> schemes();
+/// The scheme of that name; the name must be known (is_integrator).
+const Scheme& scheme(std::string_view name);
+
+}  // namespace tyglab

@@ -1,0 +1,41 @@
+// JSON text as a tree whose every value knows its line, with doubled keys refused. (nlohmann-json's own tree keeps
+// neither, so its event interface builds this one.)
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tyglab {
+
+struct JsonNode {
+  struct Member;
+  enum class Type { null, boolean, integer, number, text, list, object };
+  Type type = Type::null;
+  int line = 0;           ///< of the value; 0 if it came from no file
+  double number = 0;      ///< integer, number
+  std::string text;
+  std::vector<JsonNode> items;
+  std::vector<Member> members;
+
+  const JsonNode* find(std::string_view key) const;
+  bool is_number() const { return type == Type::number || type == Type::integer; }
+};
+
+/// A key of an object and its value.
+struct JsonNode::Member {
+  std::string key;
+  JsonNode value;
+};
+
+/// "a number", "a text", … for error messages.
+std::string_view type_name(JsonNode::Type type);
+
+/// With control characters as spaces: a key of a file must not end an error message early, or reach a terminal as code.
+std::string printable(std::string text);
+
+/// Throws PresetError naming `source` and the line.
+JsonNode parse_json(std::string_view text, std::string_view source);
+
+}  // namespace tyglab

@@ -1,0 +1,86 @@
+// A preset: everything that defines a scene, in SI units. The plain description that files, panels, `--set` and
+// engines share. Ranges, symbols and defaults' meaning stand in the notation table (notation.h).
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+enum class Kind { cloth, one_weight };
+enum class Precision { float_, double_ };
+enum class EngineKind { cpu, opencl };
+
+/// Which particles never move.
+struct Pins {
+  enum class Mode { none, top_row, top_corners, four_corners, left_column, boundary, list };
+  struct Site {
+    int i = 0;  ///< row, 0 at the top
+    int j = 0;  ///< column, 0 at the left
+    bool operator==(const Site&) const = default;
+  };
+  Mode mode = Mode::top_corners;
+  std::vector<Site> list;  ///< used by Mode::list alone
+  bool operator==(const Pins&) const = default;
+};
+
+/// A fixed body that the cloth collides with (2.1.5).
+struct Body {
+  enum class Shape { sphere, plane };
+  Shape shape = Shape::sphere;
+  glm::dvec3 c{0, 0, 0};   ///< centre of a sphere, m
+  double r = 0.2;          ///< radius of a sphere, m
+  double y = 0;            ///< height of a plane, m
+  double friction = 0;     ///< Coulomb's μ
+  double restitution = 0;  ///< e: 0 plastic, 1 elastic
+  bool operator==(const Body&) const = default;
+};
+
+struct Preset {
+  Kind kind = Kind::cloth;
+  std::string name = "Untitled";
+  std::string description;
+
+  // cloth
+  int rows = 32;
+  int columns = 32;
+  double L = 0.03;
+  double m = 0.0003;
+  glm::dvec3 x_0{0, 1, 0};
+  glm::dvec3 v_0{0, 0, 0};
+  double tilt_deg = 85;
+  double initial_stretch = 1;
+  Pins pins;
+  double offset = 0.1;  ///< one weight only
+
+  // forces
+  double k_s = 50;
+  double k_b = 5;
+  double k_d = 0.002;
+  double k = 50;  ///< one weight only
+  double g = 9.82;
+  glm::dvec3 W{0, 0, 0};
+
+  // tearing
+  double F_max = 0;      ///< 0: never
+  double F_release = 0;  ///< 0: never
+
+  std::vector<Body> bodies;
+
+  // solver
+  std::string integrator = "verlet";
+  double dt = 0.001;
+  EngineKind engine = EngineKind::cpu;
+  Precision precision = Precision::float_;
+  double tolerance = 1e-5;
+  int iterations = 10;
+
+  // view
+  int mode = 1;
+  std::string texture = "denim.png";
+
+  bool operator==(const Preset&) const = default;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,482 @@
+#include "core/notation/preset_io.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/integrators/names.h"
+#include "core/notation/json_tree.h"
+#include "core/notation/notation.h"
+
+namespace tyglab {
+namespace {
+
+using Type = JsonNode::Type;
+
+constexpr std::array<std::string_view, 2> kind_names{"cloth", "one_weight"};
+constexpr std::array<std::string_view, 7> pin_names{"none",        "top_row",  "top_corners", "four_corners",
+                                                    "left_column", "boundary", "list"};
+constexpr std::array<std::string_view, 2> shape_names{"sphere", "plane"};
+constexpr std::array<std::string_view, 2> engine_names{"cpu", "opencl"};
+constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
+constexpr std::array<std::string_view, 6> section_names{"cloth", "forces", "tearing", "bodies", "solver", "view"};
+constexpr std::uintmax_t max_file_size = 16u << 20;
+
+/// Shortest text that reads back as the same number; without an exponent where a person would write none.
+std::string format(double v) {
+  std::array<char, 40> text{};
+  const bool plain = v == 0 || (std::abs(v) >= 1e-5 && std::abs(v) < 1e9);
+  const auto end = plain ? std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::fixed).ptr
+                         : std::to_chars(text.data(), text.data() + text.size(), v).ptr;
+  return {text.data(), end};
+}
+
+template <class Names>
+std::string listed(const Names& names) {
+  std::string all;
+  for (std::string_view name : names) all += (all.empty() ? "" : ", ") + std::string(name);
+  return all;
+}
+
+/// Why `v` is not allowed, or empty. The one place where ranges are checked.
+template <class T>
+std::string range_problem(const Row<T>& row, double v) {
+  if (std::isfinite(v) && v >= row.min && v <= row.max) return {};
+  return format(v) + " is not allowed; allowed: " + format(row.min) + " to " + format(row.max) +
+         (row.unit.empty() ? "" : " " + std::string(row.unit)) + (row.zero_is_off ? " (0: never)" : "");
+}
+
+template <class T>
+std::string value_problem(const Row<T>& row, const T& object) {
+  return std::visit(
+      [&](auto field) -> std::string {
+        const auto& value = object.*field;
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, glm::dvec3>) {
+          for (int c = 0; c < 3; ++c)
+            if (auto problem = range_problem(row, value[c]); !problem.empty()) return problem;
+          return {};
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+          if (row.key == "integrator" && !is_integrator(value)) {
+            const auto meant = nearest(value, integrator_names());
+            return "\"" + value + "\" is no integrator" + (meant ? "; did you mean " + std::string(*meant) + "?" : "") +
+                   " Known: " + listed(integrator_names());
+          }
+          return {};
+        } else {
+          return range_problem(row, double(value));
+        }
+      },
+      row.field);
+}
+
+std::string pins_problem(const Preset& p) {
+  if (p.pins.mode != Pins::Mode::list) return {};
+  for (const auto [i, j] : p.pins.list)
+    if (i < 0 || i >= p.rows || j < 0 || j >= p.columns)
+      return "[" + std::to_string(i) + ", " + std::to_string(j) + "] lies outside the cloth; allowed: [0, 0] to [" +
+             std::to_string(p.rows - 1) + ", " + std::to_string(p.columns - 1) + "]";
+  return {};
+}
+
+/// Reads values of one source (a file, a --set) into a preset; knows how to complain.
+class Reader {
+ public:
+  explicit Reader(std::string_view source) : source_(source) {}
+
+  [[noreturn]] void fail(int line, const std::string& path, const std::string& why) const {
+    throw PresetError(printable(source_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + path +
+                                (path.empty() ? "" : ": ") + why));
+  }
+  [[noreturn]] void wrong_type(const JsonNode& node, const std::string& path, std::string_view expected) const {
+    fail(node.line, path, "must be " + std::string(expected) + ", not " + std::string(type_name(node.type)));
+  }
+
+  template <class T>
+  void field(const JsonNode& node, const std::string& path, const Row<T>& row, T& object) const {
+    std::visit([&](auto member) { value(node, path, object.*member); }, row.field);
+    if (const auto problem = value_problem(row, object); !problem.empty()) fail(node.line, path, problem);
+  }
+
+  template <class Enum, std::size_t N>
+  void choice(const JsonNode& node, const std::string& path, const std::array<std::string_view, N>& names, Enum& out) const {
+    if (node.type != Type::text) wrong_type(node, path, "a text, one of " + listed(names));
+    const auto it = std::find(names.begin(), names.end(), node.text);
+    if (it == names.end()) {
+      const auto meant = nearest(node.text, names);
+      fail(node.line, path, "\"" + node.text + "\" is not known" +
+           (meant ? "; did you mean " + std::string(*meant) + "?" : "") + " Allowed: " + listed(names));
+    }
+    out = Enum(it - names.begin());
+  }
+
+  void value(const JsonNode& node, const std::string& path, double& out) const {
+    if (!node.is_number()) wrong_type(node, path, "a number");
+    out = node.number;
+  }
+  void value(const JsonNode& node, const std::string& path, int& out) const {
+    if (node.type != Type::integer) wrong_type(node, path, "a whole number");
+    out = int(std::clamp(node.number, -2147483648.0, 2147483647.0));
+  }
+  void value(const JsonNode& node, const std::string& path, std::string& out) const {
+    if (node.type != Type::text) wrong_type(node, path, "a text");
+    out = node.text;
+  }
+  void value(const JsonNode& node, const std::string& path, glm::dvec3& out) const {
+    if (node.type != Type::list || node.items.size() != 3) wrong_type(node, path, "a list of three numbers");
+    for (int c = 0; c < 3; ++c) value(node.items[c], path + "[" + std::to_string(c) + "]", out[c]);
+  }
+
+  void pins(const JsonNode& node, const std::string& path, Pins& out) const {
+    out = {};
+    if (node.type == Type::text) {
+      choice(node, path, std::to_array<std::string_view>({"none", "top_row", "top_corners", "four_corners",
+                                                          "left_column", "boundary"}), out.mode);
+      return;
+    }
+    if (node.type != Type::list) wrong_type(node, path, "a name or a list of [row, column]");
+    out.mode = Pins::Mode::list;
+    for (std::size_t n = 0; n < node.items.size(); ++n) {
+      const JsonNode& item = node.items[n];
+      const std::string item_path = path + "[" + std::to_string(n) + "]";
+      if (item.type != Type::list || item.items.size() != 2) wrong_type(item, item_path, "[row, column]");
+      Pins::Site site;
+      value(item.items[0], item_path, site.i);
+      value(item.items[1], item_path, site.j);
+      out.list.push_back(site);
+    }
+  }
+
+  void body_key(const std::string& key, const JsonNode& node, const std::string& path, Body& body) const {
+    if (key == "shape") return choice(node, path, shape_names, body.shape);
+    if (const BodyRow* row = find_body_row(key)) return field(node, path, *row, body);
+    std::vector<std::string_view> known{"shape"};
+    for (const BodyRow& row : body_notation()) known.push_back(row.key);
+    unknown(node.line, path, key, known);
+  }
+
+  void body(const JsonNode& node, const std::string& path, Body& out) const {
+    if (node.type != Type::object) wrong_type(node, path, "a block {…}");
+    out = {};
+    for (const auto& [key, child] : node.members) body_key(key, child, path + "." + key, out);
+  }
+
+  void bodies(const JsonNode& node, const std::string& path, std::vector<Body>& out) const {
+    if (node.type != Type::list) wrong_type(node, path, "a list of bodies");
+    out.assign(node.items.size(), {});
+    for (std::size_t n = 0; n < out.size(); ++n) body(node.items[n], path + "[" + std::to_string(n) + "]", out[n]);
+  }
+
+  /// One inner key. `section` empty: any section (as in --set).
+  void key(std::string_view section, const std::string& name, const JsonNode& node, const std::string& path,
+           Preset& p) const {
+    const auto in = [&](std::string_view s) { return section.empty() || section == s; };
+    if (in("cloth") && name == "pins") return pins(node, path, p.pins);
+    if (in("solver") && name == "engine") return choice(node, path, engine_names, p.engine);
+    if (in("solver") && name == "precision") return choice(node, path, precision_names, p.precision);
+    if (const PresetRow* row = find_row(name); row && in(row->section)) return field(node, path, *row, p);
+    std::vector<std::string_view> known;
+    if (in("cloth")) known.push_back("pins");
+    if (in("solver")) known.insert(known.end(), {"engine", "precision"});
+    if (section.empty()) known.insert(known.end(), {"kind", "name", "description", "bodies"});
+    for (const PresetRow& row : notation())
+      if (in(row.section)) known.push_back(row.key);
+    unknown(node.line, path, name, known);
+  }
+
+  /// A key of the file's top level that is not a section.
+  bool top_key(const std::string& name, const JsonNode& node, Preset& p) const {
+    if (name == "kind") return choice(node, name, kind_names, p.kind), true;
+    if (name == "name") return value(node, name, p.name), true;
+    if (name == "description") return value(node, name, p.description), true;
+    if (name == "bodies") return bodies(node, name, p.bodies), true;
+    return false;
+  }
+
+  [[noreturn]] void unknown(int line, const std::string& path, const std::string& key,
+                            const std::vector<std::string_view>& known) const {
+    const auto meant = nearest(key, known);
+    fail(line, path, "unknown key" + (meant ? "; did you mean " + std::string(*meant) + "?"
+                                            : "; known: " + listed(known)));
+  }
+
+ private:
+  std::string source_;
+};
+
+void check_version(const Reader& reader, const JsonNode& node) {
+  if (node.type != Type::integer) reader.wrong_type(node, "tyglab_preset", "a whole number");
+  if (node.number > preset_version)
+    reader.fail(node.line, "tyglab_preset",
+                "this preset has version " + format(node.number) + ", made by a newer Tyglab; this one reads up to " +
+                    std::to_string(preset_version) + ". Update Tyglab, or save the preset from it in the older form");
+  if (node.number < 1) reader.fail(node.line, "tyglab_preset", "versions begin at 1");
+}
+
+std::string list_text(const glm::dvec3& v) { return "[" + format(v.x) + ", " + format(v.y) + ", " + format(v.z) + "]"; }
+
+std::string json_text(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+template <class T>
+std::string field_text(const Row<T>& row, const T& object) {
+  return std::visit(
+      [&](auto field) -> std::string {
+        const auto& value = object.*field;
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::string>) return json_text(value);
+        else if constexpr (std::is_same_v<Value, glm::dvec3>) return list_text(value);
+        else return format(double(value));
+      },
+      row.field);
+}
+
+std::string pins_text(const Pins& pins) {
+  if (pins.mode != Pins::Mode::list) return json_text(name_of(pins.mode));
+  std::string text;
+  for (const auto [i, j] : pins.list)
+    text += (text.empty() ? "[" : ", [") + std::to_string(i) + ", " + std::to_string(j) + "]";
+  return "[" + text + "]";
+}
+
+std::string body_text(const Body& body) {
+  std::string text = "{\"shape\": " + json_text(name_of(body.shape));
+  for (const BodyRow& row : body_notation()) {
+    const bool plane_only = row.key == "y", sphere_only = row.key == "c" || row.key == "r";
+    if ((plane_only && body.shape != Body::Shape::plane) || (sphere_only && body.shape != Body::Shape::sphere)) continue;
+    text += ", " + json_text(row.key) + ": " + field_text(row, body);
+  }
+  return text + "}";
+}
+
+std::string bodies_text(const std::vector<Body>& bodies) {
+  std::string text;
+  for (const Body& body : bodies) text += (text.empty() ? "\n    " : ",\n    ") + body_text(body);
+  return "[" + text + (bodies.empty() ? "]" : "\n  ]");
+}
+
+std::string section_text(std::string_view section, const Preset& p) {
+  if (section == "bodies") return "  \"bodies\": " + bodies_text(p.bodies);
+  std::string text;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    text += (text.empty() ? "" : ", ") + json_text(key) + ": " + value;
+  };
+  for (const PresetRow& row : notation())
+    if (row.section == section) add(row.key, field_text(row, p));
+  if (section == "cloth") add("pins", pins_text(p.pins));
+  if (section == "solver") add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
+  return "  " + json_text(section) + ": {" + text + "}";
+}
+
+bool is_text_key(const std::string& key) {
+  const PresetRow* row = find_row(key);
+  return key == "name" || key == "description" || (row && std::holds_alternative<std::string Preset::*>(row->field));
+}
+
+/// Value of a --set: a bare word (integrator=euler, name=3 sheets), otherwise JSON.
+JsonNode setting_value(const std::string& key, const std::string& text, const Reader& reader, const std::string& source) {
+  const bool word = !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0) && text != "null" &&
+                    text != "true" && text != "false";
+  if (word || (is_text_key(key) && !text.starts_with('"'))) {
+    try {
+      nlohmann::json(text).dump();
+    } catch (const nlohmann::json::exception&) {
+      reader.fail(0, key, "must be UTF-8 text");
+    }
+    JsonNode node;
+    node.type = Type::text;
+    node.text = text;
+    return node;
+  }
+  JsonNode node = parse_json(text, source);
+  node.line = 0;
+  for (JsonNode& item : node.items) item.line = 0;
+  return node;
+}
+
+/// "bodies[2].r" -> index 2, key "r".
+bool body_setting(const std::string& key, std::size_t& index, std::string& inner) {
+  if (key.rfind("bodies[", 0) != 0) return false;
+  const auto close = key.find("].");
+  if (close == std::string::npos) return false;
+  const char* begin = key.data() + 7;
+  const auto result = std::from_chars(begin, key.data() + close, index);
+  inner = key.substr(close + 2);
+  return result.ec == std::errc{} && result.ptr == key.data() + close;
+}
+
+void apply_setting(const std::string& setting, Preset& p) {
+  const Reader reader("--set " + setting);
+  const auto equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) reader.fail(0, "", "must be KEY=VALUE, for example k_s=500");
+  std::string key = setting.substr(0, equals);
+  const JsonNode node = setting_value(key, setting.substr(equals + 1), reader, "--set " + setting);
+  if (reader.top_key(key, node, p)) return;
+  std::size_t index = 0;
+  std::string inner;
+  if (body_setting(key, index, inner)) {
+    if (index >= p.bodies.size())
+      reader.fail(0, key, "there are " + std::to_string(p.bodies.size()) + " bodies, counted from 0");
+    return reader.body_key(inner, node, key, p.bodies[index]);
+  }
+  std::string_view section;
+  if (const auto dot = key.find('.'); dot != std::string::npos) {
+    const auto it = std::find(section_names.begin(), section_names.end(), key.substr(0, dot));
+    if (it != section_names.end()) section = *it, key.erase(0, dot + 1);
+  }
+  // x_0.y=2 sets one component.
+  if (key.size() > 2 && key[key.size() - 2] == '.' && key.back() >= 'x' && key.back() <= 'z') {
+    const PresetRow* row = find_row(key.substr(0, key.size() - 2));
+    const auto* vector = row ? std::get_if<glm::dvec3 Preset::*>(&row->field) : nullptr;
+    if (vector) {
+      reader.value(node, key, (p.**vector)[key.back() - 'x']);
+      if (const auto problem = value_problem(*row, p); !problem.empty()) reader.fail(0, key, problem);
+      return;
+    }
+  }
+  reader.key(section, key, node, key, p);
+}
+
+}  // namespace
+
+std::string_view name_of(Kind v) { return kind_names[std::size_t(v)]; }
+std::string_view name_of(Pins::Mode v) { return pin_names[std::size_t(v)]; }
+std::string_view name_of(Body::Shape v) { return shape_names[std::size_t(v)]; }
+std::string_view name_of(EngineKind v) { return engine_names[std::size_t(v)]; }
+std::string_view name_of(Precision v) { return precision_names[std::size_t(v)]; }
+
+Preset parse_preset(std::string_view text, std::string_view source) {
+  const JsonNode root = parse_json(text, source);
+  const Reader reader(source);
+  if (root.type != Type::object) reader.wrong_type(root, "", "a block {…}");
+  if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
+  Preset preset;
+  int pins_line = 0;
+  for (const auto& [name, node] : root.members) {
+    if (name == "tyglab_preset" || reader.top_key(name, node, preset)) continue;
+    if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
+      std::vector<std::string_view> known(section_names.begin(), section_names.end());
+      known.insert(known.end(), {"tyglab_preset", "kind", "name", "description"});
+      reader.unknown(node.line, name, name, known);
+    }
+    if (node.type != Type::object) reader.wrong_type(node, name, "a block {…}");
+    for (const auto& [key, child] : node.members) {
+      reader.key(name, key, child, name + "." + key, preset);
+      if (key == "pins") pins_line = child.line;
+    }
+  }
+  if (const auto problem = pins_problem(preset); !problem.empty()) reader.fail(pins_line, "cloth.pins", problem);
+  return preset;
+}
+
+Preset load_preset(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw PresetError(file.string() + ": there is no such file; `tyglab presets` lists the shipped ones");
+  if (const auto size = std::filesystem::file_size(file, error); error || size > max_file_size)
+    throw PresetError(file.string() + ": too large for a preset (16 MiB at most)");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw PresetError(file.string() + ": cannot be read; check its permissions");
+  return parse_preset(text.str(), file.string());
+}
+
+std::string preset_to_json(const Preset& p) {
+  std::string text = "{\n  \"tyglab_preset\": " + std::to_string(preset_version) + ", \"kind\": " + json_text(name_of(p.kind)) +
+                     ",\n  \"name\": " + json_text(p.name) + ",\n  \"description\": " + json_text(p.description);
+  for (std::string_view section : section_names) text += ",\n" + section_text(section, p);
+  return text + "\n}\n";
+}
+
+void save_preset(const Preset& preset, const std::filesystem::path& file) {
+  write_atomically(file, preset_to_json(preset));
+}
+
+std::string preset_hash(const Preset& preset) {
+  Preset scene = preset;
+  scene.name.clear();
+  scene.description.clear();
+  scene.mode = Preset{}.mode;
+  scene.texture.clear();
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c : preset_to_json(scene)) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+Preset with_settings(const Preset& preset, const std::vector<std::string>& settings) {
+  Preset changed = preset;
+  for (const std::string& setting : settings) apply_setting(setting, changed);
+  if (const auto problem = check_preset(changed); !problem.empty()) throw PresetError("--set: " + problem);
+  return changed;
+}
+
+std::string check_preset(const Preset& preset) {
+  for (const PresetRow& row : notation())
+    if (const auto problem = value_problem(row, preset); !problem.empty())
+      return std::string(row.section) + "." + std::string(row.key) + ": " + problem;
+  for (std::size_t n = 0; n < preset.bodies.size(); ++n)
+    for (const BodyRow& row : body_notation())
+      if (const auto problem = value_problem(row, preset.bodies[n]); !problem.empty())
+        return "bodies[" + std::to_string(n) + "]." + std::string(row.key) + ": " + problem;
+  if (const auto problem = pins_problem(preset); !problem.empty()) return "cloth.pins: " + problem;
+  return {};
+}
+
+void write_atomically(const std::filesystem::path& file, std::string_view text) {
+  const auto fail = [&](const std::string& why) {
+    throw OutputError(file.string() + ": cannot be written: " + why);
+  };
+  std::filesystem::path target = file;
+  std::error_code error;
+  if (std::filesystem::is_directory(target, error)) fail("it is a folder; name a file in it");
+  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
+    // A pipe or a device (/dev/stdout) cannot be replaced; it takes the text as it comes.
+    std::ofstream out(target, std::ios::binary);
+    out << text << std::flush;
+    if (!out) fail("the device or pipe did not take the text");
+    return;
+  }
+  // A device or a pipe is written to; renaming would put a file in its place.
+  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
+    std::ofstream out(target, std::ios::binary);
+    if (!(out << text).flush()) fail(std::strerror(errno));
+    return;
+  }
+  // Follow a link, so that the file it points to is replaced and not the link.
+  if (std::filesystem::is_symlink(target, error)) target = std::filesystem::weakly_canonical(target, error);
+  const std::filesystem::path temporary = target.string() + "." + std::to_string(::getpid()) + ".tmp";
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) fail(std::strerror(errno));
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::write(fd, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      const std::string why = std::strerror(errno);
+      ::close(fd);
+      ::unlink(temporary.c_str());
+      fail(why);
+    }
+    done += std::size_t(n);
+  }
+  if (::close(fd) != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
+    const std::string why = std::strerror(errno);
+    ::unlink(temporary.c_str());
+    fail(why);
+  }
+}
+
+}  // namespace tyglab

@@ -1,0 +1,32 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+
+// With s springs of constant k_s abreast and s in series, stiffness against stretching does not depend on the
+// resolution; a spring's share of a given load falls as 1/q, a triangle's share of a given wind as 1/q².
+Preset with_resolution(const Preset& preset, double q) {
+  Preset fine = preset;
+  const auto scaled = [q](int count) { return int(std::llround((count - 1) * q)) + 1; };
+  fine.rows = std::clamp(scaled(preset.rows), 2, 4096);
+  fine.columns = preset.columns == 1 ? 1 : std::clamp(scaled(preset.columns), 2, 4096);
+  // Rounding and the ends of the range decide the factor that is really taken.
+  const double taken = double(fine.rows - 1) / (preset.rows - 1);
+  fine.L = preset.L / taken;
+  fine.F_max = preset.F_max / taken;
+  fine.W = preset.W / (taken * taken);
+  fine.dt = preset.dt / taken;
+  fine.m = preset.m * (double(preset.rows) * preset.columns) / (double(fine.rows) * fine.columns);
+  const double across = preset.columns > 1 ? double(fine.columns - 1) / (preset.columns - 1) : 1;
+  fine.pins.list.clear();
+  for (const auto [i, j] : preset.pins.list) {
+    const Pins::Site site{int(std::llround(i * taken)), int(std::llround(j * across))};
+    if (std::find(fine.pins.list.begin(), fine.pins.list.end(), site) == fine.pins.list.end())
+      fine.pins.list.push_back(site);
+  }
+  return fine;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,99 @@
+#include "core/output/obj.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/notation/preset_io.h"
+#include "core/output/text.h"
+
+namespace tyglab {
+namespace {
+
+/// Calls visit(p0, p1, p2) for every whole triangle, corners counter-clockwise from the front.
+template <class Visit>
+void for_whole_triangles(const Tears& tears, Visit visit) {
+  const Lattice& lattice = tears.lattice();
+  for (int i = 0; i + 1 < lattice.rows; ++i)
+    for (int j = 0; j + 1 < lattice.columns; ++j)
+      for (int which = 0; which < 2; ++which) {
+        if (!tears.triangle_whole(i, j, which)) continue;
+        const auto& corners = quad_triangles[(i + j) & 1][which];
+        const auto index = [&](const Corner& corner) {
+          return std::size_t(i + corner.di) * lattice.columns + (j + corner.dj);
+        };
+        visit(index(corners[0]), index(corners[1]), index(corners[2]));
+      }
+}
+
+void append_line(std::string& text, std::string_view keyword, std::initializer_list<double> values) {
+  constexpr int digits = 9;  // every float comes back exactly, and programs that read OBJ hold floats
+  text += keyword;
+  for (const double value : values) {
+    text += ' ';
+    append_number(text, value, digits);
+  }
+  text += '\n';
+}
+
+/// A comment ends with its line, so a name must not hold line breaks.
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::vector<glm::dvec3> vertex_normals(const Tears& tears, const VectorField<double>& x) {
+  std::vector<glm::dvec3> normals(tears.lattice().size(), glm::dvec3(0));
+  const auto at = [&](std::size_t p) { return glm::dvec3(x.x[p], x.y[p], x.z[p]); };
+  for_whole_triangles(tears, [&](std::size_t a, std::size_t b, std::size_t c) {
+    // The cross product is along the normal and as long as twice the area: the weight comes by itself.
+    const glm::dvec3 weighted = glm::cross(at(b) - at(a), at(c) - at(a));
+    for (const std::size_t p : {a, b, c}) normals[p] += weighted;
+  });
+  for (glm::dvec3& normal : normals) {
+    const double length = std::hypot(normal.x, normal.y, normal.z);
+    normal = length > 0 && std::isfinite(length) ? normal / length : glm::dvec3(0, 0, 1);
+  }
+  return normals;
+}
+
+std::string obj_text(const Tears& tears, const VectorField<double>& x, const ObjFrame& frame) {
+  const Lattice& lattice = tears.lattice();
+  std::string text = "# Tyglab: " + one_line(frame.name) + "\n# frame " + std::to_string(frame.frame) + ", t = ";
+  append_number(text, frame.t, 9);
+  text += " s, frame rate ";
+  append_number(text, frame.fps, 9);
+  text += " frames per second\no cloth\n";
+
+  for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) append_line(text, "v", {x.x[p], x.y[p], x.z[p]});
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j)
+      append_line(text, "vt",
+                  {lattice.columns > 1 ? double(j) / (lattice.columns - 1) : 0.0, 1 - double(i) / (lattice.rows - 1)});
+  for (const glm::dvec3& n : vertex_normals(tears, x)) append_line(text, "vn", {n.x, n.y, n.z});
+  for_whole_triangles(tears, [&](std::size_t a, std::size_t b, std::size_t c) {
+    text += 'f';
+    for (const std::size_t p : {a, b, c}) {
+      const std::string number = std::to_string(p + 1);
+      text += ' ' + number + '/' + number + '/' + number;
+    }
+    text += '\n';
+  });
+  return text;
+}
+
+void write_obj(const std::filesystem::path& file, const Tears& tears, const VectorField<double>& x,
+               const ObjFrame& frame) {
+  write_atomically(file, obj_text(tears, x, frame));
+}
+
+std::string frame_name(std::string_view prefix, std::int64_t frame, std::int64_t count, std::string_view extension) {
+  const std::size_t width = std::max<std::size_t>(4, std::to_string(std::max<std::int64_t>(count - 1, 0)).size());
+  std::string number = std::to_string(frame);
+  number.insert(0, width - std::min(width, number.size()), '0');
+  return std::string(prefix) + '_' + number + '.' + std::string(extension);
+}
+
+}  // namespace tyglab

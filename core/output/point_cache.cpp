@@ -1,0 +1,59 @@
+#include "core/output/point_cache.h"
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+constexpr std::streamoff count_offset = 28;  // of the number of samples within the header
+
+/// Appends the four bytes of an int32 or a float32, lowest first, whatever the machine's own order.
+template <class T>
+void append_little_endian(std::vector<char>& bytes, T value) {
+  static_assert(sizeof(T) == 4);
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<char>(bits >> shift & 0xff));
+}
+
+}  // namespace
+
+PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
+    : file_(file), out_(file, std::ios::binary | std::ios::trunc), points_(points) {
+  std::vector<char> header;
+  for (const char c : "POINTCACHE2") header.push_back(c);  // with its closing zero: twelve bytes
+  append_little_endian<std::int32_t>(header, 1);
+  append_little_endian<std::int32_t>(header, points_);
+  append_little_endian<float>(header, 0);
+  append_little_endian<float>(header, 1);
+  append_little_endian<std::int32_t>(header, 0);
+  out_.write(header.data(), std::streamsize(header.size())).flush();
+  check();
+}
+
+void PointCache::add(const VectorField<double>& x) {
+  sample_.clear();
+  for (std::size_t p = 0; p < std::size_t(points_); ++p)
+    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, static_cast<float>(value));
+  out_.write(sample_.data(), std::streamsize(sample_.size())).flush();
+  check();
+  ++samples_;
+  put_count();
+}
+
+void PointCache::put_count() {
+  std::vector<char> count;
+  append_little_endian(count, samples_);
+  out_.seekp(count_offset).write(count.data(), std::streamsize(count.size())).flush();
+  out_.seekp(0, std::ios::end);
+  check();
+}
+
+void PointCache::check() {
+  if (!out_) throw OutputError(file_.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace tyglab

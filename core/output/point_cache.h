@@ -1,0 +1,36 @@
+// PC2: the point cache that Blender and Maya read. One file with the positions of every particle at every frame.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "core/cloth/state.h"
+
+namespace tyglab {
+
+/// Writes a PC2 file frame by frame. The header counts the frames that are whole, so that the file can be read however
+/// the run ends.
+/// Layout, little endian: "POINTCACHE2\0", int32 version 1, int32 points, float32 first frame 0, float32 frames from
+/// sample to sample 1, int32 samples; then per sample x, y, z (m) of every particle in row order as float32.
+class PointCache {
+ public:
+  /// Creates the file with no sample in it. Throws OutputError.
+  PointCache(const std::filesystem::path& file, std::int32_t points);
+  /// Appends a sample. Throws OutputError.
+  void add(const VectorField<double>& x);
+  std::int32_t samples() const { return samples_; }
+
+ private:
+  void put_count();
+  void check();
+
+  std::filesystem::path file_;
+  std::ofstream out_;
+  std::int32_t points_;
+  std::int32_t samples_ = 0;
+  std::vector<char> sample_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,77 @@
+#include "core/output/series_csv.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "core/notation/preset_io.h"
+#include "core/output/text.h"
+
+namespace tyglab {
+
+SeriesCsv::SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns,
+                     const std::string& preset_hash)
+    : file_(file), out_(file, std::ios::trunc) {
+  out_ << "# tyglab series, t in s, preset hash " << preset_hash << "\nt";
+  for (const SeriesColumn& column : columns) {
+    out_ << ',' << column.name;
+    if (!column.unit.empty()) out_ << " [" << column.unit << ']';
+  }
+  out_ << std::endl;
+  check();
+}
+
+void SeriesCsv::add(double t, std::span<const double> values) {
+  constexpr int digits = 9;
+  row_.clear();
+  append_number(row_, t, 17);
+  for (const double value : values) {
+    row_ += ',';
+    append_number(row_, value, digits);
+  }
+  out_ << row_ << std::endl;
+  check();
+}
+
+void SeriesCsv::check() {
+  if (!out_) throw OutputError(file_.string() + ": cannot be written: " + std::strerror(errno));
+}
+
+std::vector<SeriesColumn> series_columns(Kind kind) {
+  if (kind == Kind::one_weight) return {{"y", "m"}, {"v", "m/s"}, {"E_kin", "J"}};
+  return {{"E_kin", "J"},   {"y_mean", "m"},  {"y_min", "m"}, {"y_max", "m"},   {"sum_F_s", "N"},
+          {"sum_F_b", "N"}, {"sum_F_d", "N"}, {"sum_F", "N"}, {"max_F_s", "N"}, {"max_F_b", "N"},
+          {"max_F_d", "N"}, {"max_F", "N"},   {"torn", ""}};
+}
+
+std::vector<double> series_values(Simulation& simulation) {
+  const State& state = simulation.read();
+  const Preset& preset = simulation.preset();
+  double squares = 0;
+  for (const auto* v : {&state.v.x, &state.v.y, &state.v.z})
+    for (const double component : *v) squares += component * component;
+  const double E_kin = 0.5 * preset.m * squares;
+
+  const Array<double>& y = state.x.y;
+  if (preset.kind == Kind::one_weight) return {y[0], state.v.y[0], E_kin};
+  double sum = 0;
+  for (const double height : y) sum += height;
+  const auto [lowest, highest] = std::minmax_element(y.begin(), y.end());
+  const double mean = sum / double(y.size()), y_min = *lowest, y_max = *highest;
+  const ForceSummary total = simulation.forces(Reduction::sum), most = simulation.forces(Reduction::maximum);
+  return {E_kin,
+          mean,
+          y_min,
+          y_max,
+          total.F_s,
+          total.F_b,
+          total.F_d,
+          total.F,
+          most.F_s,
+          most.F_b,
+          most.F_d,
+          most.F,
+          double(simulation.tears().torn_count())};
+}
+
+}  // namespace tyglab

@@ -1,0 +1,28 @@
+// State files: where every particle is and how it moves, as a CSV that gives back the very same numbers.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "core/cloth/lattice.h"
+#include "core/cloth/state.h"
+
+namespace tyglab {
+
+/// What the first line of a state file says.
+struct StateStamp {
+  double t = 0;             ///< s
+  std::int64_t steps = 0;   ///< steps made since the start
+  std::string preset_hash;  ///< preset_hash()
+};
+
+/// The text of a state file: a comment with the stamp, `i,j,x,y,z,vx,vy,vz`, and a row per particle with 17 significant
+/// digits, in m and m/s. `state` holds the velocities as the method holds them (Simulation::read_raw).
+std::string state_csv(const Lattice& lattice, const State& state, const StateStamp& stamp);
+
+/// Writes it, whole or not at all. Throws OutputError.
+void write_state_csv(const std::filesystem::path& file, const Lattice& lattice, const State& state,
+                     const StateStamp& stamp);
+
+}  // namespace tyglab

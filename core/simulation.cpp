@@ -1,0 +1,270 @@
+#include "core/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+#include "core/cloth/start.h"
+#include "core/forces/readout.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+std::string printed(const char* format, double a) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, a);
+  return text;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) { build(); }
+Simulation::~Simulation() = default;
+
+void Simulation::build() {
+  const Lattice lattice = lattice_of(preset_);
+  auto engine = make_engine(preset_, lattice, threads_);  // first: it alone can fail
+  lattice_ = lattice;
+  engine_ = std::move(engine);
+  tears_ = Tears(lattice_);
+  pinned_mask_ = pinned_particles(preset_);
+  held_ = {};
+  hand_steps_left_ = 0;
+  hand_force_ = {};
+  update_fixed();
+  engine_->load(start_state(preset_), tears_);
+  steps_ = steps_at_dt_ = 0;
+  time_at_dt_ = 0;
+  divergence_.reset();
+  ++revision_, ++tear_revision_;
+}
+
+double Simulation::time() const { return time_at_dt_ + double(steps_ - steps_at_dt_) * preset_.dt; }
+
+std::optional<Pins::Site> Simulation::held() const {
+  if (held_.particle < 0) return std::nullopt;
+  return Pins::Site{held_.particle / lattice_.columns, held_.particle % lattice_.columns};
+}
+
+void Simulation::rebase_time() {
+  time_at_dt_ = time();
+  steps_at_dt_ = steps_;
+}
+
+void Simulation::update_fixed() {
+  pinned_.clear();
+  for (int p = 0; p < lattice_.size(); ++p)
+    if (pinned_mask_[p]) pinned_.push_back(p);
+  engine_->set_fixed(pinned_, held_);
+}
+
+void Simulation::apply(const Edit& edit) {
+  std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [&](const edit::Restart&) { build(); },
+                        [&](const edit::Grab& e) { grab(e); }, [&](const edit::MoveHand& e) { move_hand(e); },
+                        [&](const edit::Release&) { release(); }, [&](const edit::Cut& e) { cut(e); },
+                        [&](const edit::Pin& e) { pin(e); }, [&](const edit::MoveBody& e) { move_body(e); }},
+             edit);
+  ++revision_;
+}
+
+void Simulation::change(const Preset& next) {
+  if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
+  const Preset old = preset_;
+  if (lattice_of(next) != lattice_ || next.kind != old.kind) {
+    preset_ = next;
+    try {
+      build();
+    } catch (...) {
+      preset_ = old;
+      throw;
+    }
+    return;
+  }
+  if (steps_ == 0) {
+    restart_untouched(next);
+  } else if (next.precision != old.precision || next.engine != old.engine) {
+    auto engine = make_engine(next, lattice_, threads_);
+    const State state = read();
+    rebase_time();
+    engine_ = std::move(engine);
+    preset_ = next;
+    engine_->set_fixed(pinned_, held_);
+    engine_->load(state, tears_);
+  } else {
+    rebase_time();
+    engine_->set_preset(next, tears_);
+    preset_ = next;
+  }
+  if (next.pins != old.pins) {
+    pinned_mask_ = pinned_particles(next);
+    if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
+    update_fixed();
+  }
+}
+
+/// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and the
+/// hand stay.
+void Simulation::restart_untouched(const Preset& next) {
+  engine_ = make_engine(next, lattice_, threads_);
+  preset_ = next;
+  divergence_.reset();
+  pinned_mask_ = pinned_particles(preset_);
+  if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
+  update_fixed();
+  engine_->load(start_state(preset_), tears_);
+}
+
+void Simulation::grab(const edit::Grab& e) {
+  if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j) || pinned(e.i, e.j)) return;
+  held_ = {e.i * lattice_.columns + e.j, {0, 0, 0}};
+  hand_steps_left_ = 0;
+  hand_force_ = {};
+  update_fixed();
+}
+
+void Simulation::move_hand(const edit::MoveHand& e) {
+  if (held_.particle < 0 || e.steps <= 0) return;
+  const auto site = *held();
+  held_.velocity = (e.to - positions().at(site.i, site.j)) / (e.steps * preset_.dt);
+  hand_steps_left_ = e.steps;
+  update_fixed();
+}
+
+void Simulation::release() {
+  if (held_.particle < 0) return;
+  held_ = {};
+  hand_force_ = {};
+  update_fixed();
+}
+
+void Simulation::cut(const edit::Cut& e) {
+  for (const auto [i, j] : e.sites) {
+    tears_.tear(2, i - 1, j - 1);  // to (i-1, j-1): owned by that particle, direction SE
+    tears_.tear(1, i - 1, j);      // S
+    tears_.tear(3, i - 1, j + 1);  // SW
+  }
+  ++tear_revision_;
+}
+
+void Simulation::pin(const edit::Pin& e) {
+  if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
+  const int p = e.i * lattice_.columns + e.j;
+  if (held_.particle == p) release();
+  pinned_mask_[p] = e.pinned;
+  // The preset says what is pinned, so that it can be saved: by a list from now on.
+  preset_.pins.mode = Pins::Mode::list;
+  preset_.pins.list.clear();
+  for (int n = 0; n < lattice_.size(); ++n)
+    if (pinned_mask_[n]) preset_.pins.list.push_back({n / lattice_.columns, n % lattice_.columns});
+  update_fixed();
+}
+
+void Simulation::move_body(const edit::MoveBody& e) {
+  if (e.index < 0 || e.index >= int(preset_.bodies.size())) return;
+  Preset next = preset_;
+  Body& body = next.bodies[e.index];
+  if (body.shape == Body::Shape::plane) body.y = e.c.y;
+  else body.c = e.c;
+  if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
+  engine_->set_preset(next, tears_);
+  preset_ = next;
+}
+
+Advance Simulation::advance(int steps) {
+  Advance total;
+  while (!divergence_ && total.steps < steps) {
+    int now = steps - total.steps;
+    if (held_.particle >= 0 && hand_steps_left_ > 0) now = std::min(now, hand_steps_left_);
+    const Advance part = engine_->advance(now, tears_);
+    steps_ += part.steps;
+    const int before = total.steps, torn = total.torn;
+    const bool released = total.released;
+    total = part;
+    total.steps += before, total.torn += torn, total.released |= released;
+    if (part.torn > 0) ++tear_revision_;
+    if (held_.particle >= 0) hand_force_ = part.hand_force;
+    if (part.diverged) diverge(part);
+    if (part.released) release();
+    if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {
+      held_.velocity = {0, 0, 0};
+      update_fixed();
+    }
+  }
+  if (total.steps > 0) ++revision_;
+  return total;
+}
+
+void Simulation::diverge(const Advance& part) {
+  Divergence d;
+  d.step = steps_ + 1;
+  d.t = time() + preset_.dt;
+  d.i = part.i, d.j = part.j;
+  d.quantity = part.quantity;
+  d.value = part.value;
+  d.cause = part.quantity == "spring length"
+                ? "a spring grew past 1000 times its rest length"
+                : part.quantity == "distance from x_0" ? "the weight went more than 1000 times as far as it began"
+                                                       : "a " + part.quantity + " is no longer a finite number";
+  d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
+  d.remedy = "Take a smaller dt (" + printed("%g s", preset_.dt / 4) + "), a smaller " +
+             (preset_.kind == Kind::cloth ? "k_s" : "k") + ", " +
+             (preset_.integrator == "verlet" ? "or heavier particles" : "or the integrator verlet") + ", and restart.";
+  divergence_ = d;
+}
+
+const State& Simulation::read() {
+  if (state_revision_ != revision_) engine_->read(state_, tears_), state_revision_ = revision_;
+  return state_;
+}
+
+State Simulation::read_raw() const {
+  State state;
+  engine_->read_raw(state);
+  return state;
+}
+
+ParticleReadout Simulation::particle(int i, int j) {
+  const State& state = read();
+  const ParticleForces forces = forces_on_particle(preset_, tears_, state, i, j);
+  const std::size_t p = std::size_t(i) * lattice_.columns + j;
+  ParticleReadout out;
+  out.F_s = forces.F_s, out.F_b = forces.F_b, out.F_d = forces.F_d, out.F_g = forces.F_g, out.F_wind = forces.F_wind;
+  out.F_int = forces.F_int();
+  out.F_ext = forces.F_ext();
+  out.pinned = pinned(i, j);
+  out.held = held_.particle == int(p);
+  // What holds a particle (pin or hand) bears the rest of its force; the hand's belongs to F_ext.
+  if (out.held) out.F_ext -= out.F_int + out.F_ext;
+  out.F = out.F_int + out.F_ext;
+  out.x = {state.x.x[p], state.x.y[p], state.x.z[p]};
+  out.v = {state.v.x[p], state.v.y[p], state.v.z[p]};
+  out.a = out.pinned ? glm::dvec3(0) : out.F / preset_.m;
+  return out;
+}
+
+ForceSummary Simulation::forces(Reduction reduction) {
+  const State& state = read();
+  ForceSummary sum;
+  const auto add = [&](double& to, const glm::dvec3& force) {
+    const double size = glm::length(force);
+    to = reduction == Reduction::sum ? to + size : std::max(to, size);
+  };
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int j = 0; j < lattice_.columns; ++j) {
+      const ParticleForces f = forces_on_particle(preset_, tears_, state, i, j);
+      add(sum.F_s, f.F_s), add(sum.F_b, f.F_b), add(sum.F_d, f.F_d), add(sum.F_g, f.F_g), add(sum.F_wind, f.F_wind);
+      add(sum.F_int, f.F_int()), add(sum.F_ext, f.F_ext()), add(sum.F, f.F_int() + f.F_ext());
+    }
+  return sum;
+}
+
+}  // namespace tyglab

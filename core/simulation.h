@@ -1,0 +1,96 @@
+// One cloth (or one weight) in motion: ties presets, engines and edits together. No threads, no window, no clock.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/cloth/start.h"
+#include "core/cloth/state.h"
+#include "core/cloth/tears.h"
+#include "core/edit.h"
+#include "core/engines/engine.h"
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+/// Everything table B.1 says of one particle, N, m, m/s, m/s².
+struct ParticleReadout {
+  glm::dvec3 F{0}, F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0}, F_int{0}, F_ext{0};
+  glm::dvec3 x{0}, v{0}, a{0};
+  bool pinned = false, held = false;
+};
+
+/// One number for the whole cloth a frame: what the plots' "sum" and "maximum" show. Magnitudes, N.
+struct ForceSummary {
+  double F_s = 0, F_b = 0, F_d = 0, F_g = 0, F_wind = 0, F_int = 0, F_ext = 0, F = 0;
+};
+enum class Reduction { sum, maximum };
+
+class Simulation {
+ public:
+  /// Builds the cloth at its start; `threads`: at most so many. Throws EngineError; the preset must be valid (check_preset).
+  explicit Simulation(const Preset& preset, int threads = 1);
+  ~Simulation();
+
+  const Preset& preset() const { return preset_; }
+  const Lattice& lattice() const { return lattice_; }
+  const Tears& tears() const { return tears_; }
+  double time() const;
+  std::int64_t steps() const { return steps_; }
+  const std::optional<Divergence>& divergence() const { return divergence_; }
+  Engine& engine() { return *engine_; }
+  PositionView positions() const { return engine_->positions(); }
+
+  bool pinned(int i, int j) const { return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0; }
+  std::optional<Pins::Site> held() const;
+  glm::dvec3 hand_force() const { return hand_force_; }
+
+  /// Applies an edit. Throws PresetError or EngineError and leaves everything as it was if it cannot be done.
+  void apply(const Edit& edit);
+  /// Makes up to `steps` steps; fewer when the run diverges. Does nothing once diverged.
+  Advance advance(int steps);
+
+  /// Full-step positions and velocities, dense.
+  const State& read();
+  /// As the method holds them: what a state file shows.
+  State read_raw() const;
+  ParticleReadout particle(int i, int j);
+  ForceSummary forces(Reduction reduction);
+  /// Counts up whenever positions, tears or bodies changed: views compare it to know whether to upload.
+  std::uint64_t revision() const { return revision_; }
+  std::uint64_t tear_revision() const { return tear_revision_; }
+
+ private:
+  void build();
+  void change(const Preset& preset);
+  void restart_untouched(const Preset& preset);
+  void grab(const edit::Grab& edit);
+  void move_hand(const edit::MoveHand& edit);
+  void release();
+  void cut(const edit::Cut& edit);
+  void pin(const edit::Pin& edit);
+  void move_body(const edit::MoveBody& edit);
+  void rebase_time();
+  void update_fixed();
+  void diverge(const Advance& advance);
+
+  Preset preset_;
+  int threads_;
+  Lattice lattice_;
+  Tears tears_;
+  std::unique_ptr<Engine> engine_;
+  std::vector<std::uint8_t> pinned_mask_;
+  std::vector<int> pinned_;
+  Held held_;
+  int hand_steps_left_ = 0;
+  glm::dvec3 hand_force_{0};
+  std::int64_t steps_ = 0;
+  std::int64_t steps_at_dt_ = 0;  ///< step at which the present dt was set
+  double time_at_dt_ = 0;         ///< and the time then
+  std::optional<Divergence> divergence_;
+  State state_;
+  std::uint64_t state_revision_ = ~0ull;
+  std::uint64_t revision_ = 0, tear_revision_ = 0;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,33 @@
+#version 330 core
+#include "frame.glsl"
+#include "light.glsl"
+in vec3 position;
+in vec3 normal;
+in vec2 across;
+uniform sampler2D cloth;  // its first row is the cloth's top edge
+uniform vec3 hem;         // sRGB
+uniform vec2 hem_width;   // in units of `across`
+out vec4 colour;
+
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+  vec3 to_eye = normalize(eye.xyz - position);
+
+  vec3 albedo = linear(texture(cloth, across).rgb);
+  if (!gl_FrontFacing) albedo = mix(albedo, vec3(dot(albedo, vec3(0.3, 0.6, 0.1))) * 1.1 + 0.01, 0.28);
+  vec2 pixel = fwidth(across);
+  vec2 width = max(hem_width, 1.1 * pixel);
+  vec2 inside = (min(across, 1.0 - across) - width) / pixel;
+  albedo = mix(mix(linear(hem), albedo, 0.34), albedo, clamp(min(inside.x, inside.y) + 0.5, 0.0, 1.0));
+
+  float facing = dot(n, to_light.xyz);
+  float lit = sunlight(position, facing < 0.0 ? -n : n, 1.6);
+  // The far side of the weave lets a part of the light through.
+  float diffuse = facing > 0.0 ? facing : -0.24 * facing;
+  vec3 halfway = normalize(to_light.xyz + to_eye);
+  float grazing = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
+  float sheen = 0.22 * grazing * grazing * grazing;
+  float gloss = facing > 0.0 ? 0.05 * pow(clamp(dot(n, halfway), 0.0, 1.0), 14.0) : 0.0;
+  vec3 light = ambient(n) * (1.1 - 0.5 * grazing) + key_light * (lit * diffuse);
+  colour = vec4(display(exposed(albedo * light * (1.0 + sheen * 2.0) + sheen * 0.05 * sky_light + gloss * lit)), 1.0);
+}

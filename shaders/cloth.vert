@@ -1,0 +1,21 @@
+#version 330 core
+#include "frame.glsl"
+layout(location = 0) in float x;
+layout(location = 1) in float y;
+layout(location = 2) in float z;
+layout(location = 3) in float normal_x;
+layout(location = 4) in float normal_y;
+layout(location = 5) in float normal_z;
+uniform int stride;        // particles a row of the arrays
+uniform vec2 texture_step;  // 1/(C-1), 1/(R-1)
+out vec3 position;
+out vec3 normal;
+out vec2 across;  // 0..1 along the columns and down the rows
+
+void main() {
+  int i = gl_VertexID / stride;
+  across = vec2(gl_VertexID - i * stride, i) * texture_step;
+  position = vec3(x, y, z);
+  normal = vec3(normal_x, normal_y, normal_z);
+  gl_Position = clip_from_world * vec4(position, 1.0);
+}

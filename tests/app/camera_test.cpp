@@ -1,0 +1,139 @@
+// The camera, and what is under the pointer.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "app/viewport/camera.h"
+#include "app/viewport/picking.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+constexpr glm::vec2 size(800, 600);
+
+TEST_CASE("project is what the matrices draw, and unproject its inverse") {
+  Camera camera;
+  camera.target = {0.3f, 0.8f, -0.2f};
+  test::Random random(1);
+  for (int n = 0; n < 200; ++n) {
+    camera.orbit(float(random.uniform(-300, 300)), float(random.uniform(-100, 100)));
+    const glm::dvec3 x(random.uniform(-0.5, 0.5), random.uniform(0, 1), random.uniform(-0.5, 0.5));
+    const auto pixel = camera.project(x, size);
+    REQUIRE(pixel.has_value());
+    const glm::vec4 clip = camera.projection(size.x / size.y) * camera.view() * glm::vec4(glm::vec3(x), 1);
+    CHECK(pixel->x == doctest::Approx((clip.x / clip.w + 1) / 2 * size.x).epsilon(1e-3));
+    CHECK(pixel->y == doctest::Approx((1 - clip.y / clip.w) / 2 * size.y).epsilon(1e-3));
+    CHECK(glm::length(camera.unproject_in_camera_plane(*pixel, x, size) - x) < 1e-4);
+    const glm::dvec3 to = glm::normalize(x - glm::dvec3(camera.eye()));
+    CHECK(glm::length(camera.ray(*pixel, size) - to) < 1e-4);
+  }
+  CHECK_FALSE(camera.project(glm::dvec3(camera.eye() - camera.forward()), size).has_value());
+}
+
+TEST_CASE("frame brings a box into view, whatever its shape") {
+  for (const glm::vec3 half : {glm::vec3(1, 1, 1), glm::vec3(3, 0.1f, 0.1f), glm::vec3(0.01f, 5, 0), glm::vec3(0)}) {
+    Camera camera;
+    camera.frame(glm::vec3(1, 2, 3) - half, glm::vec3(1, 2, 3) + half, size.x / size.y);
+    for (int corner = 0; corner < 8; ++corner) {
+      const glm::dvec3 at(1 + (corner & 1 ? 1 : -1) * half.x, 2 + (corner & 2 ? 1 : -1) * half.y,
+                          3 + (corner & 4 ? 1 : -1) * half.z);
+      const auto pixel = camera.project(at, size);
+      REQUIRE(pixel.has_value());
+      CHECK((pixel->x >= 0 && pixel->x <= size.x && pixel->y >= 0 && pixel->y <= size.y));
+    }
+  }
+}
+
+TEST_CASE("panning keeps the point under the pointer there") {
+  Camera camera;
+  const glm::vec2 from(300, 200), drag(57, -33);
+  const glm::dvec3 point = camera.unproject_in_camera_plane(from, glm::dvec3(camera.target), size);
+  camera.pan(drag.x, drag.y, size.y);
+  const auto pixel = camera.project(point, size);
+  REQUIRE(pixel.has_value());
+  CHECK(glm::length(*pixel - (from + drag)) < 0.1f);
+}
+
+TEST_CASE("the camera never turns over and never reaches its target") {
+  Camera camera;
+  camera.orbit(0, 1e6f);
+  CHECK(camera.pitch < 1.5f);
+  camera.orbit(0, -1e6f);
+  CHECK(camera.pitch > -1.5f);
+  camera.zoom(1e6f);
+  CHECK(camera.distance > 0);
+  camera.zoom(-1e6f);
+  CHECK(std::isfinite(camera.distance));
+}
+
+TEST_CASE("the particle under the pointer is found, within reach, and not behind another's back") {
+  const Preset preset = test::cloth(9, 7);
+  Simulation simulation(preset);
+  const Camera camera = scene_camera(preset, size.x / size.y);
+  for (int i = 0; i < 9; ++i) {
+    for (int j = 0; j < 7; ++j) {
+      const auto pixel = camera.project(simulation.positions().at(i, j), size);
+      REQUIRE(pixel.has_value());
+      const auto hit = nearest_particle(simulation.positions(), camera, *pixel + glm::vec2(2, 1), size, 15);
+      REQUIRE(hit.has_value());
+      CHECK((hit->i == i && hit->j == j));
+    }
+  }
+  CHECK_FALSE(nearest_particle(simulation.positions(), camera, {1, 1}, size, 5).has_value());
+  const auto corner = camera.project(simulation.positions().at(0, 0), size);
+  const auto skipping = nearest_particle(simulation.positions(), camera, *corner, size, 1000,
+                                         [&](int i, int j) { return simulation.pinned(i, j); });
+  REQUIRE(skipping.has_value());
+  CHECK_FALSE(simulation.pinned(skipping->i, skipping->j));
+}
+
+TEST_CASE("a cut takes every particle near the pointer's path, however fast it moved") {
+  const Preset preset = test::cloth(9, 7);
+  Simulation simulation(preset);
+  const Camera camera = scene_camera(preset, size.x / size.y);
+  const glm::vec2 from = *camera.project(simulation.positions().at(4, 0), size);
+  const glm::vec2 to = *camera.project(simulation.positions().at(4, 6), size);
+  const auto sites = particles_near_path(simulation.positions(), camera, from, to, size, 15);
+  for (int j = 0; j < 7; ++j) CHECK(std::count(sites.begin(), sites.end(), Pins::Site{4, j}) == 1);
+  const auto standing = particles_near_path(simulation.positions(), camera, from, from, size, 15);
+  REQUIRE(standing.size() == 1);
+  CHECK(standing[0] == Pins::Site{4, 0});
+}
+
+TEST_CASE("the sphere in front is the one under the pointer") {
+  Camera camera;
+  camera.yaw = camera.pitch = 0;  // looks along -z
+  std::vector<Body> bodies(3);
+  bodies[0].c = {0, 0, -1};
+  bodies[1].c = {0, 0, 0};
+  bodies[2].shape = Body::Shape::plane;
+  CHECK(body_under(bodies, camera, size / 2.0f, size) == 1);
+  CHECK_FALSE(body_under(bodies, camera, {1, 1}, size).has_value());
+}
+
+TEST_CASE("a scene's camera shows all of it, and finite particles alone make its bounds") {
+  for (const Preset& preset : {Preset{}, test::cloth(2, 1), test::one_weight()}) {
+    const Camera camera = scene_camera(preset, size.x / size.y);
+    Simulation simulation(preset);
+    const PositionView x = simulation.positions();
+    for (int i = 0; i < x.rows; ++i) {
+      for (int j = 0; j < x.columns; ++j) {
+        const auto pixel = camera.project(x.at(i, j), size);
+        REQUIRE(pixel.has_value());
+        CHECK((pixel->x > 0 && pixel->x < size.x && pixel->y > 0 && pixel->y < size.y));
+      }
+    }
+  }
+  const float numbers[] = {1, NAN, -2};
+  PositionView view{1, 3, 3};
+  for (auto& component : view.f) component = numbers;
+  CHECK(bounds(view).lo == glm::vec3(-2));
+  CHECK(bounds(view).hi == glm::vec3(1));
+}
+
+}  // namespace
+}  // namespace tyglab

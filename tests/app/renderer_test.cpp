@@ -1,0 +1,171 @@
+// The five views of 2.4, drawn without a window and counted in pixels.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "app/viewport/cloth_renderer.h"
+#include "app/viewport/headless_context.h"
+#include "tests/support/files.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int width = 320, height = 240;
+
+/// Draws a scene from the front, without ground and shadows, so that every pixel is the cloth's or the background's.
+class Stage {
+ public:
+  Stage() {
+    options_.ground = options_.shadows = false;
+    options_.samples = 1;
+    // A camera of the test's own: it must not move with the cloth.
+    camera_.yaw = camera_.pitch = 0;
+    camera_.target = {0, 0.9f, 0};
+    camera_.distance = 0.6f;
+  }
+  Image draw(Simulation& simulation, int mode, bool bending = false) {
+    options_.mode = mode;
+    options_.bending = bending;
+    renderer_.update(simulation, options_);
+    renderer_.draw(camera_, options_, width, height);
+    return renderer_.pixels();
+  }
+  ClothRenderer& renderer() { return renderer_; }
+
+ private:
+  HeadlessContext context_;
+  ClothRenderer renderer_;
+  ViewOptions options_;
+  Camera camera_;
+};
+
+/// Pixels that clearly differ.
+int difference(const Image& a, const Image& b) {
+  REQUIRE(a.rgb.size() == b.rgb.size());
+  int count = 0;
+  for (std::size_t p = 0; p < a.rgb.size(); p += 3) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(int(a.rgb[p + c]) - int(b.rgb[p + c])));
+    count += most > 12 ? 1 : 0;
+  }
+  return count;
+}
+
+/// A hanging cloth in the middle of the picture.
+Preset hanging() {
+  Preset preset = test::quiet_cloth(9, 9);
+  preset.pins.mode = Pins::Mode::none;
+  preset.x_0 = {0, 1.02, 0};
+  return preset;
+}
+
+/// The same picture without the cloth: it is far behind the camera.
+Preset away() {
+  Preset preset = hanging();
+  preset.x_0 = {0, 0, 500};
+  return preset;
+}
+
+TEST_CASE("views 1 to 5 show what they should") {
+  Stage stage;
+  Simulation simulation(hanging()), nothing(away());
+  const Image empty = stage.draw(nothing, 1);
+  int drawn[6] = {};
+  Image images[6];
+  for (int mode = 1; mode <= 5; ++mode) {
+    images[mode] = stage.draw(simulation, mode);
+    drawn[mode] = difference(images[mode], empty);
+    CHECK(images[mode].width == width);
+    CHECK(images[mode].height == height);
+  }
+  // The cloth covers 0.24 m of the 0.385 m that the picture is high, so about 150 pixels square.
+  CHECK(drawn[1] > 140 * 140);
+  CHECK(drawn[1] < 165 * 165);
+  CHECK(difference(images[1], images[3]) == 0);  // nothing is torn
+  for (const int lines : {2, 4, 5}) {
+    CAPTURE(lines);
+    CHECK(drawn[lines] > 300);
+    CHECK(drawn[lines] < drawn[1]);
+  }
+  CHECK(drawn[5] < drawn[2]);
+  CHECK(drawn[5] < drawn[4]);
+  for (const auto& [a, b] : {std::pair{1, 2}, {1, 4}, {1, 5}, {2, 4}, {2, 5}, {4, 5}}) {
+    CHECK(difference(images[a], images[b]) > 200);
+  }
+}
+
+TEST_CASE("torn triangles are not drawn in view 1, and are threads in view 3; a torn spring is no line in view 2") {
+  Stage stage;
+  Simulation simulation(hanging()), nothing(away());
+  const Image empty = stage.draw(nothing, 1);
+  int before[6] = {}, after[6] = {};
+  for (int mode = 1; mode <= 4; ++mode) before[mode] = difference(stage.draw(simulation, mode), empty);
+  std::vector<Pins::Site> row;
+  for (int j = 0; j < 9; ++j) row.push_back({4, j});
+  simulation.apply(edit::Cut{row});
+  for (int mode = 1; mode <= 4; ++mode) after[mode] = difference(stage.draw(simulation, mode), empty);
+  // One of eight rows of quads is gone.
+  CHECK(after[1] == doctest::Approx(before[1] * 7 / 8.0).epsilon(0.03));
+  CHECK(after[2] < before[2]);
+  CHECK(after[4] < before[4]);
+  CHECK(after[3] <= after[1] + 400);  // the springs along the edges of the cut are whole, and lie on them
+  CHECK(after[3] >= after[1]);
+}
+
+TEST_CASE("bending springs can be drawn in view 2") {
+  Stage stage;
+  Preset preset = hanging();
+  preset.k_b = 5;
+  Simulation simulation(preset);
+  const Image without = stage.draw(simulation, 2), with = stage.draw(simulation, 2, true);
+  CHECK(difference(without, with) > 100);
+}
+
+TEST_CASE("a picture follows the cloth, and shows the same twice") {
+  Stage stage;
+  Preset preset = test::cloth(9, 9);
+  preset.x_0 = {0, 1.02, 0};
+  Simulation simulation(preset);
+  const Image first = stage.draw(simulation, 1);
+  CHECK(difference(first, stage.draw(simulation, 1)) == 0);
+  simulation.advance(100);
+  CHECK(difference(first, stage.draw(simulation, 1)) > 100);
+}
+
+TEST_CASE("a texture shows, and a bad file gives a message and keeps the old one") {
+  const test::TemporaryFolder folder;
+  Stage stage;
+  Simulation simulation(hanging());
+  const Image plain = stage.draw(simulation, 1);
+  CHECK_FALSE(stage.renderer().set_texture(TYGLAB_SOURCE_DIR "/textures/uv_grid.png").has_value());
+  const Image grid = stage.draw(simulation, 1);
+  CHECK(difference(plain, grid) > 1000);
+  test::write_file(folder / "bad.png", "no picture");
+  for (const auto& file : {folder / "bad.png", folder / "missing.png"}) {
+    const auto problem = stage.renderer().set_texture(file);
+    REQUIRE(problem.has_value());
+    CHECK(problem->find(file.filename().string()) != std::string::npos);
+    CHECK(difference(grid, stage.draw(simulation, 1)) == 0);
+  }
+}
+
+TEST_CASE("threads, single quads, one weight, bodies and diverged cloths are drawn without trouble") {
+  Stage stage;
+  std::vector<Preset> presets = {test::cloth(2, 1), test::cloth(3, 1), test::cloth(2, 2), test::one_weight()};
+  presets.push_back(test::cloth(40, 3));
+  presets.back().bodies.resize(2);
+  presets.back().bodies[1].shape = Body::Shape::plane;
+  presets.push_back(test::cloth(6, 6, "euler"));
+  presets.back().dt = 0.05;
+  for (const Preset& preset : presets) {
+    Simulation simulation(preset);
+    for (int mode = 1; mode <= 5; ++mode) {
+      simulation.advance(20);
+      CHECK(stage.draw(simulation, mode).rgb.size() == std::size_t(width) * height * 3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tyglab

@@ -1,0 +1,74 @@
+// The same run is the same to the last bit, however it is cut into calls.
+#include <doctest/doctest.h>
+
+#include "core/notation/preset_io.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+/// Everything at once: wind, bodies, tearing, damping, bending.
+Preset busy(const std::string& integrator, Precision precision) {
+  Preset preset = test::cloth(19, 17, integrator);
+  preset.precision = precision;
+  preset.W = {0.002, 0.001, 0.01};
+  preset.F_max = 0.15;
+  Body sphere;
+  sphere.c = {0, 0.75, 0.15};
+  sphere.r = 0.1;
+  sphere.friction = 0.3;
+  sphere.restitution = 0.2;
+  preset.bodies = {sphere};
+  return preset;
+}
+
+TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      CAPTURE(std::string(integrator));
+      const Preset preset = busy(integrator, precision);
+      Simulation first(preset), second(preset), single(preset), pieces(preset);
+      first.advance(200);
+      second.advance(200);
+      for (int n = 0; n < 200; ++n) single.advance(1);
+      for (const int n : {7, 64, 1, 128}) pieces.advance(n);
+      for (Simulation* other : {&second, &single, &pieces}) {
+        CHECK(test::identical(first.read(), other->read()));
+        CHECK(test::identical(first.read_raw(), other->read_raw()));
+        CHECK(first.tears().torn_count() == other->tears().torn_count());
+        CHECK(first.time() == other->time());
+      }
+    }
+  }
+}
+
+TEST_CASE("reading, and edits that change nothing, do not disturb a run") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      CAPTURE(std::string(integrator));
+      const Preset preset = busy(integrator, precision);
+      Simulation quiet(preset), watched(preset);
+      quiet.advance(100);
+      for (int n = 0; n < 100; ++n) {
+        watched.advance(1);
+        watched.read();
+        watched.particle(3, 4);
+        watched.forces(Reduction::maximum);
+        watched.apply(edit::Change{preset});
+      }
+      CHECK(test::identical(quiet.read(), watched.read()));
+    }
+  }
+}
+
+TEST_CASE("a restart repeats the run to the last bit") {
+  Simulation simulation(busy("verlet", Precision::float_));
+  simulation.advance(150);
+  const State first = simulation.read();
+  simulation.apply(edit::Restart{});
+  simulation.advance(150);
+  CHECK(test::identical(simulation.read(), first));
+}
+
+}  // namespace
+}  // namespace tyglab

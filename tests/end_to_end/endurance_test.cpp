@@ -1,0 +1,40 @@
+// The promise that comes with every shipped preset: with its own settings it stays bounded for 60 simulated seconds,
+// except the one that says it explodes. A suite of its own, since it takes as long as all other tests together.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/support/files.h"
+
+namespace tyglab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A sanitizer makes each step about ten times as slow, and finds what it finds in the first seconds.
+constexpr const char* seconds = TYGLAB_SANITIZED ? "2" : "60";
+
+std::vector<std::string> shipped() {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+TEST_SUITE_BEGIN("endurance");
+
+TEST_CASE("every shipped preset stays bounded for 60 simulated seconds, except the one that explodes") {
+  const test::TemporaryFolder folder;
+  for (const std::string& name : shipped()) {
+    CAPTURE(name);
+    const auto outcome = test::tyglab(folder.path(), {"run", name, "--seconds", seconds});
+    CHECK_MESSAGE(outcome.code == (name == "explodes" ? 4 : 0), outcome.err);
+  }
+}
+
+TEST_SUITE_END();
+
+}  // namespace
+}  // namespace tyglab

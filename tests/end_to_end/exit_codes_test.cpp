@@ -1,0 +1,136 @@
+// The program as a process: exit codes and what it says, as docs and scripts rely on them.
+#include <doctest/doctest.h>
+
+#include "core/notation/preset_io.h"
+#include "tests/support/files.h"
+
+namespace tyglab {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Call {
+  std::vector<std::string> arguments;
+  int code;
+  std::string says;  ///< somewhere in stdout or stderr
+};
+
+void check_calls(const std::vector<Call>& calls, const fs::path& folder) {
+  for (const Call& call : calls) {
+    std::string line;
+    for (const std::string& word : call.arguments) line += word + " ";
+    CAPTURE(line);
+    const auto outcome = test::tyglab(folder, call.arguments);
+    CHECK(outcome.code == call.code);
+    const std::string all = outcome.out + outcome.err;
+    CHECK_MESSAGE(all.find(call.says) != std::string::npos, "\"" << call.says << "\" is missing in: " << all);
+    if (call.code != 0) CHECK_FALSE(outcome.err.empty());
+  }
+}
+
+TEST_CASE("0: help of the program and of every command, with an example; version; lists") {
+  const test::TemporaryFolder folder;
+  check_calls({{{"--help"}, 0, "run"},
+               {{"--version"}, 0, "tyglab"},
+               {{"run", "--help"}, 0, "xample"},
+               {{"render", "--help"}, 0, "xample"},
+               {{"presets", "--help"}, 0, "xample"},
+               {{"presets", "show", "--help"}, 0, "xample"},
+               {{"presets", "check", "--help"}, 0, "xample"},
+               {{"devices", "--help"}, 0, "xample"},
+               {{"presets"}, 0, "denim"},
+               {{"presets", "show", "denim"}, 0, "\"tyglab_preset\": 1"},
+               {{"devices"}, 0, "cpu"}},
+              folder.path());
+}
+
+TEST_CASE("2: the command line is wrong, --set included") {
+  const test::TemporaryFolder folder;
+  check_calls({{{"run"}, 2, "PRESET"},
+               {{"run", "denim", "--nonsense"}, 2, "nonsense"},
+               {{"run", "denim", "--steps", "abc"}, 2, "steps"},
+               {{"run", "denim", "--steps", "-5"}, 2, "steps"},
+               {{"run", "denim", "--steps", "5", "--seconds", "1"}, 2, "steps"},
+               {{"run", "denim", "--steps", "1", "--set", "k_s"}, 2, "KEY=VALUE"},
+               {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e+09"},
+               {{"run", "denim", "--steps", "1", "--set", "k_x=3"}, 2, "did you mean"},
+               {{"run", "denim", "--steps", "1", "--integrator", "eular"}, 2, "euler"},
+               {{"run", "denim", "--steps", "1", "--precision", "half"}, 2, "precision"},
+               {{"run", "denim", "--steps", "1", "--engine", "gpu"}, 2, "engine"},
+               {{"run", "denim", "--steps", "1", "--dt", "2"}, 2, "dt"},
+               {{"run", "denim", "--steps", "1", "--threads", "0"}, 2, "threads"},
+               {{"render", "denim"}, 2, "png"},
+               {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
+               {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
+               {{"presets", "shwo", "denim"}, 2, ""}},
+              folder.path());
+  CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("3: a preset is wrong or missing") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "wrong.json", "{\n\"forces\": {\n\"k_s\": -1}}");
+  test::write_file(folder / "not.json", "k_s = 5");
+  check_calls({{{"run", "wrong.json", "--steps", "1"}, 3, "wrong.json:3: forces.k_s"},
+               {{"run", "not.json", "--steps", "1"}, 3, "not.json:1"},
+               {{"run", "missing.json", "--steps", "1"}, 3, "missing.json"},
+               {{"run", "demin", "--steps", "1"}, 3, "denim"},
+               {{"render", "wrong.json", "--png", "a.png"}, 3, "forces.k_s"},
+               {{"presets", "check", "wrong.json"}, 3, "forces.k_s"},
+               {{"presets", "check", "missing.json"}, 3, "missing.json"},
+               {{"presets", "show", "demin"}, 3, "denim"}},
+              folder.path());
+  test::write_file(folder / "right.json", preset_to_json({}));
+  check_calls({{{"presets", "check", "right.json"}, 0, "right.json"}}, folder.path());
+}
+
+TEST_CASE("4: run and render diverge; what they had is written, and when, where and why is said") {
+  const test::TemporaryFolder folder;
+  check_calls({{{"run", "explodes", "--seconds", "60", "--state", "s.csv", "--json", "r.json", "--obj", "frames"},
+                4,
+                "diverged at t ="},
+               {{"render", "explodes", "--seconds", "60", "--png", "p.png", "--size", "160x90"}, 4, "diverged at t ="},
+               {{"run", "explodes", "--seconds", "2", "--integrator", "verlet"}, 0, "steps"}},
+              folder.path());
+  CHECK(test::read_file(folder / "s.csv").starts_with("# tyglab state"));
+  CHECK(test::read_file(folder / "s.csv").find("nan") == std::string::npos);
+  CHECK(test::read_file(folder / "s.csv").find("inf") == std::string::npos);
+  CHECK(test::read_file(folder / "r.json").find("\"status\": \"diverged\"") != std::string::npos);
+  CHECK(test::read_file(folder / "p.png").starts_with("\x89PNG"));
+  CHECK_FALSE(fs::is_empty(folder / "frames"));
+}
+
+TEST_CASE("5: the engine asked for is not there") {
+  const test::TemporaryFolder folder;
+  check_calls({{{"run", "denim", "--steps", "1", "--engine", "opencl", "--state", "s.csv"}, 5, "cpu"}}, folder.path());
+  CHECK_FALSE(fs::exists(folder / "s.csv"));
+}
+
+TEST_CASE("6: an output cannot be written") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "file", "");
+  check_calls({{{"run", "denim", "--steps", "1", "--state", "missing/s.csv"}, 6, "missing"},
+               {{"run", "denim", "--steps", "1", "--series", "missing/s.csv"}, 6, "missing"},
+               {{"run", "denim", "--steps", "1", "--pc2", "missing/s.pc2"}, 6, "missing"},
+               {{"run", "denim", "--steps", "1", "--json", "missing/s.json"}, 6, "missing"},
+               {{"run", "denim", "--steps", "1", "--obj", "file/frames"}, 6, "file/frames"},
+               {{"run", "denim", "--steps", "100", "--pc2", "/dev/full"}, 6, "/dev/full"},
+               {{"render", "denim", "--seconds", "0.01", "--size", "64x64", "--png", "missing/p.png"}, 6, "missing"}},
+              folder.path());
+}
+
+TEST_CASE("130: an interrupted run keeps what it had written") {
+  const test::TemporaryFolder folder;
+  const auto outcome = test::tyglab_interrupted(
+      folder.path(), {"run", "hanging", "--seconds", "100000", "--state", "s.csv", "--series", "t.csv"}, 1.5);
+  CHECK(outcome.code == 130);
+  const auto state = test::lines(test::read_file(folder / "s.csv"));
+  CHECK(state.size() > 100);
+  const auto series = test::lines(test::read_file(folder / "t.csv"));
+  REQUIRE(series.size() > 3);
+  const auto columns = test::split(series[1], ',').size();
+  for (std::size_t n = 2; n < series.size(); ++n) CHECK(test::split(series[n], ',').size() == columns);
+}
+
+}  // namespace
+}  // namespace tyglab

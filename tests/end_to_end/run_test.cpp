@@ -1,0 +1,156 @@
+// `tyglab run` and `render` from the outside: what they write, and that it is the oracle's motion.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "core/notation/preset_io.h"
+#include "tests/oracle/oracle.h"
+#include "tests/support/files.h"
+
+namespace tyglab {
+namespace {
+
+namespace fs = std::filesystem;
+
+test::Outcome good(const fs::path& folder, const std::vector<std::string>& arguments) {
+  auto outcome = test::tyglab(folder, arguments);
+  CHECK_MESSAGE(outcome.code == 0, outcome.err);
+  return outcome;
+}
+
+TEST_CASE("tyglab run denim --precision double --steps 200 equals the oracle's state to 1e-10 m") {
+  const test::TemporaryFolder folder;
+  good(folder.path(), {"run", "denim", "--precision", "double", "--steps", "200", "--state", "s.csv"});
+  oracle::Cloth cloth(load_preset(TYGLAB_SOURCE_DIR "/app/presets/denim.json"));
+  cloth.advance(200);
+  const auto rows = test::lines(test::read_file(folder / "s.csv"));
+  REQUIRE(int(rows.size()) == 2 + cloth.rows() * cloth.columns());
+  double largest = 0, largest_velocity = 0;
+  for (std::size_t n = 2; n < rows.size(); ++n) {
+    const auto cells = test::split(rows[n], ',');
+    REQUIRE(cells.size() == 8);
+    const auto at = [&](std::size_t c) { return std::strtod(cells[c].c_str(), nullptr); };
+    const auto& wanted = cloth.at(std::stoi(cells[0]), std::stoi(cells[1]));
+    largest = std::max(largest, glm::length(glm::dvec3(at(2), at(3), at(4)) - wanted.x));
+    largest_velocity = std::max(largest_velocity, glm::length(glm::dvec3(at(5), at(6), at(7)) - wanted.v));
+  }
+  CHECK(largest < 1e-10);
+  CHECK(largest_velocity < 1e-6);
+}
+
+TEST_CASE("a run twice writes the same bytes, and from any folder") {
+  const test::TemporaryFolder a, b;
+  for (const auto* folder : {&a, &b}) {
+    good(folder->path(), {"run", "flag", "--steps", "150", "--state", "s.csv", "--series", "t.csv", "--pc2", "c.pc2"});
+  }
+  for (const char* file : {"s.csv", "t.csv", "c.pc2"}) CHECK(test::read_file(a / file) == test::read_file(b / file));
+}
+
+TEST_CASE("--obj and --pc2 write a frame for each 1/fps, of the same positions") {
+  const test::TemporaryFolder folder;
+  good(folder.path(), {"run", "hanging", "--seconds", "0.4", "--fps", "10", "--obj", "frames", "--pc2", "c.pc2"});
+  int frames = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "frames")) {
+    frames += entry.path().extension() == ".obj" ? 1 : 0;
+  }
+  CHECK(frames == 5);
+  const std::string cache = test::read_file(folder / "c.pc2");
+  const Preset preset = load_preset(TYGLAB_SOURCE_DIR "/app/presets/hanging.json");
+  const std::size_t count = std::size_t(preset.rows) * preset.columns;
+  REQUIRE(cache.size() == 32 + 5 * count * 12);
+  std::int32_t samples = 0;
+  std::memcpy(&samples, cache.data() + 28, 4);
+  CHECK(samples == 5);
+  // The last frame's first free particle, in both files.
+  float x[3];
+  std::memcpy(x, cache.data() + 32 + (4 * count + 1) * 12, 12);
+  std::size_t p = 0;
+  for (const std::string& line : test::lines(test::read_file(folder / "frames" / "hanging_0004.obj"))) {
+    if (!line.starts_with("v ") || p++ != 1) continue;
+    const auto cells = test::split(line, ' ');
+    for (std::size_t c = 0; c < 3; ++c) CHECK(std::strtof(cells[c + 1].c_str(), nullptr) == x[c]);
+  }
+  CHECK(p == count);
+}
+
+TEST_CASE("--json tells programs what was done, and - writes it to standard output alone") {
+  const test::TemporaryFolder folder;
+  const auto outcome = good(folder.path(), {"run", "one_weight", "--steps", "10", "--json", "-"});
+  CHECK(outcome.out.starts_with("{"));
+  CHECK(outcome.out.find("\"steps\": 10") != std::string::npos);
+  CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("--set and the short forms reach the simulation") {
+  const test::TemporaryFolder folder;
+  const auto outcome =
+      good(folder.path(), {"run", "hanging", "--set", "rows=5", "--set", "columns=4", "--integrator", "euler", "--dt",
+                           "0.0005", "--precision", "double", "--steps", "10", "--json", "-", "--state", "s.csv"});
+  for (const char* part :
+       {"\"rows\": 5", "\"columns\": 4", "\"euler\"", "\"dt\": 0.0005", "\"double\"", "\"t\": 0.005"}) {
+    CHECK_MESSAGE(outcome.out.find(part) != std::string::npos, part);
+  }
+  CHECK(test::lines(test::read_file(folder / "s.csv")).size() == 22);
+}
+
+TEST_CASE("presets show is a preset that runs the same") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "copy.json", good(folder.path(), {"presets", "show", "sphere"}).out);
+  good(folder.path(), {"run", "copy.json", "--steps", "50", "--state", "a.csv"});
+  good(folder.path(), {"run", "sphere", "--steps", "50", "--state", "b.csv"});
+  CHECK(test::read_file(folder / "a.csv") == test::read_file(folder / "b.csv"));
+}
+
+TEST_CASE("no progress bar and no colour codes when output is not a terminal") {
+  const test::TemporaryFolder folder;
+  const auto outcome = good(folder.path(), {"run", "hanging", "--seconds", "1"});
+  for (const std::string* text : {&outcome.out, &outcome.err}) {
+    CHECK(text->find('\r') == std::string::npos);
+    CHECK(text->find('\x1b') == std::string::npos);
+  }
+  CHECK(outcome.err.empty());
+}
+
+/// Width and height of a PNG file.
+std::pair<int, int> png_size(const fs::path& file) {
+  const std::string bytes = test::read_file(file);
+  REQUIRE(bytes.size() > 32);
+  CHECK(bytes.starts_with("\x89PNG\r\n\x1a\n"));
+  const auto at = [&](std::size_t n) { return int(static_cast<unsigned char>(bytes[n])); };
+  const auto number = [&](std::size_t n) { return at(n) << 24 | at(n + 1) << 16 | at(n + 2) << 8 | at(n + 3); };
+  return {number(16), number(20)};
+}
+
+TEST_CASE("render draws every view without a display, each different") {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> pictures;
+  for (const char* view : {"1", "2", "3", "4", "5"}) {
+    const fs::path file = folder / (std::string(view) + ".png");
+    good(folder.path(), {"render", "hanging", "--seconds", "0.3", "--view", view, "--size", "320x180", "--png", file});
+    CHECK(png_size(file) == std::pair{320, 180});
+    pictures.push_back(test::read_file(file));
+  }
+  // View 3 is view 1 as long as nothing is torn.
+  CHECK(pictures[0] == pictures[2]);
+  for (const auto& [a, b] : {std::pair{0, 1}, {0, 3}, {0, 4}, {1, 3}, {1, 4}, {3, 4}}) {
+    CHECK(pictures[std::size_t(a)] != pictures[std::size_t(b)]);
+  }
+}
+
+TEST_CASE("render writes a sequence") {
+  const test::TemporaryFolder folder;
+  good(folder.path(), {"render", "flag", "--seconds", "0.2", "--fps", "10", "--size", "64x48", "--png", "film"});
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder / "film")) {
+    CHECK(png_size(entry.path()) == std::pair{64, 48});
+    ++count;
+  }
+  CHECK(count == 3);
+  CHECK(fs::exists(folder / "film" / "flag_0002.png"));
+}
+
+}  // namespace
+}  // namespace tyglab

@@ -1,0 +1,52 @@
+// The order of every method, measured and held from both sides. A new scheme is one more row.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+struct Row {
+  const char* integrator;
+  double k_d;    ///< N s/m
+  double order;  ///< of the position error at a fixed time
+};
+
+constexpr Row rows[] = {
+    {"euler", 0, 1},  {"euler", 0.2, 1},  {"improved_euler", 0, 1}, {"improved_euler", 0.2, 1},
+    {"verlet", 0, 2}, {"verlet", 0.2, 1},  // its damping sees the velocity of half a step ago
+};
+
+/// y(t) of m y'' = -k (y - x_0) - k_d y' - m g from its start, exactly.
+double exact(const Preset& p, double t) {
+  const double y_eq = p.x_0.y - p.m * p.g / p.k, decay = p.k_d / (2 * p.m);
+  const double w = std::sqrt(p.k / p.m - decay * decay);
+  const double A = p.x_0.y + p.offset - y_eq, B = (p.v_0.y + decay * A) / w;
+  return y_eq + std::exp(-decay * t) * (A * std::cos(w * t) + B * std::sin(w * t));
+}
+
+double error_at(Preset preset, int steps, double t) {
+  preset.dt = t / steps;
+  Simulation simulation(preset);
+  simulation.advance(steps);
+  return std::abs(simulation.positions().at(0, 0).y - exact(preset, t));
+}
+
+TEST_CASE("each method has the order that is said of it") {
+  for (const Row& row : rows) {
+    CAPTURE(std::string(row.integrator));
+    CAPTURE(row.k_d);
+    Preset preset = test::one_weight(row.integrator);
+    preset.k_d = row.k_d;
+    preset.v_0 = {0, 0.4, 0};
+    const double t = 0.31;
+    const double measured = std::log2(error_at(preset, 4000, t) / error_at(preset, 8000, t));
+    CHECK(measured > row.order - 0.1);
+    CHECK(measured < row.order + 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace tyglab

@@ -1,0 +1,110 @@
+// Presets as files: reading, atomic writing, the shipped ones.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "core/notation/preset_io.h"
+#include "tests/support/files.h"
+
+namespace tyglab {
+namespace {
+
+namespace fs = std::filesystem;
+
+int files_in(const fs::path& folder) {
+  return int(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+std::string load_error(const fs::path& file) {
+  try {
+    load_preset(file);
+  } catch (const PresetError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_CASE("saved presets are loaded") {
+  const test::TemporaryFolder folder;
+  Preset preset;
+  preset.name = "Saved";
+  preset.k_s = 123;
+  save_preset(preset, folder / "a b å.json");
+  CHECK(load_preset(folder / "a b å.json") == preset);
+  preset.k_s = 124;
+  save_preset(preset, folder / "a b å.json");
+  CHECK(load_preset(folder / "a b å.json") == preset);
+  CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("a missing, empty or unreadable file is an error with its name") {
+  const test::TemporaryFolder folder;
+  CHECK(load_error(folder / "missing.json").find("missing.json") != std::string::npos);
+  CHECK(load_error(folder.path()).find(folder.path().string()) != std::string::npos);
+  test::write_file(folder / "empty.json", "");
+  CHECK(load_error(folder / "empty.json").find("empty.json") != std::string::npos);
+  test::write_file(folder / "large.json", std::string(20u << 20, ' '));
+  CHECK(load_error(folder / "large.json").find("large.json") != std::string::npos);
+  CHECK_FALSE(load_error("/dev/zero").empty());
+}
+
+TEST_CASE("a write that fails leaves the old file and nothing else") {
+  const test::TemporaryFolder folder;
+  save_preset({}, folder / "kept.json");
+  const std::string before = test::read_file(folder / "kept.json");
+  CHECK_THROWS_AS(save_preset({}, folder / "no such folder" / "new.json"), OutputError);
+  CHECK_THROWS_AS(save_preset({}, folder.path()), OutputError);
+  CHECK_THROWS_AS(save_preset({}, "/dev/full/x.json"), OutputError);
+  CHECK_THROWS_AS(write_atomically("", "text"), OutputError);
+  CHECK(test::read_file(folder / "kept.json") == before);
+  CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("a reader sees the old file or the new one, never a part") {
+  // Hold the old file open while it is replaced: it must stay whole under its descriptor.
+  const test::TemporaryFolder folder;
+  const fs::path file = folder / "file.txt";
+  write_atomically(file, std::string(100000, 'a'));
+  std::FILE* old = std::fopen(file.c_str(), "rb");
+  REQUIRE(old != nullptr);
+  write_atomically(file, "b");
+  std::string text(100001, ' ');
+  text.resize(std::fread(text.data(), 1, text.size(), old));
+  std::fclose(old);
+  CHECK(text == std::string(100000, 'a'));
+  CHECK(test::read_file(file) == "b");
+}
+
+TEST_CASE("a link is written through, not replaced") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "real.json", "old");
+  fs::create_symlink(folder / "real.json", folder / "link.json");
+  write_atomically(folder / "link.json", "new");
+  CHECK(fs::is_symlink(folder / "link.json"));
+  CHECK(test::read_file(folder / "real.json") == "new");
+}
+
+TEST_CASE("every shipped preset is valid, has a name and a description, and the contract's names are there") {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+    if (entry.path().extension() != ".json") continue;
+    CAPTURE(entry.path().string());
+    const Preset preset = load_preset(entry.path());
+    CHECK(check_preset(preset) == "");
+    CHECK(preset.name != Preset{}.name);
+    CHECK(preset.description.size() > 20);
+    CHECK(fs::exists(fs::path(TYGLAB_SOURCE_DIR "/textures") / preset.texture));
+    names.push_back(entry.path().stem().string());
+  }
+  CHECK(names.size() >= 10);
+  for (const char* name : {"hanging", "denim", "rubber_mat", "curtain", "flag", "sphere", "taut_sheet", "tearing",
+                           "one_weight", "explodes"}) {
+    CAPTURE(std::string(name));
+    CHECK(std::find(names.begin(), names.end(), name) != names.end());
+  }
+}
+
+}  // namespace
+}  // namespace tyglab

@@ -1,0 +1,210 @@
+// Presets that are wrong: each is refused, and the error names file, line, key and cure.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+/// What the error says; fails if there is none.
+std::string error_of(const std::string& text) {
+  try {
+    parse_preset(text, "folder/wrong.json");
+  } catch (const PresetError& error) {
+    const std::string what = error.what();
+    CHECK(what.find("folder/wrong.json") == 0);
+    return what;
+  }
+  FAIL_CHECK("accepted: " << text.substr(0, 200));
+  return {};
+}
+
+void check_contains(const std::string& what, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    CHECK_MESSAGE(what.find(part) != std::string::npos, "\"" << part << "\" is missing in: " << what);
+  }
+}
+
+/// A file whose line 37 holds the given text inside the block.
+std::string on_line_37(const std::string& block, const std::string& content) {
+  return "{\n\"" + block + "\": {" + std::string(35, '\n') + content + "\n}\n}\n";
+}
+
+struct Wrong {
+  std::string text;
+  std::vector<std::string> parts;
+};
+
+TEST_CASE("an unknown key is refused with the nearest known one, its line and its path") {
+  for (const Wrong& wrong :
+       {Wrong{on_line_37("forces", "\"k_x\": 5"), {":37", "forces.k_x", "did you mean k"}},
+        {on_line_37("forces", "\"gravity\": 5"), {":37", "forces.gravity", "k_s"}},
+        {on_line_37("cloth", "\"row\": 5"), {":37", "cloth.row", "did you mean rows"}},
+        {on_line_37("cloth", "\"k_s\": 5"), {":37", "cloth.k_s"}},
+        {on_line_37("solver", "\"intergrator\": \"verlet\""), {":37", "did you mean integrator"}},
+        {on_line_37("tearing", "\"Fmax\": 5"), {":37", "tearing.Fmax", "did you mean F_max"}},
+        {"{\"fources\": {}}", {":1", "fources", "did you mean forces"}},
+        {"{\"k_s\": 5}", {":1", "k_s"}},
+        {"{\"bodies\": [{\"shape\": \"plane\", \"hight\": 0}]}", {"bodies[0].hight"}},
+        {"{\"bodies\": [{}, {\"frictoin\": 0}]}", {"bodies[1].frictoin", "did you mean friction"}}}) {
+    check_contains(error_of(wrong.text), wrong.parts);
+  }
+}
+
+TEST_CASE("a doubled key is refused wherever it stands") {
+  for (const Wrong& wrong : {Wrong{on_line_37("forces", "\"k_s\": 5, \"g\": 1, \"k_s\": 6"), {":37", "k_s", "twice"}},
+                             {"{\"forces\": {},\n\n\"forces\": {}}", {":3", "forces", "twice"}},
+                             {"{\"bodies\": [{\"r\": 1,\n\"r\": 1}]}", {":2", "\"r\"", "twice"}},
+                             {"{\"nonsense\": {\"a\": 1, \"a\": 1}}", {"\"a\"", "twice"}}}) {
+    check_contains(error_of(wrong.text), wrong.parts);
+  }
+}
+
+TEST_CASE("a wrong type is refused with what is expected") {
+  for (const Wrong& wrong :
+       {Wrong{on_line_37("forces", "\"k_s\": \"50\""), {":37", "forces.k_s", "a number", "a text"}},
+        {on_line_37("forces", "\"k_s\": null"), {":37", "forces.k_s", "a number", "null"}},
+        {on_line_37("forces", "\"k_s\": true"), {":37", "forces.k_s", "a number"}},
+        {on_line_37("forces", "\"k_s\": [50]"), {":37", "forces.k_s", "a number", "a list"}},
+        {on_line_37("forces", "\"k_s\": {}"), {":37", "forces.k_s", "a number"}},
+        {on_line_37("forces", "\"W\": 3"), {":37", "forces.W", "three numbers"}},
+        {on_line_37("forces", "\"W\": [1, 2]"), {":37", "forces.W", "three numbers"}},
+        {on_line_37("forces", "\"W\": [1, 2, 3, 4]"), {":37", "forces.W", "three numbers"}},
+        {on_line_37("forces", "\"W\": [1, \"2\", 3]"), {":37", "forces.W[1]", "a number"}},
+        {on_line_37("cloth", "\"rows\": 3.5"), {":37", "cloth.rows", "a whole number"}},
+        {on_line_37("cloth", "\"pins\": 3"), {":37", "cloth.pins"}},
+        {on_line_37("cloth", "\"pins\": \"top\""), {":37", "cloth.pins", "top_row"}},
+        {on_line_37("cloth", "\"pins\": \"list\""), {":37", "cloth.pins"}},
+        {on_line_37("cloth", "\"pins\": [[1, 2], [3]]"), {":37", "cloth.pins[1]"}},
+        {on_line_37("cloth", "\"pins\": [[1, 2.5]]"), {":37", "cloth.pins[0]", "a whole number"}},
+        {on_line_37("solver", "\"engine\": \"gpu\""), {":37", "solver.engine", "opencl"}},
+        {on_line_37("solver", "\"precision\": \"half\""), {":37", "solver.precision", "double"}},
+        {on_line_37("solver", "\"precision\": 64"), {":37", "solver.precision"}},
+        {on_line_37("solver", "\"integrator\": \"verlett\""), {":37", "solver.integrator", "did you mean verlet"}},
+        {"{\"kind\": \"clothe\"}", {"kind", "did you mean cloth"}},
+        {"{\"name\": 5}", {"name", "a text"}},
+        {"{\"cloth\": []}", {"cloth", "a block"}},
+        {"{\"bodies\": {}}", {"bodies", "a list"}},
+        {"{\"bodies\": [5]}", {"bodies[0]", "a block"}},
+        {"{\"bodies\": [{\"shape\": \"cube\"}]}", {"bodies[0].shape", "sphere"}},
+        {"[]", {"a block"}},
+        {"5", {"a block"}},
+        {"null", {"a block"}},
+        {"\"text\"", {"a block"}}}) {
+    check_contains(error_of(wrong.text), wrong.parts);
+  }
+}
+
+TEST_CASE("a value out of range is refused with what is allowed") {
+  for (const Wrong& wrong :
+       {Wrong{on_line_37("forces", "\"k_s\": -1"), {":37", "forces.k_s", "-1", "0 to 1e+09", "N/m"}},
+        {on_line_37("forces", "\"k_d\": 1e7"), {":37", "forces.k_d", "0 to 1000000"}},
+        {on_line_37("forces", "\"g\": 100.001"), {":37", "forces.g", "-100 to 100"}},
+        {on_line_37("forces", "\"W\": [0, 0, 1001]"), {":37", "forces.W", "1001"}},
+        {on_line_37("cloth", "\"rows\": 1"), {":37", "cloth.rows", "2 to 4096"}},
+        {on_line_37("cloth", "\"rows\": 4097"), {":37", "cloth.rows", "4097"}},
+        {on_line_37("cloth", "\"rows\": 99999999999"), {":37", "cloth.rows"}},
+        {on_line_37("cloth", "\"rows\": 99999999999999999999999"), {":37", "cloth.rows"}},
+        {on_line_37("cloth", "\"rows\": -99999999999"), {":37", "cloth.rows"}},
+        {on_line_37("cloth", "\"columns\": 0"), {":37", "cloth.columns", "1 to 4096"}},
+        {on_line_37("cloth", "\"m\": 0"), {":37", "cloth.m", "kg"}},
+        {on_line_37("solver", "\"dt\": 0"), {":37", "solver.dt", "1e-07 to 1", "s"}},
+        {on_line_37("solver", "\"dt\": 1e300"), {":37", "solver.dt"}},
+        {on_line_37("view", "\"mode\": 6"), {":37", "view.mode", "1 to 5"}},
+        {"{\"bodies\": [{\"r\": 0}]}", {"bodies[0].r", "0.001 to 100"}},
+        {"{\"bodies\": [{\"c\": [0, 0, 2000]}]}", {"bodies[0].c", "2000"}},
+        {"{\"bodies\": [{\"restitution\": 1.5}]}", {"bodies[0].restitution", "0 to 1"}}}) {
+    check_contains(error_of(wrong.text), wrong.parts);
+  }
+}
+
+TEST_CASE("numbers that are not finite are refused") {
+  for (const char* value : {"NaN", "nan", "Infinity", "-Infinity", "inf", "1e999", "-1e999", "0x10", "1e", "+1", ".5",
+                            "1.", "01", "1_000"}) {
+    CAPTURE(std::string(value));
+    check_contains(error_of(on_line_37("forces", std::string("\"k_s\": ") + value)), {":37"});
+  }
+}
+
+TEST_CASE("pins outside the lattice are refused, whatever comes first in the file") {
+  for (const char* pin : {"[5, 0]", "[0, 5]", "[-1, 0]", "[0, -1]", "[99999999999, 0]"}) {
+    CAPTURE(std::string(pin));
+    const std::string pins = std::string("\"pins\": [[0, 0], ") + pin + "]";
+    check_contains(error_of("{\"cloth\": {\"rows\": 5, \"columns\": 5,\n" + pins + "}}"),
+                   {":2", "cloth.pins", "[4, 4]"});
+    check_contains(error_of("{\"cloth\": {" + pins + ",\n\"rows\": 5, \"columns\": 5}}"),
+                   {":1", "cloth.pins", "[4, 4]"});
+  }
+}
+
+TEST_CASE("text that is not JSON is refused with its line") {
+  for (const Wrong& wrong : {Wrong{"", {}},
+                             {" \n\n ", {}},
+                             {"{", {":1"}},
+                             {"{\n\"cloth\": {\n\"rows\": 5", {":3"}},
+                             {"{\n\"cloth\": {\n\"rows\" 5}}", {":3"}},
+                             {"{\n\"cloth\": {\n\"rows\": 5,}}", {":3"}},
+                             {"{}\n\n}", {":3"}},
+                             {"{}\n{}", {":2"}},
+                             {"{} trailing", {":1"}},
+                             {"{\"name\": \"no end", {":1"}},
+                             {"{\"name\": \"bad \\q escape\"}", {":1"}},
+                             {"{\"name\": \"bad utf-8 \xff\"}", {":1"}},
+                             {"{\"name\": \"lone \\ud800 surrogate\"}", {":1"}},
+                             {"{\"name\": \"raw\nline\"}", {}},
+                             {"{'name': 'single'}", {":1"}},
+                             {"// comment\n{}", {":1"}},
+                             {std::string("{\0}", 3), {":1"}}}) {
+    CAPTURE(wrong.text);
+    check_contains(error_of(wrong.text), wrong.parts);
+  }
+}
+
+TEST_CASE("deep nesting and endless lists are refused, not followed") {
+  for (const int depth : {20, 1000, 1000000}) {
+    error_of(std::string(depth, '['));
+    error_of("{\"cloth\": " + std::string(depth, '[') + std::string(depth, ']') + "}");
+    std::string objects;
+    for (int n = 0; n < std::min(depth, 100000); ++n) objects += "{\"a\":";
+    error_of(objects);
+  }
+  std::string list = "{\"cloth\": {\"pins\": [";
+  for (int n = 0; n < 500000; ++n) list += "[0,0],";
+  error_of(list + "[0,0]]}}");
+}
+
+TEST_CASE("a great many different keys are refused in good time") {
+  std::string keys = "{\"cloth\": {";
+  for (int n = 0; n < 190000; ++n) keys += "\"k" + std::to_string(n) + "\":1,";
+  error_of(keys + "\"rows\": 3}}");
+}
+
+TEST_CASE("a newer version is refused with a sentence, an impossible one too") {
+  check_contains(error_of("{\n\"tyglab_preset\": 2}"), {":2", "tyglab_preset", "newer", "Update"});
+  check_contains(error_of("{\"tyglab_preset\": 1000000}"), {"newer"});
+  error_of("{\"tyglab_preset\": 0}");
+  error_of("{\"tyglab_preset\": -1}");
+  error_of("{\"tyglab_preset\": 1.5}");
+  error_of("{\"tyglab_preset\": \"1\"}");
+  // Whatever else such a file holds: its version is the first thing to say.
+  check_contains(error_of("{\"from the future\": 5, \"tyglab_preset\": 2}"), {"newer"});
+}
+
+TEST_CASE("check_preset finds in a struct what the reader finds in a file") {
+  const auto problem = [](auto change) {
+    Preset preset;
+    change(preset);
+    return check_preset(preset);
+  };
+  check_contains(problem([](Preset& p) { p.rows = 1; }), {"cloth.rows"});
+  check_contains(problem([](Preset& p) { p.integrator = "nonsense"; }), {"solver.integrator"});
+  check_contains(problem([](Preset& p) { p.pins = {Pins::Mode::list, {{40, 0}}}; }), {"cloth.pins"});
+  check_contains(problem([](Preset& p) { p.bodies.resize(2), p.bodies[1].r = 0; }), {"bodies[1].r"});
+  CHECK(problem([](Preset& p) { p.pins = {Pins::Mode::top_row, {{40, 0}}}; }) == "");
+}
+
+}  // namespace
+}  // namespace tyglab

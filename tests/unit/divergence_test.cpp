@@ -1,0 +1,195 @@
+// Divergence is a result: found in the step that causes it, with a state that can still be read.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/oracle/oracle.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+/// Far above every limit of stability.
+Preset explosive(const std::string& integrator, Precision precision) {
+  Preset preset = test::cloth(7, 6, integrator);
+  preset.precision = precision;
+  preset.dt = 0.02;
+  preset.W = {0, 0, 0.01};
+  return preset;
+}
+
+/// Longest whole stretch spring over its rest length, or infinity once anything is not finite.
+double worst_stretch(const oracle::Cloth& cloth, double L) {
+  double worst = 0;
+  for (int i = 0; i < cloth.rows(); ++i) {
+    for (int j = 0; j < cloth.columns(); ++j) {
+      for (const auto [di, dj] : oracle::ring) {
+        if (!cloth.whole(i, j, i + di, j + dj)) continue;
+        const double rest = L * std::hypot(di, dj);
+        const double stretch = glm::length(cloth.at(i + di, j + dj).x - cloth.at(i, j).x) / rest;
+        worst = std::isfinite(stretch) ? std::max(worst, stretch) : INFINITY;
+      }
+    }
+  }
+  return worst;
+}
+
+void check_report(const Divergence& divergence, const Simulation& simulation) {
+  CHECK(divergence.step == simulation.steps() + 1);
+  CHECK(divergence.t == doctest::Approx(double(divergence.step) * simulation.preset().dt));
+  CHECK(simulation.lattice().contains(divergence.i, divergence.j));
+  CHECK_FALSE(divergence.quantity.empty());
+  CHECK_FALSE(divergence.cause.empty());
+  CHECK_FALSE(divergence.remedy.empty());
+}
+
+TEST_CASE("divergence is found in the very step that makes a spring 1000 times too long") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    CAPTURE(std::string(integrator));
+    const Preset preset = explosive(integrator, Precision::double_);
+    Simulation simulation(preset);
+    const Advance advance = simulation.advance(5000);
+    REQUIRE(advance.diverged);
+    REQUIRE(simulation.divergence().has_value());
+    CHECK(advance.steps == simulation.steps());
+    check_report(*simulation.divergence(), simulation);
+    CHECK(simulation.divergence()->quantity == "spring length");
+    CHECK(simulation.divergence()->value > 1000 * preset.L);
+    // The state is the one before that step, every number of it.
+    CHECK(test::all_finite(simulation.read()));
+    CHECK(test::all_finite(simulation.read_raw()));
+    oracle::Cloth cloth(preset);
+    cloth.advance(int(simulation.steps()));
+    CHECK(worst_stretch(cloth, preset.L) <= 1000);
+    cloth.step();
+    CHECK(worst_stretch(cloth, preset.L) > 1000);
+  }
+}
+
+TEST_CASE("found in float as well, and by single steps at the same step") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    CAPTURE(std::string(integrator));
+    const Preset preset = explosive(integrator, Precision::float_);
+    Simulation whole(preset), single(preset);
+    CHECK(whole.advance(5000).diverged);
+    int calls = 0;
+    while (!single.divergence() && calls < 5000) {
+      single.advance(1);
+      ++calls;
+    }
+    REQUIRE(whole.divergence().has_value());
+    REQUIRE(single.divergence().has_value());
+    CHECK(whole.divergence()->step == single.divergence()->step);
+    CHECK(whole.divergence()->quantity == single.divergence()->quantity);
+    CHECK(whole.divergence()->i == single.divergence()->i);
+    CHECK(whole.divergence()->j == single.divergence()->j);
+    CHECK(test::identical(whole.read(), single.read()));
+    CHECK(test::all_finite(whole.read()));
+    check_report(*whole.divergence(), whole);
+  }
+}
+
+TEST_CASE("numbers that overflow in one step leave no NaN behind") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      CAPTURE(std::string(integrator));
+      Preset preset = test::cloth(5, 5, integrator);
+      preset.precision = precision;
+      preset.k_s = preset.k_b = 1e9;
+      preset.k_d = 1e6;
+      preset.m = 1e-9;
+      preset.dt = 1;
+      preset.L = 10;
+      preset.initial_stretch = 10;
+      preset.v_0 = {1e3, -1e3, 1e3};
+      preset.W = {1e3, 1e3, 1e3};
+      Simulation simulation(preset);
+      CHECK(test::all_finite(simulation.read()));
+      simulation.advance(50);
+      REQUIRE(simulation.divergence().has_value());
+      CHECK(test::all_finite(simulation.read()));
+      check_report(*simulation.divergence(), simulation);
+      const ParticleReadout readout = simulation.particle(2, 2);
+      CHECK(std::isfinite(glm::length(readout.x)));
+    }
+  }
+}
+
+TEST_CASE("particles without a whole spring still diverge when they are no longer finite") {
+  // Cut to pieces, a particle has no spring to be too long; damping with huge k_d/m on the remaining pair overflows.
+  Preset preset = test::quiet_cloth(2, 1, "euler");
+  preset.precision = Precision::float_;
+  preset.k_s = 0;
+  preset.k_d = 1e6;
+  preset.m = 1e-9;
+  preset.dt = 1;
+  Simulation simulation(preset);
+  State state = start_state(preset);
+  state.v.x[0] = 1;
+  test::load(simulation, state);
+  simulation.advance(10);
+  REQUIRE(simulation.divergence().has_value());
+  CHECK(test::all_finite(simulation.read()));
+}
+
+TEST_CASE("a diverged run stands still until it is restarted") {
+  const Preset preset = explosive("euler", Precision::double_);
+  Simulation simulation(preset);
+  simulation.advance(5000);
+  REQUIRE(simulation.divergence().has_value());
+  const auto steps = simulation.steps();
+  const State before = simulation.read();
+  CHECK(simulation.advance(10).steps == 0);
+  CHECK(simulation.steps() == steps);
+  CHECK(test::identical(simulation.read(), before));
+  simulation.apply(edit::Restart{});
+  CHECK_FALSE(simulation.divergence().has_value());
+  CHECK(simulation.steps() == 0);
+  CHECK(simulation.time() == 0);
+  simulation.advance(1);
+  CHECK(simulation.steps() == 1);
+}
+
+TEST_CASE("one weight diverges at 1000 times the larger of L and the offset") {
+  for (const double offset : {0.1, 1e-6}) {
+    CAPTURE(offset);
+    Preset preset = test::one_weight("euler");
+    preset.g = 0;
+    preset.offset = offset;
+    preset.dt = 0.05;
+    Simulation simulation(preset);
+    simulation.advance(100000);
+    REQUIRE(simulation.divergence().has_value());
+    const double limit = 1000 * std::max(preset.L, offset);
+    CHECK(std::abs(simulation.read().x.y[0] - preset.x_0.y) <= limit);
+    CHECK(simulation.divergence()->quantity == "distance from x_0");
+    CHECK(simulation.divergence()->step == simulation.steps() + 1);
+    oracle::Weight weight(preset);
+    for (int n = 0; n < simulation.steps(); ++n) weight.step();
+    CHECK(std::abs(weight.y - preset.x_0.y) <= limit * (1 + 1e-9));
+    weight.step();
+    CHECK(std::abs(weight.y - preset.x_0.y) > limit);
+  }
+}
+
+TEST_CASE("what is bounded is not diverged: 10 s of free fall, and a torn spring of any length") {
+  Preset preset = test::quiet_cloth(3, 1, "verlet");
+  preset.g = 100;
+  preset.L = 1e-4;
+  preset.dt = 1e-2;
+  preset.k_s = 0.1;  // stable: dt² k_s/m is far below 1
+  Simulation simulation(preset);
+  simulation.advance(1000);
+  CHECK_FALSE(simulation.divergence().has_value());
+  // The cut part falls 5 km from the pinned one; no whole spring joins them.
+  preset.pins.mode = Pins::Mode::top_row;
+  preset.k_s = 0;
+  Simulation cut(preset);
+  cut.apply(edit::Cut{{{1, 0}}});
+  cut.advance(1000);
+  CHECK_FALSE(cut.divergence().has_value());
+}
+
+}  // namespace
+}  // namespace tyglab
