@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cstdlib>
 #include <iostream>
 #include <memory>
 
@@ -18,11 +19,17 @@ constexpr auto default_preset = "hanging";
 struct Options {
   PresetArgument preset;
   int frames = 0;
-  std::string screenshot, time_report;
+  std::string screenshot, time_report, session_report;
 };
 
+/// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
+bool has_display() {
+  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  return named && glfwInit() == GLFW_TRUE;
+}
+
 int open_sandbox(const Options& options) {
-  for (const std::string& file : {options.screenshot, options.time_report})
+  for (const std::string& file : {options.screenshot, options.time_report, options.session_report})
     if (!file.empty()) require_writable(file);
   const ResolvedPreset scene = options.preset.resolve(default_preset);
   SandboxOptions sandbox;
@@ -34,7 +41,8 @@ int open_sandbox(const Options& options) {
   sandbox.frames = options.frames;
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;
-  if (glfwInit() == GLFW_TRUE) return run_sandbox(sandbox);
+  sandbox.session_report = options.session_report;
+  if (has_display()) return run_sandbox(sandbox);
   std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
             << scene.source.label << "' into the folder tyglab-out.\n";
   return run_headless(sandbox);
@@ -50,6 +58,10 @@ void add_sandbox_command(CLI::App& program, Action& action) {
       ->check(between(1, 1'000'000'000));
   program.add_option("--screenshot", options->screenshot, "Write the last frame as a picture")->type_name("F.png");
   program.add_option("--time-report", options->time_report, "Write what a frame costs, by part, as JSON")
+      ->type_name("F.json");
+  program
+      .add_option("--session-report", options->session_report,
+                  "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
       ->type_name("F.json");
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {

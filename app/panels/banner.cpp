@@ -22,9 +22,10 @@ void draw_wrapped(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, 
 }
 
 std::string what_happened(const Divergence& d) {
+  const char* unit = d.quantity == "velocity" ? "m/s" : "m";
   char text[256];
-  std::snprintf(text, sizeof text, "At t = %.4g s (step %lld), particle (%d, %d): %s = %s.", d.t,
-                static_cast<long long>(d.step), d.i, d.j, d.quantity.c_str(), short_number(d.value).c_str());
+  std::snprintf(text, sizeof text, "At t = %.4g s (step %lld), particle (%d, %d): %s = %s %s.", d.t,
+                static_cast<long long>(d.step), d.i, d.j, d.quantity.c_str(), short_number(d.value).c_str(), unit);
   return text;
 }
 

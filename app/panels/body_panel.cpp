@@ -76,7 +76,7 @@ void texture_row(App& app) {
         app.request(request::LoadTexture{name});
     ImGui::Separator();
     if (ImGui::Selectable("Other file…")) app.command(Command::load_texture_dialog);
-    ImGui::EndCombo();
+    end_combo();
   });
 }
 

@@ -17,6 +17,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 /// A row of either table, ready to be drawn. Vectors have three components.
 struct Line {
   std::string_view symbol, quantity, storhet, unit, equation, help;
+  std::string key;  ///< as --set names it
   double min, max;
   Scale scale;
   Effect effect;
@@ -34,6 +35,7 @@ Line describe(const Row<T>& row) {
           .unit = row.unit,
           .equation = row.equation,
           .help = row.help,
+          .key = std::string(row.key),
           .min = row.min,
           .max = row.max,
           .scale = row.scale,
@@ -140,13 +142,12 @@ void row_tooltip(App& app, const Line& line) {
 void row_menu(App& app, const Line& line, ImVec2 lo, ImVec2 hi) {
   if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(lo, hi) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
     ImGui::OpenPopup("row menu");
-  if (!ImGui::BeginPopup("row menu")) return;
+  if (!begin_menu(app, "row menu")) return;
   if (!std::isnan(line.saved[0]) &&
       ImGui::MenuItem(("Reset to the preset's " + all_values(line, line.saved)).c_str(), "double-click"))
     line.set(line.saved, 0);
   if (ImGui::MenuItem(("To the default " + all_values(line, line.standard)).c_str())) line.set(line.standard, 0);
-  (void)app;
-  ImGui::EndPopup();
+  end_menu();
 }
 
 /// The symbol; a double click on it resets, and a dot before it says that the value differs from the preset's.
@@ -171,6 +172,7 @@ void vector_cells(App& app, const Line& line, const RowColumns& columns, float s
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, app.theme.px(4));
     const SliderResult result = drag_cell(app, names[k], scale_of(line, k), line.value[k], cell, columns.height);
+    if (app.report) report_control(app, line.key + "." + names[k]);
     take(app, line, k, result, ImGui::GetID(names[k]));
   }
 }
@@ -188,11 +190,13 @@ void draw_line(App& app, const Line& line) {
   } else {
     const unsigned gesture = ImGui::GetID("slider");
     const SliderResult slid = slider(app, scale_of(line, 0), line.value[0], slider_width, columns.height);
+    if (app.report) report_control(app, line.key + ".slider");
     take(app, line, 0, slid, gesture);
     ImGui::SameLine(0, columns.gap);
     const bool dragging = app.ui.slider.dragged == gesture;
     const double shown = dragging ? app.ui.slider.value : line.value[0];
     take(app, line, 0, value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height), 0);
+    if (app.report) report_control(app, line.key + ".value");
   }
   draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
                    {lo.x + width - columns.unit + app.theme.px(2), baseline_at(app.fonts, lo.y + columns.height / 2)},
@@ -226,6 +230,7 @@ void constant_row(App& app, const PresetRow& row) {
 
 void body_row(App& app, const BodyRow& row, int index) {
   Line line = describe(row);
+  line.key = "bodies[" + std::to_string(index) + "]." + line.key;
   classify(row.field, line);
   read(row.field, app.preset().bodies[index], line.value);
   if (std::size_t(index) < app.document.saved.bodies.size() &&

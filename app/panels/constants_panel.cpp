@@ -93,9 +93,10 @@ void integrator_row(App& app) {
       next.integrator = choice.name;
       app.propose(std::move(next));
     }
+    report_control(app, choice.name);
     tooltip(app, ImGui::GetID(name.c_str()), order_text(choice) + ". " + std::string(choice.note));
   }
-  ImGui::EndCombo();
+  end_combo();
 }
 
 void scale_resolution(App& app, double q) { app.propose(with_resolution(app.preset(), q)); }
@@ -147,7 +148,7 @@ void pins_row(App& app) {
       next.pins = {mode, {}};
       app.propose(std::move(next));
     }
-    ImGui::EndCombo();
+    end_combo();
   });
 }
 

@@ -81,14 +81,16 @@ void label(App& app, const char* text) {
   ImGui::PopFont();
 }
 
+/// Returns whether the text changed.
 template <std::size_t N>
 bool text_field(App& app, const char* id, char (&field)[N], bool focus) {
   if (focus) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(7)));
-  const bool entered = ImGui::InputText(id, field, N, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool changed = ImGui::InputText(id, field, N);
   ImGui::PopStyleVar();
-  return entered;
+  report_control(app, id);
+  return changed;
 }
 
 void problem(App& app) {
@@ -112,6 +114,7 @@ void entry_line(App& app, int k, bool& open) {
     set(dialog.path, entry.file.string());
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open = true;
+  report_control(app, "entry." + entry.label);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const bool chosen = dialog.selected == k;
@@ -135,14 +138,15 @@ void open_presets(App& app) {
   bool open = false;
   gui::begin_child("list", {0, std::min(app.theme.px(420), ImGui::GetIO().DisplaySize.y - app.theme.px(260))});
   for (int k = 0; k < int(dialog.entries.size()); ++k) {
-    const bool first_own = !dialog.entries[k].shipped && (k == 0 || dialog.entries[k - 1].shipped);
-    if (first_own) label(app, "YOUR PRESETS");
+    const bool shipped = dialog.entries[k].shipped;
+    if (k == 0 || dialog.entries[k - 1].shipped != shipped) label(app, shipped ? "SHIPPED" : "YOURS");
     entry_line(app, k, open);
   }
   ImGui::EndChild();
   label(app, "File");
-  open |= text_field(app, "##path", dialog.path, false);
+  if (text_field(app, "##path", dialog.path, false)) dialog.problem.clear();
   problem(app);
+  open |= dialog.enter;
   open |= text_button(app, "Open", true, dialog.path[0] != 0);
   ImGui::SameLine();
   if (text_button(app, "Cancel")) return close(app);
@@ -159,13 +163,13 @@ void open_presets(App& app) {
 }
 
 /// The lower part of dialogs that write: the question whether to overwrite, and the buttons. True when it may go on.
-bool may_write(App& app, bool entered, const char* verb) {
+bool may_write(App& app, const char* verb) {
   Dialog& dialog = app.ui.dialog;
   problem(app);
   std::error_code ignored;
   const fs::path file = path_of(dialog.path);
   if (dialog.overwrite) wrapped(app, "That file exists. Replace it?", app.theme.colors.warning);
-  const bool go = text_button(app, dialog.overwrite ? "Replace" : verb, true, dialog.path[0] != 0) || entered;
+  const bool go = text_button(app, dialog.overwrite ? "Replace" : verb, true, dialog.path[0] != 0) || dialog.enter;
   ImGui::SameLine();
   if (text_button(app, "Cancel")) {
     close(app);
@@ -187,13 +191,14 @@ void save_preset_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, "Save the preset");
   label(app, "Name");
-  const bool opening = ImGui::IsWindowAppearing();
-  bool entered = text_field(app, "##name", dialog.name, opening);
+  const bool renamed = text_field(app, "##name", dialog.name, ImGui::IsWindowAppearing());
+  if (renamed && dialog.path_follows)
+    set(dialog.path, (path_of(dialog.path).parent_path() / file_name_for(dialog.name)).string());
   label(app, "File");
-  const std::string before(dialog.path);
-  entered |= text_field(app, "##path", dialog.path, false);
-  if (before != dialog.path) dialog.overwrite = false, dialog.problem.clear();
-  if (!may_write(app, entered, "Save")) return;
+  const bool moved = text_field(app, "##path", dialog.path, false);
+  if (moved) dialog.path_follows = false;
+  if (moved || renamed) dialog.overwrite = false, dialog.problem.clear();
+  if (!may_write(app, "Save")) return;
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".json";
   if (is_shipped(file)) {
@@ -213,10 +218,8 @@ void csv_dialog(App& app) {
   wrapped(app, "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
           app.theme.colors.quiet);
   label(app, "File");
-  const std::string before(dialog.path);
-  const bool entered = text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing());
-  if (before != dialog.path) dialog.overwrite = false, dialog.problem.clear();
-  if (!may_write(app, entered, "Write")) return;
+  if (text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
+  if (!may_write(app, "Write")) return;
   const request::WriteCsv write{path_of(dialog.path), dialog.height};
   close(app);
   app.request(write);
@@ -226,9 +229,9 @@ void texture_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, "Take a picture as texture");
   label(app, "PNG, JPEG, BMP or TGA file");
-  const bool entered = text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing());
+  text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing());
   problem(app);
-  const bool go = text_button(app, "Load", true, dialog.path[0] != 0) || entered;
+  const bool go = text_button(app, "Load", true, dialog.path[0] != 0) || dialog.enter;
   ImGui::SameLine();
   if (text_button(app, "Cancel")) return close(app);
   if (!go || dialog.path[0] == 0) return;
@@ -256,7 +259,7 @@ void unsaved_dialog(App& app) {
   title(app, "Unsaved changes");
   wrapped(app, dialog.question, app.theme.colors.text);
   ImGui::Dummy({0, app.theme.px(4)});
-  if (text_button(app, "Save", true)) return save_first(app);
+  if (text_button(app, "Save", true) || dialog.enter) return save_first(app);
   ImGui::SameLine();
   if (text_button(app, "Discard the changes")) {
     app.request(*dialog.then);
@@ -296,7 +299,7 @@ void open_dialog(App& app, DialogKind kind) {
   Dialog& dialog = app.ui.dialog;
   dialog.kind = kind;
   dialog.opening = true;
-  dialog.overwrite = false;
+  dialog.overwrite = dialog.enter = dialog.path_follows = false;
   dialog.problem.clear();
   dialog.then.reset();
   dialog.entries.clear();
@@ -310,6 +313,7 @@ void open_dialog(App& app, DialogKind kind) {
     set(dialog.name, app.preset().name);
     const fs::path file = !app.document.file.empty() ? app.document.file : own / file_name_for(app.preset().name);
     set(dialog.path, file.string());
+    dialog.path_follows = app.document.file.empty();
   } else if (kind == DialogKind::export_csv) {
     std::error_code ignored;
     set(dialog.path, (fs::current_path(ignored) / (dialog.height ? "height.csv" : "forces.csv")).string());
@@ -339,7 +343,8 @@ void dialogs(App& app) {
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSize({std::min(app.theme.px(question ? 460 : 620), window.x - app.theme.px(24)), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(24), app.theme.px(20)));
-  ImGui::PushStyleVar(ImGuiStyleVar_PopupRounding, app.theme.px(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   if (ImGui::BeginPopupModal("dialog", nullptr,
                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                  ImGuiWindowFlags_NoSavedSettings)) {
@@ -349,7 +354,8 @@ void dialogs(App& app) {
     ImGui::PopTextWrapPos();
     ImGui::EndPopup();
   }
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
+  dialog.enter = false;
 }
 
 }  // namespace tyglab

@@ -53,7 +53,8 @@ void table(App& app, const char* title, const Entry (&entries)[N], float column)
   for (const Entry& entry : entries) {
     const float x = ImGui::GetCursorPosX();
     wrapped(app, entry.keys, c.accent);
-    ImGui::SameLine(x + column);
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(x + column);
     wrapped(app, entry.does, c.text);
   }
   ImGui::Dummy({0, app.theme.px(4)});

@@ -60,7 +60,7 @@ std::optional<double> typed_number(std::string_view text) {
   double value = 0;
   const char* end = plain.data() + plain.size();
   const auto [rest, error] = std::from_chars(plain.data() + start, end, value);
-  if (error != std::errc()) return std::nullopt;
+  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
   // A unit may follow after a space; anything else ("1e", "3..2") is a slip that must not be taken for a number.
   if (rest != end && *rest != ' ' && *rest != '\t') return std::nullopt;
   return value;

@@ -48,7 +48,7 @@ void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view 
   const float width = symbol_width(app.fonts, key), away = app.theme.px(16), high = app.theme.px(9), pad = app.theme.px(4);
   const ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
   draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high}, {middle.x + width / 2 + pad, middle.y + high + pad / 2},
-                     faded(app.theme.colors.ground, 0.7f), app.theme.px(5));
+                     faded(app.theme.colors.ground, 0.85f), app.theme.px(5));
   draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, key, style.color);
 }
 
@@ -60,7 +60,10 @@ void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   for (const auto& [key, force] : forces) longest = std::max(longest, glm::length(force));
   if (!std::isfinite(longest) || longest <= 0) return;
   double& scale = app.ui.arrow_scale;
-  scale = scale <= 0 || longest > 20 * scale ? longest : scale + 0.05 * (longest - scale);
+  // The scale follows within half a second, and at once where arrows would leave the picture or vanish.
+  const double follow = 1 - std::exp(-double(ImGui::GetIO().DeltaTime) / 0.5);
+  const bool far = longest > 3 * scale || longest < scale / 20;
+  scale = far ? longest : scale + follow * (longest - scale);
   const double depth = glm::dot(r.x - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
   const double metres_per_pixel = 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y;
   for (const auto& [key, force] : forces) {

@@ -109,7 +109,7 @@ void draw_axes(App& app, ImDrawList& draw, const Axes& axes, const PlotRange& ra
 }
 
 float label_width(App& app, const PlotRange& range) {
-  float width = app.theme.px(30);
+  float width = app.theme.px(38);
   for (double tick : range.ticks)
     width = std::max(width, text_width(*app.fonts.small, short_number(rounded(tick, 6))) + app.theme.px(7));
   return width;

@@ -41,6 +41,11 @@ class Card {
   Region inner_;
 };
 
+const char* why_empty(const App& app) {
+  if (app.simulation->divergence()) return "Restart to see curves";
+  return app.pacing.playing ? "Waiting for the first step" : "Press Space to run";
+}
+
 PlotFrame frame_of(App& app, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
   const double window = app.ui.plots.window_s;
   const double now = series.empty() ? app.simulation->time() : series.t().back();
@@ -137,7 +142,7 @@ void force_card(App& app, float height) {
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   const bool no_particle = plots.source == Source::particle && !app.picked;
   const PlotFrame frame = frame_of(app, plots.forces, plots.log, "N",
-                                   no_particle ? "Right-click a particle to pick it" : "Press Space to run");
+                                   no_particle ? "Right-click a particle to pick it" : why_empty(app));
   if (plot_height > app.theme.px(24))
     zoom_time(app, draw_plot(app, "plot", {inner.size.x, plot_height}, plots.forces.t(), curves, frame));
   legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
@@ -158,7 +163,7 @@ void height_card(App& app, float height) {
                         plots.height.column(0)};
   const float head = side + app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  PlotFrame frame = frame_of(app, plots.height, false, "m", "Press Space to run");
+  PlotFrame frame = frame_of(app, plots.height, false, "m", why_empty(app));
   frame.from_zero = false;
   zoom_time(app, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, plots.height.t(), {&curve, 1}, frame));
 }

@@ -147,11 +147,12 @@ void draw_track(App& app, const SliderScale& scale, double value, ImVec2 lo, ImV
 }
 
 /// The text field of a value. Sets `result` when the typing ends.
-void type_value(App& app, double value, float width, SliderResult& result) {
+void type_value(App& app, double value, float width, float height, SliderResult& result) {
   SliderState& state = app.ui.slider;
   if (state.typing_starts) ImGui::SetKeyboardFocusHere();
   ImGui::PushFont(app.fonts.mono);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(3), app.theme.px(4)));
+  const float above = std::floor((height - app.fonts.mono->FontSize) / 2);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(4), above));
   ImGui::SetNextItemWidth(width);
   ImGui::InputText("##typed", state.text, sizeof state.text, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::PopStyleVar();
@@ -212,7 +213,7 @@ SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, 
   SliderResult result{.value = value};
   const unsigned typing_id = ImGui::GetID("value");
   if (app.ui.slider.typing == typing_id) {
-    type_value(app, value, width, result);
+    type_value(app, value, width, height, result);
     ImGui::PopID();
     return result;
   }
@@ -253,7 +254,7 @@ SliderResult value_cell(App& app, const char* id_text, double value, std::string
   const unsigned id = ImGui::GetID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   if (state.typing == id) {
-    type_value(app, value, width, result);
+    type_value(app, value, width, height, result);
     return result;
   }
   ImGui::InvisibleButton(id_text, {width, height});

@@ -15,9 +15,10 @@ namespace {
 float bar_middle(App& app, float height) { return std::round((app.theme.px(48) - height) / 2); }
 
 void document_menu(App& app) {
-  if (!ImGui::BeginPopup("document")) return;
+  if (!begin_menu(app, "document")) return;
   const auto item = [&](const char* label, const char* keys, Command command, bool enabled = true) {
     if (ImGui::MenuItem(label, keys, false, enabled)) app.command(command);
+    report_control(app, label);
   };
   item("Open…", "Ctrl+O", Command::open_dialog);
   item("Save", "Ctrl+S", Command::save);
@@ -44,7 +45,7 @@ void document_menu(App& app) {
   item("Full screen", "F11", Command::full_screen);
   ImGui::Separator();
   item("Quit", "Ctrl+Q", Command::quit);
-  ImGui::EndPopup();
+  end_menu();
 }
 
 /// Name of the preset, with a dot while it is not saved; opens the menu. Returns where it ends.
@@ -57,6 +58,7 @@ float document_name(App& app, float x, float width) {
   ImGui::SetCursorScreenPos({x, y});
   const float whole = text + dot + 2 * padding + arrow;
   if (ImGui::InvisibleButton("name", {whole, height})) ImGui::OpenPopup("document");
+  report_control(app, "name");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + whole, y + height}, c.field, app.theme.px(5));
   tooltip(app, gui::item_id(),
@@ -122,7 +124,7 @@ float speed_combo(App& app, float x, float end) {
         app.pacing.speed = speed;
         app.pacing.restart_measure();
       }
-    ImGui::EndCombo();
+    end_combo();
   } else {
     tooltip(app, gui::item_id(), "Speed: simulated time to real time. Below 1 is slow motion.");
   }
@@ -170,7 +172,7 @@ void engine_combo(App& app, float width) {
       next.engine = choice.engine, next.precision = choice.precision;
       app.propose(std::move(next));
     }
-  ImGui::EndCombo();
+  end_combo();
 }
 
 }  // namespace

@@ -54,6 +54,8 @@ struct Dialog {
   char path[1024] = "";
   char name[128] = "";
   std::string problem;              ///< shown in it
+  bool enter = false;               ///< Enter was pressed in this frame
+  bool path_follows = false;        ///< the path is made from the name until it is edited
   bool overwrite = false;           ///< the file exists, and the user is asked
   bool height = false;              ///< of export_csv
   std::optional<Request> then;      ///< of a question: what follows a yes
@@ -80,6 +82,7 @@ struct Ui {
   unsigned hovered = 0;      ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
+  bool close_lists = false;  ///< Esc was pressed: open menus and combo boxes close in this frame
   float viewport_left = 0;   ///< pixels
   float row_width = 0;       ///< of the constants, pixels
 };

@@ -19,10 +19,17 @@ void centred_text(App& app, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU32 colo
   (void)app;
 }
 
+/// Lists of menus and combo boxes have the same rhythm wherever they are opened from.
+bool list_opened(App& app) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(8)));
+  if (app.ui.close_lists) ImGui::CloseCurrentPopup();
+  return true;
+}
+
 }  // namespace
 
 bool tooltip_due(App& app, ImGuiID id) {
-  if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return false;
+  if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) || app.ui.slider.typing != 0) return false;
   app.ui.hover_seen = true;
   if (app.ui.hovered != id) {
     app.ui.hovered = id;
@@ -70,6 +77,7 @@ bool icon_button(App& app, const char* id, const char* glyph, const char* word, 
   const float width = app.fonts.icons ? side : std::max(side, text_width(*app.fonts.text, text) + app.theme.px(12));
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(id, {width, side});
+  report_control(app, id);
   const ImU32 ground = lit ? c.accent : ImGui::IsItemActive() ? c.line : ImGui::IsItemHovered() ? c.field_hover : c.field;
   const ImVec2 hi{lo.x + width, lo.y + side};
   ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, app.theme.px(5));
@@ -85,6 +93,7 @@ bool quiet_button(App& app, const char* id, const char* glyph, const char* word,
   const float width = app.fonts.icons ? side : text_width(*app.fonts.text, text) + app.theme.px(8);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(id, {width, side});
+  report_control(app, id);
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 hi{lo.x + width, lo.y + side};
   if (hovered) ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, c.field_hover, app.theme.px(4));
@@ -103,6 +112,7 @@ bool text_button(App& app, const char* label, bool strong, bool enabled) {
     ImGui::PushStyleColor(ImGuiCol_Text, c.on_accent);
   }
   const bool pressed = ImGui::Button(label, {0, app.theme.px(30)});
+  report_control(app, label);
   if (strong) ImGui::PopStyleColor(4);
   ImGui::EndDisabled();
   return pressed;
@@ -122,6 +132,7 @@ int segments(App& app, const char* id, const char* const* labels, int count, int
     const ImVec2 hi{lo.x + text_width(*app.fonts.text, labels[k]) + 2 * padding, lo.y + height};
     ImGui::PushID(k);
     if (ImGui::InvisibleButton("segment", {hi.x - lo.x, height})) clicked = k;
+    if (app.report) report_control(app, std::string(id) + "." + std::to_string(k + 1));
     const bool on = k == chosen;
     const ImU32 ground = on ? c.accent : ImGui::IsItemHovered() ? c.field_hover : c.field;
     const ImDrawFlags corners = (k == 0 ? ImDrawFlags_RoundCornersLeft : 0) |
@@ -141,9 +152,11 @@ bool check(App& app, const char* label, bool value) {
   const float box = app.theme.px(16), height = app.theme.px(26), gap = app.theme.px(8);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool clicked = ImGui::InvisibleButton(label, {box + gap + text_width(*app.fonts.text, label), height});
+  report_control(app, label);
   const ImVec2 at{lo.x, std::round(lo.y + (height - box) / 2)};
   const ImU32 ground = value ? c.accent : ImGui::IsItemHovered() ? c.line : c.field_hover;
   draw.AddRectFilled(at, {at.x + box, at.y + box}, ground, app.theme.px(4));
+  if (!value) draw.AddRect(at, {at.x + box, at.y + box}, mixed(c.line, c.quiet, 0.6f), app.theme.px(4));
   if (value) {
     const ImVec2 tick[3] = {{at.x + box * 0.24f, at.y + box * 0.52f},
                             {at.x + box * 0.43f, at.y + box * 0.71f},
@@ -164,6 +177,7 @@ bool section(App& app, const char* name) {
   const float height = app.theme.px(22), width = app.ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   if (ImGui::InvisibleButton(name, {width, height})) open ? void(folded.insert(name)) : void(folded.erase(name));
+  report_control(app, name);
   const ImU32 color = ImGui::IsItemHovered() ? c.text : c.quiet;
   std::string capitals(name);
   for (char& letter : capitals) letter = char(std::toupper(static_cast<unsigned char>(letter)));
@@ -181,12 +195,25 @@ bool section(App& app, const char* name) {
   return open;
 }
 
+void end_combo() {
+  ImGui::EndCombo();
+  ImGui::PopStyleVar();
+}
+
+bool begin_menu(App& app, const char* id) { return ImGui::BeginPopup(id) && list_opened(app); }
+
+void end_menu() {
+  ImGui::EndPopup();
+  ImGui::PopStyleVar();
+}
+
 bool begin_combo(App& app, const char* id, const char* shown, float width) {
   ImGui::SetNextItemWidth(width);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(6)));
   const bool open = ImGui::BeginCombo(id, shown, ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
   ImGui::PopStyleVar();
-  if (open) return true;
+  if (open) return list_opened(app);
+  report_control(app, id);
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   const float r = app.theme.px(3.5f), x = hi.x - app.theme.px(13), y = std::round((lo.y + hi.y) / 2);
   ImGui::GetWindowDrawList()->AddTriangleFilled({x - r, y - r * 0.5f}, {x + r, y - r * 0.5f}, {x, y + r * 0.8f},

@@ -36,8 +36,12 @@ bool check(App& app, const char* label, bool value);
 /// Head of a section: small capitals and a line; a click folds it. Returns whether it is open.
 bool section(App& app, const char* name);
 
-/// A combo box whose list `fill` writes with ImGui::Selectable.
+/// A combo box; while it is open its list is written with ImGui::Selectable, then end_combo.
 bool begin_combo(App& app, const char* id, const char* shown, float width);
+void end_combo();
+/// A menu that was opened with ImGui::OpenPopup; Esc closes it.
+bool begin_menu(App& app, const char* id);
+void end_menu();
 
 /// Leaves an area of the window to the panel: presses on the viewport there are not the viewport's.
 void cover_viewport(App& app, ImVec2 lo, ImVec2 hi);

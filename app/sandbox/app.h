@@ -17,6 +17,7 @@
 #include "app/sandbox/messages.h"
 #include "app/sandbox/pointer.h"
 #include "app/sandbox/requests.h"
+#include "app/sandbox/session_report.h"
 #include "app/sandbox/settings.h"
 #include "app/viewport/camera.h"
 #include "app/viewport/cloth_renderer.h"
@@ -55,6 +56,7 @@ struct App {
   InputQueue input;
   std::vector<Request> requests;
   FrameCosts costs;
+  std::unique_ptr<SessionReport> report;  ///< none unless it is asked for
 
   bool full_screen = false;         ///< as the window is; a request asks to change it
   bool toggle_full_screen = false;

@@ -78,6 +78,7 @@ bool typing_takes(App& app, const KeyEvent& event) {
 bool dialog_takes(App& app, const KeyEvent& event) {
   if (app.ui.dialog.kind == Dialog::Kind::none) return false;
   if (event.key == GLFW_KEY_ESCAPE) app.ui.dialog.kind = Dialog::Kind::none;
+  app.ui.dialog.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
   return true;
 }
 
@@ -87,6 +88,11 @@ bool slider_takes(App& app, const KeyEvent& event) {
   if (!plain || std::find(slider_keys.begin(), slider_keys.end(), event.key) == slider_keys.end()) return false;
   app.ui.slider.keys.push_back(event);
   return true;
+}
+
+bool list_takes(App& app, const KeyEvent& event) {
+  if (!app.viewport.blocked || event.key != GLFW_KEY_ESCAPE) return false;
+  return app.ui.close_lists = true;
 }
 
 void command_for(App& app, const KeyEvent& event) {
@@ -109,7 +115,7 @@ void command_for(App& app, const KeyEvent& event) {
 
 void handle_keys(App& app) {
   for (const KeyEvent& event : app.input.keys) {
-    if (dialog_takes(app, event) || typing_takes(app, event) || slider_takes(app, event)) continue;
+    if (dialog_takes(app, event) || list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event)) continue;
     command_for(app, event);
   }
 }

@@ -76,6 +76,7 @@ App start_app(const SandboxOptions& options) {
   // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
   if (app.scripted) app.settings.width = 2560, app.settings.height = 1440;
   app.ui.plots.log = app.settings.plot_log;
+  if (!options.session_report.empty()) app.report = std::make_unique<SessionReport>(options.session_report);
   return app;
 }
 
@@ -233,6 +234,7 @@ void Sandbox::draw_panels() {
   slider.wanted_order = -1;
   slider.keys.clear();
   slider.commit = slider.cancel = false;
+  app_.ui.close_lists = false;
   if (!app_.ui.hover_seen) app_.ui.hovered = 0;
 }
 
@@ -275,6 +277,7 @@ void Sandbox::frame() {
   const bool quiet = !ImGui::IsAnyItemActive() && app_.tool.kind == Tool::Kind::none;
   if (quiet && now - app_.ui.last_change > gesture_end) app_.history.end_gesture();
   window_.set_title((unsaved(app_) ? "• " : "") + app_.preset().name + " – Tyglab");
+  if (app_.report) app_.report->end_frame(app_);
   app_.input.clear();
   ++frames_;
 }
@@ -306,6 +309,7 @@ int Sandbox::write_outputs() {
       write_atomically(options_.time_report,
                        app_.costs.json(size.x, size.y, app_.simulation->engine().name(), app_.document.label));
     }
+    if (app_.report) app_.report->finish(app_);
   } catch (const OutputError& error) {
     std::fprintf(stderr, "tyglab: %s\n", error.what());
     return no_output;

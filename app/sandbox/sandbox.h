@@ -16,11 +16,12 @@ struct SandboxOptions {
   int frames = 0;                          ///< ends after that many frames; 0: until the window is closed
   std::filesystem::path screenshot;        ///< PNG of the last frame, empty: none
   std::filesystem::path time_report;       ///< JSON of the frame's cost by part, empty: none
+  std::filesystem::path session_report;    ///< JSON of what goes on, rewritten all the time, empty: none
   int width = 0, height = 0;               ///< of the window; 0: as in the last session
 };
 
 /// Runs until the window is closed or the frames are done. Returns an exit code: 0; 5 without a display or OpenGL 3.3;
-/// 6 if the screenshot or the time report could not be written; 130 when interrupted.
+/// 6 if the screenshot or a report could not be written; 130 when interrupted.
 int run_sandbox(const SandboxOptions& options);
 
 }  // namespace tyglab

@@ -1,8 +1,5 @@
 #include "core/notation/preset_io.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -16,29 +13,12 @@
 #include "core/integrators/names.h"
 #include "core/notation/json_tree.h"
 #include "core/notation/notation.h"
+#include "core/notation/words.h"
 
 namespace tyglab {
 namespace {
 
 using Type = JsonNode::Type;
-
-constexpr std::array<std::string_view, 2> kind_names{"cloth", "one_weight"};
-constexpr std::array<std::string_view, 7> pin_names{"none",        "top_row",  "top_corners", "four_corners",
-                                                    "left_column", "boundary", "list"};
-constexpr std::array<std::string_view, 2> shape_names{"sphere", "plane"};
-constexpr std::array<std::string_view, 2> engine_names{"cpu", "opencl"};
-constexpr std::array<std::string_view, 2> precision_names{"float", "double"};
-constexpr std::array<std::string_view, 6> section_names{"cloth", "forces", "tearing", "bodies", "solver", "view"};
-constexpr std::uintmax_t max_file_size = 16u << 20;
-
-/// Shortest text that reads back as the same number; without an exponent where a person would write none.
-std::string format(double v) {
-  std::array<char, 40> text{};
-  const bool plain = v == 0 || (std::abs(v) >= 1e-5 && std::abs(v) < 1e9);
-  const auto end = plain ? std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::fixed).ptr
-                         : std::to_chars(text.data(), text.data() + text.size(), v).ptr;
-  return {text.data(), end};
-}
 
 template <class Names>
 std::string listed(const Names& names) {
@@ -51,8 +31,9 @@ std::string listed(const Names& names) {
 template <class T>
 std::string range_problem(const Row<T>& row, double v) {
   if (std::isfinite(v) && v >= row.min && v <= row.max) return {};
-  return format(v) + " is not allowed; allowed: " + format(row.min) + " to " + format(row.max) +
-         (row.unit.empty() ? "" : " " + std::string(row.unit)) + (row.zero_is_off ? " (0: never)" : "");
+  return shortest_number(v) + " is not allowed; allowed: " + shortest_number(row.min) + " to " +
+         shortest_number(row.max) + (row.unit.empty() ? "" : " " + std::string(row.unit)) +
+         (row.zero_is_off ? " (0: never)" : "");
 }
 
 template <class T>
@@ -108,13 +89,15 @@ class Reader {
   }
 
   template <class Enum, std::size_t N>
-  void choice(const JsonNode& node, const std::string& path, const std::array<std::string_view, N>& names, Enum& out) const {
+  void choice(const JsonNode& node, const std::string& path, const std::array<std::string_view, N>& names,
+              Enum& out) const {
     if (node.type != Type::text) wrong_type(node, path, "a text, one of " + listed(names));
     const auto it = std::find(names.begin(), names.end(), node.text);
     if (it == names.end()) {
       const auto meant = nearest(node.text, names);
-      fail(node.line, path, "\"" + node.text + "\" is not known" +
-           (meant ? "; did you mean " + std::string(*meant) + "?" : "") + " Allowed: " + listed(names));
+      fail(node.line, path,
+           "\"" + node.text + "\" is not known" + (meant ? "; did you mean " + std::string(*meant) + "?" : "") +
+               " Allowed: " + listed(names));
     }
     out = Enum(it - names.begin());
   }
@@ -139,8 +122,10 @@ class Reader {
   void pins(const JsonNode& node, const std::string& path, Pins& out) const {
     out = {};
     if (node.type == Type::text) {
-      choice(node, path, std::to_array<std::string_view>({"none", "top_row", "top_corners", "four_corners",
-                                                          "left_column", "boundary"}), out.mode);
+      choice(node, path,
+             std::to_array<std::string_view>(
+                 {"none", "top_row", "top_corners", "four_corners", "left_column", "boundary"}),
+             out.mode);
       return;
     }
     if (node.type != Type::list) wrong_type(node, path, "a name or a list of [row, column]");
@@ -205,8 +190,8 @@ class Reader {
   [[noreturn]] void unknown(int line, const std::string& path, const std::string& key,
                             const std::vector<std::string_view>& known) const {
     const auto meant = nearest(key, known);
-    fail(line, path, "unknown key" + (meant ? "; did you mean " + std::string(*meant) + "?"
-                                            : "; known: " + listed(known)));
+    fail(line, path,
+         "unknown key" + (meant ? "; did you mean " + std::string(*meant) + "?" : "; known: " + listed(known)));
   }
 
  private:
@@ -217,65 +202,10 @@ void check_version(const Reader& reader, const JsonNode& node) {
   if (node.type != Type::integer) reader.wrong_type(node, "tyglab_preset", "a whole number");
   if (node.number > preset_version)
     reader.fail(node.line, "tyglab_preset",
-                "this preset has version " + format(node.number) + ", made by a newer Tyglab; this one reads up to " +
-                    std::to_string(preset_version) + ". Update Tyglab, or save the preset from it in the older form");
+                "this preset has version " + shortest_number(node.number) +
+                    ", made by a newer Tyglab; this one reads up to " + std::to_string(preset_version) +
+                    ". Update Tyglab, or save the preset from it in the older form");
   if (node.number < 1) reader.fail(node.line, "tyglab_preset", "versions begin at 1");
-}
-
-std::string list_text(const glm::dvec3& v) { return "[" + format(v.x) + ", " + format(v.y) + ", " + format(v.z) + "]"; }
-
-std::string json_text(std::string_view text) {
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-template <class T>
-std::string field_text(const Row<T>& row, const T& object) {
-  return std::visit(
-      [&](auto field) -> std::string {
-        const auto& value = object.*field;
-        using Value = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<Value, std::string>) return json_text(value);
-        else if constexpr (std::is_same_v<Value, glm::dvec3>) return list_text(value);
-        else return format(double(value));
-      },
-      row.field);
-}
-
-std::string pins_text(const Pins& pins) {
-  if (pins.mode != Pins::Mode::list) return json_text(name_of(pins.mode));
-  std::string text;
-  for (const auto [i, j] : pins.list)
-    text += (text.empty() ? "[" : ", [") + std::to_string(i) + ", " + std::to_string(j) + "]";
-  return "[" + text + "]";
-}
-
-std::string body_text(const Body& body) {
-  std::string text = "{\"shape\": " + json_text(name_of(body.shape));
-  for (const BodyRow& row : body_notation()) {
-    const bool plane_only = row.key == "y", sphere_only = row.key == "c" || row.key == "r";
-    if ((plane_only && body.shape != Body::Shape::plane) || (sphere_only && body.shape != Body::Shape::sphere)) continue;
-    text += ", " + json_text(row.key) + ": " + field_text(row, body);
-  }
-  return text + "}";
-}
-
-std::string bodies_text(const std::vector<Body>& bodies) {
-  std::string text;
-  for (const Body& body : bodies) text += (text.empty() ? "\n    " : ",\n    ") + body_text(body);
-  return "[" + text + (bodies.empty() ? "]" : "\n  ]");
-}
-
-std::string section_text(std::string_view section, const Preset& p) {
-  if (section == "bodies") return "  \"bodies\": " + bodies_text(p.bodies);
-  std::string text;
-  const auto add = [&](std::string_view key, const std::string& value) {
-    text += (text.empty() ? "" : ", ") + json_text(key) + ": " + value;
-  };
-  for (const PresetRow& row : notation())
-    if (row.section == section) add(row.key, field_text(row, p));
-  if (section == "cloth") add("pins", pins_text(p.pins));
-  if (section == "solver") add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
-  return "  " + json_text(section) + ": {" + text + "}";
 }
 
 bool is_text_key(const std::string& key) {
@@ -284,7 +214,8 @@ bool is_text_key(const std::string& key) {
 }
 
 /// Value of a --set: a bare word (integrator=euler, name=3 sheets), otherwise JSON.
-JsonNode setting_value(const std::string& key, const std::string& text, const Reader& reader, const std::string& source) {
+JsonNode setting_value(const std::string& key, const std::string& text, const Reader& reader,
+                       const std::string& source) {
   const bool word = !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0) && text != "null" &&
                     text != "true" && text != "false";
   if (word || (is_text_key(key) && !text.starts_with('"'))) {
@@ -349,12 +280,6 @@ void apply_setting(const std::string& setting, Preset& p) {
 
 }  // namespace
 
-std::string_view name_of(Kind v) { return kind_names[std::size_t(v)]; }
-std::string_view name_of(Pins::Mode v) { return pin_names[std::size_t(v)]; }
-std::string_view name_of(Body::Shape v) { return shape_names[std::size_t(v)]; }
-std::string_view name_of(EngineKind v) { return engine_names[std::size_t(v)]; }
-std::string_view name_of(Precision v) { return precision_names[std::size_t(v)]; }
-
 Preset parse_preset(std::string_view text, std::string_view source) {
   const JsonNode root = parse_json(text, source);
   const Reader reader(source);
@@ -379,43 +304,6 @@ Preset parse_preset(std::string_view text, std::string_view source) {
   return preset;
 }
 
-Preset load_preset(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw PresetError(file.string() + ": there is no such file; `tyglab presets` lists the shipped ones");
-  if (const auto size = std::filesystem::file_size(file, error); error || size > max_file_size)
-    throw PresetError(file.string() + ": too large for a preset (16 MiB at most)");
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw PresetError(file.string() + ": cannot be read; check its permissions");
-  return parse_preset(text.str(), file.string());
-}
-
-std::string preset_to_json(const Preset& p) {
-  std::string text = "{\n  \"tyglab_preset\": " + std::to_string(preset_version) + ", \"kind\": " + json_text(name_of(p.kind)) +
-                     ",\n  \"name\": " + json_text(p.name) + ",\n  \"description\": " + json_text(p.description);
-  for (std::string_view section : section_names) text += ",\n" + section_text(section, p);
-  return text + "\n}\n";
-}
-
-void save_preset(const Preset& preset, const std::filesystem::path& file) {
-  write_atomically(file, preset_to_json(preset));
-}
-
-std::string preset_hash(const Preset& preset) {
-  Preset scene = preset;
-  scene.name.clear();
-  scene.description.clear();
-  scene.mode = Preset{}.mode;
-  scene.texture.clear();
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : preset_to_json(scene)) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  std::array<char, 17> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
-  return text.data();
-}
-
 Preset with_settings(const Preset& preset, const std::vector<std::string>& settings) {
   Preset changed = preset;
   for (const std::string& setting : settings) apply_setting(setting, changed);
@@ -433,50 +321,6 @@ std::string check_preset(const Preset& preset) {
         return "bodies[" + std::to_string(n) + "]." + std::string(row.key) + ": " + problem;
   if (const auto problem = pins_problem(preset); !problem.empty()) return "cloth.pins: " + problem;
   return {};
-}
-
-void write_atomically(const std::filesystem::path& file, std::string_view text) {
-  const auto fail = [&](const std::string& why) {
-    throw OutputError(file.string() + ": cannot be written: " + why);
-  };
-  std::filesystem::path target = file;
-  std::error_code error;
-  if (std::filesystem::is_directory(target, error)) fail("it is a folder; name a file in it");
-  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
-    // A pipe or a device (/dev/stdout) cannot be replaced; it takes the text as it comes.
-    std::ofstream out(target, std::ios::binary);
-    out << text << std::flush;
-    if (!out) fail("the device or pipe did not take the text");
-    return;
-  }
-  // A device or a pipe is written to; renaming would put a file in its place.
-  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
-    std::ofstream out(target, std::ios::binary);
-    if (!(out << text).flush()) fail(std::strerror(errno));
-    return;
-  }
-  // Follow a link, so that the file it points to is replaced and not the link.
-  if (std::filesystem::is_symlink(target, error)) target = std::filesystem::weakly_canonical(target, error);
-  const std::filesystem::path temporary = target.string() + "." + std::to_string(::getpid()) + ".tmp";
-  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd < 0) fail(std::strerror(errno));
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t n = ::write(fd, text.data() + done, text.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) {
-      const std::string why = std::strerror(errno);
-      ::close(fd);
-      ::unlink(temporary.c_str());
-      fail(why);
-    }
-    done += std::size_t(n);
-  }
-  if (::close(fd) != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
-    const std::string why = std::strerror(errno);
-    ::unlink(temporary.c_str());
-    fail(why);
-  }
 }
 
 }  // namespace tyglab

@@ -38,7 +38,8 @@ void append_line(std::string& text, std::string_view keyword, std::initializer_l
 
 /// A comment ends with its line, so a name must not hold line breaks.
 std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
   return text;
 }
 

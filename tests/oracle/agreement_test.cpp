@@ -76,6 +76,11 @@ std::vector<Scene> motion_scenes() {
        }},
       {"upward gravity", 6, 6, [](Preset& p) { p.g = -3; }},
       {"vertical", 6, 7, [](Preset& p) { p.tilt_deg = 90; }},
+      // Arrays go on behind the last column, with zeros: they must not act as particles at the origin.
+      {"folded round the origin", 7, 9,
+       [](Preset& p) {
+         p.x_0 = {0, 0.05, 0}, p.initial_stretch = 0.4, p.pins.mode = Pins::Mode::none, p.g = 0;
+       }},
       {"tilted over", 6, 7, [](Preset& p) { p.tilt_deg = -130; }},
   };
 }

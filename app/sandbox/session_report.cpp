@@ -1,0 +1,193 @@
+#include "app/sandbox/session_report.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>  // the window that an item stands in
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/sandbox/app.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds period{100};
+constexpr int samples = 5;  ///< rows and columns of particles that are told, corners included
+
+/// "Save as…" is save_as.
+std::string plain(std::string_view name) {
+  std::string out;
+  for (const char letter : name) {
+    const bool kept = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '.' ||
+                      letter == '[' || letter == ']';
+    if (kept) out += letter;
+    else if (letter >= 'A' && letter <= 'Z') out += char(letter - 'A' + 'a');
+    else if (!out.empty() && out.back() != '_') out += '_';
+  }
+  while (!out.empty() && out.back() == '_') out.pop_back();
+  return out;
+}
+
+/// Popups have names made of numbers: each is the one menu that is open.
+std::string place_of(const ImGuiWindow& window) {
+  const std::string name = window.RootWindow->Name;
+  return name.rfind("##", 0) == 0 ? "menu" : name;
+}
+
+Json vector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+
+/// Pixels in the window, or null behind the camera.
+Json on_screen(const App& app, const glm::dvec3& x) {
+  const auto at = app.camera.project(x, app.viewport.size());
+  if (!at) return nullptr;
+  return {at->x + app.viewport.box.lo.x, at->y + app.viewport.box.lo.y};
+}
+
+Json site(const std::optional<Pins::Site>& site) { return site ? Json{site->i, site->j} : Json(nullptr); }
+
+Json particle(const App& app, int i, int j) {
+  const glm::dvec3 x = app.simulation->positions().at(i, j);
+  return {{"i", i}, {"j", j}, {"x", vector(x)}, {"at", on_screen(app, x)}, {"pinned", app.simulation->pinned(i, j)}};
+}
+
+std::set<int> sample_of(int count) {
+  std::set<int> indices;
+  for (int k = 0; k < samples; ++k) indices.insert(k * (count - 1) / (samples - 1));
+  return indices;
+}
+
+Json particles(const App& app) {
+  Json list = Json::array();
+  const Lattice& lattice = app.simulation->lattice();
+  for (const int i : sample_of(lattice.rows))
+    for (const int j : sample_of(lattice.columns)) list.push_back(particle(app, i, j));
+  return list;
+}
+
+Json bodies(const App& app) {
+  Json list = Json::array();
+  for (const Body& body : app.preset().bodies)
+    list.push_back({{"shape", name_of(body.shape)}, {"c", vector(body.c)}, {"at", on_screen(app, body.c)}});
+  return list;
+}
+
+Json held(const App& app) {
+  const auto held = app.simulation->held();
+  if (!held) return nullptr;
+  Json json = particle(app, held->i, held->j);
+  json["force_N"] = vector(app.simulation->hand_force());
+  return json;
+}
+
+Json divergence(const App& app) {
+  const auto& d = app.simulation->divergence();
+  if (!d) return nullptr;
+  return {{"t", d->t},         {"step", d->step}, {"i", d->i}, {"j", d->j}, {"quantity", d->quantity},
+          {"value", d->value}, {"cause", d->cause}, {"remedy", d->remedy}};
+}
+
+int pinned_count(const App& app) {
+  const Lattice& lattice = app.simulation->lattice();
+  int count = 0;
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j) count += app.simulation->pinned(i, j);
+  return count;
+}
+
+std::string_view name_of(Tool::Kind kind) {
+  static constexpr std::string_view names[] = {"none", "orbit", "pan", "right", "grab", "cut", "body"};
+  return names[std::size_t(kind)];
+}
+
+std::string_view name_of(Dialog::Kind kind) {
+  static constexpr std::string_view names[] = {"none", "open", "save", "export_csv", "texture", "unsaved", "large_cloth"};
+  return names[std::size_t(kind)];
+}
+
+void add_simulation(Json& json, const App& app) {
+  const Simulation& simulation = *app.simulation;
+  json["t"] = simulation.time();
+  json["steps"] = simulation.steps();
+  json["paused"] = !app.pacing.playing;
+  json["speed"] = app.pacing.speed;
+  json["divergence"] = divergence(app);
+  json["label"] = app.document.label;
+  json["file"] = app.document.file.string();
+  json["unsaved"] = unsaved(app);
+  json["preset"] = Json::parse(preset_to_json(app.preset()));
+  json["torn_springs"] = simulation.tears().torn_count();
+  json["pinned"] = pinned_count(app);
+  json["picked"] = site(app.picked);
+  json["held"] = held(app);
+  json["view"] = app.preset().mode;
+}
+
+void add_window(Json& json, const App& app) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const glm::vec2 at = app.viewport.box.lo, size = app.viewport.size();
+  json["window"] = {window.x, window.y};
+  json["viewport"] = {at.x, at.y, size.x, size.y};
+  json["pointer"] = {app.input.at.x, app.input.at.y};
+  json["tool"] = name_of(app.tool.kind);
+  json["typing"] = app.ui.slider.typing != 0 || ImGui::GetIO().WantTextInput;
+  json["dialog"] = name_of(app.ui.dialog.kind);
+  json["problem"] = app.ui.dialog.problem;
+  Json messages = Json::array();
+  for (const Message& message : app.messages.list()) messages.push_back(message.text);
+  json["messages"] = messages;
+}
+
+}  // namespace
+
+void SessionReport::add_control(std::string_view name) {
+  const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
+  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+  if (!window.ClipRect.Contains(ImVec2((lo.x + hi.x) / 2, (lo.y + hi.y) / 2))) return;
+  drawing_[place_of(window) + "." + plain(name)] = {{lo.x, lo.y}, {hi.x - lo.x, hi.y - lo.y}};
+}
+
+std::string SessionReport::json(const App& app, bool ended) const {
+  Json json;
+  json["tyglab_session"] = 1;
+  json["frames"] = frames_;
+  json["events"] = events_;
+  json["ended"] = ended;
+  add_simulation(json, app);
+  add_window(json, app);
+  json["particles"] = particles(app);
+  json["bodies"] = bodies(app);
+  Json controls = Json::object();
+  for (const auto& [name, box] : shown_) controls[name] = {box.at.x, box.at.y, box.size.x, box.size.y};
+  json["controls"] = controls;
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void SessionReport::end_frame(App& app) {
+  shown_.swap(drawing_);
+  drawing_.clear();
+  ++frames_;
+  events_ += std::ssize(app.input.keys);
+  for (const PointerEvent& event : app.input.pointer) events_ += event.type != PointerEvent::Type::move;
+  if (failed_ || Clock::now() - written_ < period) return;
+  try {
+    write_atomically(file_, json(app, false));
+    written_ = Clock::now();
+  } catch (const OutputError& error) {
+    failed_ = true;
+    app.messages.error(std::string(error.what()) + ". The session report ends here.");
+  }
+}
+
+void SessionReport::finish(const App& app) {
+  if (failed_) throw OutputError(file_.string() + ": a part of the session report could not be written.");
+  write_atomically(file_, json(app, true));
+}
+
+void report_control(App& app, std::string_view name) {
+  if (app.report) app.report->add_control(name);
+}
+
+}  // namespace tyglab

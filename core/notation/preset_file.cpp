@@ -1,0 +1,77 @@
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+constexpr std::uintmax_t max_file_size = 16u << 20;
+
+}  // namespace
+
+Preset load_preset(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw PresetError(file.string() + ": there is no such file; `tyglab presets` lists the shipped ones");
+  if (const auto size = std::filesystem::file_size(file, error); error || size > max_file_size)
+    throw PresetError(file.string() + ": too large for a preset (16 MiB at most)");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw PresetError(file.string() + ": cannot be read; check its permissions");
+  return parse_preset(text.str(), file.string());
+}
+
+void save_preset(const Preset& preset, const std::filesystem::path& file) {
+  write_atomically(file, preset_to_json(preset));
+}
+
+void write_atomically(const std::filesystem::path& file, std::string_view text) {
+  const auto fail = [&](const std::string& why) { throw OutputError(file.string() + ": cannot be written: " + why); };
+  std::filesystem::path target = file;
+  std::error_code error;
+  if (std::filesystem::is_directory(target, error)) fail("it is a folder; name a file in it");
+  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
+    // A pipe or a device (/dev/stdout) cannot be replaced; it takes the text as it comes.
+    std::ofstream out(target, std::ios::binary);
+    out << text << std::flush;
+    if (!out) fail("the device or pipe did not take the text");
+    return;
+  }
+  // A device or a pipe is written to; renaming would put a file in its place.
+  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
+    std::ofstream out(target, std::ios::binary);
+    if (!(out << text).flush()) fail(std::strerror(errno));
+    return;
+  }
+  // Follow a link, so that the file it points to is replaced and not the link.
+  if (std::filesystem::is_symlink(target, error)) target = std::filesystem::weakly_canonical(target, error);
+  const std::filesystem::path temporary = target.string() + "." + std::to_string(::getpid()) + ".tmp";
+  const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd < 0) fail(std::strerror(errno));
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::write(fd, text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      const std::string why = std::strerror(errno);
+      ::close(fd);
+      ::unlink(temporary.c_str());
+      fail(why);
+    }
+    done += std::size_t(n);
+  }
+  if (::close(fd) != 0 || ::rename(temporary.c_str(), target.c_str()) != 0) {
+    const std::string why = std::strerror(errno);
+    ::unlink(temporary.c_str());
+    fail(why);
+  }
+}
+
+}  // namespace tyglab
