@@ -1,4 +1,5 @@
 // Tyglab's one binary: picks a command; nothing else.
+#include "app/commands/bench.h"
 #include "app/commands/command_line.h"
 #include "app/commands/devices.h"
 #include "app/commands/presets.h"
@@ -21,6 +22,7 @@ int main(int argc, char** argv) {
   tyglab::add_run_command(program, action);
   tyglab::add_render_command(program, action);
   tyglab::add_presets_command(program, action);
+  tyglab::add_bench_command(program, action);
   tyglab::add_devices_command(program, action);
   try {
     program.parse(argc, argv);

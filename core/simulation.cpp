@@ -27,7 +27,9 @@ std::string printed(const char* format, double a) {
 
 }  // namespace
 
-Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) { build(); }
+Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) {
+  build();
+}
 Simulation::~Simulation() = default;
 
 void Simulation::build() {
@@ -40,6 +42,7 @@ void Simulation::build() {
   held_ = {};
   hand_steps_left_ = 0;
   hand_force_ = {};
+  left_inside_ = 0;
   update_fixed();
   engine_->load(start_state(preset_), tears_);
   steps_ = steps_at_dt_ = 0;
@@ -48,7 +51,9 @@ void Simulation::build() {
   ++revision_, ++tear_revision_;
 }
 
-double Simulation::time() const { return time_at_dt_ + double(steps_ - steps_at_dt_) * preset_.dt; }
+double Simulation::time() const {
+  return time_at_dt_ + double(steps_ - steps_at_dt_) * preset_.dt;
+}
 
 std::optional<Pins::Site> Simulation::held() const {
   if (held_.particle < 0) return std::nullopt;
@@ -111,8 +116,8 @@ void Simulation::change(const Preset& next) {
   }
 }
 
-/// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and the
-/// hand stay.
+/// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
+/// the hand stay.
 void Simulation::restart_untouched(const Preset& next) {
   engine_ = make_engine(next, lattice_, threads_);
   preset_ = next;
@@ -172,8 +177,10 @@ void Simulation::move_body(const edit::MoveBody& e) {
   if (e.index < 0 || e.index >= int(preset_.bodies.size())) return;
   Preset next = preset_;
   Body& body = next.bodies[e.index];
-  if (body.shape == Body::Shape::plane) body.y = e.c.y;
-  else body.c = e.c;
+  if (body.shape == Body::Shape::plane)
+    body.y = e.c.y;
+  else
+    body.c = e.c;
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   engine_->set_preset(next, tears_);
   preset_ = next;
@@ -190,6 +197,7 @@ Advance Simulation::advance(int steps) {
     const bool released = total.released;
     total = part;
     total.steps += before, total.torn += torn, total.released |= released;
+    left_inside_ = part.left_inside;
     if (part.torn > 0) ++tear_revision_;
     if (held_.particle >= 0) hand_force_ = part.hand_force;
     if (part.diverged) diverge(part);
@@ -210,14 +218,15 @@ void Simulation::diverge(const Advance& part) {
   d.i = part.i, d.j = part.j;
   d.quantity = part.quantity;
   d.value = part.value;
-  d.cause = part.quantity == "spring length"
-                ? "a spring grew past 1000 times its rest length"
-                : part.quantity == "distance from x_0" ? "the weight went more than 1000 times as far as it began"
-                                                       : "a " + part.quantity + " is no longer a finite number";
+  d.cause = part.quantity == "spring length"       ? "a spring grew past 1000 times its rest length"
+            : part.quantity == "distance from x_0" ? "the weight went more than 1000 times as far as it began"
+                                                   : "a " + part.quantity + " is no longer a finite number";
   d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
-  d.remedy = "Take a smaller dt (" + printed("%g s", preset_.dt / 4) + "), a smaller " +
-             (preset_.kind == Kind::cloth ? "k_s" : "k") + ", " +
-             (preset_.integrator == "verlet" ? "or heavier particles" : "or the integrator verlet") + ", and restart.";
+  const std::string stiffness = preset_.kind == Kind::cloth ? "k_s" : "k";
+  const std::string smaller = "a smaller dt (" + printed("%g s", preset_.dt / 4) + " or less)";
+  d.remedy = preset_.integrator == "verlet"
+                 ? "Take " + smaller + ", a smaller " + stiffness + " or heavier particles, and restart."
+                 : "Take the integrator verlet, " + smaller + " or a smaller " + stiffness + ", and restart.";
   divergence_ = d;
 }
 

@@ -28,7 +28,8 @@ enum class Reduction { sum, maximum };
 
 class Simulation {
  public:
-  /// Builds the cloth at its start; `threads`: at most so many. Throws EngineError; the preset must be valid (check_preset).
+  /// Builds the cloth at its start; `threads`: at most so many. Throws EngineError; the preset must be valid
+  /// (check_preset).
   explicit Simulation(const Preset& preset, int threads = 1);
   ~Simulation();
 
@@ -44,6 +45,8 @@ class Simulation {
   bool pinned(int i, int j) const { return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0; }
   std::optional<Pins::Site> held() const;
   glm::dvec3 hand_force() const { return hand_force_; }
+  /// Free particles that overlapping bodies left inside one of them in the last step.
+  int left_inside() const { return left_inside_; }
 
   /// Applies an edit. Throws PresetError or EngineError and leaves everything as it was if it cannot be done.
   void apply(const Edit& edit);
@@ -84,6 +87,7 @@ class Simulation {
   Held held_;
   int hand_steps_left_ = 0;
   glm::dvec3 hand_force_{0};
+  int left_inside_ = 0;
   std::int64_t steps_ = 0;
   std::int64_t steps_at_dt_ = 0;  ///< step at which the present dt was set
   double time_at_dt_ = 0;         ///< and the time then

@@ -1,6 +1,12 @@
 #include "app/commands/devices.h"
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <sstream>
 
@@ -47,13 +53,37 @@ void print_device(const OpenClDevice& device) {
             << '\n';
 }
 
-int devices() {
-  print_cpu();
-  const OpenClInventory inventory = find_opencl_devices(read_kernel("kernels/probe.cl"));
+void print_opencl(const std::string& probe) {
+  const OpenClInventory inventory = find_opencl_devices(probe);
   for (const OpenClDevice& device : inventory.devices) print_device(device);
   if (inventory.devices.empty())
     std::cout << "\nNo OpenCL device was found" << (inventory.problem.empty() ? "" : " (" + inventory.problem + ")")
               << ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.\n";
+}
+
+/// Runs `work` in a process of its own: a driver that aborts takes its process along. Returns the signal that ended it,
+/// or 0.
+int in_child(const std::function<void()>& work) {
+  std::cout.flush();
+  const pid_t child = ::fork();
+  if (child <= 0) {
+    work();
+    std::cout.flush();
+    if (child == 0) ::_exit(0);
+    return 0;
+  }
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
+int devices() {
+  print_cpu();
+  const std::string probe = read_kernel("kernels/probe.cl");
+  if (const int signal = in_child([&] { print_opencl(probe); }))
+    std::cout << "\nAn OpenCL driver of this system crashed (" << ::strsignal(signal)
+              << ") when it was asked for its devices, so none can be used. Pocl does so where /sys is not mounted.\n";
   std::cout << "\nThis version steps on the CPU engine; OpenCL devices are found and tested, but do not step yet.\n";
   return exit_done;
 }

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands/preset_argument.h"
+#include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -52,6 +53,15 @@ void add_presets_command(CLI::App& program, Action& action) {
   show_one->add_option("NAME", *word, "A shipped preset's name or a preset file")->required();
   show_one->footer("Example: tyglab presets show denim > my_denim.json");
   show_one->callback([word, &action] { action = [word] { return show(*word); }; });
+
+  CLI::App* table = command->add_subcommand("notation", "Print the notation table: every constant and variable");
+  table->footer("Example: tyglab presets notation > docs/notation.md");
+  table->callback([&action] {
+    action = [] {
+      std::cout << notation_markdown();
+      return int(exit_done);
+    };
+  });
 
   CLI::App* check_one = command->add_subcommand("check", "Judge a preset file: every key, type and range");
   check_one->add_option("FILE", *word, "The file")->required();

@@ -135,6 +135,7 @@ Json summary(const Simulation& simulation, const ResolvedPreset& scene, const st
           {"seconds", wall_seconds},
           {"ns_per_particle_step", ns_per_particle_step},
           {"torn", simulation.tears().torn_count()},
+          {"left_inside", simulation.left_inside()},
           {"diverged", divergence_json(simulation.divergence())},
           {"files", std::move(files)}};
 }
@@ -194,6 +195,9 @@ int run(const RunOptions& options) {
       << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+  if (simulation.left_inside() > 0)
+    std::cerr << "tyglab: " << simulation.left_inside()
+              << " particles were left inside a body, since bodies overlap; move them apart.\n";
   if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written is whole as far as it goes.\n";
   return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
 }

@@ -45,11 +45,14 @@ void banner(App& app) {
   const float width = std::min(app.theme.px(560), size.x - app.theme.px(32)), padding = app.theme.px(16);
   const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const std::string happened = what_happened(*divergence), why = sentence(divergence->cause) + " " + sentence(divergence->remedy);
+  const std::string happened = what_happened(*divergence),
+                    why = sentence(divergence->cause) + " " + sentence(divergence->remedy);
   const float gap = app.theme.px(6), buttons = app.theme.px(30);
   const float happened_height = wrapped_height(text, happened, inner), why_height = wrapped_height(text, why, inner);
-  const float height = 2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
-  const ImVec2 lo{std::round(app.viewport.box.lo.x + (size.x - width) / 2), app.viewport.box.hi.y - height - app.theme.px(20)};
+  const float height =
+      2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
+  const ImVec2 lo{std::round(app.viewport.box.lo.x + (size.x - width) / 2),
+                  app.viewport.box.hi.y - height - app.theme.px(20)};
   const ImVec2 hi{lo.x + width, lo.y + height};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(8));

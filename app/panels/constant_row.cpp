@@ -54,9 +54,9 @@ void read(const FieldOf<T>& field, const T& from, double* out) {
 
 template <class T>
 void write(const FieldOf<T>& field, T& to, const double* value) {
-  if (const auto* number = std::get_if<double T::*>(&field)) to.**number = value[0];
-  if (const auto* integer = std::get_if<int T::*>(&field)) to.**integer = int(std::lround(value[0]));
-  if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field)) to.**vector = {value[0], value[1], value[2]};
+  if (const auto* number = std::get_if<double T::*>(&field)) to.** number = value[0];
+  if (const auto* integer = std::get_if<int T::*>(&field)) to.** integer = int(std::lround(value[0]));
+  if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field)) to.** vector = {value[0], value[1], value[2]};
 }
 
 template <class T>
@@ -93,8 +93,9 @@ std::string all_values(const Line& line, const double* values) {
 bool in_range(App& app, const Line& line, double value) {
   if (value >= line.min && value <= line.max && (!line.integer || value == std::round(value))) return true;
   const std::string unit = line.unit.empty() ? "" : " " + std::string(line.unit);
-  app.messages.error(std::string(line.symbol) + " goes from " + short_number(line.min) + " to " + short_number(line.max) +
-                     unit + (line.integer ? " in whole numbers" : "") + "; " + short_number(value) + " was not taken.");
+  app.messages.error(std::string(line.symbol) + " goes from " + short_number(line.min) + " to " +
+                     short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
+                     short_number(value) + " was not taken.");
   return false;
 }
 
@@ -131,9 +132,10 @@ void row_tooltip(App& app, const Line& line) {
   wrapped(app, facts, c.quiet);
   if (line.effect == Effect::start) wrapped(app, "Counts at the next restart (R).", c.warning);
   ImGui::PushFont(app.fonts.small);
-  wrapped(app, line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
-                                    : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
-                                      "slider to reset. Right-click for more.",
+  wrapped(app,
+          line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
+                               : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
+                                 "slider to reset. Right-click for more.",
           c.quiet);
   ImGui::PopFont();
   end_tooltip();
@@ -195,7 +197,8 @@ void draw_line(App& app, const Line& line) {
     ImGui::SameLine(0, columns.gap);
     const bool dragging = app.ui.slider.dragged == gesture;
     const double shown = dragging ? app.ui.slider.value : line.value[0];
-    take(app, line, 0, value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height), 0);
+    take(app, line, 0, value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height),
+         0);
     if (app.report) report_control(app, line.key + ".value");
   }
   draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
@@ -251,8 +254,8 @@ void labelled_row(App& app, const char* label, const std::function<void(float)>&
   const RowColumns columns = row_columns(app);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = app.ui.row_width;
-  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small, {lo.x, baseline_at(app.fonts, lo.y + app.theme.px(14))},
-                   app.theme.colors.quiet, label);
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
+                   {lo.x, baseline_at(app.fonts, lo.y + app.theme.px(14))}, app.theme.colors.quiet, label);
   ImGui::SetCursorScreenPos({lo.x + columns.symbol, lo.y});
   content(width - columns.symbol);
   const float bottom = std::max(ImGui::GetCursorScreenPos().y, lo.y + app.theme.px(30));

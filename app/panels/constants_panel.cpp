@@ -182,16 +182,20 @@ void constants_panel(App& app, const Region& region) {
   const float padding = app.theme.px(16);
   if (!begin_region("constants", region, app.theme.colors.panel, {padding, app.theme.px(6)})) return end_region();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(2)));
-  const float below = particle_panel_height(app);
+  // The picked particle stays in sight below the rows; where the window is too low it scrolls with them.
+  const float particle = particle_panel_height(app);
+  const bool fixed = ImGui::GetContentRegionAvail().y - particle > app.theme.px(200);
+  const float below = fixed ? particle : 0;
   // The scrollbar stands in the margin, so that rows are as wide as the particle's read-outs below.
   const ImVec2 room = ImGui::GetContentRegionAvail();
   app.ui.row_width = room.x;
   gui::begin_child("rows", {room.x + padding - app.theme.px(3), room.y - below});
   constants_sections(app);
   view_section(app);
+  if (!fixed) particle_panel(app);
   ImGui::Dummy({0, app.theme.px(4)});
   ImGui::EndChild();
-  particle_panel(app);
+  if (fixed) particle_panel(app);
   ImGui::PopStyleVar();
   end_region();
 }

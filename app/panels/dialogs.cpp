@@ -55,8 +55,10 @@ std::string file_name_for(const std::string& name) {
   for (const char letter : name) {
     const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
     const bool capital = letter >= 'A' && letter <= 'Z';
-    if (plain || capital) file += capital ? char(letter - 'A' + 'a') : letter;
-    else if (!file.empty() && file.back() != '_') file += '_';
+    if (plain || capital)
+      file += capital ? char(letter - 'A' + 'a') : letter;
+    else if (!file.empty() && file.back() != '_')
+      file += '_';
   }
   while (!file.empty() && file.back() == '_') file.pop_back();
   return (file.empty() ? std::string("preset") : file) + ".json";
@@ -106,7 +108,8 @@ void entry_line(App& app, int k, bool& open) {
   const std::string& below = entry.problem.empty() ? entry.description : entry.problem;
   const ImFont& small = *app.fonts.small;
   const float text_height =
-      below.empty() ? 0 : small.CalcTextSizeA(small.FontSize, 1e9f, width - 2 * padding, below.c_str()).y + app.theme.px(3);
+      below.empty() ? 0
+                    : small.CalcTextSizeA(small.FontSize, 1e9f, width - 2 * padding, below.c_str()).y + app.theme.px(3);
   const float height = app.fonts.title->FontSize + text_height + app.theme.px(14);
   ImGui::PushID(k);
   if (ImGui::InvisibleButton("entry", {width, height})) {
@@ -119,7 +122,8 @@ void entry_line(App& app, int k, bool& open) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const bool chosen = dialog.selected == k;
   if (chosen || ImGui::IsItemHovered())
-    draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, chosen ? mixed(c.field, c.accent, 0.25f) : c.field, app.theme.px(5));
+    draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, chosen ? mixed(c.field, c.accent, 0.25f) : c.field,
+                       app.theme.px(5));
   draw_text(draw, *app.fonts.title, {lo.x + padding, lo.y + app.theme.px(7)}, c.text, entry.name);
   const float label_width = text_width(small, entry.label);
   draw_text(draw, small, {lo.x + width - padding - label_width, lo.y + app.theme.px(9)}, c.quiet, entry.label);
@@ -215,10 +219,12 @@ void save_preset_dialog(App& app) {
 void csv_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, dialog.height ? "Write the height of the weight as CSV" : "Write the forces as CSV");
-  wrapped(app, "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
+  wrapped(app,
+          "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
           app.theme.colors.quiet);
   label(app, "File");
-  if (text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
+  if (text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing()))
+    dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Write")) return;
   const request::WriteCsv write{path_of(dialog.path), dialog.height};
   close(app);
@@ -283,13 +289,20 @@ void large_dialog(App& app) {
 
 void contents(App& app) {
   switch (app.ui.dialog.kind) {
-    case DialogKind::open: return open_presets(app);
-    case DialogKind::save: return save_preset_dialog(app);
-    case DialogKind::export_csv: return csv_dialog(app);
-    case DialogKind::texture: return texture_dialog(app);
-    case DialogKind::unsaved: return unsaved_dialog(app);
-    case DialogKind::large_cloth: return large_dialog(app);
-    case DialogKind::none: return;
+    case DialogKind::open:
+      return open_presets(app);
+    case DialogKind::save:
+      return save_preset_dialog(app);
+    case DialogKind::export_csv:
+      return csv_dialog(app);
+    case DialogKind::texture:
+      return texture_dialog(app);
+    case DialogKind::unsaved:
+      return unsaved_dialog(app);
+    case DialogKind::large_cloth:
+      return large_dialog(app);
+    case DialogKind::none:
+      return;
   }
 }
 

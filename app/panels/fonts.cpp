@@ -11,10 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 7> wanted{"Inter-Regular.otf",         "Inter-SemiBold.otf",
-                                            "STIXGeneral-Italic.otf",    "JetBrainsMono-Regular.ttf",
-                                            "forkawesome-webfont.ttf",   "DejaVuSans.ttf",
-                                            "DejaVuSansMono.ttf"};
+constexpr std::array<const char*, 7> wanted{
+    "Inter-Regular.otf",       "Inter-SemiBold.otf", "STIXGeneral-Italic.otf", "JetBrainsMono-Regular.ttf",
+    "forkawesome-webfont.ttf", "DejaVuSans.ttf",     "DejaVuSansMono.ttf"};
 
 /// Where Debian puts them, which the search below need not find again.
 constexpr std::array<const char*, 6> folders{
@@ -58,9 +57,8 @@ class Builder {
     config.OversampleV = 1;
     config.PixelSnapH = false;
     const fs::path* file = choose(name, fallback);
-    ImFont* font = file != nullptr
-                       ? atlas.AddFontFromFileTTF(file->c_str(), pixels, &config, text_glyphs.data())
-                       : nullptr;
+    ImFont* font =
+        file != nullptr ? atlas.AddFontFromFileTTF(file->c_str(), pixels, &config, text_glyphs.data()) : nullptr;
     if (font == nullptr) {
       ImFontConfig own;
       own.SizePixels = pixels;
@@ -115,8 +113,9 @@ Fonts build_fonts(float scale) {
   fonts.subscript = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 13);
   fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13);
   if (!builder.has("forkawesome-webfont.ttf"))
-    fonts.notes.push_back("font forkawesome-webfont.ttf not found; buttons carry words in place of icons "
-                          "(install fonts-fork-awesome)");
+    fonts.notes.push_back(
+        "font forkawesome-webfont.ttf not found; buttons carry words in place of icons "
+        "(install fonts-fork-awesome)");
   return fonts;
 }
 

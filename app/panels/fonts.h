@@ -9,16 +9,16 @@
 namespace tyglab {
 
 struct Fonts {
-  ImFont* text = nullptr;       ///< 14 at scale 1, with icons
-  ImFont* small = nullptr;      ///< 12, quiet labels and section heads
-  ImFont* title = nullptr;      ///< 14, semibold, with icons
-  ImFont* brand = nullptr;      ///< 17, semibold
-  ImFont* large_icons = nullptr;  ///< 18, icons alone
-  ImFont* huge = nullptr;       ///< 40, semibold: PAUSED
-  ImFont* symbol = nullptr;     ///< 19, italic
-  ImFont* subscript = nullptr;  ///< 13, italic
-  ImFont* mono = nullptr;       ///< 13
-  bool icons = false;           ///< whether the icon font was found
+  ImFont* text = nullptr;          ///< 14 at scale 1, with icons
+  ImFont* small = nullptr;         ///< 12, quiet labels and section heads
+  ImFont* title = nullptr;         ///< 14, semibold, with icons
+  ImFont* brand = nullptr;         ///< 17, semibold
+  ImFont* large_icons = nullptr;   ///< 18, icons alone
+  ImFont* huge = nullptr;          ///< 40, semibold: PAUSED
+  ImFont* symbol = nullptr;        ///< 19, italic
+  ImFont* subscript = nullptr;     ///< 13, italic
+  ImFont* mono = nullptr;          ///< 13
+  bool icons = false;              ///< whether the icon font was found
   std::vector<std::string> notes;  ///< what was missing, and what stands in for it
 };
 

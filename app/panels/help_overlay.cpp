@@ -37,10 +37,8 @@ constexpr Entry keys[] = {
     {"Ctrl+Q", "quits"},
 };
 constexpr Entry sliders[] = {
-    {"Drag · Shift drag", "changes · ten times finer"},
-    {"Double-click", "back to the preset's value"},
-    {"Double-click or Ctrl+click the number", "types a value"},
-    {"← → · Ctrl · Shift", "steps · finer · coarser"},
+    {"Drag · Shift drag", "changes · ten times finer"},         {"Double-click", "back to the preset's value"},
+    {"Double-click or Ctrl+click the number", "types a value"}, {"← → · Ctrl · Shift", "steps · finer · coarser"},
     {"Tab, ↑ ↓ · Esc", "next slider · back to the cloth"},
 };
 

@@ -21,10 +21,14 @@ inline bool begin_child(const char* id, ImVec2 size, ImGuiWindowFlags flags = 0)
 #endif
 }
 
-inline ImGuiID item_id() { return ImGui::GetItemID(); }
+inline ImGuiID item_id() {
+  return ImGui::GetItemID();
+}
 
 /// An OpenGL texture as Dear ImGui names it.
-inline ImTextureID texture(unsigned id) { return (ImTextureID)(std::intptr_t)id; }
+inline ImTextureID texture(unsigned id) {
+  return (ImTextureID)(std::intptr_t)id;
+}
 
 /// Key presses reach our sliders through the window's own callback; Dear ImGui need not repeat inputs over frames.
 inline void prepare_io(ImGuiIO& io) {

@@ -56,11 +56,11 @@ void draw_layout(App& app, ImVec2 window) {
   const float top = panels ? app.theme.px(48) : 0;
   const float bottom = panels && layout.status ? app.theme.px(30) : 0;
   const float height = std::max(window.y - top - bottom, 1.f);
-  // Side regions never take more than two fifths of the window each, whatever the scale of text.
-  const float most = 0.4f * window.x;
+  // In a narrow window, or with large text, the sides share what the viewport can spare.
+  const float spare = window.x - app.theme.px(240), most = std::max(spare / 2, app.theme.px(240));
   float left = panels && layout.left ? std::round(std::min(layout.left_width * app.theme.scale, most)) : 0;
   float right = panels && layout.right ? std::round(std::min(layout.right_width * app.theme.scale, most)) : 0;
-  if (window.x - left - right < app.theme.px(240)) right = 0;
+  if (left + right > spare) right = 0;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = false;
 

@@ -48,7 +48,8 @@ std::string steady_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "NaN" : value < 0 ? "-∞" : "∞";
   const double size = std::abs(value);
   if (size == 0) return "0";
-  if (size >= 0.0995 && size < 999.5) return print("%.*f", size < 0.9995 ? 3 : size < 9.995 ? 2 : size < 99.95 ? 1 : 0, value);
+  if (size >= 0.0995 && size < 999.5)
+    return print("%.*f", size < 0.9995 ? 3 : size < 9.995 ? 2 : size < 99.95 ? 1 : 0, value);
   return print("%.*e", 2, value);
 }
 

@@ -11,12 +11,15 @@
 namespace tyglab {
 namespace {
 
-ImVec2 vec(glm::vec2 v) { return {v.x, v.y}; }
+ImVec2 vec(glm::vec2 v) {
+  return {v.x, v.y};
+}
 
 /// Pixel in the window of a particle, if it is before the camera.
 std::optional<ImVec2> on_screen(const App& app, glm::dvec3 world) {
   const auto pixel = app.camera.project(world, app.viewport.size());
-  if (!pixel || !std::isfinite(pixel->x) || !std::isfinite(pixel->y) || std::abs(pixel->x) > 1e5f || std::abs(pixel->y) > 1e5f)
+  if (!pixel || !std::isfinite(pixel->x) || !std::isfinite(pixel->y) || std::abs(pixel->x) > 1e5f ||
+      std::abs(pixel->y) > 1e5f)
     return std::nullopt;
   return vec(*pixel + app.viewport.box.lo);
 }
@@ -45,17 +48,20 @@ void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view 
   draw.AddTriangleFilled(to, {neck.x - uy * head * 0.5f, neck.y + ux * head * 0.5f},
                          {neck.x + uy * head * 0.5f, neck.y - ux * head * 0.5f}, style.color);
   if (length < app.theme.px(24)) return;
-  const float width = symbol_width(app.fonts, key), away = app.theme.px(16), high = app.theme.px(9), pad = app.theme.px(4);
+  const float width = symbol_width(app.fonts, key), away = app.theme.px(16), high = app.theme.px(9),
+              pad = app.theme.px(4);
   const ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
-  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high}, {middle.x + width / 2 + pad, middle.y + high + pad / 2},
-                     faded(app.theme.colors.ground, 0.85f), app.theme.px(5));
+  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high},
+                     {middle.x + width / 2 + pad, middle.y + high + pad / 2}, faded(app.theme.colors.ground, 0.85f),
+                     app.theme.px(5));
   draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, key, style.color);
 }
 
 /// F_s, F_b, F_d, F_g to one scale: the longest takes about 90 pixels. The scale moves slowly, so that growth is seen.
 void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   const ParticleReadout r = app.simulation->particle(app.picked->i, app.picked->j);
-  const std::pair<std::string_view, glm::dvec3> forces[] = {{"F_s", r.F_s}, {"F_b", r.F_b}, {"F_d", r.F_d}, {"F_g", r.F_g}};
+  const std::pair<std::string_view, glm::dvec3> forces[] = {
+      {"F_s", r.F_s}, {"F_b", r.F_b}, {"F_d", r.F_d}, {"F_g", r.F_g}};
   double longest = 0;
   for (const auto& [key, force] : forces) longest = std::max(longest, glm::length(force));
   if (!std::isfinite(longest) || longest <= 0) return;
@@ -69,7 +75,8 @@ void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   for (const auto& [key, force] : forces) {
     const double pixels = std::min(glm::length(force) / scale, 1.6) * app.theme.px(90);
     if (pixels < 1) continue;
-    if (const auto to = on_screen(app, r.x + glm::normalize(force) * pixels * metres_per_pixel)) arrow(app, draw, from, *to, key);
+    if (const auto to = on_screen(app, r.x + glm::normalize(force) * pixels * metres_per_pixel))
+      arrow(app, draw, from, *to, key);
   }
 }
 
@@ -97,16 +104,20 @@ void pointer(App& app, ImDrawList& draw) {
     case Tool::Kind::grab:
       if (const auto held = app.simulation->held())
         if (const auto at = particle_on_screen(app, *held)) {
-          if (std::hypot(at->x - mouse.x, at->y - mouse.y) > r) draw.AddLine(*at, mouse, faded(c.accent, 0.8f), app.theme.px(1.5f));
+          if (std::hypot(at->x - mouse.x, at->y - mouse.y) > r)
+            draw.AddLine(*at, mouse, faded(c.accent, 0.8f), app.theme.px(1.5f));
           ring(app, draw, *at, 10, c.accent, 2.5f);
           draw.AddCircleFilled(*at, app.theme.px(3.5f), c.accent, 16);
         }
       return;
     case Tool::Kind::orbit:
     case Tool::Kind::pan:
-    case Tool::Kind::body: ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll); return;
+    case Tool::Kind::body:
+      ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeAll);
+      return;
     case Tool::Kind::right:
-    case Tool::Kind::none: break;
+    case Tool::Kind::none:
+      break;
   }
   if (app.preset().kind != Kind::cloth) return;
   if (body_under_pointer(app)) {
@@ -130,7 +141,8 @@ void paused(App& app, ImDrawList& draw) {
   draw_text(draw, font, at, faded(app.theme.colors.text, 0.75f), word);
   const char* how = "Space runs · → makes one step";
   const ImFont& small = *app.fonts.text;
-  draw_text(draw, small, {std::round((lo.x + hi.x - text_width(small, how)) / 2), at.y + font.FontSize + app.theme.px(4)},
+  draw_text(draw, small,
+            {std::round((lo.x + hi.x - text_width(small, how)) / 2), at.y + font.FontSize + app.theme.px(4)},
             app.theme.colors.quiet, how);
 }
 

@@ -47,7 +47,9 @@ void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dve
   end_tooltip();
 }
 
-float line_height(const App& app) { return app.theme.px(22); }
+float line_height(const App& app) {
+  return app.theme.px(22);
+}
 
 /// Symbol with the sample of its curve, magnitude, unit.
 void force_cell(App& app, std::string_view key, const ParticleReadout* readout, float width) {
@@ -86,7 +88,8 @@ void motion_line(App& app, std::string_view key, const ParticleReadout* readout)
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_symbol(draw, app.fonts, {lo.x + app.theme.px(31), baseline_at(app.fonts, middle)}, what.symbol, c.text);
   const ImFont& mono = *app.fonts.mono;
-  const float baseline = baseline_at(app.fonts, middle), unit = app.theme.px(34), first = app.theme.px(48), column = (width - unit - first) / 3;
+  const float baseline = baseline_at(app.fonts, middle), unit = app.theme.px(34), first = app.theme.px(48),
+              column = (width - unit - first) / 3;
   for (int k = 0; k < 3; ++k) {
     const std::string text = readout != nullptr ? steady_number(value[k]) : "–";
     const float end = lo.x + first + float(k + 1) * column;

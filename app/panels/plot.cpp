@@ -103,7 +103,8 @@ void draw_axes(App& app, ImDrawList& draw, const Axes& axes, const PlotRange& ra
     draw_text(draw, font, {axes.lo.x - app.theme.px(6) - text_width(font, label), std::round(top)}, c.quiet, label);
   }
   const float below = axes.hi.y + app.theme.px(4);
-  const std::string from = short_number(rounded(frame.x_min, 4)) + " s", to = short_number(rounded(frame.x_max, 4)) + " s";
+  const std::string from = short_number(rounded(frame.x_min, 4)) + " s",
+                    to = short_number(rounded(frame.x_max, 4)) + " s";
   draw_text(draw, font, {axes.lo.x, below}, c.quiet, from);
   draw_text(draw, font, {axes.hi.x - text_width(font, to), below}, c.quiet, to);
 }
@@ -115,8 +116,8 @@ float label_width(App& app, const PlotRange& range) {
   return width;
 }
 
-void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const double> x, std::span<const PlotCurve> curves,
-              std::string_view unit) {
+void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const double> x,
+              std::span<const PlotCurve> curves, std::string_view unit) {
   const double wanted = axes.value_at(ImGui::GetIO().MousePos.x);
   auto after = std::lower_bound(x.begin(), x.end(), wanted);
   if (after == x.end()) --after;
@@ -126,7 +127,8 @@ void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const doub
   const float at = std::round(axes.x(x[n]));
   draw.AddLine({at, axes.lo.y}, {at, axes.hi.y}, faded(c.text, 0.4f));
   for (const PlotCurve& curve : curves)
-    if (axes.drawable(curve.y[n])) draw.AddCircleFilled({at, axes.y(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
+    if (axes.drawable(curve.y[n]))
+      draw.AddCircleFilled({at, axes.y(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
   begin_tooltip(app);
   ImGui::PushFont(app.fonts.mono);
   char time[48];
@@ -160,13 +162,17 @@ float draw_plot(App& app, const char* id, ImVec2 size, std::span<const double> x
   const ImFont& font = *app.fonts.small;
   const Axes axes{{lo.x + label_width(app, range), lo.y + std::round(font.FontSize / 2)},
                   {hi.x, hi.y - font.FontSize - app.theme.px(6)},
-                  frame.x_min, frame.x_max, range.lo, range.hi, frame.log};
+                  frame.x_min,
+                  frame.x_max,
+                  range.lo,
+                  range.hi,
+                  frame.log};
   if (axes.hi.x - axes.lo.x < 8 || axes.hi.y - axes.lo.y < 8) return 0;
   draw_axes(app, draw, axes, range, frame);
   if (x.empty() || curves.empty()) {
     const float width = text_width(font, frame.when_empty);
-    draw_text(draw, font, {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)}, c.quiet,
-              frame.when_empty);
+    draw_text(draw, font, {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},
+              c.quiet, frame.when_empty);
     return 0;
   }
   draw.PushClipRect(axes.lo, axes.hi, true);

@@ -21,7 +21,9 @@ std::vector<double> values_in(std::span<const double> x, std::span<const PlotCur
   return values;
 }
 
-double quantile(const std::vector<double>& sorted, double q) { return sorted[std::size_t(q * double(sorted.size() - 1))]; }
+double quantile(const std::vector<double>& sorted, double q) {
+  return sorted[std::size_t(q * double(sorted.size() - 1))];
+}
 
 /// 1, 2 or 5 times a power of ten.
 double nice_step(double span) {

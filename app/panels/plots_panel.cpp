@@ -74,8 +74,8 @@ float legend(App& app, const Region& place, bool measure) {
       draw_styled_line(draw, ends, 2, style, app.theme.scale);
       draw_symbol(draw, app.fonts, {x + sample + app.theme.px(6), baseline_at(app.fonts, middle)}, force_keys[k],
                   faded(app.theme.colors.text, opacity));
-      tooltip(app, gui::item_id(), std::string(variable(force_keys[k]).quantity) + " · " +
-                                           std::string(variable(force_keys[k]).storhet),
+      tooltip(app, gui::item_id(),
+              std::string(variable(force_keys[k]).quantity) + " · " + std::string(variable(force_keys[k]).storhet),
               plots.hidden[k] ? "Click to show" : "Click to hide");
       ImGui::PopID();
     }
@@ -121,9 +121,12 @@ void force_controls(App& app, const Region& inner) {
 const char* force_title(const App& app) {
   if (app.preset().kind == Kind::one_weight) return "Forces on the weight";
   switch (app.ui.plots.source) {
-    case Source::sum: return "Forces, summed over the cloth";
-    case Source::maximum: return "Forces, largest on the cloth";
-    case Source::particle: break;
+    case Source::sum:
+      return "Forces, summed over the cloth";
+    case Source::maximum:
+      return "Forces, largest on the cloth";
+    case Source::particle:
+      break;
   }
   return "Forces on the picked particle";
 }
@@ -141,8 +144,8 @@ void force_card(App& app, float height) {
   const float plot_height = inner.size.y - head - legend_height - app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   const bool no_particle = plots.source == Source::particle && !app.picked;
-  const PlotFrame frame = frame_of(app, plots.forces, plots.log, "N",
-                                   no_particle ? "Right-click a particle to pick it" : why_empty(app));
+  const PlotFrame frame =
+      frame_of(app, plots.forces, plots.log, "N", no_particle ? "Right-click a particle to pick it" : why_empty(app));
   if (plot_height > app.theme.px(24))
     zoom_time(app, draw_plot(app, "plot", {inner.size.x, plot_height}, plots.forces.t(), curves, frame));
   legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
@@ -157,9 +160,10 @@ void height_card(App& app, float height) {
   if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
     app.command(Command::export_height);
   const char* note = "Its colour is the integrator's, as in figure 3.2.";
-  draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {inner.at.x, inner.at.y + app.theme.px(3)}, app.theme.colors.quiet,
-            note);
-  const PlotCurve curve{"y", {integrator_color(app.theme.colors, app.preset().integrator), LineStyle::solid, 1.8f},
+  draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {inner.at.x, inner.at.y + app.theme.px(3)},
+            app.theme.colors.quiet, note);
+  const PlotCurve curve{"y",
+                        {integrator_color(app.theme.colors, app.preset().integrator), LineStyle::solid, 1.8f},
                         plots.height.column(0)};
   const float head = side + app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});

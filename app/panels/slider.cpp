@@ -16,8 +16,12 @@ namespace {
 constexpr double zero_stretch = 0.04;  ///< of a logarithmic slider that starts at 0
 constexpr double decades_below = 1e3;  ///< its smallest value but 0 is max over this
 
-bool has_zero(const SliderScale& s) { return s.scale == Scale::logarithmic && s.min <= 0; }
-double lowest(const SliderScale& s) { return has_zero(s) ? s.max / decades_below : s.min; }
+bool has_zero(const SliderScale& s) {
+  return s.scale == Scale::logarithmic && s.min <= 0;
+}
+double lowest(const SliderScale& s) {
+  return has_zero(s) ? s.max / decades_below : s.min;
+}
 
 /// Places are given to the digits that a pixel can tell apart, never to seventeen.
 double tidy(const SliderScale& s, double value, int digits) {
@@ -57,22 +61,45 @@ SliderResult take_keys(App& app, const SliderScale& scale, double value) {
   const auto go = [&](double to) { result.changed = to != value, result.value = to; };
   for (const KeyEvent& key : state.keys) {
     switch (key.key) {
-      case GLFW_KEY_LEFT: go(stepped(scale, result.value, -1, key.mods)); break;
-      case GLFW_KEY_RIGHT: go(stepped(scale, result.value, 1, key.mods)); break;
-      case GLFW_KEY_PAGE_DOWN: go(stepped(scale, result.value, -1, GLFW_MOD_SHIFT)); break;
-      case GLFW_KEY_PAGE_UP: go(stepped(scale, result.value, 1, GLFW_MOD_SHIFT)); break;
-      case GLFW_KEY_HOME: go(scale.min); break;
-      case GLFW_KEY_END: go(scale.max); break;
-      case GLFW_KEY_DELETE: result.reset = true; break;
+      case GLFW_KEY_LEFT:
+        go(stepped(scale, result.value, -1, key.mods));
+        break;
+      case GLFW_KEY_RIGHT:
+        go(stepped(scale, result.value, 1, key.mods));
+        break;
+      case GLFW_KEY_PAGE_DOWN:
+        go(stepped(scale, result.value, -1, GLFW_MOD_SHIFT));
+        break;
+      case GLFW_KEY_PAGE_UP:
+        go(stepped(scale, result.value, 1, GLFW_MOD_SHIFT));
+        break;
+      case GLFW_KEY_HOME:
+        go(scale.min);
+        break;
+      case GLFW_KEY_END:
+        go(scale.max);
+        break;
+      case GLFW_KEY_DELETE:
+        result.reset = true;
+        break;
       case GLFW_KEY_ENTER:
-      case GLFW_KEY_KP_ENTER: start_typing(state, ImGui::GetID("value"), value); break;
-      case GLFW_KEY_ESCAPE: state.focused = 0; break;
-      case GLFW_KEY_UP: state.wanted_order = state.focused_order - 1; break;
-      case GLFW_KEY_DOWN: state.wanted_order = state.focused_order + 1; break;
+      case GLFW_KEY_KP_ENTER:
+        start_typing(state, ImGui::GetID("value"), value);
+        break;
+      case GLFW_KEY_ESCAPE:
+        state.focused = 0;
+        break;
+      case GLFW_KEY_UP:
+        state.wanted_order = state.focused_order - 1;
+        break;
+      case GLFW_KEY_DOWN:
+        state.wanted_order = state.focused_order + 1;
+        break;
       case GLFW_KEY_TAB:
         state.wanted_order = state.focused_order + ((key.mods & GLFW_MOD_SHIFT) != 0 ? -1 : 1);
         break;
-      default: break;
+      default:
+        break;
     }
   }
   state.keys.clear();
@@ -94,7 +121,8 @@ bool follow_focus(SliderState& state, unsigned id) {
 }
 
 /// The drag of a slider or of a cell; `width` pixels are the whole scale.
-SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigned id, float width, bool jump, float left) {
+SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigned id, float width, bool jump,
+                       float left) {
   SliderState& state = app.ui.slider;
   SliderResult result{.value = value};
   const ImGuiIO& io = ImGui::GetIO();
@@ -134,7 +162,8 @@ void draw_track(App& app, const SliderScale& scale, double value, ImVec2 lo, ImV
   const double t = slider_position(scale, value);
   const float x = std::round(lo.x + float(t) * (hi.x - lo.x));
   if (x > lo.x + 1) draw.AddRectFilled(a, {x, b.y}, mixed(c.field, c.accent, hovered ? 0.42f : 0.34f), round);
-  if (focused) draw.AddRect({a.x - 2, a.y - 2}, {b.x + 2, b.y + 2}, c.accent, round + 2, 0, std::max(1.f, app.theme.px(1.5f)));
+  if (focused)
+    draw.AddRect({a.x - 2, a.y - 2}, {b.x + 2, b.y + 2}, c.accent, round + 2, 0, std::max(1.f, app.theme.px(1.5f)));
   const float thick = app.theme.px(2), tall = app.theme.px(10);
   const float at = std::clamp(x, lo.x + thick, hi.x - thick);
   draw.AddRectFilled({at - thick, middle - tall}, {at + thick, middle + tall}, c.text, app.theme.px(2));
@@ -166,7 +195,8 @@ void type_value(App& app, double value, float width, float height, SliderResult&
     result.changed = result.finished = *typed != value;
     result.value = *typed;
   } else {
-    app.messages.error(std::string("“") + state.text + "” is not a number; the value stays. Type one such as 310 or 1e-4.");
+    app.messages.error(std::string("“") + state.text +
+                       "” is not a number; the value stays. Type one such as 310 or 1e-4.");
   }
 }
 
@@ -207,7 +237,8 @@ SliderResult slider(App& app, const SliderScale& scale, double value, float widt
   return result;
 }
 
-SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, double value, float width, float height) {
+SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, double value, float width,
+                       float height) {
   ImGui::PushID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   SliderResult result{.value = value};
@@ -221,8 +252,8 @@ SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, 
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  const bool wants_typing = ImGui::IsItemActivated() &&
-                            (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) || ImGui::GetIO().KeyCtrl);
+  const bool wants_typing =
+      ImGui::IsItemActivated() && (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) || ImGui::GetIO().KeyCtrl);
   if (wants_typing) {
     start_typing(app.ui.slider, typing_id, value);
   } else {
@@ -248,7 +279,8 @@ SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, 
   return result;
 }
 
-SliderResult value_cell(App& app, const char* id_text, double value, std::string_view shown, float width, float height) {
+SliderResult value_cell(App& app, const char* id_text, double value, std::string_view shown, float width,
+                        float height) {
   SliderState& state = app.ui.slider;
   SliderResult result{.value = value};
   const unsigned id = ImGui::GetID(id_text);
@@ -266,9 +298,11 @@ SliderResult value_cell(App& app, const char* id_text, double value, std::string
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float inset = app.theme.px(2);
   if (hovered)
-    draw.AddRectFilled({lo.x, lo.y + inset}, {lo.x + width, lo.y + height - inset}, app.theme.colors.field, app.theme.px(4));
-  draw_on_baseline(draw, font, {lo.x + width - app.theme.px(4) - text_width(font, shown),
-                                baseline_at(app.fonts, lo.y + height / 2)}, app.theme.colors.text, shown);
+    draw.AddRectFilled({lo.x, lo.y + inset}, {lo.x + width, lo.y + height - inset}, app.theme.colors.field,
+                       app.theme.px(4));
+  draw_on_baseline(
+      draw, font, {lo.x + width - app.theme.px(4) - text_width(font, shown), baseline_at(app.fonts, lo.y + height / 2)},
+      app.theme.colors.text, shown);
   return result;
 }
 

@@ -50,8 +50,14 @@ void status_bar(App& app, const Region& region) {
   const float end = facts_x - app.theme.px(16);
   if (app.preset().kind == Kind::cloth) {
     hints(app, draw, at, end,
-          {{"Right drag", "grabs"}, {"Left drag", "cuts"}, {"Middle drag", "orbits"}, {"Right click", "picks"},
-           {"twice", "pins"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}});
+          {{"Right drag", "grabs"},
+           {"Left drag", "cuts"},
+           {"Middle drag", "orbits"},
+           {"Right click", "picks"},
+           {"twice", "pins"},
+           {"Wheel", "zooms"},
+           {"F", "frames"},
+           {"F1", "help"}});
   } else {
     hints(app, draw, at, end, {{"Middle drag", "orbits"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}});
   }

@@ -9,7 +9,9 @@ namespace {
 /// How far a subscript sinks below the baseline, as a part of the symbol's size.
 constexpr float sink = 0.16f;
 
-float dot_radius(const Fonts& fonts) { return std::max(1.f, fonts.symbol->FontSize * 0.055f); }
+float dot_radius(const Fonts& fonts) {
+  return std::max(1.f, fonts.symbol->FontSize * 0.055f);
+}
 
 }  // namespace
 
@@ -34,7 +36,9 @@ void draw_on_baseline(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 col
   draw_text(draw, font, {std::round(at.x), std::round(at.y - font.Ascent)}, color, text);
 }
 
-float baseline_at(const Fonts& fonts, float middle) { return std::round(middle + fonts.text->FontSize * 0.36f); }
+float baseline_at(const Fonts& fonts, float middle) {
+  return std::round(middle + fonts.text->FontSize * 0.36f);
+}
 
 float symbol_width(const Fonts& fonts, std::string_view symbol) {
   const SymbolParts parts = parse_symbol(symbol);
@@ -47,7 +51,8 @@ void draw_symbol(ImDrawList& draw, const Fonts& fonts, ImVec2 at, std::string_vi
   const float width = text_width(*fonts.symbol, parts.base);
   draw_on_baseline(draw, *fonts.symbol, at, color, parts.base);
   if (!parts.subscript.empty()) {
-    draw_on_baseline(draw, *fonts.subscript, {at.x + width, at.y + fonts.symbol->FontSize * sink}, color, parts.subscript);
+    draw_on_baseline(draw, *fonts.subscript, {at.x + width, at.y + fonts.symbol->FontSize * sink}, color,
+                     parts.subscript);
   }
   // The letters that take dots (x) are low: the dots stand a little above the x-height, shifted with the slant.
   const float radius = dot_radius(fonts), height = at.y - fonts.symbol->FontSize * 0.52f;

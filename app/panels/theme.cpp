@@ -7,21 +7,31 @@
 namespace tyglab {
 namespace {
 
-constexpr ImU32 rgb(unsigned hex) { return IM_COL32(hex >> 16 & 255, hex >> 8 & 255, hex & 255, 255); }
+constexpr ImU32 rgb(unsigned hex) {
+  return IM_COL32(hex >> 16 & 255, hex >> 8 & 255, hex & 255, 255);
+}
 
-ImVec4 vec(ImU32 color, float opacity = 1) { return ImGui::ColorConvertU32ToFloat4(faded(color, opacity)); }
+ImVec4 vec(ImU32 color, float opacity = 1) {
+  return ImGui::ColorConvertU32ToFloat4(faded(color, opacity));
+}
 
 /// Lengths of ink and gap in turn, at scale 1.
 std::span<const float> pattern(LineStyle style) {
   static constexpr std::array<float, 2> dashed{8, 4}, dotted{2, 3}, long_dash{14, 5}, sparse{2, 7};
   static constexpr std::array<float, 4> dash_dot{8, 3, 2, 3};
   switch (style) {
-    case LineStyle::dashed: return dashed;
-    case LineStyle::dotted: return dotted;
-    case LineStyle::dash_dot: return dash_dot;
-    case LineStyle::long_dash: return long_dash;
-    case LineStyle::sparse_dots: return sparse;
-    case LineStyle::solid: break;
+    case LineStyle::dashed:
+      return dashed;
+    case LineStyle::dotted:
+      return dotted;
+    case LineStyle::dash_dot:
+      return dash_dot;
+    case LineStyle::long_dash:
+      return long_dash;
+    case LineStyle::sparse_dots:
+      return sparse;
+    case LineStyle::solid:
+      break;
   }
   return {};
 }

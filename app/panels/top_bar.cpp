@@ -12,7 +12,9 @@
 namespace tyglab {
 namespace {
 
-float bar_middle(App& app, float height) { return std::round((app.theme.px(48) - height) / 2); }
+float bar_middle(App& app, float height) {
+  return std::round((app.theme.px(48) - height) / 2);
+}
 
 void document_menu(App& app) {
   if (!begin_menu(app, "document")) return;
@@ -92,8 +94,8 @@ float transport(App& app, float x) {
 }
 
 /// A quiet label with a number after it; hidden where the bar has no room. Returns where it ends.
-float reading(App& app, float x, float end, const char* label, const std::string& value, const char* widest, ImU32 color,
-              const char* tip) {
+float reading(App& app, float x, float end, const char* label, const std::string& value, const char* widest,
+              ImU32 color, const char* tip) {
   const ImFont &small = *app.fonts.small, &mono = *app.fonts.mono;
   const float label_width = *label != 0 ? text_width(small, label) + app.theme.px(8) : 0;
   const float width = label_width + std::max(text_width(mono, widest), text_width(mono, value));
@@ -140,9 +142,13 @@ void readings(App& app, float x, float end) {
   const double part = app.pacing.speed > 0 ? app.pacing.reached() / app.pacing.speed : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * app.pacing.reached());
   const bool running = app.pacing.playing && !app.simulation->divergence();
-  x = reading(app, x, end, "real time", running ? text : "–", "100 %", !running ? c.quiet : part > 0.95 ? c.good : c.warning,
-              "Simulated time to real time, reached over the last half second. Amber: the machine does not keep up with the "
-              "speed wished.");
+  x = reading(
+      app, x, end, "real time", running ? text : "–", "100 %",
+      !running      ? c.quiet
+      : part > 0.95 ? c.good
+                    : c.warning,
+      "Simulated time to real time, reached over the last half second. Amber: the machine does not keep up with the "
+      "speed wished.");
   std::snprintf(text, sizeof text, "%d", app.pacing.steps_per_frame());
   x = reading(app, x, end, "steps/frame", text, "000", c.text, "Steps of dt made between two pictures");
   reading(app, x, end, "dt", short_number(app.preset().dt) + " s", "1.234e-4 s", c.text, "Time step, set at the left");
@@ -201,7 +207,8 @@ void top_bar(App& app, const Region& region) {
   if (icon_button(app, "screen", app.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"))
     app.command(Command::full_screen);
   ImGui::SameLine(0, gap);
-  if (icon_button(app, "help", icon::help, "Help", "Mouse and keys", "F1", app.ui.help)) app.command(Command::toggle_help);
+  if (icon_button(app, "help", icon::help, "Help", "Mouse and keys", "F1", app.ui.help))
+    app.command(Command::toggle_help);
   end_region();
 }
 

@@ -16,17 +16,17 @@ namespace tyglab {
 
 /// The slider or value in use.
 struct SliderState {
-  unsigned focused = 0;          ///< takes keys; 0: none
-  bool focused_seen = false;     ///< it was drawn in this frame
-  unsigned typing = 0;           ///< its value is being typed
+  unsigned focused = 0;       ///< takes keys; 0: none
+  bool focused_seen = false;  ///< it was drawn in this frame
+  unsigned typing = 0;        ///< its value is being typed
   bool typing_starts = false;
   bool commit = false, cancel = false;  ///< Enter, Escape while typing
   char text[64] = "";
   unsigned dragged = 0;
-  double position = 0;           ///< of the drag, 0 to 1, finer than the value shows
-  double value = 0;              ///< of the drag, for constants that are taken when it ends
-  bool reset_done = false;       ///< a double click reset it: the second press does not drag
-  std::vector<KeyEvent> keys;    ///< of this frame, for the focused one
+  double position = 0;                                   ///< of the drag, 0 to 1, finer than the value shows
+  double value = 0;                                      ///< of the drag, for constants that are taken when it ends
+  bool reset_done = false;                               ///< a double click reset it: the second press does not drag
+  std::vector<KeyEvent> keys;                            ///< of this frame, for the focused one
   int order = 0, focused_order = -1, wanted_order = -1;  ///< position in the panel, for Tab and up and down
 };
 
@@ -38,8 +38,8 @@ struct Plots {
   Source source = Source::particle;
   bool paused = false;
   bool log = false;
-  double window_s = 4;   ///< simulated time shown
-  int tab = 0;           ///< the card shown where only one has room
+  double window_s = 4;  ///< simulated time shown
+  int tab = 0;          ///< the card shown where only one has room
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
   Series height{1};
@@ -50,15 +50,15 @@ struct Plots {
 struct Dialog {
   enum class Kind { none, open, save, export_csv, texture, unsaved, large_cloth };
   Kind kind = Kind::none;
-  bool opening = false;             ///< to be opened in this frame
+  bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
   char name[128] = "";
-  std::string problem;              ///< shown in it
-  bool enter = false;               ///< Enter was pressed in this frame
-  bool path_follows = false;        ///< the path is made from the name until it is edited
-  bool overwrite = false;           ///< the file exists, and the user is asked
-  bool height = false;              ///< of export_csv
-  std::optional<Request> then;      ///< of a question: what follows a yes
+  std::string problem;          ///< shown in it
+  bool enter = false;           ///< Enter was pressed in this frame
+  bool path_follows = false;    ///< the path is made from the name until it is edited
+  bool overwrite = false;       ///< the file exists, and the user is asked
+  bool height = false;          ///< of export_csv
+  std::optional<Request> then;  ///< of a question: what follows a yes
   std::string question;
   struct Entry {
     std::filesystem::path file;
@@ -74,12 +74,12 @@ struct Ui {
   Plots plots;
   Dialog dialog;
   bool help = false;
-  bool panels = true;        ///< Tab hides them all
+  bool panels = true;  ///< Tab hides them all
   bool force_arrows = true;
-  double arrow_scale = 0;    ///< N for the longest arrow, smoothed
-  double now = 0;            ///< s since the window opened
-  double last_change = 0;    ///< when constants changed last, to tell gestures apart
-  unsigned hovered = 0;      ///< what the pointer rests on, for tooltips
+  double arrow_scale = 0;  ///< N for the longest arrow, smoothed
+  double now = 0;          ///< s since the window opened
+  double last_change = 0;  ///< when constants changed last, to tell gestures apart
+  unsigned hovered = 0;    ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
   bool close_lists = false;  ///< Esc was pressed: open menus and combo boxes close in this frame

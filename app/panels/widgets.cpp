@@ -196,22 +196,28 @@ bool section(App& app, const char* name) {
 }
 
 void end_combo() {
-  ImGui::EndCombo();
   ImGui::PopStyleVar();
+  ImGui::EndCombo();
 }
 
-bool begin_menu(App& app, const char* id) { return ImGui::BeginPopup(id) && list_opened(app); }
+bool begin_menu(App& app, const char* id) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(14), app.theme.px(12)));
+  const bool open = ImGui::BeginPopup(id);
+  ImGui::PopStyleVar();
+  return open && list_opened(app);
+}
 
 void end_menu() {
-  ImGui::EndPopup();
   ImGui::PopStyleVar();
+  ImGui::EndPopup();
 }
 
 bool begin_combo(App& app, const char* id, const char* shown, float width) {
   ImGui::SetNextItemWidth(width);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(6)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(8), app.theme.px(10)));
   const bool open = ImGui::BeginCombo(id, shown, ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   if (open) return list_opened(app);
   report_control(app, id);
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();

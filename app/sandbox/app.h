@@ -38,6 +38,7 @@ struct App {
   History history;
   Pacing pacing;
   std::int64_t steps_made = 0;  ///< in the last frame
+  bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
 
   std::unique_ptr<ClothRenderer> renderer;
   Camera camera;

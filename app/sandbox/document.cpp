@@ -13,7 +13,9 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
-void say_fallback(App& app, const char* reason) { app.messages.warning(std::string(reason) + " The CPU runs it instead."); }
+void say_fallback(App& app, const char* reason) {
+  app.messages.warning(std::string(reason) + " The CPU runs it instead.");
+}
 
 void load_texture(App& app) {
   app.redraw_cloth = true;

@@ -10,8 +10,8 @@
 namespace tyglab {
 
 enum class Part { simulate, upload, draw_cloth, panels, ui_draw, swap, frame };
-inline constexpr std::array<std::string_view, 7> part_names{"simulate", "upload",  "draw_cloth", "panels",
-                                                            "ui_draw",  "swap", "frame"};
+inline constexpr std::array<std::string_view, 7> part_names{"simulate", "upload", "draw_cloth", "panels",
+                                                            "ui_draw",  "swap",   "frame"};
 
 class FrameCosts {
  public:

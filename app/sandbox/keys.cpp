@@ -52,9 +52,10 @@ constexpr std::array<Shortcut, 27> shortcuts{{
     {GLFW_KEY_R, control | shift, Command::reset_everything},
 }};
 
-constexpr std::array slider_keys{GLFW_KEY_LEFT,  GLFW_KEY_RIGHT,     GLFW_KEY_UP,   GLFW_KEY_DOWN,  GLFW_KEY_HOME,
-                                 GLFW_KEY_END,   GLFW_KEY_PAGE_DOWN, GLFW_KEY_TAB,  GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER,
-                                 GLFW_KEY_PAGE_UP, GLFW_KEY_ESCAPE,  GLFW_KEY_DELETE};
+constexpr std::array slider_keys{GLFW_KEY_LEFT,  GLFW_KEY_RIGHT,    GLFW_KEY_UP,        GLFW_KEY_DOWN,
+                                 GLFW_KEY_HOME,  GLFW_KEY_END,      GLFW_KEY_PAGE_DOWN, GLFW_KEY_TAB,
+                                 GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER, GLFW_KEY_PAGE_UP,   GLFW_KEY_ESCAPE,
+                                 GLFW_KEY_DELETE};
 
 /// "1" to "5", of the digits' row or the keypad.
 std::optional<int> digit(const KeyEvent& event) {
@@ -115,7 +116,8 @@ void command_for(App& app, const KeyEvent& event) {
 
 void handle_keys(App& app) {
   for (const KeyEvent& event : app.input.keys) {
-    if (dialog_takes(app, event) || list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event)) continue;
+    if (dialog_takes(app, event) || list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event))
+      continue;
     command_for(app, event);
   }
 }

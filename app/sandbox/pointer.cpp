@@ -27,7 +27,7 @@ std::optional<Pins::Site> nearest_site(App& app, glm::vec2 at, bool free_only) {
   return Pins::Site{hit->i, hit->j};
 }
 
-/// The body that a press means: one that no particle near the pointer stands in front of.
+/// The body that a press means: one that no cloth hangs in front of. Cloth that rests on it does not hide it.
 std::optional<int> body_pressed(App& app, glm::vec2 at) {
   const std::vector<Body>& bodies = app.preset().bodies;
   const auto body = body_under(bodies, app.camera, at, app.viewport.size());
@@ -40,7 +40,8 @@ std::optional<int> body_pressed(App& app, glm::vec2 at) {
   const double half_chord2 = r * r - (glm::dot(to_centre, to_centre) - along * along);
   const double surface = along - std::sqrt(std::max(0.0, half_chord2));
   const double particle = glm::dot(ray, app.simulation->positions().at(site->i, site->j) - eye);
-  return particle > surface + app.preset().L ? body : std::nullopt;
+  const double resting = std::max(3 * app.preset().L, 0.15 * r);
+  return particle > surface - resting ? body : std::nullopt;
 }
 
 void start_left(App& app, glm::vec2 at) {
@@ -202,6 +203,10 @@ std::optional<Pins::Site> particle_under_pointer(App& app) {
 bool body_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
   return body_pressed(app, app.input.at - app.viewport.box.lo).has_value();
+}
+
+void cut_between_steps(App& app) {
+  if (app.tool.kind == ToolKind::cut) cut(app);
 }
 
 void move_hand(App& app, int steps) {

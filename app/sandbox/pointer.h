@@ -55,6 +55,8 @@ void handle_pointer(App& app);
 std::optional<Pins::Site> particle_under_pointer(App& app);
 /// Whether a left press would take a body.
 bool body_under_pointer(App& app);
+/// While the cut is held: cuts at the pointer, once a step, since the cloth moves under it between two frames.
+void cut_between_steps(App& app);
 /// Sends the hand to the pointer over the next `steps` steps.
 void move_hand(App& app, int steps);
 

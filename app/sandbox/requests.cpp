@@ -5,8 +5,8 @@
 #include <new>
 
 #include "app/data_files.h"
-#include "app/panels/dialogs.h"
 #include "app/panels/curves.h"
+#include "app/panels/dialogs.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "core/notation/preset_io.h"
@@ -17,7 +17,9 @@ namespace {
 /// Above this many particles a frame may take seconds, so the user is asked first.
 constexpr double large_cloth = 1e6;
 
-double particles(const Preset& preset) { return double(preset.rows) * preset.columns; }
+double particles(const Preset& preset) {
+  return double(preset.rows) * preset.columns;
+}
 
 /// What follows from an edit that was taken.
 void follow_up(App& app, const Preset& before) {
@@ -85,28 +87,59 @@ void change_text_size(App& app, double factor) {
 
 void apply(App& app, const request::Do& what) {
   switch (what.command) {
-    case Command::restart: return restart(app);
-    case Command::reset_constants: apply_edit(app, edit::Change{app.document.saved}); return;
-    case Command::reset_everything: return reset_everything(app);
-    case Command::undo_and_restart: return take_from_history(app, true), restart(app);
-    case Command::toggle_play: app.pacing.playing = !app.pacing.playing, app.pacing.restart_measure(); return;
-    case Command::step: return single_step(app);
-    case Command::undo: return take_from_history(app, true);
-    case Command::redo: return take_from_history(app, false);
-    case Command::frame_cloth: app.wants_framing = true; return;
-    case Command::open_dialog: return open_dialog(app, Dialog::Kind::open);
-    case Command::save: return save_document(app);
-    case Command::save_as: return open_dialog(app, Dialog::Kind::save);
-    case Command::load_texture_dialog: return open_dialog(app, Dialog::Kind::texture);
-    case Command::export_forces: app.ui.dialog.height = false; return open_dialog(app, Dialog::Kind::export_csv);
-    case Command::export_height: app.ui.dialog.height = true; return open_dialog(app, Dialog::Kind::export_csv);
-    case Command::toggle_help: app.ui.help = !app.ui.help; return;
-    case Command::toggle_panels: app.ui.panels = !app.ui.panels; return;
-    case Command::full_screen: app.toggle_full_screen = true; return;
-    case Command::larger_text: return change_text_size(app, 1.1);
-    case Command::smaller_text: return change_text_size(app, 1 / 1.1);
-    case Command::normal_text: return change_text_size(app, 0);
-    case Command::quit: app.request(request::Quit{}); return;
+    case Command::restart:
+      return restart(app);
+    case Command::reset_constants:
+      apply_edit(app, edit::Change{app.document.saved});
+      return;
+    case Command::reset_everything:
+      return reset_everything(app);
+    case Command::undo_and_restart:
+      return take_from_history(app, true), restart(app);
+    case Command::toggle_play:
+      app.pacing.playing = !app.pacing.playing, app.pacing.restart_measure();
+      return;
+    case Command::step:
+      return single_step(app);
+    case Command::undo:
+      return take_from_history(app, true);
+    case Command::redo:
+      return take_from_history(app, false);
+    case Command::frame_cloth:
+      app.wants_framing = true;
+      return;
+    case Command::open_dialog:
+      return open_dialog(app, Dialog::Kind::open);
+    case Command::save:
+      return save_document(app);
+    case Command::save_as:
+      return open_dialog(app, Dialog::Kind::save);
+    case Command::load_texture_dialog:
+      return open_dialog(app, Dialog::Kind::texture);
+    case Command::export_forces:
+      app.ui.dialog.height = false;
+      return open_dialog(app, Dialog::Kind::export_csv);
+    case Command::export_height:
+      app.ui.dialog.height = true;
+      return open_dialog(app, Dialog::Kind::export_csv);
+    case Command::toggle_help:
+      app.ui.help = !app.ui.help;
+      return;
+    case Command::toggle_panels:
+      app.ui.panels = !app.ui.panels;
+      return;
+    case Command::full_screen:
+      app.toggle_full_screen = true;
+      return;
+    case Command::larger_text:
+      return change_text_size(app, 1.1);
+    case Command::smaller_text:
+      return change_text_size(app, 1 / 1.1);
+    case Command::normal_text:
+      return change_text_size(app, 0);
+    case Command::quit:
+      app.request(request::Quit{});
+      return;
   }
 }
 
@@ -138,7 +171,9 @@ void apply(App& app, const request::Open& what) {
   open_document(app, what.file, what.shipped);
 }
 
-bool apply(App& app, const request::SavePreset& what) { return save_document_as(app, what.file, what.name); }
+bool apply(App& app, const request::SavePreset& what) {
+  return save_document_as(app, what.file, what.name);
+}
 
 void apply(App& app, const request::WriteCsv& what) {
   const Series& series = what.height ? app.ui.plots.height : app.ui.plots.forces;

@@ -1,4 +1,5 @@
-// What panels, keys and menus ask for. They change nothing themselves: requests.cpp applies what they ask, in one place.
+// What panels, keys and menus ask for. They change nothing themselves: requests.cpp applies what they ask, in one
+// place.
 #pragma once
 
 #include <filesystem>

@@ -168,9 +168,15 @@ void Sandbox::simulate(double real_seconds) {
   // In pieces, so that a wrong guess of a step's cost cannot hold the window up.
   while (made < due && !simulation.divergence() && (made == 0 || spent() < app_.pacing.budget_s)) {
     const double cost = app_.pacing.step_cost_s();
-    const int piece = cost > 0 ? std::clamp(int(0.25 * app_.pacing.budget_s / cost), 1, due - made) : 1;
+    const bool cutting = app_.tool.kind == Tool::Kind::cut;
+    const int piece = cost > 0 && !cutting ? std::clamp(int(0.25 * app_.pacing.budget_s / cost), 1, due - made) : 1;
     const Advance advance = simulation.advance(piece);
     made += advance.steps;
+    cut_between_steps(app_);
+    if (advance.left_inside > 0 && !app_.told_left_inside) {
+      app_.messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
+      app_.told_left_inside = true;
+    }
     if (advance.released) app_.messages.note("The hand let go: its force exceeded F_release.");
     if (advance.steps < piece) break;
   }

@@ -10,14 +10,14 @@ namespace tyglab {
 
 struct SandboxOptions {
   Preset preset;
-  std::string preset_label;                ///< shipped name or file name, for the title
-  std::filesystem::path preset_path;       ///< empty if the preset does not come from a user's file
-  bool explicit_preset = false;            ///< otherwise the last session's preset is restored
-  int frames = 0;                          ///< ends after that many frames; 0: until the window is closed
-  std::filesystem::path screenshot;        ///< PNG of the last frame, empty: none
-  std::filesystem::path time_report;       ///< JSON of the frame's cost by part, empty: none
-  std::filesystem::path session_report;    ///< JSON of what goes on, rewritten all the time, empty: none
-  int width = 0, height = 0;               ///< of the window; 0: as in the last session
+  std::string preset_label;              ///< shipped name or file name, for the title
+  std::filesystem::path preset_path;     ///< empty if the preset does not come from a user's file
+  bool explicit_preset = false;          ///< otherwise the last session's preset is restored
+  int frames = 0;                        ///< ends after that many frames; 0: until the window is closed
+  std::filesystem::path screenshot;      ///< PNG of the last frame, empty: none
+  std::filesystem::path time_report;     ///< JSON of the frame's cost by part, empty: none
+  std::filesystem::path session_report;  ///< JSON of what goes on, rewritten all the time, empty: none
+  int width = 0, height = 0;             ///< of the window; 0: as in the last session
 };
 
 /// Runs until the window is closed or the frames are done. Returns an exit code: 0; 5 without a display or OpenGL 3.3;

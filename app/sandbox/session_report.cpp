@@ -3,6 +3,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>  // the window that an item stands in
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -17,14 +18,12 @@ using Json = nlohmann::ordered_json;
 constexpr std::chrono::milliseconds period{100};
 constexpr int samples = 5;  ///< rows and columns of particles that are told, corners included
 
-/// "Save as…" is save_as.
+/// "##name" is name, "Save as…" is Save_as.
 std::string plain(std::string_view name) {
   std::string out;
   for (const char letter : name) {
-    const bool kept = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') || letter == '.' ||
-                      letter == '[' || letter == ']';
+    const bool kept = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '[' || letter == ']';
     if (kept) out += letter;
-    else if (letter >= 'A' && letter <= 'Z') out += char(letter - 'A' + 'a');
     else if (!out.empty() && out.back() != '_') out += '_';
   }
   while (!out.empty() && out.back() == '_') out.pop_back();

@@ -41,7 +41,7 @@ class SessionReport {
 };
 
 /// Names the item drawn last for the session report, if there is one: the region or "dialog" or "menu" that it stands
-/// in, a dot, and `name` in lower case: "top.play", "constants.k_s.slider", "dialog.save".
+/// in, a dot, and `name` with _ for all but letters and digits: "top.play", "constants.k_s.slider", "dialog.Save".
 void report_control(App& app, std::string_view name);
 
 }  // namespace tyglab

@@ -58,7 +58,8 @@ Settings settings_from(const Json& json) {
     Session session;
     session.preset = parse_preset(from.at("preset").dump(), "the last session's preset");
     session.saved = session.preset;
-    if (from.contains("saved")) session.saved = parse_preset(from.at("saved").dump(), "the last session's saved preset");
+    if (from.contains("saved"))
+      session.saved = parse_preset(from.at("saved").dump(), "the last session's saved preset");
     take(from, "label", session.label);
     session.file = from.value("file", std::string());
     settings.session = std::move(session);

@@ -13,14 +13,14 @@ namespace tyglab {
 struct Layout {
   float left_width = 320, right_width = 344;  ///< at scale 1
   bool left = true, right = true, status = true;
-  std::set<std::string> folded{"Start"};      ///< sections of the constants that are closed
+  std::set<std::string> folded{"Start"};  ///< sections of the constants that are closed
   bool operator==(const Layout&) const = default;
 };
 
 /// The preset of the last session, with what was not saved.
 struct Session {
   Preset preset;
-  Preset saved;                ///< as it was opened or saved; a user's file is read again
+  Preset saved;  ///< as it was opened or saved; a user's file is read again
   std::string label;
   std::filesystem::path file;  ///< the user's file, empty for a shipped preset
 };

@@ -19,7 +19,9 @@ std::string glfw_problem() {
   return text != nullptr ? text : "no reason was given";
 }
 
-InputQueue& queue_of(GLFWwindow* window) { return *static_cast<InputQueue*>(glfwGetWindowUserPointer(window)); }
+InputQueue& queue_of(GLFWwindow* window) {
+  return *static_cast<InputQueue*>(glfwGetWindowUserPointer(window));
+}
 
 void on_key(GLFWwindow* window, int key, int, int action, int mods) {
   InputQueue& queue = queue_of(window);

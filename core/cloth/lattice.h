@@ -10,19 +10,19 @@ namespace tyglab {
 /// One of the six half directions in which a particle owns springs. Every spring is owned by its upper end (or its left
 /// end within a row), so each stands once in (direction, owner).
 struct Direction {
-  int di, dj;        ///< from owner to the other end
-  double rest;       ///< rest length in units of L
-  bool bending;      ///< pushes only; otherwise a stretch spring, which pulls only
+  int di, dj;    ///< from owner to the other end
+  double rest;   ///< rest length in units of L
+  bool bending;  ///< pushes only; otherwise a stretch spring, which pulls only
 };
 
 /// Stretch springs first (bits 0 to 3 of a tear mask), then the two bending ones (bits 4 and 5).
 inline constexpr std::array<Direction, 6> directions{{
-    {0, 1, 1.0, false},                   // E
-    {1, 0, 1.0, false},                   // S
-    {1, 1, 1.4142135623730951, false},    // SE
-    {1, -1, 1.4142135623730951, false},   // SW
-    {0, 2, 2.0, true},                    // E E
-    {2, 0, 2.0, true},                    // S S
+    {0, 1, 1.0, false},                  // E
+    {1, 0, 1.0, false},                  // S
+    {1, 1, 1.4142135623730951, false},   // SE
+    {1, -1, 1.4142135623730951, false},  // SW
+    {0, 2, 2.0, true},                   // E E
+    {2, 0, 2.0, true},                   // S S
 }};
 inline constexpr int stretch_directions = 4;
 enum : std::uint8_t { bit_E = 1, bit_S = 2, bit_SE = 4, bit_SW = 8, bit_EE = 16, bit_SS = 32, all_springs = 63 };
@@ -46,8 +46,8 @@ struct Lattice {
 struct Corner {
   int di, dj;
 };
-/// The two triangles of the quad (i, j), counter-clockwise seen from the front (figure 2.7): index [(i + j) odd][which].
-/// The front normal is along (x[i+1,j] - x[i,j]) × (x[i,j+1] - x[i,j]).
+/// The two triangles of the quad (i, j), counter-clockwise seen from the front (figure 2.7): index [(i + j)
+/// odd][which]. The front normal is along (x[i+1,j] - x[i,j]) × (x[i,j+1] - x[i,j]).
 inline constexpr std::array<std::array<std::array<Corner, 3>, 2>, 2> quad_triangles{{
     {{{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {0, 1}}}}},
     {{{{{0, 0}, {1, 0}, {0, 1}}}, {{{1, 0}, {1, 1}, {0, 1}}}}},

@@ -26,13 +26,19 @@ Angle angle(double degrees) {
 bool pinned_by_name(const Preset& p, int i, int j) {
   const bool top = i == 0, bottom = i == p.rows - 1, left = j == 0, right = j == p.columns - 1;
   switch (p.pins.mode) {
-    case Pins::Mode::top_row: return top;
-    case Pins::Mode::top_corners: return top && (left || right);
-    case Pins::Mode::four_corners: return (top || bottom) && (left || right);
-    case Pins::Mode::left_column: return left;
-    case Pins::Mode::boundary: return top || bottom || left || right;
+    case Pins::Mode::top_row:
+      return top;
+    case Pins::Mode::top_corners:
+      return top && (left || right);
+    case Pins::Mode::four_corners:
+      return (top || bottom) && (left || right);
+    case Pins::Mode::left_column:
+      return left;
+    case Pins::Mode::boundary:
+      return top || bottom || left || right;
     case Pins::Mode::none:
-    case Pins::Mode::list: return false;
+    case Pins::Mode::list:
+      return false;
   }
   return false;
 }

@@ -17,31 +17,31 @@ namespace tyglab {
 
 /// A particle moved by the hand: a = 0, v = the hand's velocity.
 struct Held {
-  int particle = -1;           ///< i·columns + j; -1: nothing is held
+  int particle = -1;  ///< i·columns + j; -1: nothing is held
   glm::dvec3 velocity{0, 0, 0};
 };
 
 /// Why a run ended.
 struct Divergence {
-  double t = 0;                ///< s, end of the step that diverged
-  std::int64_t step = 0;       ///< number of that step, the first is 1
-  int i = 0, j = 0;            ///< particle (upper or left end of the spring)
-  std::string quantity;        ///< "position", "velocity", "spring length"
-  double value = 0;            ///< its value; may be non-finite
-  std::string cause;           ///< a sentence
-  std::string remedy;          ///< a sentence
+  double t = 0;           ///< s, end of the step that diverged
+  std::int64_t step = 0;  ///< number of that step, the first is 1
+  int i = 0, j = 0;       ///< particle (upper or left end of the spring)
+  std::string quantity;   ///< "position", "velocity", "spring length"
+  double value = 0;       ///< its value; may be non-finite
+  std::string cause;      ///< a sentence
+  std::string remedy;     ///< a sentence
 };
 
 /// What one call of Engine::advance did.
 struct Advance {
-  int steps = 0;               ///< steps completed
-  bool diverged = false;       ///< the next step diverged; the state is the one before it
-  int i = 0, j = 0;            ///< where, if diverged
+  int steps = 0;          ///< steps completed
+  bool diverged = false;  ///< the next step diverged; the state is the one before it
+  int i = 0, j = 0;       ///< where, if diverged
   std::string quantity;
   double value = 0;
-  int torn = 0;                ///< stretch springs broken
-  int left_inside = 0;         ///< free particles still inside a body after the last step (overlapping bodies)
-  bool released = false;       ///< the hand's force exceeded F_release
+  int torn = 0;                    ///< stretch springs broken
+  int left_inside = 0;             ///< free particles still inside a body after the last step (overlapping bodies)
+  bool released = false;           ///< the hand's force exceeded F_release
   glm::dvec3 hand_force{0, 0, 0};  ///< force on the held particle at the last step, N, before it was set to 0
 };
 
@@ -74,7 +74,9 @@ class Engine {
   virtual PositionView positions() const = 0;
   /// Bytes of all arrays that grow with the cloth.
   virtual std::size_t bytes() const = 0;
-  /// "CPU, scalar": for people.
+  /// Threads that it uses.
+  virtual int threads() const = 0;
+  /// "CPU, AVX2, 2 threads": for people.
   virtual std::string name() const = 0;
 };
 

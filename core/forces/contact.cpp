@@ -64,8 +64,8 @@ double depth(const Body& body, const glm::dvec3& x) {
 
 double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon) {
   const bool plane = body.shape == Body::Shape::plane;
-  const double largest = plane ? std::max(std::abs(x.y), std::abs(body.y))
-                               : std::max({glm::length(x), glm::length(body.c), body.r});
+  const double largest =
+      plane ? std::max(std::abs(x.y), std::abs(body.y)) : std::max({glm::length(x), glm::length(body.c), body.r});
   return 8 * epsilon * largest;
 }
 
@@ -81,9 +81,8 @@ bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& p
       }
     if (!touched) return true;
   }
-  return std::none_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-    return depth(body, p.x) > contact_tolerance(body, p.x, epsilon);
-  });
+  return std::none_of(bodies.begin(), bodies.end(),
+                      [&](const Body& body) { return depth(body, p.x) > contact_tolerance(body, p.x, epsilon); });
 }
 
 }  // namespace tyglab

@@ -21,7 +21,8 @@ struct Look {
   }
 };
 
-void add_spring(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj, ParticleForces& sum) {
+void add_spring(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj,
+                ParticleForces& sum) {
   const glm::dvec3 x_ij = look.x(oi, oj) - look.x(i, j);
   const double r2 = glm::dot(x_ij, x_ij), rest = d.rest * p.L;
   if (d.bending) {
@@ -64,7 +65,8 @@ ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Sta
   }
   for (int d = 0; d < int(directions.size()); ++d) {
     const Direction& dir = directions[d];
-    if (lattice.has_spring(d, i, j) && tears.whole(d, i, j)) add_spring(p, look, dir, i, j, i + dir.di, j + dir.dj, sum);
+    if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
+      add_spring(p, look, dir, i, j, i + dir.di, j + dir.dj, sum);
     const int oi = i - dir.di, oj = j - dir.dj;
     if (lattice.has_spring(d, oi, oj) && tears.whole(d, oi, oj)) add_spring(p, look, dir, i, j, oi, oj, sum);
   }

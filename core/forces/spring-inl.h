@@ -16,13 +16,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::HWY_NAMESPACE {
 
-
 /// A spring shorter than this part of its rest length has no direction: its force is 0.
 inline constexpr double shortest = 1e-9;
 
-HWY_INLINE double multiply_add(double a, double b, double c) { return a * b + c; }
-HWY_INLINE double inverse_sqrt(double r2) { return 1 / std::sqrt(r2); }
-HWY_INLINE double if_greater(double a, double b, double yes, double no) { return a > b ? yes : no; }
+HWY_INLINE double multiply_add(double a, double b, double c) {
+  return a * b + c;
+}
+HWY_INLINE double inverse_sqrt(double r2) {
+  return 1 / std::sqrt(r2);
+}
+HWY_INLINE double if_greater(double a, double b, double yes, double no) {
+  return a > b ? yes : no;
+}
 
 /// A spring's constants as the formulas take them.
 template <class V>
@@ -53,10 +58,14 @@ HWY_INLINE V bend_factor(const Spring<V>& s, V r2, V zero) {
 }
 
 /// F_s of (2.5) as a number, N: what tearing compares with F_max.
-HWY_INLINE double stretch_tension(double k_s, double rest, double r2) { return std::max(0.0, k_s * (std::sqrt(r2) - rest)); }
+HWY_INLINE double stretch_tension(double k_s, double rest, double r2) {
+  return std::max(0.0, k_s * (std::sqrt(r2) - rest));
+}
 
 /// Force of the one weight's two-sided spring (2.3) and its damping: F = -k (x - x_0) - k_d v.
-HWY_INLINE double hooke(double x, double x_0, double k, double v, double k_d) { return -k * (x - x_0) - k_d * v; }
+HWY_INLINE double hooke(double x, double x_0, double k, double v, double k_d) {
+  return -k * (x - x_0) - k_d * v;
+}
 
 }  // namespace tyglab::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

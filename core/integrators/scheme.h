@@ -40,11 +40,11 @@ struct Scheme {
   std::string_view title;     ///< for people
   std::string_view equation;  ///< number in the report
   std::string_view source;
-  int order_undamped;         ///< of the whole method (position and velocity), k_d = 0, smooth forces
-  int order_damped;           ///< k_d > 0
-  int vectors;                ///< state vectors that it keeps
-  bool keeps_displacement;    ///< vector 1 is d = dt·v, not v
-  std::string_view note;      ///< a sentence said where it is offered
+  int order_undamped;       ///< of the whole method (position and velocity), k_d = 0, smooth forces
+  int order_damped;         ///< k_d > 0
+  int vectors;              ///< state vectors that it keeps
+  bool keeps_displacement;  ///< vector 1 is d = dt·v, not v
+  std::string_view note;    ///< a sentence said where it is offered
   std::vector<Sweep> sweeps;
   /// What vector 1 becomes at the start, from v in vector 1 and a(x, v).
   Assignment start;

@@ -49,7 +49,8 @@ const std::vector<Scheme>& table() {
        .order_damped = 1,
        .vectors = 2,
        .keeps_displacement = true,
-       .note = "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
+       .note =
+           "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
        .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
        .start = {v, {{v, 1, 1}, {a, -0.5, 2}}},
        .full_velocity = {v, {{v, 1, -1}, {a, 0.5, 1}}},
@@ -60,7 +61,9 @@ const std::vector<Scheme>& table() {
 
 }  // namespace
 
-std::span<const Scheme> schemes() { return table(); }
+std::span<const Scheme> schemes() {
+  return table();
+}
 
 const Scheme& scheme(std::string_view name) {
   const auto& rows = table();

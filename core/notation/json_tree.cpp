@@ -82,7 +82,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   int line() {
     std::size_t end = std::size_t(*seen_ - text_.data());
     end = end > 0 ? end - 1 : 0;
-    while (end > counted_to_ && (text_[end] == '\n' || text_[end] == '\r' || text_[end] == ' ' || text_[end] == '\t')) --end;
+    while (end > counted_to_ && (text_[end] == '\n' || text_[end] == '\r' || text_[end] == ' ' || text_[end] == '\t'))
+      --end;
     if (end > counted_to_) {
       lines_ += int(std::count(text_.begin() + std::ptrdiff_t(counted_to_), text_.begin() + std::ptrdiff_t(end), '\n'));
       counted_to_ = end;
@@ -150,19 +151,27 @@ const JsonNode* JsonNode::find(std::string_view key) const {
 
 std::string_view type_name(JsonNode::Type type) {
   switch (type) {
-    case JsonNode::Type::null: return "null";
-    case JsonNode::Type::boolean: return "true or false";
-    case JsonNode::Type::integer: return "a whole number";
-    case JsonNode::Type::number: return "a number";
-    case JsonNode::Type::text: return "a text";
-    case JsonNode::Type::list: return "a list";
-    case JsonNode::Type::object: return "a block {…}";
+    case JsonNode::Type::null:
+      return "null";
+    case JsonNode::Type::boolean:
+      return "true or false";
+    case JsonNode::Type::integer:
+      return "a whole number";
+    case JsonNode::Type::number:
+      return "a number";
+    case JsonNode::Type::text:
+      return "a text";
+    case JsonNode::Type::list:
+      return "a list";
+    case JsonNode::Type::object:
+      return "a block {…}";
   }
   return "";
 }
 
 std::string printable(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
   return text;
 }
 

@@ -13,8 +13,8 @@ struct JsonNode {
   struct Member;
   enum class Type { null, boolean, integer, number, text, list, object };
   Type type = Type::null;
-  int line = 0;           ///< of the value; 0 if it came from no file
-  double number = 0;      ///< integer, number
+  int line = 0;       ///< of the value; 0 if it came from no file
+  double number = 0;  ///< integer, number
   std::string text;
   std::vector<JsonNode> items;
   std::vector<Member> members;

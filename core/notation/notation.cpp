@@ -18,24 +18,26 @@ const std::array<PresetRow, 23> rows{{
      "Particles from top to bottom; a change builds the cloth anew.", false, Kind::cloth, true},
     {"cloth", "columns", "C", "Columns of particles", "Partikelkolumner", "", &Preset::columns, 1, 4096, logarithmic,
      rebuild, "", "Particles from left to right; a change builds the cloth anew.", false, Kind::cloth, true},
-    {"cloth", "L", "L", "Rest length of a spring", "Fjäders vilolängd", "m", &Preset::L, 1e-4, 10, logarithmic, constant,
-     "2.5", "Spacing of the lattice: diagonals rest at √2·L, bending springs at 2L.", false, Kind::cloth, true},
-    {"cloth", "m", "m", "Mass of a particle", "Partikelmassa", "kg", &Preset::m, 1e-9, 1e3, logarithmic, constant, "2.1",
-     "A lighter particle moves faster and needs a smaller time step."},
+    {"cloth", "L", "L", "Rest length of a spring", "Fjäders vilolängd", "m", &Preset::L, 1e-4, 10, logarithmic,
+     constant, "2.5", "Spacing of the lattice: diagonals rest at √2·L, bending springs at 2L.", false, Kind::cloth,
+     true},
+    {"cloth", "m", "m", "Mass of a particle", "Partikelmassa", "kg", &Preset::m, 1e-9, 1e3, logarithmic, constant,
+     "2.1", "A lighter particle moves faster and needs a smaller time step."},
     {"cloth", "x_0", "x_0", "Original position (middle of the top row)", "Ursprungsposition", "m", &Preset::x_0, -1e3,
      1e3, linear, start, "2.3", "Where the cloth begins; for the one weight x_0.y is where the spring rests."},
-    {"cloth", "v_0", "v_0", "Original velocity", "Ursprungshastighet", "m/s", &Preset::v_0, -1e3, 1e3, linear, start, "",
-     "The same for all free particles."},
+    {"cloth", "v_0", "v_0", "Original velocity", "Ursprungshastighet", "m/s", &Preset::v_0, -1e3, 1e3, linear, start,
+     "", "The same for all free particles."},
     {"cloth", "tilt_deg", "θ", "Tilt (90 hangs, 0 lies flat)", "Lutning", "°", &Preset::tilt_deg, -360, 360, linear,
      start, "", "Angle of the cloth at the start.", false, Kind::cloth, true},
     {"cloth", "initial_stretch", "s", "Initial stretch (1 at rest length)", "Ursprunglig töjning", "",
-     &Preset::initial_stretch, 0.1, 10, linear, start, "", "Above 1 every spring starts taut.", false, Kind::cloth, true},
+     &Preset::initial_stretch, 0.1, 10, linear, start, "", "Above 1 every spring starts taut.", false, Kind::cloth,
+     true},
     {"cloth", "offset", "y_start", "Start above the rest position", "Startläge över viloläget", "m", &Preset::offset,
      -1e3, 1e3, linear, start, "2.3", "Where the one weight is let go.", false, Kind::one_weight, true},
 
     {"forces", "k_s", "k_s", "Spring constant, stretching", "Fjäderkonstant töjning", "N/m", &Preset::k_s, 0, 1e9,
-     logarithmic, constant, "2.5", "Stiffness against stretching. The higher, the smaller the time step must be.", false,
-     Kind::cloth, true},
+     logarithmic, constant, "2.5", "Stiffness against stretching. The higher, the smaller the time step must be.",
+     false, Kind::cloth, true},
     {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
      logarithmic, constant, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
     {"forces", "k_d", "k_d", "Damping constant", "Fjäderkonstant dämpning", "N s/m", &Preset::k_d, 0, 1e6, logarithmic,
@@ -69,16 +71,16 @@ const std::array<PresetRow, 23> rows{{
 }};
 
 const std::array<BodyRow, 5> body_rows{{
-    {"bodies", "c", "c", "Centre of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, constant, "2.9",
-     "Where the sphere stands."},
+    {"bodies", "c", "c", "Centre of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, constant,
+     "2.9", "Where the sphere stands."},
     {"bodies", "r", "r", "Radius of a sphere", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, constant, "2.9",
      "A particle is inside where (x - c)·(x - c) < r²."},
     {"bodies", "y", "y", "Height of a plane", "Planets höjd", "m", &Body::y, -1e3, 1e3, linear, constant, "",
      "A horizontal plane; particles stay above it."},
     {"bodies", "friction", "μ", "Friction", "Friktion", "", &Body::friction, 0, 10, linear, constant, "",
      "Coulomb's coefficient: tangential velocity lost per normal velocity lost."},
-    {"bodies", "restitution", "e", "Restitution", "Studskoefficient", "", &Body::restitution, 0, 1, linear, constant, "",
-     "0: the inward velocity is removed; 1: it is reversed."},
+    {"bodies", "restitution", "e", "Restitution", "Studskoefficient", "", &Body::restitution, 0, 1, linear, constant,
+     "", "0: the inward velocity is removed; 1: it is reversed."},
 }};
 
 const std::array<Variable, 10> variable_rows{{
@@ -127,10 +129,12 @@ std::string default_text(const Row<T>& row) {
         static const T defaults;
         const auto& value = defaults.*field;
         using Value = std::decay_t<decltype(value)>;
-        if constexpr (std::is_same_v<Value, std::string>) return "`" + value + "`";
+        if constexpr (std::is_same_v<Value, std::string>)
+          return "`" + value + "`";
         else if constexpr (std::is_same_v<Value, glm::dvec3>)
           return "[" + number(value.x) + ", " + number(value.y) + ", " + number(value.z) + "]";
-        else return row.zero_is_off && value == 0 ? "0 (never)" : number(double(value));
+        else
+          return row.zero_is_off && value == 0 ? "0 (never)" : number(double(value));
       },
       row.field);
 }
@@ -142,15 +146,21 @@ void table(std::ostringstream& out, std::span<const Row<T>> list) {
   for (const auto& row : list)
     out << "| `" << row.section << '.' << row.key << "` | " << (row.symbol.empty() ? "–" : row.symbol) << " | "
         << row.quantity << " | " << row.storhet << " | " << (row.unit.empty() ? "–" : row.unit) << " | "
-        << range_text(row) << " | " << default_text(row) << " | " << (row.equation.empty() ? "–" : row.equation) << " | "
-        << row.help << " |\n";
+        << range_text(row) << " | " << default_text(row) << " | " << (row.equation.empty() ? "–" : row.equation)
+        << " | " << row.help << " |\n";
 }
 
 }  // namespace
 
-std::span<const PresetRow> notation() { return rows; }
-std::span<const BodyRow> body_notation() { return body_rows; }
-std::span<const Variable> variables() { return variable_rows; }
+std::span<const PresetRow> notation() {
+  return rows;
+}
+std::span<const BodyRow> body_notation() {
+  return body_rows;
+}
+std::span<const Variable> variables() {
+  return variable_rows;
+}
 
 const PresetRow* find_row(std::string_view key) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const PresetRow& r) { return r.key == key; });
@@ -192,7 +202,8 @@ SliderRange slider_range(const PresetRow& row, double preset_value) {
 
 std::string notation_markdown() {
   std::ostringstream out;
-  out << "# Notation\n\nMade from the notation table (`core/notation/notation.cpp`) by `tyglab presets notation`; a test "
+  out << "# Notation\n\nMade from the notation table (`core/notation/notation.cpp`) by `tyglab presets notation`; a "
+         "test "
          "holds it current. Symbols are those of table B.1 of the report, units are SI, ranges include their ends.\n\n"
          "## Constants of a preset\n\n";
   table<Preset>(out, rows);
@@ -205,8 +216,8 @@ std::string notation_markdown() {
          "Equation | Meaning |\n|---|---|---|---|---|---|\n";
   for (const Variable& v : variable_rows) {
     const std::string symbol = v.key == "v" ? "ẋ" : v.key == "a" ? "ẍ" : std::string(v.symbol);
-    out << "| " << symbol << " | " << v.quantity << " | " << v.storhet << " | " << v.unit << " | " << v.equation << " | "
-        << v.help << " |\n";
+    out << "| " << symbol << " | " << v.quantity << " | " << v.storhet << " | " << v.unit << " | " << v.equation
+        << " | " << v.help << " |\n";
   }
   return out.str();
 }

@@ -30,20 +30,20 @@ using FieldOf = std::variant<double T::*, int T::*, glm::dvec3 T::*, std::string
 
 template <class T>
 struct Row {
-  std::string_view section;      ///< block of the preset file: "cloth", "forces", …; empty at the top level
-  std::string_view key;          ///< inner key, also that of --set
-  std::string_view symbol;       ///< the report's symbol, subscript after '_': "k_s", "F_max"
-  std::string_view quantity;     ///< English
-  std::string_view storhet;      ///< Swedish, the report's word where it has one
-  std::string_view unit;         ///< SI, empty if dimensionless
+  std::string_view section;   ///< block of the preset file: "cloth", "forces", …; empty at the top level
+  std::string_view key;       ///< inner key, also that of --set
+  std::string_view symbol;    ///< the report's symbol, subscript after '_': "k_s", "F_max"
+  std::string_view quantity;  ///< English
+  std::string_view storhet;   ///< Swedish, the report's word where it has one
+  std::string_view unit;      ///< SI, empty if dimensionless
   FieldOf<T> field;
-  double min = 0, max = 0;       ///< allowed range, ends included (numbers alone)
-  Scale scale = Scale::linear;   ///< of its slider
+  double min = 0, max = 0;      ///< allowed range, ends included (numbers alone)
+  Scale scale = Scale::linear;  ///< of its slider
   Effect effect = Effect::constant;
-  std::string_view equation;     ///< number in the report, empty where it has none
-  std::string_view help;         ///< one sentence: what it does
-  bool zero_is_off = false;      ///< 0 means never
-  Kind only = Kind::cloth;       ///< with only_one_kind: the kind that uses it
+  std::string_view equation;  ///< number in the report, empty where it has none
+  std::string_view help;      ///< one sentence: what it does
+  bool zero_is_off = false;   ///< 0 means never
+  Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
   bool only_one_kind = false;
 };
 
@@ -60,8 +60,8 @@ const BodyRow* find_body_row(std::string_view key);
 
 /// A derived variable of table B.1 (F, F_s, …, x, ẋ, ẍ): read out, not set.
 struct Variable {
-  std::string_view key;       ///< "F_s"; ẋ is "v", ẍ is "a"
-  std::string_view symbol;    ///< to typeset: "F_s", "x'" for ẋ, "x''" for ẍ
+  std::string_view key;     ///< "F_s"; ẋ is "v", ẍ is "a"
+  std::string_view symbol;  ///< to typeset: "F_s", "x'" for ẋ, "x''" for ẍ
   std::string_view quantity;
   std::string_view storhet;
   std::string_view unit;

@@ -41,13 +41,7 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
     // A pipe or a device (/dev/stdout) cannot be replaced; it takes the text as it comes.
     std::ofstream out(target, std::ios::binary);
     out << text << std::flush;
-    if (!out) fail("the device or pipe did not take the text");
-    return;
-  }
-  // A device or a pipe is written to; renaming would put a file in its place.
-  if (std::filesystem::exists(target, error) && !std::filesystem::is_regular_file(target, error)) {
-    std::ofstream out(target, std::ios::binary);
-    if (!(out << text).flush()) fail(std::strerror(errno));
+    if (!out) fail(std::strerror(errno));
     return;
   }
   // Follow a link, so that the file it points to is replaced and not the link.

@@ -61,6 +61,64 @@ TEST_CASE("reading, and edits that change nothing, do not disturb a run") {
   }
 }
 
+/// Large enough for five threads, with bodies, tearing, the hand and cuts across the threads' borders.
+Preset large(const std::string& integrator, Precision precision) {
+  Preset preset = busy(integrator, precision);
+  preset.rows = 97;
+  preset.columns = 83;
+  preset.L = 0.01;
+  preset.k_b = 8;
+  return preset;
+}
+
+TEST_CASE("threads change nothing, to the last bit") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      CAPTURE(std::string(integrator));
+      const Preset preset = large(integrator, precision);
+      const auto run = [&](Simulation& simulation) {
+        simulation.advance(60);
+        simulation.apply(edit::Grab{50, 40});
+        simulation.apply(edit::MoveHand{{0.1, 0.5, 0.2}, 30});
+        simulation.apply(edit::Cut{{{19, 5}, {20, 6}, {32, 7}, {48, 41}, {49, 41}, {65, 9}, {78, 60}}});
+        simulation.advance(60);
+        simulation.apply(edit::Release{});
+        simulation.advance(40);
+      };
+      Simulation alone(preset, 1);
+      run(alone);
+      CHECK(alone.tears().torn_count() > 20);
+      for (const int threads : {2, 3, 5}) {
+        CAPTURE(threads);
+        Simulation team(preset, threads);
+        CHECK(team.engine().threads() == threads);
+        run(team);
+        CHECK(test::identical(alone.read(), team.read()));
+        CHECK(test::identical(alone.read_raw(), team.read_raw()));
+        CHECK(alone.tears().torn_count() == team.tears().torn_count());
+        CHECK(alone.hand_force() == team.hand_force());
+        CHECK(alone.divergence().has_value() == team.divergence().has_value());
+      }
+    }
+  }
+}
+
+TEST_CASE("threads find a divergence in the same step at the same particle") {
+  Preset preset = large("verlet", Precision::float_);
+  preset.dt = 0.004;
+  preset.F_max = 0;
+  Simulation alone(preset, 1), team(preset, 4);
+  alone.advance(5000);
+  team.advance(5000);
+  REQUIRE(alone.divergence().has_value());
+  REQUIRE(team.divergence().has_value());
+  CHECK(alone.divergence()->step == team.divergence()->step);
+  CHECK(alone.divergence()->i == team.divergence()->i);
+  CHECK(alone.divergence()->j == team.divergence()->j);
+  CHECK(test::all_finite(team.read()));
+  CHECK(test::identical(alone.read(), team.read()));
+}
+
 TEST_CASE("a restart repeats the run to the last bit") {
   Simulation simulation(busy("verlet", Precision::float_));
   simulation.advance(150);

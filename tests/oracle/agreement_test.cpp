@@ -290,6 +290,19 @@ TEST_CASE("a change of dt while running agrees with the oracle") {
   }
 }
 
+TEST_CASE("several threads agree with the oracle") {
+  Preset preset = test::cloth(71, 69, "verlet");
+  preset.L = 0.01;
+  preset.W = {0, 1e-4, 1e-3};
+  preset.bodies = {sphere({0, 0.7, 0.05}, 0.1, 0.2, 0)};
+  Simulation simulation(preset, 3);
+  CHECK(simulation.engine().threads() == 3);
+  oracle::Cloth cloth(preset);
+  simulation.advance(150);
+  cloth.advance(150);
+  CHECK(test::distance(simulation, cloth) < 1e-10);
+}
+
 TEST_CASE("float follows double: 200 steps of the default cloth within 2e-5 m") {
   // 200 steps of free fall travel 0.2 m; float resolves 6e-8 of a metre at this distance from the origin, and each step
   // rounds a position once.

@@ -100,7 +100,8 @@ template <class R>
 void Band<R>::forces_on_row(const RowTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     t.f[0][0][0] = R(0), t.f[0][2][0] = R(0);
-    t.f[0][1][0] = R(HWY_NAMESPACE::hooke(t.x[1][0], cloth_.preset.x_0.y, cloth_.preset.k, t.v[1][0], t.k_d) - t.weight);
+    t.f[0][1][0] =
+        R(HWY_NAMESPACE::hooke(t.x[1][0], cloth_.preset.x_0.y, cloth_.preset.k, t.v[1][0], t.k_d) - t.weight);
     return;
   }
   if (cloth_.preset.W != glm::dvec3(0) && t.rows_below > 0) cloth_.rows.wind(t);
@@ -116,7 +117,8 @@ void Band<R>::read_hand(int i) {
   hand_force_ = {force_row(i, 0)[j], force_row(i, 1)[j], force_row(i, 2)[j]};
 }
 
-/// Pinned and held particles: the force is measured, then set to 0, so a = 0 and they keep the velocity they were given.
+/// Pinned and held particles: the force is measured, then set to 0, so a = 0 and they keep the velocity they were
+/// given.
 template <class R>
 void Band<R>::fix_row(int i) {
   read_hand(i);
@@ -145,7 +147,9 @@ void Band<R>::assign_row(const ResolvedSweep& s, int i) {
 
 template <class R>
 void Band<R>::keep_row(int i) {
-  for (int c = 0; c < 3; ++c) std::copy_n(cloth_.component(vector_x, c) + cloth_.row_begin(i), cloth_.lattice.columns, Cloth<R>::component(old_row_, c));
+  for (int c = 0; c < 3; ++c)
+    std::copy_n(cloth_.component(vector_x, c) + cloth_.row_begin(i), cloth_.lattice.columns,
+                Cloth<R>::component(old_row_, c));
 }
 
 /// A row swept in the halo goes back to the cloth.
@@ -160,7 +164,8 @@ void Band<R>::give_back_row(const RowTask<R>& t, const ResolvedSweep& s, int i) 
 /// Whether a particle of the row may be inside a body; rounding is left to the exact test.
 template <class R>
 bool Band<R>::touches(int i) const {
-  const R *x = cloth_.component(vector_x, 0) + cloth_.row_begin(i), *y = cloth_.component(vector_x, 1) + cloth_.row_begin(i),
+  const R *x = cloth_.component(vector_x, 0) + cloth_.row_begin(i),
+          *y = cloth_.component(vector_x, 1) + cloth_.row_begin(i),
           *z = cloth_.component(vector_x, 2) + cloth_.row_begin(i);
   for (const Body& body : cloth_.preset.bodies) {
     int inside = 0;
@@ -192,9 +197,12 @@ void Band<R>::collide_row(int i) {
       continue;
     }
     R *x[3], *v[3];
-    for (int c = 0; c < 3; ++c) x[c] = cloth_.component(vector_x, c) + row + j, v[c] = cloth_.component(vector_v, c) + row + j;
+    for (int c = 0; c < 3; ++c)
+      x[c] = cloth_.component(vector_x, c) + row + j, v[c] = cloth_.component(vector_v, c) + row + j;
     Passage p{{old_row_.x[j], old_row_.y[j], old_row_.z[j]}, {*x[0], *x[1], *x[2]}, {*v[0], *v[1], *v[2]}};
-    if (std::none_of(cloth_.preset.bodies.begin(), cloth_.preset.bodies.end(), [&](const Body& b) { return depth(b, p.x) > 0; })) continue;
+    if (std::none_of(cloth_.preset.bodies.begin(), cloth_.preset.bodies.end(),
+                     [&](const Body& b) { return depth(b, p.x) > 0; }))
+      continue;
     p.v /= scale;
     if (!collide(cloth_.preset.bodies, cloth_.preset.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
@@ -208,7 +216,8 @@ void Band<R>::watch_row(int i) {
   R largest = 0;
   int finite = 1;
   for (int c = 0; c < 3; ++c) {
-    const R *x = cloth_.component(vector_x, c) + cloth_.row_begin(i), *v = cloth_.component(vector_v, c) + cloth_.row_begin(i), *old = Cloth<R>::component(old_row_, c);
+    const R *x = cloth_.component(vector_x, c) + cloth_.row_begin(i),
+            *v = cloth_.component(vector_v, c) + cloth_.row_begin(i), *old = Cloth<R>::component(old_row_, c);
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
       const R way = std::max(std::abs(x[j] - old[j]), std::abs(dt * v[j]));
       largest = way > largest ? way : largest;
@@ -249,8 +258,10 @@ void Band<R>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
     point_at_row(t, s, tears, i);
     if (bodies || (last && assigns)) keep_row(i);
     forces_on_row(t, assigns ? Update::force : s.update);
-    if (assigns) fix_row(i), assign_row(s, i);
-    else read_hand(i);
+    if (assigns)
+      fix_row(i), assign_row(s, i);
+    else
+      read_hand(i);
     if (!assigns && in_tail(i)) give_back_row(t, s, i);
     if (bodies && touches(i)) collide_row(i);
     if (last && assigns) watch_row(i);

@@ -13,15 +13,16 @@ int row_stride(int columns) {
   return (columns + line - 1) / line * line;
 }
 
-/// x, v and F as a scheme's assignments leave them, in terms of what they were: finds whether the row sweep can make the
-/// update by itself.
+/// x, v and F as a scheme's assignments leave them, in terms of what they were: finds whether the row sweep can make
+/// the update by itself.
 struct Combination {
   double x, v, force;
 };
 
 void classify(ResolvedSweep& sweep, const Scheme& scheme) {
   sweep.update = Update::force;
-  if (scheme.sweeps.size() != 1 || scheme.vectors != 2 || sweep.position != vector_x || sweep.velocity != vector_v) return;
+  if (scheme.sweeps.size() != 1 || scheme.vectors != 2 || sweep.position != vector_x || sweep.velocity != vector_v)
+    return;
   Combination now[2] = {{1, 0, 0}, {0, 1, 0}};
   for (const auto& assignment : sweep.assignments) {
     Combination sum{0, 0, 0};
@@ -95,10 +96,13 @@ template <class R>
 void CpuEngine<R>::load(const State& state, const Tears& tears) {
   const auto copy = [&](const Array<double>& from, R* to) {
     for (int i = 0; i < cloth_.lattice.rows; ++i)
-      for (int j = 0; j < cloth_.lattice.columns; ++j) to[cloth_.row_begin(i) + j] = R(from[std::size_t(i) * cloth_.lattice.columns + j]);
+      for (int j = 0; j < cloth_.lattice.columns; ++j)
+        to[cloth_.row_begin(i) + j] = R(from[std::size_t(i) * cloth_.lattice.columns + j]);
   };
-  copy(state.x.x, cloth_.component(vector_x, 0)), copy(state.x.y, cloth_.component(vector_x, 1)), copy(state.x.z, cloth_.component(vector_x, 2));
-  copy(state.v.x, cloth_.component(vector_v, 0)), copy(state.v.y, cloth_.component(vector_v, 1)), copy(state.v.z, cloth_.component(vector_v, 2));
+  copy(state.x.x, cloth_.component(vector_x, 0)), copy(state.x.y, cloth_.component(vector_x, 1)),
+      copy(state.x.z, cloth_.component(vector_x, 2));
+  copy(state.v.x, cloth_.component(vector_v, 0)), copy(state.v.y, cloth_.component(vector_v, 1)),
+      copy(state.v.z, cloth_.component(vector_v, 2));
   // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
   const Sweep start{vector_x, vector_v, 0, {scheme_->start}};
   const ResolvedSweep resolved = resolve(start);
@@ -147,7 +151,8 @@ void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
     cloth_.fixed_columns.push_back(j);
     ++cloth_.fixed_begin[std::size_t(i) + 1];
     const glm::dvec3 v = p == held.particle ? held.velocity : glm::dvec3(0);
-    for (int c = 0; c < 3; ++c) cloth_.component(vector_v, c)[cloth_.row_begin(i) + j] = R(v[c] * cloth_.velocity_scale());
+    for (int c = 0; c < 3; ++c)
+      cloth_.component(vector_v, c)[cloth_.row_begin(i) + j] = R(v[c] * cloth_.velocity_scale());
   }
   for (std::size_t i = 1; i < cloth_.fixed_begin.size(); ++i) cloth_.fixed_begin[i] += cloth_.fixed_begin[i - 1];
   cloth_.fixed.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()) + widest_vector, 0);
@@ -156,7 +161,8 @@ void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
   for (const int p : all)
     for (int di = -1; di <= 1; ++di)
       for (int dj = -1; dj <= 1; ++dj)
-        if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj; cloth_.lattice.contains(i, j))
+        if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj;
+            cloth_.lattice.contains(i, j))
           guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
 }
 
@@ -205,8 +211,10 @@ template <class R>
 PositionView CpuEngine<R>::positions() const {
   PositionView view{cloth_.lattice.rows, cloth_.lattice.columns, cloth_.stride};
   for (int c = 0; c < 3; ++c) {
-    if constexpr (std::is_same_v<R, float>) view.f[c] = cloth_.component(vector_x, c);
-    else view.d[c] = cloth_.component(vector_x, c);
+    if constexpr (std::is_same_v<R, float>)
+      view.f[c] = cloth_.component(vector_x, c);
+    else
+      view.d[c] = cloth_.component(vector_x, c);
   }
   return view;
 }
@@ -224,7 +232,8 @@ std::size_t CpuEngine<R>::bytes() const {
 template <class R>
 std::string CpuEngine<R>::name() const {
   const int threads = team_->size();
-  return std::string("CPU, ") + cloth_.rows.target + ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+  return std::string("CPU, ") + cloth_.rows.target + ", " + std::to_string(threads) +
+         (threads == 1 ? " thread" : " threads");
 }
 
 template class CpuEngine<float>;

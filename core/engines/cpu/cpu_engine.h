@@ -23,6 +23,7 @@ class CpuEngine final : public Engine {
   void read_raw(State& state) const override;
   PositionView positions() const override;
   std::size_t bytes() const override;
+  int threads() const override { return team_->size(); }
   std::string name() const override;
 
  private:

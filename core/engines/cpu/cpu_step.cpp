@@ -42,7 +42,8 @@ void CpuEngine<R>::tear_row(Tears& tears, int d, int i, double rest, R candidate
   const Direction& dir = directions[d];
   const std::ptrdiff_t here = cloth_.row_begin(i), other = cloth_.row_begin(dir.di) + dir.dj;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
-  const R *x = cloth_.component(vector_x, 0) + here, *y = cloth_.component(vector_x, 1) + here, *z = cloth_.component(vector_x, 2) + here;
+  const R *x = cloth_.component(vector_x, 0) + here, *y = cloth_.component(vector_x, 1) + here,
+          *z = cloth_.component(vector_x, 2) + here;
   int any = 0;
   for (int j = begin; j < end; ++j) {
     const R dx = x[j + other] - x[j], dy = y[j + other] - y[j], dz = z[j + other] - z[j];
@@ -50,7 +51,8 @@ void CpuEngine<R>::tear_row(Tears& tears, int d, int i, double rest, R candidate
   }
   if (!any) return;
   for (int j = begin; j < end; ++j)
-    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, distance2(here + j, here + j + other)) > cloth_.preset.F_max &&
+    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, distance2(here + j, here + j + other)) >
+            cloth_.preset.F_max &&
         !guarded(i, j) && !guarded(i + dir.di, j + dir.dj))
       tears.tear(d, i, j);
 }
@@ -114,7 +116,8 @@ typename CpuEngine<R>::End CpuEngine<R>::finish_step(Tears& tears, Fault& fault)
   // Two ends, each by at most √3 of its largest component.
   free_motion_ -= 2 * std::numbers::sqrt3 * largest;
   if (!(free_motion_ > 0) && find_fault(tears, fault)) return End::fault;
-  if (cloth_.held.particle >= 0 && preset.F_release > 0 && glm::length(hand_force_) > preset.F_release) return End::released;
+  if (cloth_.held.particle >= 0 && preset.F_release > 0 && glm::length(hand_force_) > preset.F_release)
+    return End::released;
   return End::none;
 }
 

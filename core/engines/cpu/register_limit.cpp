@@ -90,8 +90,12 @@ double nanoseconds(double seed, double& sink) {
   const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
   return time.count() / steps / double(hn::MaxLanes(hn::ScalableTag<R>()));
 }
-double nanoseconds_float(double seed, double& sink) { return nanoseconds<float>(seed, sink); }
-double nanoseconds_double(double seed, double& sink) { return nanoseconds<double>(seed, sink); }
+double nanoseconds_float(double seed, double& sink) {
+  return nanoseconds<float>(seed, sink);
+}
+double nanoseconds_double(double seed, double& sink) {
+  return nanoseconds<double>(seed, sink);
+}
 
 }  // namespace tyglab::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

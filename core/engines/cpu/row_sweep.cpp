@@ -42,7 +42,8 @@ HWY_INLINE Masks<D> masks_of(const RowTask<R>& t, int j) {
   const auto first = [&](int lanes) { return hn::FirstN(d, std::size_t(std::max(0, lanes))); };
   const int right = t.columns - j;
   const int below = t.rows_below >= 1 ? right : 0, below2 = t.rows_below >= 2 ? right : 0;
-  Masks<D> m{first(right - 1), first(below), first(below - 1), first(below - 1), first(right - 2), first(below2), first(right)};
+  Masks<D> m{first(right - 1), first(below),  first(below - 1), first(below - 1),
+             first(right - 2), first(below2), first(right)};
   if (t.whole) {
     const std::uint8_t* own = t.whole + j;
     m.E = hn::And(m.E, bits_set<D>(own, bit_E));
@@ -92,8 +93,10 @@ class RowSweep {
   HWY_INLINE V stretch(const Spring<L>& s, V p, V q, V vp, V vq) const {
     const V x_ij = q - p;
     const V pull = stretch_factor(s, dot(x_ij, x_ij), zero_) * x_ij;
-    if constexpr ((F & damping) != 0) return multiply_add(k_d_, vq - vp, pull);
-    else return pull;
+    if constexpr ((F & damping) != 0)
+      return multiply_add(k_d_, vq - vp, pull);
+    else
+      return pull;
   }
   HWY_INLINE V bend(V p, V q) const {
     const V x_ij = q - p;
@@ -106,13 +109,16 @@ class RowSweep {
     const std::ptrdiff_t s = t_.stride;
     const Masks<D> m = masked ? masks_of<R, D>(t_, j) : Masks<D>{};
     const auto kept = [](hn::Mask<D> mask, V force) {
-      if constexpr (masked) return where<D>(mask, force);
-      else return (void)mask, force;
+      if constexpr (masked)
+        return where<D>(mask, force);
+      else
+        return (void)mask, force;
     };
     const V A = V::load(t_.x, j), B = V::load(t_.x, j + 1), C = V::load(t_.x, j + s), E = V::load(t_.x, j + s + 1);
     const V vA = V::load(t_.v, j);
     V vB, vC, vE;
-    if constexpr ((F & damping) != 0) vB = V::load(t_.v, j + 1), vC = V::load(t_.v, j + s), vE = V::load(t_.v, j + s + 1);
+    if constexpr ((F & damping) != 0)
+      vB = V::load(t_.v, j + 1), vC = V::load(t_.v, j + s), vE = V::load(t_.v, j + s + 1);
 
     const V right = kept(m.E, stretch(straight_, A, B, vA, vB));
     const V crossing = kept(m.SW, stretch(diagonal_, B, C, vB, vC));  // from B down to the left
@@ -222,7 +228,8 @@ class RowWind {
   /// A triangle is whole while its three edge springs are.
   HWY_INLINE void torn(int j, M odd, M& whole1, M& whole2) const {
     const std::uint8_t *own = t_.whole + j, *below = own + t_.columns;
-    const M E = bits_set<D>(own, bit_E), S = bits_set<D>(own, bit_S), SE = bits_set<D>(own, bit_SE), SW = bits_set<D>(own + 1, bit_SW);
+    const M E = bits_set<D>(own, bit_E), S = bits_set<D>(own, bit_S), SE = bits_set<D>(own, bit_SE),
+            SW = bits_set<D>(own + 1, bit_SW);
     const M S_right = bits_set<D>(own + 1, bit_S), E_below = bits_set<D>(below, bit_E);
     const auto choose = [&](M yes, M no) { return hn::Or(hn::And(odd, yes), hn::AndNot(odd, no)); };
     whole1 = hn::And(whole1, hn::And(S, choose(hn::And(E, SW), hn::And(E_below, SE))));
@@ -255,8 +262,12 @@ RowSweeps<R> table() {
           int(hn::MaxLanes(hn::ScalableTag<R>())),
           hwy::TargetName(HWY_TARGET)};
 }
-RowSweeps<float> table_float() { return table<float>(); }
-RowSweeps<double> table_double() { return table<double>(); }
+RowSweeps<float> table_float() {
+  return table<float>();
+}
+RowSweeps<double> table_double() {
+  return table<double>();
+}
 
 }  // namespace tyglab::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,6 +1,6 @@
-// The sweep over one row of particles, in SIMD: forces of the springs and triangles that the row owns, and the update of
-// the row. Springs are owned by their upper end, so once row i is done the force on it is complete and it is overwritten
-// at once: a sweep runs in place, computes each spring once, and a never travels through memory.
+// The sweep over one row of particles, in SIMD: forces of the springs and triangles that the row owns, and the update
+// of the row. Springs are owned by their upper end, so once row i is done the force on it is complete and it is
+// overwritten at once: a sweep runs in place, computes each spring once, and a never travels through memory.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace tyglab::cpu {
 
-/// What a scene needs; worked out once when something changes, and a template argument of the sweep, so that what is off
-/// costs nothing.
+/// What a scene needs; worked out once when something changes, and a template argument of the sweep, so that what is
+/// off costs nothing.
 enum Feature : unsigned { bending = 1, damping = 2, feature_sets = 4 };
 
 /// What happens with the force on the row.
@@ -26,19 +26,19 @@ template <class R>
 struct RowTask {
   R* x[3];
   R* v[3];
-  R* f[3][3];                  ///< force rows i, i+1, i+2, components x, y, z; i+2 is begun here
+  R* f[3][3];  ///< force rows i, i+1, i+2, components x, y, z; i+2 is begun here
   std::ptrdiff_t stride;
   int columns;
-  int rows_below;              ///< 0, 1, or 2 and more
-  const std::uint8_t* whole;   ///< tear masks of the row (and the next), or nullptr while untorn
-  const std::uint8_t* fixed;   ///< non-zero at pinned and held particles of the row, or nullptr; F is then kept in f[0]
-  double L, k_s, k_b, k_d;     ///< k_d divided by dt where v holds displacements
-  double weight;               ///< m·g, N
+  int rows_below;             ///< 0, 1, or 2 and more
+  const std::uint8_t* whole;  ///< tear masks of the row (and the next), or nullptr while untorn
+  const std::uint8_t* fixed;  ///< non-zero at pinned and held particles of the row, or nullptr; F is then kept in f[0]
+  double L, k_s, k_b, k_d;    ///< k_d divided by dt where v holds displacements
+  double weight;              ///< m·g, N
   double W[3];
   double v_to_x, force_to_x, force_to_v;
-  double dt_v;                 ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
-  int parity;                  ///< of the row's number: which diagonals the triangles have
-  R* largest_way;              ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
+  double dt_v;     ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
+  int parity;      ///< of the row's number: which diagonals the triangles have
+  R* largest_way;  ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
 };
 
 /// The functions for one precision, for the best instruction set of this machine.

@@ -9,7 +9,6 @@
 
 #include <hwy/highway.h>
 
-
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -59,18 +58,24 @@ HWY_INLINE Lanes<D> from_left(Lanes<D> before, Lanes<D> now) {
   using T = hn::TFromD<D>;
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
   if constexpr (sizeof(T) == 4) {
-    return typename Lanes<D>::V{_mm512_castsi512_ps(_mm512_alignr_epi32(_mm512_castps_si512(now.v.raw), _mm512_castps_si512(before.v.raw), 16 - n))};
+    return typename Lanes<D>::V{_mm512_castsi512_ps(
+        _mm512_alignr_epi32(_mm512_castps_si512(now.v.raw), _mm512_castps_si512(before.v.raw), 16 - n))};
   } else {
-    return typename Lanes<D>::V{_mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(now.v.raw), _mm512_castpd_si512(before.v.raw), 8 - n))};
+    return typename Lanes<D>::V{_mm512_castsi512_pd(
+        _mm512_alignr_epi64(_mm512_castpd_si512(now.v.raw), _mm512_castpd_si512(before.v.raw), 8 - n))};
   }
 #elif HWY_TARGET == HWY_AVX2
   // [before's upper half, now's lower half], then a shift inside each half.
   const auto middle = hn::ConcatLowerUpper(d, now.v, before.v);
-  if constexpr (n * sizeof(T) == 16) return middle;
-  else return hn::CombineShiftRightBytes<16 - n * sizeof(T)>(d, now.v, middle);
+  if constexpr (n * sizeof(T) == 16)
+    return middle;
+  else
+    return hn::CombineShiftRightBytes<16 - n * sizeof(T)>(d, now.v, middle);
 #else
-  if constexpr (n * sizeof(T) == 16) return before;
-  else return hn::CombineShiftRightBytes<16 - n * sizeof(T)>(d, now.v, before.v);
+  if constexpr (n * sizeof(T) == 16)
+    return before;
+  else
+    return hn::CombineShiftRightBytes<16 - n * sizeof(T)>(d, now.v, before.v);
 #endif
 #endif
 }
@@ -88,7 +93,9 @@ struct Vec3 {
   static HWY_INLINE Vec3 load(const T* const* p, std::ptrdiff_t at) {
     return {L::load(p[0] + at), L::load(p[1] + at), L::load(p[2] + at)};
   }
-  HWY_INLINE void store(T* const* p, std::ptrdiff_t at) const { x.store(p[0] + at), y.store(p[1] + at), z.store(p[2] + at); }
+  HWY_INLINE void store(T* const* p, std::ptrdiff_t at) const {
+    x.store(p[0] + at), y.store(p[1] + at), z.store(p[2] + at);
+  }
   friend HWY_INLINE Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend HWY_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend HWY_INLINE Vec3 operator*(L a, Vec3 b) { return {a * b.x, a * b.y, a * b.z}; }

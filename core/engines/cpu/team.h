@@ -30,8 +30,8 @@ class Team {
   const std::function<void(int)>* work_ = nullptr;
   std::atomic<int> started_{0};   ///< runs begun; workers sleep on it
   std::atomic<int> finished_{0};  ///< runs ended
-  std::atomic<int> working_{0};        ///< workers still at the present run
-  std::atomic<int> waiting_{0};        ///< in the barrier
+  std::atomic<int> working_{0};   ///< workers still at the present run
+  std::atomic<int> waiting_{0};   ///< in the barrier
   std::atomic<int> passed_{0};    ///< barriers passed
   std::atomic<bool> closing_{false};
   std::vector<std::thread> threads_;

@@ -1,0 +1,63 @@
+#include "core/analysis/machine.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <limits>
+
+#include "core/cloth/state.h"
+#include "core/engines/cpu/row_sweep.h"
+#include "core/engines/cpu/team.h"
+
+namespace tyglab {
+
+Machine this_machine() {
+  Machine machine{"unknown processor", 1, cpu::row_sweeps<float>().target};
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name")) {
+      machine.processor = line.substr(line.find(": ") + 2);
+      break;
+    }
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) machine.cores = CPU_COUNT(&set);
+  return machine;
+}
+
+std::string build_description() {
+#ifdef NDEBUG
+  const std::string kind = "Release";
+#else
+  const std::string kind = "Debug";
+#endif
+#if defined(__clang__)
+  return kind + ", Clang " __clang_version__;
+#else
+  return kind + ", GCC " __VERSION__;
+#endif
+}
+
+double memory_limit_ns(std::size_t bytes, int threads, int repeats) {
+  const std::size_t count = std::max<std::size_t>(bytes / sizeof(float) / threads, 1024);
+  const int passes = std::max<int>(1, int((64u << 20) / std::max<std::size_t>(bytes, 1)));
+  std::vector<Array<float>> parts(std::size_t(threads), Array<float>(count, 1.0f));
+  cpu::Team team(threads);
+  double best = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < repeats; ++n) {
+    const auto start = std::chrono::steady_clock::now();
+    team.run([&](int number) {
+      float* values = parts[std::size_t(number)].data();
+      for (int pass = 0; pass < passes; ++pass) {
+        for (std::size_t k = 0; k < count; ++k) values[k] = values[k] * 0.5f + 1.0f;
+        asm volatile("" : : "r"(values) : "memory");  // each pass is to reach memory
+      }
+    });
+    const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
+    best = std::min(best, time.count() / passes);
+  }
+  return best;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,22 @@
+// The machine and build that measurements belong to.
+#pragma once
+
+#include <string>
+
+namespace tyglab {
+
+struct Machine {
+  std::string processor;        ///< model name as the system tells it
+  int cores = 1;                ///< processors this process may run on
+  std::string instruction_set;  ///< that the CPU engine picked
+};
+Machine this_machine();
+
+/// "Release, GCC 12.2.0": how this program was built.
+std::string build_description();
+
+/// Nanoseconds to read and write `bytes` once, in place, by `threads` threads over a working set of that size: the time
+/// that a step's memory traffic takes at least. Best of `repeats`.
+double memory_limit_ns(std::size_t bytes, int threads, int repeats);
+
+}  // namespace tyglab

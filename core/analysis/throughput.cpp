@@ -1,0 +1,85 @@
+#include "core/analysis/throughput.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/analysis/machine.h"
+#include "core/engines/cpu/register_limit.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+namespace {
+
+/// The default cloth with that many particles a side: stretch, bending, damping and gravity; pinned at two corners.
+Preset square(int side) {
+  Preset preset;
+  preset.rows = preset.columns = side;
+  // Euler and improved Euler are measured too: a step must be short enough that they stay finite while it lasts.
+  preset.dt = 1e-5;
+  return preset;
+}
+
+double seconds_of(Simulation& simulation, int steps) {
+  const auto start = std::chrono::steady_clock::now();
+  simulation.advance(steps);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
+  std::vector<ThroughputCase> cases;
+  const auto add = [&](std::string variant, int side, int with, auto change) {
+    ThroughputCase which{std::move(variant), square(side), with};
+    change(which.preset);
+    cases.push_back(which);
+  };
+  const auto plain = [](Preset&) {};
+  const std::vector<int> sides =
+      quick ? std::vector{32, 128, 256, 512, 1024} : std::vector{32, 64, 128, 256, 512, 1024, 2048};
+  for (const int side : sides) {
+    add("", side, 1, plain);
+    if (threads > 1) add("", side, threads, plain);
+    if (!quick || side == 128) add("", side, 1, [](Preset& p) { p.precision = Precision::double_; });
+  }
+  for (const char* integrator : {"euler", "improved_euler"})
+    add("", 128, 1, [&](Preset& p) { p.integrator = integrator; });
+  add("without bending", 128, 1, [](Preset& p) { p.k_b = 0; });
+  add("without damping", 128, 1, [](Preset& p) { p.k_d = 0; });
+  add("wind", 128, 1, [](Preset& p) { p.W = {0, 0, 1e-3}; });
+  add("tearing watched", 128, 1, [](Preset& p) { p.F_max = 1e6; });
+  add("sphere and plane", 128, 1, [](Preset& p) {
+    p.bodies = {Body{}, Body{.shape = Body::Shape::plane, .y = -100}};
+    p.bodies[0].c = {0, 50, 0};
+  });
+  add("left column pinned", 128, 1, [](Preset& p) { p.pins.mode = Pins::Mode::left_column; });
+  return cases;
+}
+
+ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
+  Simulation simulation(which.preset, which.threads);
+  const double particles = simulation.lattice().size();
+  // Warm-up, which also tells how many steps make a run of 10 ms.
+  int steps = 4;
+  double seconds = seconds_of(simulation, steps);
+  while (seconds < 2e-3) steps *= 2, seconds = seconds_of(simulation, steps);
+  steps = std::max(1, int(steps * 1e-2 / seconds));
+
+  ThroughputRow row;
+  row.of = which;
+  row.repeats = repeats;
+  std::vector<double> times;
+  for (int n = 0; n < repeats; ++n) times.push_back(seconds_of(simulation, steps) * 1e9 / steps / particles);
+  std::sort(times.begin(), times.end());
+  row.ns_per_particle_step = times[times.size() / 2];
+  row.ns_lowest = times.front(), row.ns_highest = times.back();
+  row.threads_used = simulation.engine().threads();
+  row.bytes_per_particle = double(simulation.engine().bytes()) / particles;
+  row.register_limit_ns = cpu::register_limit_ns(which.preset.precision, 15) / row.threads_used;
+  const std::size_t moved = std::size_t(particles) * 6 * (which.preset.precision == Precision::float_ ? 4 : 8);
+  row.memory_limit_ns = memory_limit_ns(moved, row.threads_used, 5) / particles;
+  return row;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,135 @@
+"""Constants are changed by slider, by typing and by keys, undone and reset; the integrator is switched while running."""
+
+from cases import case, check, main
+from sandbox import LEFT, k_s
+
+PRESET_K_S = 50
+
+
+def along(box, part):
+    """A point on a slider, 0 at its left end, 1 at its right."""
+    return box[0] + 1 + part * (box[2] - 2), box[1] + box[3] / 2
+
+
+@case
+def slider(stage):
+    """dragging the slider of k_s changes k_s, and one undo takes the whole drag back"""
+    sandbox = stage.start("hanging", "--dt", "1e-4")
+    start = sandbox.report()
+    check(k_s(start) == PRESET_K_S and not start["unsaved"], "the preset starts as it is on disk")
+    box = sandbox.control("constants.k_s.slider")
+    sandbox.move(*along(box, 0.25))
+    sandbox.press()
+    low = k_s(sandbox.wait(lambda r: k_s(r) < PRESET_K_S, "k_s to follow the press at a quarter of the slider"))
+    sandbox.move(*along(box, 0.5))
+    sandbox.move(*along(box, 0.75))
+    high = k_s(sandbox.wait(lambda r: k_s(r) > PRESET_K_S, "k_s to follow the drag to three quarters"))
+    check(10 < high / low < 100, f"half of a slider of three decades is a factor of about 32, not {high / low:g}")
+    stage.keep("dragged")
+    sandbox.release()
+    report = sandbox.wait(lambda r: r["unsaved"], "the change to count as unsaved")
+    sandbox.wait(lambda r: r["t"] > report["t"] > start["t"] and r["divergence"] is None, "the cloth to go on moving")
+    sandbox.key("ctrl+z")
+    report = sandbox.wait(lambda r: k_s(r) == PRESET_K_S, "undo to take the whole drag back")
+    check(not report["unsaved"], "nothing is unsaved after the undo")
+    sandbox.key("ctrl+shift+z")
+    sandbox.wait(lambda r: k_s(r) == high, "redo to bring it again")
+
+
+@case
+def ends(stage):
+    """a slider dragged far beyond its ends gives 0 at the left and its largest value at the right"""
+    sandbox = stage.start("hanging")
+    sandbox.key("space")
+    box = sandbox.control("constants.k_b.slider")
+    sandbox.drag([along(box, 0.5), along(box, 0.1), (3, box[1] + 10)])
+    sandbox.wait(lambda r: r["preset"]["forces"]["k_b"] == 0, "k_b to be 0 at the left end")
+    sandbox.drag([along(box, 0.01), along(box, 0.9), (1200, box[1] + 10)])
+    report = sandbox.wait(lambda r: r["preset"]["forces"]["k_b"] > 100, "k_b to be large at the right end")
+    check(report["torn_springs"] == 0, "a drag that left the slider cut the cloth")
+
+
+@case
+def typed(stage):
+    """a value typed after Ctrl+click is taken; Escape, nonsense and values out of range leave it as it was"""
+    sandbox = stage.start("hanging")
+    sandbox.key("space")
+    report = sandbox.type_value("k_s", "310")
+    check(k_s(report) == 310, f"310 was typed, k_s is {k_s(report)}")
+    report = sandbox.type_value("k_s", "7", end="Escape")
+    check(k_s(report) == 310, "Escape left the value as it was")
+    for text, message in (("abc", "not a number"), ("1e12", "goes from"), ("-3", "goes from"), ("nan", "not a number")):
+        report = sandbox.type_value("k_s", text)
+        check(k_s(report) == 310, f"“{text}” made k_s {k_s(report)}")
+        sandbox.wait(lambda r: any(message in m for m in r["messages"]), f"a message about “{text}”")
+    stage.keep("messages")
+    report = sandbox.type_value("dt", "2e-4")
+    check(report["preset"]["solver"]["dt"] == 2e-4, "2e-4 was typed as dt")
+    check(report["steps"] == sandbox.later()["steps"], "typing made no step")
+    sandbox.key("ctrl+z")
+    sandbox.key("ctrl+z")
+    sandbox.wait(lambda r: k_s(r) == PRESET_K_S and r["preset"]["solver"]["dt"] == 0.001, "two undos to take both back")
+
+
+@case
+def reset(stage):
+    """a double click on a slider brings the preset's value back, Ctrl+R those of all constants"""
+    sandbox = stage.start("hanging")
+    sandbox.key("space")
+    sandbox.type_value("k_s", "310")
+    sandbox.type_value("k_b", "9")
+    report = sandbox.double_click(*along(sandbox.control("constants.k_s.slider"), 0.9), LEFT,
+                                  lambda r: k_s(r) == PRESET_K_S, "k_s to be reset")
+    check(report["preset"]["forces"]["k_b"] == 9, "k_b stayed")
+    sandbox.type_value("k_s", "20")
+    sandbox.key("ctrl+r")
+    sandbox.wait(lambda r: not r["unsaved"], "Ctrl+R to reset all constants")
+
+
+@case
+def rows(stage):
+    """rows typed anew (the wheel scrolls to them) build the cloth anew and keep the rest"""
+    sandbox = stage.start("hanging", "--set", "k_s=77")
+    sandbox.scroll_to("constants.rows.value", over="constants.k_s.value")
+    report = sandbox.type_value("rows", "20")
+    check(report["preset"]["cloth"]["rows"] == 20 and k_s(report) == 77, "20 rows, and k_s is kept")
+    check(max(p["i"] for p in report["particles"]) == 19, "the last row is row 19")
+    stage.keep("twenty-rows")
+    report = sandbox.type_value("rows", "1")
+    check(report["preset"]["cloth"]["rows"] == 20, "one row is too few")
+    sandbox.wait(lambda r: r["steps"] > report["steps"], "the cloth to go on moving")
+
+
+@case
+def arrows(stage):
+    """a slider in use takes the arrow keys for itself; once left, → steps again"""
+    sandbox = stage.start("hanging")
+    sandbox.key("space")
+    before = sandbox.wait(lambda r: r["paused"], "the pause")["steps"]
+    box = sandbox.control("constants.k_s.slider")
+    sandbox.click(*along(box, 0.5))
+    value = k_s(sandbox.later())
+    for _ in range(3):
+        sandbox.key("Right")
+    report = sandbox.wait(lambda r: k_s(r) > 1.05 * value, "three arrow keys to raise k_s by some per cent")
+    check(report["steps"] == before, "an arrow key on a slider made a step")
+    sandbox.key("Escape")
+    sandbox.key("Right")
+    sandbox.wait(lambda r: r["steps"] == before + 1, "→ to step once the slider is left")
+
+
+@case
+def integrator(stage):
+    """the integrator is switched while the cloth moves, and the motion goes on"""
+    sandbox = stage.start("hanging", "--dt", "1e-4")
+    for name in ("euler", "improved_euler", "verlet"):
+        sandbox.click_control("constants.integrator")
+        sandbox.click_control("menu." + name)
+        before = sandbox.wait(lambda r: r["preset"]["solver"]["integrator"] == name, f"the integrator to be {name}")
+        after = sandbox.wait(lambda r: r["steps"] > before["steps"] + 20, f"the motion to go on with {name}")
+        check(after["t"] > before["t"] > 0 and after["divergence"] is None, f"the motion went on with {name}")
+    stage.keep("switched")
+
+
+if __name__ == "__main__":
+    main()

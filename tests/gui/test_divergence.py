@@ -1,0 +1,63 @@
+"""A cloth that explodes stops with a banner; restarting, and undoing what caused it, work."""
+
+from cases import case, check, main
+from sandbox import k_s
+
+
+@case
+def explodes(stage):
+    """the preset that explodes stops, says when, where and why, and starts again from its banner"""
+    sandbox = stage.start("explodes")
+    report = sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
+    stage.keep("banner", still=True)
+    why = report["divergence"]
+    check(why["step"] == report["steps"] + 1, "the state is the one before the step that diverged")
+    check(abs(why["t"] - why["step"] * report["preset"]["solver"]["dt"]) < 1e-6, "it tells the time of that step")
+    check(why["cause"] and why["remedy"], "it tells the cause and the cure")
+    later = sandbox.later(4)
+    check((later["steps"], later["t"]) == (report["steps"], report["t"]), "it does not go on")
+    sandbox.key("Right")
+    check(sandbox.later()["steps"] == report["steps"], "nor by a single step")
+    for mode in (5, 2, 1):
+        sandbox.key(str(mode))
+        sandbox.wait(lambda r: r["view"] == mode, "views to change all the same")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["paused"], "the pause")
+    sandbox.click_control("viewport.Restart")
+    report = sandbox.wait(lambda r: r["divergence"] is None, "the banner's button to restart")
+    check(report["t"] == 0 and report["steps"] == 0, "the motion is at its start")
+    check("viewport.Restart" not in sandbox.later()["controls"], "the banner is gone")
+    sandbox.key("space")
+    again = sandbox.wait(lambda r: r["divergence"] is not None, "it to diverge again")
+    check(again["divergence"]["step"] == why["step"], "in the very same step")
+    check(sandbox.process.poll() is None, "the program lives")
+
+
+@case
+def own_doing(stage):
+    """a slider pushed too far offers to undo that change and restart, which heals the cloth"""
+    sandbox = stage.start("hanging")
+    sandbox.type_value("k_s", "200000")
+    sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
+    stage.keep("banner", still=True)
+    sandbox.click_control("viewport.Undo_last_change_and_restart")
+    report = sandbox.wait(lambda r: r["divergence"] is None, "the button to heal the cloth")
+    check(k_s(report) == 50, "the change is undone")
+    sandbox.wait(lambda r: r["t"] > 1 and r["divergence"] is None, "the cloth to move on for a second")
+
+
+@case
+def extremes(stage):
+    """extreme but allowed values stop the cloth at worst; the window goes on drawing and answering"""
+    sandbox = stage.start("hanging")
+    for key, value in (("k_s", "1e9"), ("k_d", "1e6"), ("g", "-100"), ("dt", "1"), ("k_b", "1e9")):
+        sandbox.type_value(key, value)
+    sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
+    stage.keep("all-at-their-limits", still=True)
+    sandbox.key("ctrl+shift+r")
+    report = sandbox.wait(lambda r: r["divergence"] is None and not r["unsaved"], "everything to be reset")
+    sandbox.wait(lambda r: r["steps"] > 50, "the cloth to move again")
+
+
+if __name__ == "__main__":
+    main()

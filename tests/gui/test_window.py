@@ -1,0 +1,102 @@
+"""The window: resized, closed, scaled; its borders dragged."""
+
+import json
+
+from cases import case, check, main
+
+BLACK = (0, 0, 0)
+
+
+def resize(sandbox, width, height):
+    sandbox.xdotool("windowsize", sandbox.window, width, height)
+    return sandbox.wait(lambda r: r["window"] == [width, height], f"the window to be {width} x {height}")
+
+
+def check_controls(report):
+    width, height = report["window"]
+    for name, (x, y, w, h) in report["controls"].items():
+        check(x >= -1 and y >= -1 and x + w <= width + 1 and y + h <= height + 1,
+              f"{name} at {x}, {y} ({w} x {h}) is not within {width} x {height}")
+
+
+def check_filled(picture, text):
+    """No edge of the window is left black: all of it was drawn."""
+    edges = picture.row(2) + picture.row(picture.height - 3)
+    edges += [picture.pixel(x, y) for x in (2, picture.width - 3) for y in range(picture.height)]
+    check(sum(pixel == BLACK for pixel in edges) < 0.02 * len(edges), text)
+
+
+@case
+def resizing(stage):
+    """resizing redraws the whole window at every size, and its controls stay within it"""
+    sandbox = stage.start("hanging")
+    for width, height in ((900, 600), (1560, 960), (640, 400), (480, 320), (1280, 720)):
+        resize(sandbox, width, height)
+        report = sandbox.later(4)
+        check(report["viewport"][2] >= 200 and report["viewport"][3] >= 200, f"the cloth keeps room: {report['viewport']}")
+        check_controls(report)
+        check_filled(stage.keep(f"{width}x{height}"), f"a part of the window is black at {width} x {height}")
+    steps = sandbox.report()["steps"]
+    sandbox.wait(lambda r: r["steps"] > steps and r["divergence"] is None, "the cloth to move on")
+
+
+@case
+def borders(stage):
+    """the borders between the regions drag, and the cloth gets what is left"""
+    sandbox = stage.start("hanging")
+    x, y, width, height = sandbox.report()["viewport"]
+    sandbox.drag([(x, y + 300), (x - 20, y + 300), (x - 60, y + 310)])
+    report = sandbox.wait(lambda r: abs(r["viewport"][0] - (x - 60)) <= 2, "the left border to follow")
+    check(report["viewport"][2] > width + 50, "the viewport grew")
+    right = x + width
+    sandbox.drag([(right, y + 300), (right - 30, y + 300), (right - 80, y + 290)])
+    report = sandbox.wait(lambda r: abs(sum(r["viewport"][0:3:2]) - (right - 80)) <= 2, "the right border to follow")
+    check(report["torn_springs"] == 0, "dragging a border cut the cloth")
+    stage.keep("dragged")
+
+
+@case
+def text_size(stage):
+    """Ctrl and + or - change the size of text; Ctrl+0 brings it back"""
+    sandbox = stage.start("hanging")
+    height = sandbox.control("constants.k_s.slider")[3]
+    for _ in range(4):
+        sandbox.key("ctrl+plus")
+    sandbox.wait(lambda r: r["controls"].get("constants.k_s.slider", [0] * 4)[3] > 1.3 * height, "the rows to grow")
+    report = sandbox.later(4)
+    check_controls(report)
+    stage.keep("larger")
+    sandbox.key("ctrl+0")
+    sandbox.wait(lambda r: r["controls"].get("constants.k_s.slider", [0] * 4)[3] == height, "Ctrl+0 to bring it back")
+
+
+@case
+def closing(stage):
+    """closing is clean: exit code 0, nothing on stderr, settings and the last report written"""
+    for name in ("hanging", "one_weight"):
+        sandbox = stage.start(name)
+        sandbox.wait(lambda r: r["steps"] > 20, "the motion")
+        stage.keep(name)
+        sandbox.press_close_button()
+        check(sandbox.ended() == 0, f"the exit code is {sandbox.process.returncode}")
+        check(sandbox.stderr() == "", "it says nothing on stderr: " + sandbox.stderr())
+        with open(sandbox.settings_file) as file:
+            settings = json.load(file)
+        check(settings["session"]["label"] == name, "the session is remembered")
+        check(sandbox.report()["ended"], "the last report says that it ended")
+    sandbox = stage.start("flag")
+    sandbox.key("ctrl+q")
+    check(sandbox.ended() == 0, "Ctrl+Q ends it too")
+
+
+@case
+def interrupted(stage):
+    """Ctrl-C in the terminal ends it cleanly with exit code 130"""
+    sandbox = stage.start("hanging")
+    sandbox.process.send_signal(2)
+    check(sandbox.ended() == 130, f"the exit code is {sandbox.process.returncode}")
+    check(sandbox.report()["ended"], "the last report says that it ended")
+
+
+if __name__ == "__main__":
+    main()
