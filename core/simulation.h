@@ -75,7 +75,7 @@ class Simulation {
   void move_body(const edit::MoveBody& edit);
   void rebase_time();
   void update_fixed();
-  void diverge(const Advance& advance);
+  void diverge(const Advance& part);
 
   Preset preset_;
   int threads_;

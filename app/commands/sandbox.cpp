@@ -45,6 +45,8 @@ int open_sandbox(const Options& options) {
   if (has_display()) return run_sandbox(sandbox);
   std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
             << scene.source.label << "' into the folder tyglab-out.\n";
+  if (!options.session_report.empty())
+    std::cerr << "--session-report tells what goes on in a window, so it is not written.\n";
   return run_headless(sandbox);
 }
 

@@ -29,6 +29,14 @@ std::string what_happened(const Divergence& d) {
   return text;
 }
 
+std::string capitalised(std::string text) {
+  // A symbol or key ("dt", "k_s") keeps its letter.
+  const std::size_t space = text.find(' ');
+  const bool word = space != std::string::npos && space > 2 && text.find('_') > space && text.find('/') > space;
+  if (word && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
+  return text;
+}
+
 std::string sentence(std::string text) {
   if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
   if (!text.empty() && text.back() != '.') text += '.';
@@ -88,16 +96,17 @@ void message_list(App& app) {
   std::size_t dismissed = list.size();
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Message& message = list[k];
+    const std::string text = capitalised(message.text);
     const bool note = message.severity == Message::Severity::note;
     const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
     const float inner = most - 2 * padding - icon_width - close;
-    const float height = std::max(wrapped_height(font, message.text, inner) + 2 * app.theme.px(9), app.theme.px(36));
+    const float height = std::max(wrapped_height(font, text, inner) + 2 * app.theme.px(9), app.theme.px(36));
     const ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
     draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(6));
     draw.AddRectFilled(lo, {lo.x + app.theme.px(3), hi.y}, color, app.theme.px(6), ImDrawFlags_RoundCornersLeft);
     draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
               icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
-    draw_wrapped(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, message.text, inner);
+    draw_wrapped(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text, inner);
     ImGui::SetCursorScreenPos({hi.x - close - app.theme.px(6), lo.y + app.theme.px(7)});
     ImGui::PushID(int(k));
     if (quiet_button(app, "dismiss", icon::close, "x", "Dismiss")) dismissed = k;

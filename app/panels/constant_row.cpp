@@ -157,8 +157,7 @@ void symbol_cell(App& app, const Line& line, const RowColumns& columns) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("symbol", {columns.symbol, columns.height});
-  if (ImGui::IsItemActivated() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !std::isnan(line.saved[0]))
-    line.set(line.saved, 0);
+  if (ImGui::IsItemActive() && app.input.double_click && !std::isnan(line.saved[0])) line.set(line.saved, 0);
   bool changed = false;
   for (int k = 0; k < line.components; ++k) changed |= !std::isnan(line.saved[k]) && line.saved[k] != line.value[k];
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -99,12 +99,16 @@ void integrator_row(App& app) {
   end_combo();
 }
 
-void scale_resolution(App& app, double q) { app.propose(with_resolution(app.preset(), q)); }
+void scale_resolution(App& app, double q) {
+  app.propose(with_resolution(app.preset(), q));
+}
 
 void resolution_row(App& app) {
   static constexpr const char* tip =
-      "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, L/q, "
-      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. Tears are "
+      "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, "
+      "L/q, "
+      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. Tears "
+      "are "
       "mended.";
   labelled_row(app, "divide", [&](float) {
     const Preset& preset = app.preset();
@@ -120,15 +124,19 @@ void resolution_row(App& app) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     char text[64];
     std::snprintf(text, sizeof text, "%d particles", preset.rows * preset.columns);
-    draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {at.x, at.y + app.theme.px(8)}, app.theme.colors.quiet, text);
+    draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {at.x, at.y + app.theme.px(8)}, app.theme.colors.quiet,
+              text);
     ImGui::Dummy({1, app.theme.px(30)});
   });
 }
 
 std::string pins_text(const Pins& pins) {
-  static const std::map<Pins::Mode, std::string> names{
-      {Pins::Mode::none, "none"},           {Pins::Mode::top_row, "top row"},   {Pins::Mode::top_corners, "top corners"},
-      {Pins::Mode::four_corners, "four corners"}, {Pins::Mode::left_column, "left column"}, {Pins::Mode::boundary, "boundary"}};
+  static const std::map<Pins::Mode, std::string> names{{Pins::Mode::none, "none"},
+                                                       {Pins::Mode::top_row, "top row"},
+                                                       {Pins::Mode::top_corners, "top corners"},
+                                                       {Pins::Mode::four_corners, "four corners"},
+                                                       {Pins::Mode::left_column, "left column"},
+                                                       {Pins::Mode::boundary, "boundary"}};
   const auto it = names.find(pins.mode);
   return it != names.end() ? it->second : "own list (" + std::to_string(pins.list.size()) + ")";
 }

@@ -116,7 +116,7 @@ void entry_line(App& app, int k, bool& open) {
     dialog.selected = k;
     set(dialog.path, entry.file.string());
   }
-  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) open = true;
+  if (ImGui::IsItemHovered() && app.input.double_click) open = true;
   report_control(app, "entry." + entry.label);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -207,6 +207,7 @@ void save_preset_dialog(App& app) {
   if (file.extension().empty()) file += ".json";
   if (is_shipped(file)) {
     dialog.problem = "That is a preset of the program itself; save under another name or in another folder.";
+    dialog.overwrite = false;
     return;
   }
   const request::SavePreset save{file, dialog.name};

@@ -13,8 +13,9 @@
 namespace tyglab {
 namespace {
 
-constexpr double zero_stretch = 0.04;  ///< of a logarithmic slider that starts at 0
-constexpr double decades_below = 1e3;  ///< its smallest value but 0 is max over this
+constexpr double zero_stretch = 0.04;      ///< of a logarithmic slider that starts at 0
+constexpr double double_click_time = 0.6;  ///< s
+constexpr double decades_below = 1e3;      ///< its smallest value but 0 is max over this
 
 bool has_zero(const SliderScale& s) {
   return s.scale == Scale::logarithmic && s.min <= 0;
@@ -52,6 +53,12 @@ void start_typing(SliderState& state, unsigned id, double value) {
   state.typing_starts = true;
   state.commit = state.cancel = false;
   std::snprintf(state.text, sizeof state.text, "%.10g", value);
+}
+
+/// Whether the last item, a number, was pressed so that it can be typed.
+bool wants_typing(const App& app) {
+  return (ImGui::IsItemActive() && app.input.double_click) ||
+         (ImGui::IsItemActivated() && (app.input.mods & GLFW_MOD_CONTROL) != 0);
 }
 
 /// Keys of the focused slider, as one result.
@@ -131,12 +138,17 @@ SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigne
     state.dragged = id;
     state.value = value;
     state.position = slider_position(scale, value);
-    state.reset_done = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    result.reset = state.reset_done;
+    state.reset_done = app.ui.now - state.reset_time < double_click_time;
     const double under = (io.MousePos.x - left) / width;
-    if (jump && !state.reset_done && std::abs(under - state.position) * width > app.theme.px(6)) state.position = under;
+    if (jump && !state.reset_done && !app.input.double_click &&
+        std::abs(under - state.position) * width > app.theme.px(6))
+      state.position = under;
   } else if (ImGui::IsItemActive() && state.dragged == id) {
     state.position += io.MouseDelta.x / width * (io.KeyShift ? 0.1 : 1);
+  }
+  if (jump && ImGui::IsItemActive() && app.input.double_click) {
+    result.reset = state.reset_done = true;
+    state.reset_time = app.ui.now;
   }
   if (ImGui::IsItemActive() && state.dragged == id && !state.reset_done) {
     const double to = slider_value(scale, state.position, io.KeyShift ? 4 : 3);
@@ -252,13 +264,10 @@ SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, 
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  const bool wants_typing =
-      ImGui::IsItemActivated() && (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) || ImGui::GetIO().KeyCtrl);
-  if (wants_typing) {
+  if (wants_typing(app)) {
     start_typing(app.ui.slider, typing_id, value);
   } else {
     result = take_drag(app, scale, value, id, app.theme.px(300), false, lo.x);
-    result.reset = false;
   }
   const bool focused = follow_focus(app.ui.slider, id);
   if (focused && !app.ui.slider.keys.empty()) result = take_keys(app, scale, value);
@@ -292,8 +301,7 @@ SliderResult value_cell(App& app, const char* id_text, double value, std::string
   ImGui::InvisibleButton(id_text, {width, height});
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
-  if (ImGui::IsItemActivated() && (ImGui::GetIO().KeyCtrl || ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)))
-    start_typing(state, id, value);
+  if (wants_typing(app)) start_typing(state, id, value);
   const ImFont& font = *app.fonts.mono;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float inset = app.theme.px(2);

@@ -161,9 +161,7 @@ void engine_combo(App& app, float width) {
     Precision precision;
   };
   static constexpr Choice choices[] = {{"CPU · float", EngineKind::cpu, Precision::float_},
-                                       {"CPU · double", EngineKind::cpu, Precision::double_},
-                                       {"OpenCL · float", EngineKind::opencl, Precision::float_},
-                                       {"OpenCL · double", EngineKind::opencl, Precision::double_}};
+                                       {"CPU · double", EngineKind::cpu, Precision::double_}};
   const Preset& preset = app.preset();
   const char* shown = choices[0].label;
   for (const Choice& choice : choices)

@@ -25,7 +25,8 @@ struct SliderState {
   unsigned dragged = 0;
   double position = 0;                                   ///< of the drag, 0 to 1, finer than the value shows
   double value = 0;                                      ///< of the drag, for constants that are taken when it ends
-  bool reset_done = false;                               ///< a double click reset it: the second press does not drag
+  bool reset_done = false;                               ///< a double click reset it: its presses do not drag
+  double reset_time = -1;                                ///< s
   std::vector<KeyEvent> keys;                            ///< of this frame, for the focused one
   int order = 0, focused_order = -1, wanted_order = -1;  ///< position in the panel, for Tab and up and down
 };

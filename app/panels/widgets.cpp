@@ -78,7 +78,10 @@ bool icon_button(App& app, const char* id, const char* glyph, const char* word, 
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(id, {width, side});
   report_control(app, id);
-  const ImU32 ground = lit ? c.accent : ImGui::IsItemActive() ? c.line : ImGui::IsItemHovered() ? c.field_hover : c.field;
+  const ImU32 ground = lit                      ? c.accent
+                       : ImGui::IsItemActive()  ? c.line
+                       : ImGui::IsItemHovered() ? c.field_hover
+                                                : c.field;
   const ImVec2 hi{lo.x + width, lo.y + side};
   ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, app.theme.px(5));
   centred_text(app, *app.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
@@ -135,8 +138,8 @@ int segments(App& app, const char* id, const char* const* labels, int count, int
     if (app.report) report_control(app, std::string(id) + "." + std::to_string(k + 1));
     const bool on = k == chosen;
     const ImU32 ground = on ? c.accent : ImGui::IsItemHovered() ? c.field_hover : c.field;
-    const ImDrawFlags corners = (k == 0 ? ImDrawFlags_RoundCornersLeft : 0) |
-                                (k + 1 == count ? ImDrawFlags_RoundCornersRight : 0);
+    const ImDrawFlags corners =
+        (k == 0 ? ImDrawFlags_RoundCornersLeft : 0) | (k + 1 == count ? ImDrawFlags_RoundCornersRight : 0);
     draw.AddRectFilled(lo, hi, ground, round, corners != 0 ? corners : ImDrawFlags_RoundCornersNone);
     centred_text(app, *app.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
     ImGui::PopID();
@@ -163,8 +166,8 @@ bool check(App& app, const char* label, bool value) {
                             {at.x + box * 0.77f, at.y + box * 0.30f}};
     draw.AddPolyline(tick, 3, c.on_accent, ImDrawFlags_None, std::max(1.5f, app.theme.px(2)));
   }
-  draw_text(draw, *app.fonts.text, {at.x + box + gap, std::round(lo.y + (height - app.fonts.text->FontSize) / 2)}, c.text,
-            label);
+  draw_text(draw, *app.fonts.text, {at.x + box + gap, std::round(lo.y + (height - app.fonts.text->FontSize) / 2)},
+            c.text, label);
   return clicked;
 }
 

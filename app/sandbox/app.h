@@ -37,7 +37,7 @@ struct App {
   Document document;
   History history;
   Pacing pacing;
-  std::int64_t steps_made = 0;  ///< in the last frame
+  std::int64_t steps_made = 0;    ///< in the last frame
   bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
 
   std::unique_ptr<ClothRenderer> renderer;
@@ -59,11 +59,11 @@ struct App {
   FrameCosts costs;
   std::unique_ptr<SessionReport> report;  ///< none unless it is asked for
 
-  bool full_screen = false;         ///< as the window is; a request asks to change it
+  bool full_screen = false;  ///< as the window is; a request asks to change it
   bool toggle_full_screen = false;
-  bool scale_changed = true;        ///< fonts are to be built anew
+  bool scale_changed = true;  ///< fonts are to be built anew
   bool quit = false;
-  bool scripted = false;            ///< --frames: nothing is restored, asked or remembered
+  bool scripted = false;  ///< --frames: nothing is restored, asked or remembered
 
   const Preset& preset() const { return simulation->preset(); }
   void request(Request request) { requests.push_back(std::move(request)); }

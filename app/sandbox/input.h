@@ -2,6 +2,7 @@
 // frame and drops short presses when frames are long; this queue does not.
 #pragma once
 
+#include <cmath>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
@@ -30,12 +31,25 @@ struct InputQueue {
   std::vector<std::string> dropped;  ///< files dropped on the window
   glm::vec2 at{-1e6f};               ///< the pointer's last position
   int mods = 0;
-  bool scale_changed = false;  ///< the window went to a monitor with another content scale
-  bool anything = false;       ///< an event of any kind arrived
+  bool scale_changed = false;   ///< the window went to a monitor with another content scale
+  bool anything = false;        ///< an event of any kind arrived
+  bool double_click = false;    ///< the left button went down for the second time at the same place
+  double double_click_s = 0.4;  ///< longest time between its presses; longer where frames are slow
+  double last_press = -1;       ///< s, of the left button
+  glm::vec2 last_press_at{0};
+
+  /// Notes a press of the left button; two in quick succession are a double click even where one frame holds both.
+  void note_left_press(double time) {
+    const bool second =
+        time - last_press < double_click_s && std::hypot(at.x - last_press_at.x, at.y - last_press_at.y) < 6;
+    double_click |= second;
+    last_press = second ? -1 : time;
+    last_press_at = at;
+  }
 
   void clear() {
     keys.clear(), pointer.clear(), dropped.clear();
-    scale_changed = anything = false;
+    scale_changed = anything = double_click = false;
   }
 };
 

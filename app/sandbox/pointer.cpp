@@ -12,12 +12,14 @@
 namespace tyglab {
 namespace {
 
-constexpr double click_time = 0.4, hold_time = 0.35;  // s
+constexpr double hold_time = 0.35;  // s
 constexpr float click_slack = 4;                      // pixels at scale 1
 
 using ToolKind = Tool::Kind;
 
-float reach(const App& app) { return app.theme.px(24); }
+float reach(const App& app) {
+  return app.theme.px(24);
+}
 
 std::optional<Pins::Site> nearest_site(App& app, glm::vec2 at, bool free_only) {
   Simulation& simulation = *app.simulation;
@@ -87,7 +89,7 @@ void start_grab(App& app) {
 
 void pick_or_pin(App& app, const PointerEvent& event) {
   Tool& tool = app.tool;
-  const bool twice = tool.site && tool.last_site == tool.site && event.time - tool.last_click < click_time;
+  const bool twice = tool.site && tool.last_site == tool.site && event.time - tool.last_click < app.input.double_click_s;
   if (twice) {
     const auto [i, j] = *tool.site;
     apply_edit(app, edit::Pin{i, j, !app.simulation->pinned(i, j)});
@@ -112,15 +114,22 @@ void drag(App& app, glm::vec2 at) {
   const glm::vec2 moved = at - tool.at;
   tool.at = at;
   switch (tool.kind) {
-    case ToolKind::orbit: app.camera.orbit(moved.x, moved.y); break;
-    case ToolKind::pan: app.camera.pan(moved.x, moved.y, app.viewport.size().y); break;
-    case ToolKind::cut: tool.path.push_back(at); break;
+    case ToolKind::orbit:
+      app.camera.orbit(moved.x, moved.y);
+      break;
+    case ToolKind::pan:
+      app.camera.pan(moved.x, moved.y, app.viewport.size().y);
+      break;
+    case ToolKind::cut:
+      tool.path.push_back(at);
+      break;
     case ToolKind::right:
       if (glm::length(at - tool.press) > app.theme.px(click_slack)) start_grab(app);
       break;
     case ToolKind::none:
     case ToolKind::grab:
-    case ToolKind::body: break;
+    case ToolKind::body:
+      break;
   }
 }
 
@@ -182,14 +191,18 @@ void handle_pointer(App& app) {
       case PointerEvent::Type::press:
         if (tool.kind == ToolKind::none && app.viewport.takes(event.at)) start(app, event, at);
         break;
-      case PointerEvent::Type::move: drag(app, at); break;
+      case PointerEvent::Type::move:
+        drag(app, at);
+        break;
       case PointerEvent::Type::release:
         if (tool.kind == ToolKind::none || event.button != tool.button) break;
         drag(app, at);
         hold(app);
         finish(app, event);
         break;
-      case PointerEvent::Type::wheel: wheel(app, event); break;
+      case PointerEvent::Type::wheel:
+        wheel(app, event);
+        break;
     }
   }
   hold(app);

@@ -35,9 +35,9 @@ struct Viewport {
 /// What the pointer is doing in the viewport.
 struct Tool {
   enum class Kind { none, orbit, pan, right, grab, cut, body };
-  Kind kind = Kind::none;       ///< right: the right button is down and has not moved yet
-  int button = 0;               ///< that ends it
-  glm::vec2 press{0}, at{0};    ///< pixels in the viewport
+  Kind kind = Kind::none;     ///< right: the right button is down and has not moved yet
+  int button = 0;             ///< that ends it
+  glm::vec2 press{0}, at{0};  ///< pixels in the viewport
   double press_time = 0;
   std::vector<glm::vec2> path;  ///< the pointer's way in this frame, for cuts
   int body = -1;

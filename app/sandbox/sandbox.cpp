@@ -233,7 +233,7 @@ void Sandbox::draw_panels() {
   slider.order = 0;
   slider.focused_seen = false;
   app_.ui.hover_seen = false;
-  gui_.begin_frame();
+  gui_.begin_frame(app_.input);
   draw_layout(app_, ImGui::GetIO().DisplaySize);
   // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
   if (!slider.focused_seen || app_.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;
@@ -263,6 +263,8 @@ void Sandbox::frame() {
   const FrameCosts::Timer timer(app_.costs, Part::frame);
   const double now = glfwGetTime();
   const double elapsed = app_.scripted ? scripted_frame : now - last_time_;
+  // Events carry the time at which they were polled, so two clicks of one gesture may be a frame apart.
+  app_.input.double_click_s = std::max(0.4, 1.5 * (now - last_time_));
   last_time_ = now;
   app_.ui.now = now;
   app_.steps_made = 0;
@@ -328,7 +330,10 @@ void Sandbox::remember() {
   Settings& settings = app_.settings;
   window_.remember(settings);
   settings.plot_log = app_.ui.plots.log;
-  settings.session = Session{app_.preset(), app_.document.saved, app_.document.label, app_.document.file};
+  // Who quit with unsaved changes has said that they may go; a session that was interrupted brings them back.
+  Preset last = app_.quit ? app_.document.saved : app_.preset();
+  last.mode = app_.preset().mode;
+  settings.session = Session{std::move(last), app_.document.saved, app_.document.label, app_.document.file};
   try {
     save_settings(settings);
   } catch (const OutputError& error) {

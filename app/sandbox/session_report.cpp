@@ -22,9 +22,12 @@ constexpr int samples = 5;  ///< rows and columns of particles that are told, co
 std::string plain(std::string_view name) {
   std::string out;
   for (const char letter : name) {
-    const bool kept = std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '[' || letter == ']';
-    if (kept) out += letter;
-    else if (!out.empty() && out.back() != '_') out += '_';
+    const bool kept =
+        std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '[' || letter == ']';
+    if (kept)
+      out += letter;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
   return out;
@@ -36,7 +39,9 @@ std::string place_of(const ImGuiWindow& window) {
   return name.rfind("##", 0) == 0 ? "menu" : name;
 }
 
-Json vector(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+Json vector(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
 
 /// Pixels in the window, or null behind the camera.
 Json on_screen(const App& app, const glm::dvec3& x) {
@@ -45,7 +50,9 @@ Json on_screen(const App& app, const glm::dvec3& x) {
   return {at->x + app.viewport.box.lo.x, at->y + app.viewport.box.lo.y};
 }
 
-Json site(const std::optional<Pins::Site>& site) { return site ? Json{site->i, site->j} : Json(nullptr); }
+Json site(const std::optional<Pins::Site>& site) {
+  return site ? Json{site->i, site->j} : Json(nullptr);
+}
 
 Json particle(const App& app, int i, int j) {
   const glm::dvec3 x = app.simulation->positions().at(i, j);
@@ -84,7 +91,7 @@ Json held(const App& app) {
 Json divergence(const App& app) {
   const auto& d = app.simulation->divergence();
   if (!d) return nullptr;
-  return {{"t", d->t},         {"step", d->step}, {"i", d->i}, {"j", d->j}, {"quantity", d->quantity},
+  return {{"t", d->t},         {"step", d->step},   {"i", d->i},          {"j", d->j}, {"quantity", d->quantity},
           {"value", d->value}, {"cause", d->cause}, {"remedy", d->remedy}};
 }
 
@@ -102,7 +109,8 @@ std::string_view name_of(Tool::Kind kind) {
 }
 
 std::string_view name_of(Dialog::Kind kind) {
-  static constexpr std::string_view names[] = {"none", "open", "save", "export_csv", "texture", "unsaved", "large_cloth"};
+  static constexpr std::string_view names[] = {"none",    "open",    "save",       "export_csv",
+                                               "texture", "unsaved", "large_cloth"};
   return names[std::size_t(kind)];
 }
 

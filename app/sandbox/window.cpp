@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/panels/imgui_compat.h"
 #include "app/viewport/graphics_error.h"
@@ -44,6 +45,7 @@ void on_button(GLFWwindow* window, int button, int action, int mods) {
   double x = 0, y = 0;
   glfwGetCursorPos(window, &x, &y);
   queue.at = {x, y};
+  if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) queue.note_left_press(glfwGetTime());
   const auto type = action == GLFW_PRESS ? PointerEvent::Type::press : PointerEvent::Type::release;
   queue.pointer.push_back({type, button, mods, queue.at, {0, 0}, glfwGetTime()});
 }
@@ -220,7 +222,7 @@ Image Window::pixels() const {
   return image;
 }
 
-Gui::Gui(GLFWwindow* window) {
+Gui::Gui(GLFWwindow* window) : window_(window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   gui::prepare_io(ImGui::GetIO());
@@ -235,9 +237,44 @@ Gui::~Gui() {
   ImGui::DestroyContext();
 }
 
-void Gui::begin_frame() {
+#if IMGUI_VERSION_NUM < 18700
+/// Before 1.87 Dear ImGui looks at the keyboard once a frame, and text fields miss what is shorter. So every press is
+/// shown for a frame; the same key again, or keys with other modifiers, in a later one.
+void Gui::show_short_presses(const InputQueue& input) {
+  ImGuiIO& io = ImGui::GetIO();
+  for (const KeyEvent& event : input.keys)
+    if (!event.repeat && event.key >= 0) waiting_.push_back(event);
+  const std::vector<int> before = std::move(shown_);
+  shown_.clear();
+  for (const int key : before) io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
+  const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
+  const auto has = [](const std::vector<int>& keys, int key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  std::optional<int> mods;
+  while (!waiting_.empty()) {
+    const KeyEvent event = waiting_.front();
+    const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;
+    const bool again = has(before, event.key) || has(shown_, event.key);
+    if (has(before, event.key)) io.KeysDown[event.key] = false;
+    if (again || (mods && !modifier && event.mods != mods)) break;
+    io.KeysDown[event.key] = true;
+    if (!modifier) mods = event.mods;
+    shown_.push_back(event.key);
+    waiting_.erase(waiting_.begin());
+  }
+  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) || (mods.value_or(0) & GLFW_MOD_CONTROL) != 0;
+  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) || (mods.value_or(0) & GLFW_MOD_SHIFT) != 0;
+  io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) || (mods.value_or(0) & GLFW_MOD_ALT) != 0;
+}
+#else
+void Gui::show_short_presses(const InputQueue&) {}
+#endif
+
+void Gui::begin_frame(const InputQueue& input) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  show_short_presses(input);
   ImGui::NewFrame();
 }
 

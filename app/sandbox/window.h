@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 
 #include <string>
+#include <vector>
 
 #include "app/sandbox/input.h"
 #include "app/sandbox/settings.h"
@@ -60,11 +61,19 @@ class Gui {
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
-  void begin_frame();
+  /// Shows it also the keys that went down and up since the last frame.
+  void begin_frame(const InputQueue& input);
   /// Ends the frame and draws it.
   void draw();
   /// The font atlas was filled anew.
   void fonts_changed();
+
+ private:
+  void show_short_presses(const InputQueue& input);
+
+  GLFWwindow* window_;
+  std::vector<KeyEvent> waiting_;  ///< presses that are to be shown
+  std::vector<int> shown_;         ///< keys shown as pressed in the last frame
 };
 
 }  // namespace tyglab

@@ -70,6 +70,7 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   row.of = which;
   row.repeats = repeats;
   std::vector<double> times;
+  times.reserve(std::size_t(repeats));
   for (int n = 0; n < repeats; ++n) times.push_back(seconds_of(simulation, steps) * 1e9 / steps / particles);
   std::sort(times.begin(), times.end());
   row.ns_per_particle_step = times[times.size() / 2];

@@ -8,7 +8,8 @@ import time
 
 from xclient import XClient
 
-PATIENCE = 120  # s until a condition counts as never met; far above what a loaded machine takes
+# s until a condition counts as never met; far above what a loaded machine takes.
+PATIENCE = float(os.environ.get("TYGLAB_GUI_PATIENCE", 120))
 LEFT, MIDDLE, RIGHT = 1, 2, 3
 
 
@@ -109,6 +110,13 @@ class Sandbox:
         self.press(button)
         self.release(button)
         self.later(2)
+
+    def click_the_end(self, name):
+        """Clicks a control after which the program ends; returns its exit code."""
+        self.move(*centre(self.control(name)))
+        self.press()
+        self.xdotool("mouseup", LEFT)
+        return self.ended()
 
     def double_click(self, x, y, button, done, what):
         """Double-clicks until the condition holds: a busy machine may come between the clicks, or merge them."""

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 
 from cases import case, check, main
@@ -132,24 +133,30 @@ def close_unsaved(stage):
     file = os.path.join(sandbox.config, "presets", "kept.json")
     sandbox.click_control("dialog.Save")
     save_as(sandbox, "Kept", file)
-    sandbox.click_control("dialog.Save")
-    check(sandbox.ended() == 0, "it ends once the preset is saved")
+    check(sandbox.click_the_end("dialog.Save") == 0, "it ends once the preset is saved")
     with open(file) as saved:
         check(json.load(saved)["forces"]["k_s"] == 66, "what was saved is on disk")
 
 
 @case
 def session(stage):
-    """the last session comes back: its preset with what was not saved, its window"""
+    """the last session comes back with its window: what was discarded does not, what Ctrl-C caught unsaved does"""
     sandbox = stage.start("curtain", size=(1100, 700))
+    k_s_saved = k_s(sandbox.report())
     sandbox.type_value("k_s", "44")
     sandbox.press_close_button()
-    sandbox.click_control("dialog.Discard_the_changes")
-    check(sandbox.ended() == 0, "it ends")
+    check(sandbox.click_the_end("dialog.Discard_the_changes") == 0, "it ends")
     again = stage.start(config=sandbox.config)
     report = again.report()
     check(report["label"] == "curtain", "curtain is back, not " + report["label"])
     check(report["window"] == [1100, 700], f"the window is as large as it was: {report['window']}")
+    check(k_s(report) == k_s_saved and not report["unsaved"], "what was discarded is gone")
+    again.type_value("k_s", "45")
+    again.process.send_signal(signal.SIGINT)
+    check(again.ended() == 130, "it ends")
+    third = stage.start(config=sandbox.config)
+    report = third.report()
+    check(k_s(report) == 45 and report["unsaved"], "what was not saved is back, and counts as unsaved")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The window: resized, closed, scaled; its borders dragged."""
 
 import json
+import signal
 
 from cases import case, check, main
 
@@ -93,7 +94,7 @@ def closing(stage):
 def interrupted(stage):
     """Ctrl-C in the terminal ends it cleanly with exit code 130"""
     sandbox = stage.start("hanging")
-    sandbox.process.send_signal(2)
+    sandbox.process.send_signal(signal.SIGINT)
     check(sandbox.ended() == 130, f"the exit code is {sandbox.process.returncode}")
     check(sandbox.report()["ended"], "the last report says that it ended")
 
