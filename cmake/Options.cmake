@@ -15,4 +15,7 @@ endif()
 if(TYGLAB_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)
+  # One instruction set: the sweep compiled for all of them takes minutes under the sanitizers, and the other builds run
+  # each set that the machine has.
+  add_compile_definitions(HWY_COMPILE_ONLY_STATIC)
 endif()

@@ -7,6 +7,7 @@
 
 #include "core/cloth/start.h"
 #include "core/forces/readout.h"
+#include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -222,11 +223,7 @@ void Simulation::diverge(const Advance& part) {
             : part.quantity == "distance from x_0" ? "the weight went more than 1000 times as far as it began"
                                                    : "a " + part.quantity + " is no longer a finite number";
   d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
-  const std::string stiffness = preset_.kind == Kind::cloth ? "k_s" : "k";
-  const std::string smaller = "a smaller dt (" + printed("%g s", preset_.dt / 4) + " or less)";
-  d.remedy = preset_.integrator == "verlet"
-                 ? "Take " + smaller + ", a smaller " + stiffness + " or heavier particles, and restart."
-                 : "Take the integrator verlet, " + smaller + " or a smaller " + stiffness + ", and restart.";
+  d.remedy = remedy(preset_);
   divergence_ = d;
 }
 

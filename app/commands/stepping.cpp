@@ -23,6 +23,7 @@ void Length::add_to(CLI::App& command, bool with_steps) {
 std::int64_t Length::in_steps(double dt, double default_seconds) const {
   if (steps) return *steps;
   const double count = seconds.value_or(default_seconds) / dt;
+  if (!(count >= 0)) throw UsageError("--seconds: must be a number");  // the parser lets nan pass
   if (count > 1e12) throw UsageError("--seconds: that many seconds are more than 1e12 steps of dt; ask for fewer");
   return std::llround(count);
 }

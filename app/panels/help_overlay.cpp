@@ -33,6 +33,7 @@ constexpr Entry keys[] = {
     {"Ctrl+O · Ctrl+S", "opens · saves a preset"},
     {"Ctrl+Shift+S", "saves it under another name"},
     {"Ctrl+Z · Ctrl+Shift+Z", "undoes · redoes a change of constants"},
+    {"Ctrl+R · Ctrl+Shift+R", "constants · everything back to the preset"},
     {"Ctrl++ · Ctrl+- · Ctrl+0", "larger, smaller, normal text"},
     {"Ctrl+Q", "quits"},
 };

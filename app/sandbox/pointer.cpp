@@ -12,8 +12,7 @@
 namespace tyglab {
 namespace {
 
-constexpr double hold_time = 0.35;  // s
-constexpr float click_slack = 4;                      // pixels at scale 1
+constexpr float click_slack = 4;  // pixels at scale 1
 
 using ToolKind = Tool::Kind;
 
@@ -89,7 +88,8 @@ void start_grab(App& app) {
 
 void pick_or_pin(App& app, const PointerEvent& event) {
   Tool& tool = app.tool;
-  const bool twice = tool.site && tool.last_site == tool.site && event.time - tool.last_click < app.input.double_click_s;
+  const bool twice =
+      tool.site && tool.last_site == tool.site && event.time - tool.last_click < app.input.double_click_s;
   if (twice) {
     const auto [i, j] = *tool.site;
     apply_edit(app, edit::Pin{i, j, !app.simulation->pinned(i, j)});
@@ -168,7 +168,9 @@ void move_body(App& app) {
 /// What a held tool does every frame, whether the pointer moved or not.
 void hold(App& app) {
   Tool& tool = app.tool;
-  if (tool.kind == ToolKind::right && tool.site && app.ui.now - tool.press_time > hold_time) start_grab(app);
+  // Held still for longer than a click takes.
+  if (tool.kind == ToolKind::right && tool.site && app.ui.now - tool.press_time > app.input.double_click_s)
+    start_grab(app);
   if (tool.kind == ToolKind::cut) cut(app);
   if (tool.kind == ToolKind::body) move_body(app);
   if (tool.kind != ToolKind::grab) return;

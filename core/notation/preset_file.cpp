@@ -17,6 +17,10 @@ constexpr std::uintmax_t max_file_size = 16u << 20;
 
 Preset load_preset(const std::filesystem::path& file) {
   std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw PresetError(file.string() + ": is a folder; name a preset file in it");
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw PresetError(file.string() + ": is not a file, so it cannot be read as a preset");
   if (!std::filesystem::is_regular_file(file, error))
     throw PresetError(file.string() + ": there is no such file; `tyglab presets` lists the shipped ones");
   if (const auto size = std::filesystem::file_size(file, error); error || size > max_file_size)

@@ -49,7 +49,8 @@ std::string value_problem(const Row<T>& row, const T& object) {
         } else if constexpr (std::is_same_v<Value, std::string>) {
           if (row.key == "integrator" && !is_integrator(value)) {
             const auto meant = nearest(value, integrator_names());
-            return "\"" + value + "\" is no integrator" + (meant ? "; did you mean " + std::string(*meant) + "?" : "") +
+            return "\"" + value + "\" is no integrator" +
+                   (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
                    " Known: " + listed(integrator_names());
           }
           return {};
@@ -107,6 +108,7 @@ class Reader {
     out = node.number;
   }
   void value(const JsonNode& node, const std::string& path, int& out) const {
+    if (node.type == Type::number) fail(node.line, path, "must be written as a whole number, like 32");
     if (node.type != Type::integer) wrong_type(node, path, "a whole number");
     out = int(std::clamp(node.number, -2147483648.0, 2147483647.0));
   }
@@ -213,6 +215,17 @@ bool is_text_key(const std::string& key) {
   return key == "name" || key == "description" || (row && std::holds_alternative<std::string Preset::*>(row->field));
 }
 
+/// A number as people type it: also .5 and 5.
+JsonNode setting_number(const std::string& key, const std::string& text, const Reader& reader) {
+  JsonNode node;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, node.number);
+  if (text.empty() || error != std::errc{} || stop != end)
+    reader.fail(0, key, "'" + text + "' is not a number; write it like 1.5 or 2e-3");
+  node.type = text.find_first_of(".eE") == std::string::npos ? Type::integer : Type::number;
+  return node;
+}
+
 /// Value of a --set: a bare word (integrator=euler, name=3 sheets), otherwise JSON.
 JsonNode setting_value(const std::string& key, const std::string& text, const Reader& reader,
                        const std::string& source) {
@@ -229,6 +242,8 @@ JsonNode setting_value(const std::string& key, const std::string& text, const Re
     node.text = text;
     return node;
   }
+  if (text.empty() || std::string_view("[{\"").find(text[0]) == std::string_view::npos)
+    return setting_number(key, text, reader);
   JsonNode node = parse_json(text, source);
   node.line = 0;
   for (JsonNode& item : node.items) item.line = 0;

@@ -52,7 +52,7 @@ def grab(stage):
 @case
 def release_force(stage):
     """the hand lets go by itself when its force exceeds F_release"""
-    sandbox = stage.start("hanging", "--set", "F_release=0.02")
+    sandbox = stage.start("hanging", "--set", "F_release=0.5")
     report = sandbox.wait(lambda r: r["t"] > 0.5, "the cloth to fall a little")
     i, j = middle(report)
     sandbox.key("space")
@@ -61,8 +61,10 @@ def release_force(stage):
     sandbox.move(x, y)
     sandbox.press(RIGHT)
     sandbox.move(x + 10, y)
-    sandbox.wait(lambda r: r["held"] is not None, "the particle to be held")
+    begun = sandbox.wait(lambda r: r["held"] is not None, "the particle to be held")["t"]
     sandbox.key("space")
+    report = sandbox.wait(lambda r: r["t"] > begun + 0.2, "the cloth to move")
+    check(report["held"] is not None, "a hand that rests feels less than F_release and holds on")
     sandbox.move(x + 150, y + 150)
     sandbox.wait(lambda r: r["held"] is None, "the hand to let go")
     sandbox.wait(lambda r: any("F_release" in m for m in r["messages"]), "it to be said")

@@ -130,7 +130,7 @@ TEST_CASE("no free particle is left inside by more than 8 ulp, whatever falls on
       for (const double e : {0.0, 0.4}) {
         CAPTURE(std::string(integrator));
         CAPTURE(e);
-        Preset preset = test::cloth(14, 14, integrator);
+        Preset preset = test::cloth(11, 11, integrator);
         preset.dt = 2e-4;
         preset.k_s = 5;  // Euler is stable here: dt < k_d/k_s
         preset.precision = precision;
@@ -142,8 +142,8 @@ TEST_CASE("no free particle is left inside by more than 8 ulp, whatever falls on
         for (Body& body : preset.bodies) body.friction = 0.3, body.restitution = e;
         Simulation simulation(preset);
         double worst = 0;
-        for (int step = 0; step < 800; ++step) {
-          simulation.advance(1);
+        for (int look = 0; look < 160; ++look) {
+          simulation.advance(5);
           worst = std::max(worst, worst_depth_in_ulp(simulation));
         }
         CHECK_FALSE(simulation.divergence().has_value());

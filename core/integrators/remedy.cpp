@@ -1,0 +1,44 @@
+#include "core/integrators/remedy.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace tyglab {
+namespace {
+
+constexpr double margin = 0.9;
+
+std::string seconds(double dt) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g s", dt);
+  return text;
+}
+
+}  // namespace
+
+double stable_dt(const Preset& p, const std::string& integrator) {
+  const bool weight = p.kind == Kind::one_weight;
+  const double stiffness = weight ? p.k : 12 * p.k_s + 8 * p.k_b;
+  const double damping = (weight ? 1 : 12) * p.k_d;
+  if (stiffness == 0) return 1;
+  if (integrator == "euler") return damping / stiffness;
+  if (integrator == "improved_euler") return 2 * damping / stiffness;
+  const double omega = std::sqrt(stiffness / p.m), xi = damping / p.m / (2 * omega);
+  return 2 / (std::sqrt(1 + xi * xi) + xi) / omega;  // = 2(√(1+ξ²) − ξ)/ω without its cancellation
+}
+
+std::string remedy(const Preset& p) {
+  const std::string stiffness = p.kind == Kind::cloth ? "k_s" : "k";
+  const double verlet_dt = margin * stable_dt(p, "verlet");
+  if (p.integrator == "verlet") {
+    if (p.dt <= verlet_dt) return "Take a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
+    return "Take dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
+  }
+  const std::string step = p.dt <= verlet_dt ? "" : " with dt = " + seconds(verlet_dt) + " or less";
+  const double own_dt = margin * stable_dt(p, p.integrator);
+  const std::string own = own_dt > 0 ? "this method itself needs dt below about " + seconds(own_dt)
+                                     : "without damping no dt makes this method stable";
+  return "Take the integrator verlet" + step + " and restart; " + own + ".";
+}
+
+}  // namespace tyglab
