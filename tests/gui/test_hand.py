@@ -52,7 +52,7 @@ def grab(stage):
 @case
 def release_force(stage):
     """the hand lets go by itself when its force exceeds F_release"""
-    sandbox = stage.start("hanging", "--set", "F_release=0.5")
+    sandbox = stage.start("hanging", "--set", "F_release=5")
     report = sandbox.wait(lambda r: r["t"] > 0.5, "the cloth to fall a little")
     i, j = middle(report)
     sandbox.key("space")
