@@ -123,7 +123,7 @@ void Sandbox::wait_for_events() {
   if (window_.iconified()) {
     glfwWaitEventsTimeout(0.5);
   } else if (idle()) {
-    glfwWaitEventsTimeout(0.25);  // a text cursor blinks, a message fades
+    glfwWaitEventsTimeout(app_.report ? 0.1 : 0.25);  // a text cursor blinks, a message fades, a report is due
   } else {
     glfwPollEvents();
   }

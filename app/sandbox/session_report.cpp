@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::chrono::milliseconds period{100};
+constexpr std::chrono::milliseconds period{90};
 constexpr int samples = 5;  ///< rows and columns of particles that are told, corners included
 
 /// "##name" is name, "Save as…" is Save_as.

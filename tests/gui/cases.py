@@ -1,6 +1,7 @@
 """Cases of a test file: each gets a fresh Stage; their results are printed, their screenshots kept."""
 
 import argparse
+import faulthandler
 import os
 import re
 import sys
@@ -10,6 +11,7 @@ import traceback
 from sandbox import Sandbox
 from screen import Screen
 
+CASE_LIMIT = 800  # s; a case that takes longer hangs, and says where
 _cases = []
 
 
@@ -51,6 +53,7 @@ class Stage:
 
 def run(function, tyglab, screen, shots, prefix):
     """Returns None, or what went wrong."""
+    faulthandler.dump_traceback_later(CASE_LIMIT, exit=True)
     stage = Stage(tyglab, screen, shots, f"{prefix}-{function.__name__}")
     try:
         function(stage)
@@ -61,6 +64,7 @@ def run(function, tyglab, screen, shots, prefix):
         return str(error) if isinstance(error, AssertionError) and str(error) else traceback.format_exc()
     finally:
         stage.close()
+        faulthandler.cancel_dump_traceback_later()
 
 
 def main():

@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 import time
 
+from screen import end_with_parent
 from xclient import XClient
 
 # s until a condition counts as never met; far above what a loaded machine takes.
@@ -36,13 +37,14 @@ class Sandbox:
         self.environment.pop("WAYLAND_DISPLAY", None)
         self.xdotool("mousemove", screen.width - 1, screen.height - 1)
         self.process = subprocess.Popen([tyglab, *arguments, "--session-report", self.report_file], stderr=self.errors,
-                                        env=self.environment, cwd=self.own.name)
+                                        env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
         self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
         self.window = int(self.xdotool("search", "--onlyvisible", "--name", "Tyglab").split()[0])
         self.xdotool("windowfocus", self.window)
 
     def xdotool(self, *arguments):
-        done = subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True)
+        done = subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, capture_output=True, text=True,
+                              timeout=PATIENCE)
         if done.returncode != 0:
             raise AssertionError(f"xdotool {' '.join(map(str, arguments))}: {done.stderr.strip()}")
         return done.stdout

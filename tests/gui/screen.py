@@ -1,12 +1,20 @@
 """A virtual screen (Xvfb) whose pixels can be read, and pictures kept as PNG. Python's standard library alone."""
 
+import ctypes
 import mmap
 import os
+import select
+import signal
 import struct
 import subprocess
 import tempfile
 import time
 import zlib
+
+
+def end_with_parent():
+    """For preexec_fn: the child is killed when this program ends, however it ends (prctl PR_SET_PDEATHSIG)."""
+    ctypes.CDLL(None).prctl(1, signal.SIGKILL)
 
 
 class Picture:
@@ -73,10 +81,12 @@ class Screen:
         reading, writing = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp", "-fbdir",
-             self.folder.name], pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+             self.folder.name], pass_fds=[writing], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            preexec_fn=end_with_parent)
         os.close(writing)
         with os.fdopen(reading) as pipe:
-            number = pipe.readline().strip()
+            ready, _, _ = select.select([pipe], [], [], 60)
+            number = pipe.readline().strip() if ready else ""
         if not number:
             raise RuntimeError("Xvfb did not start. Is the package xvfb installed?")
         self.display = ":" + number
@@ -109,6 +119,9 @@ class Screen:
         return last
 
     def close(self):
-        self.server.terminate()
+        self.server.kill()
         self.server.wait()
+        for leftover in (f"/tmp/.X{self.display[1:]}-lock", f"/tmp/.X11-unix/X{self.display[1:]}"):
+            if os.path.exists(leftover):
+                os.remove(leftover)
         self.folder.cleanup()

@@ -11,6 +11,7 @@ def padded(data):
 class XClient:
     def __init__(self, display):
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self.socket.settimeout(60)
         self.socket.connect("/tmp/.X11-unix/X" + display.lstrip(":"))
         self.socket.sendall(struct.pack("<BxHHHHxx", ord("l"), 11, 0, 0, 0))
         accepted, _, _, _, length = struct.unpack("<BBHHH", self.receive(8))
