@@ -8,6 +8,7 @@
 #include "app/commands/sandbox.h"
 
 int main(int argc, char** argv) {
+  tyglab::prepare_process();
   tyglab::Action action;
   CLI::App program(
       "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"

@@ -9,9 +9,6 @@ target_compile_options(tyglab_options INTERFACE -fno-math-errno -fno-trapping-ma
 # GCC warns falsely about std::string concatenation (its bug 105651, GCC 12) and about the members of a std::variant
 # that it does not hold (GCC 14).
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
-if(TYGLAB_WERROR)
-  target_compile_options(tyglab_options INTERFACE -Werror)
-endif()
 if(TYGLAB_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

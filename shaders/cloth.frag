@@ -18,7 +18,11 @@ void main() {
   vec2 pixel = fwidth(across);
   vec2 width = max(hem_width, 1.1 * pixel);
   vec2 inside = (min(across, 1.0 - across) - width) / pixel;
-  albedo = mix(mix(linear(hem), albedo, 0.34), albedo, clamp(min(inside.x, inside.y) + 0.5, 0.0, 1.0));
+  // The hem is darker than the cloth, but lighter than a cloth that is dark itself: it is there to be seen.
+  float whole = dot(linear(textureLod(cloth, vec2(0.5), 16.0).rgb), vec3(0.3, 0.6, 0.1));
+  float dark = 1.0 - smoothstep(0.03, 0.10, whole);
+  vec3 edge = mix(mix(linear(hem), albedo, 0.34), 1.6 * albedo + 0.10, dark);
+  albedo = mix(edge, albedo, clamp(min(inside.x, inside.y) + 0.5, 0.0, 1.0));
 
   float facing = dot(n, to_light.xyz);
   float lit = sunlight(position, facing < 0.0 ? -n : n, 1.6);
@@ -26,7 +30,7 @@ void main() {
   float diffuse = facing > 0.0 ? facing : -0.24 * facing;
   vec3 halfway = normalize(to_light.xyz + to_eye);
   float grazing = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
-  float sheen = 0.22 * grazing * grazing * grazing;
+  float sheen = (0.22 + 0.5 * dark) * grazing * grazing * grazing;
   float gloss = facing > 0.0 ? 0.05 * pow(clamp(dot(n, halfway), 0.0, 1.0), 14.0) : 0.0;
   vec3 light = ambient(n) * (1.1 - 0.5 * grazing) + key_light * (lit * diffuse);
   colour = vec4(display(exposed(albedo * light * (1.0 + sheen * 2.0) + sheen * 0.05 * sky_light + gloss * lit)), 1.0);

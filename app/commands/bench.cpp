@@ -1,16 +1,18 @@
 #include "app/commands/bench.h"
 
-#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/interrupt.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/throughput.h"
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 
 namespace tyglab {
 namespace {
@@ -22,6 +24,8 @@ struct BenchOptions {
   int repeats = 9;
   int threads = 0;  ///< 0: as many as there are processors
   std::string json;
+
+  std::vector<Output> outputs() const { return {{"--json", json}}; }
 };
 
 Json row_json(const ThroughputRow& row) {
@@ -43,25 +47,27 @@ Json row_json(const ThroughputRow& row) {
           {"bytes_per_particle", row.bytes_per_particle}};
 }
 
-void print_row(const ThroughputRow& row) {
+void print_row(std::ostream& out, const ThroughputRow& row) {
   const Preset& p = row.of.preset;
-  std::printf("%4d x %-4d  %-6s  %-14s  %7d  %8.2f  %7.2f  %7.2f  %6.2f  %6.1f  %s\n", p.rows, p.columns,
-              std::string(name_of(p.precision)).c_str(), p.integrator.c_str(), row.threads_used,
-              row.ns_per_particle_step, row.register_limit_ns, row.memory_limit_ns,
-              row.ns_per_particle_step / row.register_limit_ns, row.bytes_per_particle, row.of.variant.c_str());
-  std::fflush(stdout);
+  std::array<char, 256> line;
+  std::snprintf(line.data(), line.size(), "%4d x %-4d  %-6s  %-14s  %7d  %8.2f  %7.2f  %7.2f  %6.2f  %6.1f  %s\n",
+                p.rows, p.columns, std::string(name_of(p.precision)).c_str(), p.integrator.c_str(), row.threads_used,
+                row.ns_per_particle_step, row.register_limit_ns, row.memory_limit_ns,
+                row.ns_per_particle_step / row.register_limit_ns, row.bytes_per_particle, row.of.variant.c_str());
+  out << line.data() << std::flush;
+  flush_standard_output();  // which sees now, not after all rows, that nobody gets them
 }
 
 int throughput(const BenchOptions& options) {
-  require_writable(options.json);
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
   const Machine machine = this_machine();
   const int threads = options.threads > 0 ? options.threads : machine.cores;
-  std::printf(
-      "%s, %d cores, %s; tyglab %s, %s\nns per particle and step: the median of %d runs, and the limits of this "
-      "machine measured beside it\n\n"
-      "      cloth  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n",
-      machine.processor.c_str(), machine.cores, machine.instruction_set.c_str(), TYGLAB_VERSION,
-      build_description().c_str(), options.repeats);
+  out << machine.processor << ", " << counted(machine.cores, "core") << ", " << machine.instruction_set
+      << "; tyglab " TYGLAB_VERSION ", " << build_description() << "\nns per particle and step: the median of "
+      << counted(options.repeats, "run") << ", and the limits of this machine measured beside it\n\n"
+      << "      cloth  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n"
+      << std::flush;
   Json rows = Json::array();
   const auto cases = throughput_cases(options.quick, threads);
   InterruptGuard guard;
@@ -70,7 +76,7 @@ int throughput(const BenchOptions& options) {
     if (InterruptGuard::interrupted()) break;
     const ThroughputRow row = measure_throughput(which, options.repeats);
     progress.clear();
-    print_row(row);
+    print_row(out, row);
     rows.push_back(row_json(row));
     progress.update(double(rows.size()) / double(cases.size()));
   }
@@ -82,9 +88,12 @@ int throughput(const BenchOptions& options) {
         {"version", TYGLAB_VERSION},
         {"build", build_description()},
         {"runs", rows}};
-    write_atomically(options.json, all.dump(2) + "\n");
+    write_output(options.json, all.dump(2) + "\n");
   }
-  return InterruptGuard::interrupted() ? exit_interrupted : exit_done;
+  if (!InterruptGuard::interrupted()) return exit_done;
+  progress.clear();
+  std::cerr << "tyglab: Interrupted; the figures measured so far are whole.\n";
+  return exit_interrupted;
 }
 
 }  // namespace
@@ -97,13 +106,16 @@ void add_bench_command(CLI::App& program, Action& action) {
       "throughput", "Time for one particle and step, for sizes, integrators, precisions, threads and features");
   const auto options = std::make_shared<BenchOptions>();
   command->add_flag("--quick", options->quick, "Fewer sizes; under a minute");
-  command->add_option("--repeats", options->repeats, "Runs of which the median is taken, at least 9 to be quoted")
+  command
+      ->add_option("--repeats", options->repeats,
+                   "Runs of which the median is taken (9 if it is not given; fewer should not be quoted)")
       ->type_name("N")
-      ->check(between(1, 1000));
+      ->transform(whole_number_between(1, 1000));
   command->add_option("--threads", options->threads, "Threads beside one; otherwise all processors")
       ->type_name("N")
-      ->check(between(1, 256));
-  command->add_option("--json", options->json, "Write the figures for programs")->type_name("F.json");
+      ->transform(whole_number_between(1, 256));
+  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
+      ->type_name("F.json");
   command->footer("Example: tyglab bench throughput --json throughput.json");
   command->callback([&action, options] { action = [options] { return throughput(*options); }; });
 }

@@ -1,21 +1,58 @@
 #include "app/commands/command_line.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
-#include <filesystem>
+#include <charconv>
+#include <cmath>
+#include <csignal>
 #include <iostream>
 #include <new>
+#include <optional>
 
+#include "app/commands/interrupt.h"
 #include "app/data_files.h"
 #include "app/viewport/graphics_error.h"
 #include "core/engines/engine.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/words.h"
+#include "core/output/destination.h"
 
 namespace tyglab {
-namespace fs = std::filesystem;
+namespace {
+
+/// The number that the whole text is.
+std::optional<double> number_in(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (text.empty() || stop != end || error != std::errc{}) return {};
+  return value;
+}
+
+/// Why a number is refused; empty if it lies within.
+std::string range_problem(double value, double lowest, double highest, const std::string& unit) {
+  if (value >= lowest && value <= highest) return {};
+  return shortest_number(value) + " is not allowed; allowed: " + shortest_number(lowest) + " to " +
+         shortest_number(highest) + (unit.empty() ? "" : " " + unit);
+}
+
+}  // namespace
+
+void prepare_process() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
+  // reading alone, so that what is written to it fails and is told.
+  int descriptor = 0;
+  do {
+    descriptor = ::open("/dev/null", O_RDONLY);
+  } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO) ::close(descriptor);
+}
 
 int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error) {
-  return program.exit(error) == 0 ? exit_done : exit_command_line;
+  if (program.exit(error) != 0) return exit_command_line;
+  return run_action([] { return int(exit_done); });  // which sees that the help has arrived
 }
 
 int run_action(const Action& action) {
@@ -24,8 +61,9 @@ int run_action(const Action& action) {
     return code;
   };
   try {
+    const InterruptExit until_the_work_begins;
     const int code = action();
-    if (!std::cout.flush()) throw OutputError("standard output cannot be written");
+    flush_standard_output();
     return code;
   } catch (const UsageError& error) {
     return say(error.what(), exit_command_line);
@@ -46,15 +84,33 @@ int run_action(const Action& action) {
   }
 }
 
-void require_writable(const std::string& file) {
-  std::error_code error;
-  const fs::path path(file);
-  if (fs::is_directory(path, error)) throw OutputError(file + ": is a folder; name a file in it");
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error))
-    throw OutputError(file + ": the folder " + folder.string() + " is not there; make it first (mkdir -p)");
-  if (::access(folder.c_str(), W_OK) != 0)
-    throw OutputError(file + ": nothing may be written in " + folder.string() + "; choose another folder");
+std::string counted(std::int64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+CLI::Validator number_between(double lowest, double highest, const std::string& unit) {
+  const auto check = [=](std::string& text) -> std::string {
+    const auto value = number_in(text);
+    if (!value) return "'" + text + "' is not a number; write it like 1.5 or 2e-3";
+    return range_problem(*value, lowest, highest, unit);
+  };
+  return {check, ""};
+}
+
+CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest) {
+  const auto check = [=](std::string& text) -> std::string {
+    const auto value = number_in(text);
+    if (!value || (std::isfinite(*value) && *value != std::floor(*value)))
+      return "'" + text + "' is not a whole number; write it like 100 or 1e6";
+    if (auto problem = range_problem(*value, double(lowest), double(highest), ""); !problem.empty()) return problem;
+    text = std::to_string(static_cast<std::int64_t>(*value));
+    return {};
+  };
+  return {check, ""};
+}
+
+CLI::Validator not_empty() {
+  return {[](std::string& text) { return text.empty() ? std::string("must not be empty") : std::string(); }, ""};
 }
 
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -29,18 +30,23 @@ class UsageError : public std::runtime_error {
 /// What the command line picked: does the work and returns the exit code.
 using Action = std::function<int()>;
 
+/// Gives streams that were closed (>&-) to nothing, so that no file that is opened later takes their place; makes
+/// writing beyond a limit (ulimit -f) an error that is told instead of the process's end.
+void prepare_process();
 /// Ends the program's parsing: prints help (0) or what is wrong with the command line (2).
 int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error);
 /// Does the work; an error becomes a sentence on stderr and its exit code.
 int run_action(const Action& action);
 
-/// A check of a number's range that leaves the help text as it is.
-template <class T>
-CLI::Validator between(T lowest, T highest) {
-  return CLI::Range(lowest, highest).description("");
-}
+/// "1 step", "2 steps".
+std::string counted(std::int64_t count, const std::string& noun);
 
-/// Throws OutputError unless a file of that name can be made: before hours of work, not after.
-void require_writable(const std::string& file);
+/// Checks that an option's text is a number in that range, ends included, and says so in people's words: "0 to 1e9 s".
+/// Given to CLI::Option::transform, since it also rewrites whole numbers for the parser, which would read 010 as 8 and
+/// not read 1e6 at all.
+CLI::Validator number_between(double lowest, double highest, const std::string& unit = {});
+CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest);
+/// Checks that an option's text is not empty, as it is where a script's variable was never set.
+CLI::Validator not_empty();
 
 }  // namespace tyglab

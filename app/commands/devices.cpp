@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -14,6 +15,7 @@
 #include "core/engines/engine.h"
 #include "core/engines/opencl_devices.h"
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 
 namespace tyglab {
 namespace {
@@ -61,21 +63,31 @@ void print_opencl(const std::string& probe) {
               << ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.\n";
 }
 
-/// Runs `work` in a process of its own: a driver that aborts takes its process along. Returns the signal that ended it,
-/// or 0.
-int in_child(const std::function<void()>& work) {
-  std::cout.flush();
-  const pid_t child = ::fork();
-  if (child <= 0) {
-    work();
-    std::cout.flush();
-    if (child == 0) ::_exit(0);
-    return 0;
+/// What happens in the child: never returns. Only the parent speaks of Ctrl-C, which reaches both.
+[[noreturn]] void work_and_exit(const std::function<void()>& work) noexcept {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  work();
+  try {
+    flush_standard_output();
+  } catch (const OutputError&) {
+    ::_exit(exit_output);
   }
+  ::_exit(exit_done);
+}
+
+/// Runs `work` in a process of its own: a driver that aborts takes its process along. Returns the signal that ended it,
+/// or 0. Throws OutputError if what it had to say did not arrive.
+int in_child(const std::function<void()>& work) {
+  flush_standard_output();
+  const pid_t child = ::fork();
+  if (child < 0) return work(), 0;
+  if (child == 0) work_and_exit(work);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (WIFSIGNALED(status)) return WTERMSIG(status);
+  if (WEXITSTATUS(status) == exit_output) throw OutputError("standard output: not all of the list could be written");
+  return 0;
 }
 
 int devices() {

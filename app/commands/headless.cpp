@@ -8,6 +8,7 @@
 #include "app/commands/stepping.h"
 #include "app/sandbox/frame_costs.h"
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 #include "core/output/obj.h"
 #include "core/output/state_csv.h"
 
@@ -15,10 +16,21 @@ namespace tyglab {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* folder = "tyglab-out";
 constexpr double default_seconds = 4;
 constexpr double frames_a_second = 60;  // of the window that is not there
 constexpr int pictures = 5;             // the first at the start, the last at the end
+
+/// Makes the first of tyglab-out, tyglab-out-2, … that is not there yet.
+fs::path new_folder() {
+  fs::path folder = "tyglab-out";
+  std::error_code error;
+  for (int n = 2; !fs::create_directory(folder, error); ++n) {
+    if (!fs::exists(fs::symlink_status(folder)))
+      throw OutputError(folder.string() + ": the folder cannot be made: " + error.message());
+    folder = "tyglab-out-" + std::to_string(n);
+  }
+  return folder;
+}
 
 void write_state(Simulation& simulation, const fs::path& file) {
   write_state_csv(file, simulation.lattice(), simulation.read_raw(),
@@ -27,16 +39,15 @@ void write_state(Simulation& simulation, const fs::path& file) {
 
 }  // namespace
 
-int run_headless(const SandboxOptions& options) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw OutputError(std::string(folder) + ": the folder cannot be made: " + error.message());
-
+int run_headless(const SandboxOptions& options, std::ostream& out) {
   const double seconds = options.frames > 0 ? options.frames / frames_a_second : default_seconds;
   const std::int64_t steps = Length{seconds, {}}.in_steps(options.preset.dt, seconds);
   const PictureSize size;
-  Simulation simulation(options.preset);
+  Simulation simulation(options.preset, options.threads);
   Film film(options.preset, 0, size);
+  const fs::path folder = new_folder();
+  std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
+            << options.preset_label << "' into the new folder " << folder.string() << ".\n";
   const InterruptGuard guard;
   Stepper stepper(simulation, steps, options.preset_label);
   FrameCosts costs;
@@ -51,25 +62,27 @@ int run_headless(const SandboxOptions& options) {
       costs.add_steps(simulation.steps() - before);
     }
     const FrameCosts::Timer draw(costs, Part::draw_cloth);
-    const fs::path file = fs::path(folder) / frame_name(options.preset_label, k, pictures, "png");
+    const fs::path file = folder / frame_name(options.preset_label, k, pictures, "png");
     film.shoot(simulation, file);
-    std::cout << "Wrote " << file.string() << " (t = " << simulation.time() << " s)." << std::endl;
+    out << "Wrote " << file.string() << " (t = " << simulation.time() << " s)." << std::endl;
   }
-  const fs::path state = fs::path(folder) / (options.preset_label + ".csv");
+  const fs::path state = folder / (options.preset_label + ".csv");
   write_state(simulation, state);
-  std::cout << "Wrote " << state.string() << ", the last state." << std::endl;
+  out << "Wrote " << state.string() << ", the last state." << std::endl;
   if (!options.screenshot.empty()) {
     film.shoot(simulation, options.screenshot);
-    std::cout << "Wrote " << options.screenshot.string() << '.' << std::endl;
+    out << "Wrote " << output_name(options.screenshot) << '.' << std::endl;
   }
   if (!options.time_report.empty()) {
-    write_atomically(options.time_report,
-                     costs.json(size.width, size.height, simulation.engine().name(), options.preset_label));
-    std::cout << "Wrote " << options.time_report.string() << '.' << std::endl;
+    write_output(options.time_report,
+                 costs.json(size.width, size.height, simulation.engine().name(), options.preset_label));
+    out << "Wrote " << output_name(options.time_report) << '.' << std::endl;
   }
   if (simulation.divergence())
     std::cerr << "tyglab: " << options.preset_label << ' ' << divergence_text(*simulation.divergence()) << '\n';
-  return stepper.interrupted() ? exit_interrupted : exit_done;
+  if (!stepper.interrupted()) return exit_done;
+  std::cerr << "tyglab: Interrupted; the files named above are whole.\n";
+  return exit_interrupted;
 }
 
 }  // namespace tyglab

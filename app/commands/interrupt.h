@@ -1,22 +1,40 @@
-// Ctrl-C ends long work cleanly.
+// Ctrl-C ends the program with a sentence: at once while there is nothing to keep, cleanly during long work.
 #pragma once
 
 #include <csignal>
 
 namespace tyglab {
 
+/// What SIGINT and SIGTERM do while one lives; afterwards they do what they did before.
+class SignalHandler {
+ public:
+  explicit SignalHandler(void (*handler)(int));
+  ~SignalHandler();
+  SignalHandler(const SignalHandler&) = delete;
+  SignalHandler& operator=(const SignalHandler&) = delete;
+
+ private:
+  struct sigaction old_int_, old_term_;
+};
+
+/// While one lives, Ctrl-C (or SIGTERM) says so and ends the program at once with exit code 130.
+class InterruptExit {
+ public:
+  InterruptExit();
+
+ private:
+  SignalHandler handler_;
+};
+
 /// While one lives, the first Ctrl-C (or SIGTERM) is noted instead of ending the program; the second ends it at once.
 class InterruptGuard {
  public:
   InterruptGuard();
-  ~InterruptGuard();
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   static bool interrupted();
 
  private:
-  struct sigaction old_int_, old_term_;
+  SignalHandler handler_;
 };
 
 }  // namespace tyglab

@@ -32,9 +32,18 @@ PresetSource find_preset(const std::string& name_or_file) {
   throw PresetError(problem + " `tyglab presets` lists the shipped ones.");
 }
 
+void warn_of_missing_texture(const Preset& preset) {
+  const fs::path picture = texture_file(preset.texture);
+  std::error_code error;
+  if (!fs::exists(picture, error))
+    std::cerr << "tyglab: view.texture: there is no picture '" << preset.texture
+              << "', so the cloth would be drawn without one; check the name and the folder.\n";
+}
+
 void PresetArgument::add_to(CLI::App& command, bool required) {
   command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
-      ->required(required);
+      ->required(required)
+      ->check(not_empty());
   command
       .add_option("--set", settings,
                   "Set a constant by the key of the preset file: --set k_s=500 --set \"W=[0,0,0.02]\"\n"
@@ -43,25 +52,31 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command.add_option("--integrator", integrator, "Numerical method: euler, improved_euler, verlet")->type_name("NAME");
-  command.add_option("--dt", dt, "Time step, s")->type_name("S");
+  command.add_option("--integrator", integrator, "Numerical method: euler, improved_euler, verlet")
+      ->type_name("NAME")
+      ->check(not_empty());
+  command.add_option("--dt", dt, "Time step, s")->type_name("S")->check(not_empty());
   command
       .add_option("--engine", engine,
                   "Where it runs: cpu, or opencl (this version finds OpenCL devices but does not step on them yet)")
-      ->type_name("cpu|opencl");
-  command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")->type_name("float|double");
+      ->type_name("cpu|opencl")
+      ->check(not_empty());
+  command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")
+      ->type_name("float|double")
+      ->check(not_empty());
   command
       .add_option("--threads", threads,
                   "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay. "
                   "The result is the same to the last bit")
       ->type_name("N")
-      ->check(between(1, 256));
+      ->transform(whole_number_between(1, 256));
 }
 
-std::vector<std::string> PresetArgument::all_settings() const {
-  std::vector<std::string> all = settings;
-  const auto add = [&](const char* key, const std::string& value) {
-    if (!value.empty()) all.push_back(std::string(key) + "=" + value);
+std::vector<Setting> PresetArgument::all_settings() const {
+  std::vector<Setting> all;
+  for (const std::string& text : settings) all.push_back(parse_setting(text));
+  const auto add = [&](const std::string& key, const std::string& value) {
+    if (!value.empty()) all.push_back({"--" + key + " " + value, key, value});
   };
   add("integrator", integrator);
   add("dt", dt);
@@ -71,7 +86,8 @@ std::vector<std::string> PresetArgument::all_settings() const {
 }
 
 bool PresetArgument::typed() const {
-  return !preset.empty() || !all_settings().empty();
+  const auto typed = {&preset, &integrator, &dt, &engine, &precision};
+  return !settings.empty() || std::any_of(typed.begin(), typed.end(), [](auto* text) { return !text->empty(); });
 }
 
 ResolvedPreset PresetArgument::resolve(const std::string& fallback) const {
@@ -79,7 +95,7 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback) const {
   resolved.source = find_preset(preset.empty() ? fallback : preset);
   resolved.preset = load_preset(resolved.source.file);
   try {
-    resolved.preset = with_settings(resolved.preset, all_settings());
+    resolved.preset = with_parsed_settings(resolved.preset, all_settings());
   } catch (const PresetError& error) {
     throw UsageError(error.what());
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/notation/preset.h"
+#include "core/notation/preset_io.h"
 
 namespace tyglab {
 
@@ -28,6 +29,9 @@ struct ResolvedPreset {
   int threads = 1;  ///< at most, of the CPU engine
 };
 
+/// Says in a line on stderr if the picture that the preset names is not there: who does not draw it would not notice.
+void warn_of_missing_texture(const Preset& preset);
+
 /// PRESET, --set, --integrator, --dt, --engine, --precision and --threads as typed.
 struct PresetArgument {
   std::string preset;
@@ -44,7 +48,7 @@ struct PresetArgument {
   bool typed() const;
 
  private:
-  std::vector<std::string> all_settings() const;
+  std::vector<Setting> all_settings() const;
 };
 
 }  // namespace tyglab

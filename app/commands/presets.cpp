@@ -30,6 +30,7 @@ int show(const std::string& name) {
 
 int check(const std::string& file) {
   const Preset preset = load_preset(file);
+  warn_of_missing_texture(preset);
   std::cout << file << " is a valid preset: " << preset.name << ", "
             << (preset.kind == Kind::one_weight
                     ? std::string("one weight")

@@ -7,9 +7,10 @@
 
 #include "app/commands/film.h"
 #include "app/commands/interrupt.h"
+#include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/stepping.h"
-#include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 #include "core/output/obj.h"
 
 namespace tyglab {
@@ -25,6 +26,9 @@ struct RenderOptions {
   std::string size = "1280x720";
   std::string png;
   std::optional<double> fps;
+
+  /// Where it names one picture.
+  std::vector<Output> outputs() const { return {{"--png", png, true}}; }
 };
 
 /// "1280x720". Throws UsageError.
@@ -43,6 +47,7 @@ PictureSize parse_size(const std::string& text) {
 
 /// Whether --png names a folder for a sequence, rather than one picture.
 bool wants_sequence(const RenderOptions& options) {
+  if (is_standard_output(options.png) && !options.fps) return false;
   const fs::path path(options.png);
   std::error_code error;
   const bool picture = path.extension() == ".png" && !fs::is_directory(path, error);
@@ -62,11 +67,9 @@ int render(const RenderOptions& options) {
   const bool sequence = wants_sequence(options);
   const FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);
   if (sequence) {
-    std::error_code error;
-    fs::create_directories(options.png, error);
-    if (error) throw OutputError(options.png + ": the folder cannot be made: " + error.message());
+    make_output_folder("--png", options.png);
   } else {
-    require_writable(options.png);
+    check_outputs(options.outputs(), scene.source.file);
   }
 
   Simulation simulation(scene.preset, scene.threads);
@@ -84,9 +87,10 @@ int render(const RenderOptions& options) {
     film.shoot(simulation, options.png);
   }
 
-  std::cout << label << ": t = " << simulation.time() << " s. Wrote " << options.png;
-  if (sequence) std::cout << " (" << frame << " pictures, " << plan.fps() << " to a second)";
-  std::cout << '.' << std::endl;
+  std::ostream& out = people(options.outputs());
+  out << label << ": t = " << simulation.time() << " s. Wrote " << output_name(options.png);
+  if (sequence) out << " (" << counted(frame, "picture") << ", " << plan.fps() << " to a second)";
+  out << '.' << std::endl;
   if (simulation.divergence()) {
     std::cerr << "tyglab: " << label << ' ' << divergence_text(*simulation.divergence()) << '\n';
     return exit_diverged;
@@ -108,14 +112,15 @@ void add_render_command(CLI::App& program, Action& action) {
                    "1 textured triangles, 2 connections, 3 both where torn, 4 outlines, 5 points;\n"
                    "the preset's own if it is not given")
       ->type_name("1..5")
-      ->check(between(1, 5));
+      ->transform(whole_number_between(1, 5));
   command->add_option("--size", options->size, "Size in pixels (1280x720 if it is not given)")->type_name("WxH");
-  command->add_option("--png", options->png, "The picture, or a folder for a sequence: DIR/PRESET_0000.png, …")
+  add_output(*command, "--png", options->png,
+             "The picture (- is standard output), or a folder for a sequence: DIR/PRESET_0000.png, …")
       ->type_name("F.png|DIR")
       ->required();
   command->add_option("--fps", options->fps, "A sequence with that many pictures per second of simulated time")
       ->type_name("F")
-      ->check(between(1e-6, 1e7));
+      ->transform(number_between(1e-6, 1e7, "frames per second"));
   command->footer(
       "Examples: tyglab render flag --seconds 3 --view 1 --size 1920x1080 --png flag.png\n"
       "          tyglab render denim --seconds 4 --png frames --fps 25");

@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/interrupt.h"
+#include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/stepping.h"
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 #include "core/output/obj.h"
 #include "core/output/point_cache.h"
 #include "core/output/series_csv.h"
@@ -28,6 +30,11 @@ struct RunOptions {
   std::string state, series, obj, pc2, json;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
+
+  /// All but --obj, which names a folder.
+  std::vector<Output> outputs() const {
+    return {{"--state", state}, {"--series", series}, {"--pc2", pc2, true}, {"--json", json}};
+  }
 };
 
 /// The files of a run. Each is right as far as it goes, however the run ends.
@@ -35,15 +42,12 @@ class Outputs {
  public:
   Outputs(const RunOptions& options, const ResolvedPreset& scene, std::int64_t steps)
       : options_(options), scene_(scene), plan_(options.fps, scene.preset.dt, steps) {
-    for (const std::string& file : {options.state, options.series, options.pc2})
-      if (!file.empty()) require_writable(file);
-    if (!options.json.empty() && options.json != "-") require_writable(options.json);
+    check_combination();
+    check_outputs(options.outputs(), scene.source.file);
     if (options.obj.empty()) return;
     if (scene.preset.kind == Kind::one_weight)
       throw UsageError("--obj writes cloth, and " + scene.source.label + " is one weight; --series writes its motion");
-    std::error_code error;
-    fs::create_directories(options.obj, error);
-    if (error) throw OutputError(options.obj + ": the folder cannot be made: " + error.message());
+    make_output_folder("--obj", options.obj);
   }
 
   /// Opens what is written as the run goes.
@@ -83,6 +87,7 @@ class Outputs {
   /// The state as the run ended. Returns what was written: kind, path, and frames where there are several.
   Json finish(Simulation& simulation) {
     Json files = Json::array();
+    if (cache_) cache_->finish();
     if (!options_.state.empty()) {
       write_state_csv(options_.state, simulation.lattice(), simulation.read_raw(),
                       {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
@@ -95,7 +100,15 @@ class Outputs {
   }
 
  private:
-  bool wants_frames() const { return cache_ || !options_.obj.empty(); }
+  /// An option that would do nothing is a mistake of whoever typed it.
+  void check_combination() const {
+    if (options_.series_every && options_.series.empty())
+      throw UsageError("--series-every: says how often --series writes a row; name its file with --series F.csv");
+    const bool rows_by_fps = !options_.series.empty() && !options_.series_every;
+    if (options_.fps && !wants_frames() && !rows_by_fps)
+      throw UsageError("--fps: counts the frames of --obj, --pc2 and --series (without --series-every); name one");
+  }
+  bool wants_frames() const { return !options_.obj.empty() || !options_.pc2.empty(); }
   std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
 
   const RunOptions& options_;
@@ -149,20 +162,22 @@ std::string number(double value, int digits) {
 /// The closing sentence.
 std::string closing(const Json& summary, const std::string& hint) {
   const std::string label = summary["preset"];
-  std::string text = label + ": " + std::to_string(summary["steps"].get<std::int64_t>()) +
-                     " steps to t = " + number(summary["t"], 6) + " s, computed in " + number(summary["seconds"], 3) +
-                     " s (" + number(summary["ns_per_particle_step"], 3) + " ns per particle and step).";
+  std::string text = label + ": " + counted(summary["steps"], "step") + " to t = " + number(summary["t"], 6) +
+                     " s, computed in " + number(summary["seconds"], 3) + " s (" +
+                     number(summary["ns_per_particle_step"], 3) + " ns per particle and step).";
   std::string files;
   for (const Json& file : summary["files"]) {
     if (!files.empty()) files += ", ";
-    files += file["path"].get<std::string>();
-    if (file.contains("frames")) files += " (" + std::to_string(file["frames"].get<std::int64_t>()) + " frames)";
+    const std::string path = file["path"];
+    files += output_name(path);
+    if (file.contains("frames")) files += " (" + counted(file["frames"], "frame") + ")";
   }
   return text + (files.empty() ? hint : " Wrote " + files + ".");
 }
 
 int run(const RunOptions& options) {
   const ResolvedPreset scene = options.preset.resolve();
+  warn_of_missing_texture(scene.preset);
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   Outputs outputs(options, scene, steps);
   Simulation simulation(scene.preset, scene.threads);
@@ -187,17 +202,17 @@ int run(const RunOptions& options) {
                                                     : "done",
                             wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
                             outputs.finish(simulation));
-  if (!options.json.empty() && options.json != "-") write_atomically(options.json, told.dump(2) + "\n");
-  if (options.json == "-") std::cout << told.dump(2) << std::endl;
+  if (!options.json.empty()) write_output(options.json, told.dump(2) + "\n");
 
-  std::ostream& out = options.json == "-" ? std::cerr : std::cout;
-  out << closing(told, options.json.empty() ? " Nothing was written: --state, --series, --obj, --pc2 name files." : "")
-      << std::endl;
+  people(options.outputs()) << closing(told, options.json.empty()
+                                                 ? " Nothing was written: --state, --series, --obj, --pc2 name files."
+                                                 : "")
+                            << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
   if (simulation.left_inside() > 0)
-    std::cerr << "tyglab: " << simulation.left_inside()
-              << " particles were left inside a body, since bodies overlap; move them apart.\n";
+    std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
+              << " left inside a body, since bodies overlap; move them apart.\n";
   if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written is whole as far as it goes.\n";
   return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
 }
@@ -209,24 +224,24 @@ void add_run_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("run", "Simulate without a window and write files");
   options->preset.add_to(*command, true);
   options->length.add_to(*command, true);
-  command->add_option("--state", options->state, "Write the last state: i,j,x,y,z,vx,vy,vz of every particle (CSV)")
+  add_output(*command, "--state", options->state, "Write the last state: i,j,x,y,z,vx,vy,vz of every particle (CSV)")
       ->type_name("F.csv");
-  command
-      ->add_option("--series", options->series,
-                   "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"
-                   "units stand in the header. A row per frame of --fps")
+  add_output(*command, "--series", options->series,
+             "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"
+             "units stand in the header. A row per frame of --fps")
       ->type_name("F.csv");
   command->add_option("--series-every", options->series_every, "A row every N steps instead")
       ->type_name("N")
-      ->check(between(std::int64_t{1}, std::int64_t{1'000'000'000'000}));
-  command->add_option("--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
-  command->add_option("--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
+      ->transform(whole_number_between(1, 1'000'000'000'000));
+  add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
+  add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
   command->add_option("--fps", options->fps, "Frames per second of simulated time (25 if it is not given)")
       ->type_name("F")
-      ->check(between(1e-6, 1e7));
-  command->add_option("--json", options->json, "Write a summary for programs; - is standard output")->type_name("F");
+      ->transform(number_between(1e-6, 1e7, "frames per second"));
+  add_output(*command, "--json", options->json, "Write a summary for programs")->type_name("F.json");
   command->footer(
       "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"
+      "- in place of F is standard output; what is said to people then goes to stderr.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 wrong preset, 4 diverged, 5 no such engine, 6 not writable, "
       "130 interrupted.");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

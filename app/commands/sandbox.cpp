@@ -8,8 +8,10 @@
 #include <memory>
 
 #include "app/commands/headless.h"
+#include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/sandbox/sandbox.h"
+#include "core/output/destination.h"
 
 namespace tyglab {
 namespace {
@@ -20,6 +22,10 @@ struct Options {
   PresetArgument preset;
   int frames = 0;
   std::string screenshot, time_report, session_report;
+
+  std::vector<Output> outputs() const {
+    return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
+  }
 };
 
 /// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
@@ -29,25 +35,28 @@ bool has_display() {
 }
 
 int open_sandbox(const Options& options) {
-  for (const std::string& file : {options.screenshot, options.time_report, options.session_report})
-    if (!file.empty()) require_writable(file);
+  if (!options.screenshot.empty() && options.frames == 0)
+    throw UsageError("--screenshot: writes the last frame; say with --frames N which one that is");
+  if (is_standard_output(options.session_report))
+    throw UsageError("--session-report -: the report is rewritten all the time; name a file");
   const ResolvedPreset scene = options.preset.resolve(default_preset);
+  const std::vector<Output> outputs = options.outputs();
+  check_outputs(outputs, scene.source.file);
   SandboxOptions sandbox;
   sandbox.preset = scene.preset;
   sandbox.preset_label = scene.source.label;
   if (scene.source.file.parent_path() != find_preset(default_preset).file.parent_path())
     sandbox.preset_path = scene.source.file;
   sandbox.explicit_preset = options.preset.typed();
+  sandbox.threads = scene.threads;
   sandbox.frames = options.frames;
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;
   sandbox.session_report = options.session_report;
   if (has_display()) return run_sandbox(sandbox);
-  std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
-            << scene.source.label << "' into the folder tyglab-out.\n";
   if (!options.session_report.empty())
     std::cerr << "--session-report tells what goes on in a window, so it is not written.\n";
-  return run_headless(sandbox);
+  return run_headless(sandbox, people(outputs));
 }
 
 }  // namespace
@@ -57,13 +66,13 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   options->preset.add_to(program, false);
   program.add_option("--frames", options->frames, "End after N frames")
       ->type_name("N")
-      ->check(between(1, 1'000'000'000));
-  program.add_option("--screenshot", options->screenshot, "Write the last frame as a picture")->type_name("F.png");
-  program.add_option("--time-report", options->time_report, "Write what a frame costs, by part, as JSON")
+      ->transform(whole_number_between(1, 1'000'000'000));
+  add_output(program, "--screenshot", options->screenshot, "Write the last of --frames as a picture")
+      ->type_name("F.png");
+  add_output(program, "--time-report", options->time_report, "Write what a frame costs, by part, as JSON")
       ->type_name("F.json");
-  program
-      .add_option("--session-report", options->session_report,
-                  "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
+  add_output(program, "--session-report", options->session_report,
+             "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
       ->type_name("F.json");
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {

@@ -12,18 +12,17 @@ namespace tyglab {
 
 void Length::add_to(CLI::App& command, bool with_steps) {
   CLI::Option* by_time = command.add_option("--seconds", seconds, "Simulated time, s (4 if it is not given)");
-  by_time->type_name("T")->check(between(0.0, 1e9));
+  by_time->type_name("T")->transform(number_between(0, 1e9, "s"));
   if (with_steps)
     command.add_option("--steps", steps, "Number of steps, instead of a time")
         ->type_name("N")
-        ->check(between(std::int64_t{0}, std::int64_t{1'000'000'000'000}))
+        ->transform(whole_number_between(0, 1'000'000'000'000))
         ->excludes(by_time);
 }
 
 std::int64_t Length::in_steps(double dt, double default_seconds) const {
   if (steps) return *steps;
   const double count = seconds.value_or(default_seconds) / dt;
-  if (!(count >= 0)) throw UsageError("--seconds: must be a number");  // the parser lets nan pass
   if (count > 1e12) throw UsageError("--seconds: that many seconds are more than 1e12 steps of dt; ask for fewer");
   return std::llround(count);
 }

@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <vector>
 
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "core/integrators/remedy.h"
 
 namespace tyglab {
 namespace {
@@ -43,6 +46,55 @@ std::string sentence(std::string text) {
   return text;
 }
 
+/// A way out of a divergence: a button of the banner.
+struct Way {
+  std::string label, tip;
+  const char* keys;
+  std::function<void(App&)> go;
+};
+
+std::string cure_label(const Preset& now, const Preset& cured) {
+  std::string label = cured.integrator == now.integrator ? "" : "Verlet";
+  if (cured.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + short_number(cured.dt) + " s");
+  return label + " and restart";
+}
+
+/// What is offered, the most helpful first: to take back what the user did, to do what the linear theory advises.
+std::vector<Way> ways_out(const App& app) {
+  std::vector<Way> ways;
+  if (app.history.can_undo())
+    ways.push_back({"Undo last change and restart", "Takes the last change of constants back", "Ctrl+Z, then R",
+                    [](App& a) { a.command(Command::undo_and_restart); }});
+  if (const auto cured = cure(app.preset()))
+    ways.push_back({cure_label(app.preset(), *cured), "Makes the change that the linear theory advises", "",
+                    [cured](App& a) { a.propose(*cured), a.command(Command::restart); }});
+  ways.push_back(
+      {"Restart", "From the start, with the constants as they are", "R", [](App& a) { a.command(Command::restart); }});
+  return ways;
+}
+
+/// Places the buttons from the left, in as many lines as they need; returns where each begins, relative to the first.
+std::vector<ImVec2> flow(App& app, const std::vector<Way>& ways, float width) {
+  const float gap = app.theme.px(8), line = app.theme.px(30) + gap;
+  std::vector<ImVec2> places;
+  ImVec2 at{0, 0};
+  for (const Way& way : ways) {
+    const float button = text_width(*app.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
+    if (at.x > 0 && at.x + button > width) at = {0, at.y + line};
+    places.push_back(at);
+    at.x += button + gap;
+  }
+  return places;
+}
+
+void way_buttons(App& app, const std::vector<Way>& ways, const std::vector<ImVec2>& places, ImVec2 lo) {
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    ImGui::SetCursorScreenPos({lo.x + places[k].x, lo.y + places[k].y});
+    if (text_button(app, ways[k].label.c_str(), k == 0)) ways[k].go(app);
+    tooltip(app, gui::item_id(), ways[k].tip, ways[k].keys);
+  }
+}
+
 }  // namespace
 
 void banner(App& app) {
@@ -50,12 +102,14 @@ void banner(App& app) {
   if (!divergence) return;
   const Tokens& c = app.theme.colors;
   const glm::vec2 size = app.viewport.size();
-  const float width = std::min(app.theme.px(560), size.x - app.theme.px(32)), padding = app.theme.px(16);
+  const float width = std::min(app.theme.px(600), size.x - app.theme.px(32)), padding = app.theme.px(16);
   const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
   const std::string happened = what_happened(*divergence),
                     why = sentence(divergence->cause) + " " + sentence(divergence->remedy);
-  const float gap = app.theme.px(6), buttons = app.theme.px(30);
+  const std::vector<Way> ways = ways_out(app);
+  const std::vector<ImVec2> places = flow(app, ways, inner);
+  const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);
   const float happened_height = wrapped_height(text, happened, inner), why_height = wrapped_height(text, why, inner);
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
@@ -74,13 +128,7 @@ void banner(App& app) {
   y += happened_height + gap;
   draw_wrapped(draw, text, {x, y}, c.quiet, why, inner);
   y += why_height + app.theme.px(12);
-  ImGui::SetCursorScreenPos({x, y});
-  if (text_button(app, "Restart", !app.history.can_undo())) app.command(Command::restart);
-  tooltip(app, gui::item_id(), "From the start, with the constants as they are", "R");
-  if (app.history.can_undo()) {
-    ImGui::SameLine();
-    if (text_button(app, "Undo last change and restart", true)) app.command(Command::undo_and_restart);
-  }
+  way_buttons(app, ways, places, {x, y});
   cover_viewport(app, lo, hi);
 }
 
@@ -107,10 +155,14 @@ void message_list(App& app) {
     draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
               icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
     draw_wrapped(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text, inner);
-    ImGui::SetCursorScreenPos({hi.x - close - app.theme.px(6), lo.y + app.theme.px(7)});
+    ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(int(k));
-    if (quiet_button(app, "dismiss", icon::close, "x", "Dismiss")) dismissed = k;
+    if (ImGui::InvisibleButton("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;
+    report_control(app, "dismiss");
+    tooltip(app, gui::item_id(), "Click to dismiss");
     ImGui::PopID();
+    draw_text(draw, font, {hi.x - close, lo.y + app.theme.px(10)}, ImGui::IsItemHovered() ? c.text : c.quiet,
+              icon_or(app.fonts, icon::close, "x"));
     cover_viewport(app, lo, hi);
     y = hi.y + app.theme.px(8);
   }

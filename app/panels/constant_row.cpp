@@ -254,11 +254,12 @@ void labelled_row(App& app, const char* label, const std::function<void(float)>&
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = app.ui.row_width;
   draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
-                   {lo.x, baseline_at(app.fonts, lo.y + app.theme.px(14))}, app.theme.colors.quiet, label);
+                   {lo.x, baseline_at(app.fonts, lo.y + app.theme.px(15))}, app.theme.colors.quiet, label);
   ImGui::SetCursorScreenPos({lo.x + columns.symbol, lo.y});
   content(width - columns.symbol);
-  const float bottom = std::max(ImGui::GetCursorScreenPos().y, lo.y + app.theme.px(30));
-  ImGui::SetCursorScreenPos({lo.x, bottom});
+  // A control that is drawn last on the line ends it; whatever its height, the next row keeps clear of it.
+  const float bottom = std::max(ImGui::GetItemRectMax().y, lo.y + app.theme.px(30));
+  ImGui::SetCursorScreenPos({lo.x, bottom + app.theme.px(4)});
 }
 
 }  // namespace tyglab

@@ -106,10 +106,8 @@ void scale_resolution(App& app, double q) {
 void resolution_row(App& app) {
   static constexpr const char* tip =
       "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, "
-      "L/q, "
-      "F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. Tears "
-      "are "
-      "mended.";
+      "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
+      "Tears are mended.";
   labelled_row(app, "divide", [&](float) {
     const Preset& preset = app.preset();
     const float gap = app.theme.px(6);
@@ -124,9 +122,9 @@ void resolution_row(App& app) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     char text[64];
     std::snprintf(text, sizeof text, "%d particles", preset.rows * preset.columns);
-    draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {at.x, at.y + app.theme.px(8)}, app.theme.colors.quiet,
-              text);
-    ImGui::Dummy({1, app.theme.px(30)});
+    draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
+                     {at.x, baseline_at(app.fonts, at.y + app.theme.px(15))}, app.theme.colors.quiet, text);
+    ImGui::Dummy({text_width(*app.fonts.small, text), app.theme.px(30)});
   });
 }
 
@@ -186,13 +184,30 @@ void constants_sections(App& app) {
   }
 }
 
+/// Height of eight rows of constants with the heads of their sections: less is too little of the list.
+float least_list(const App& app) {
+  return app.theme.px(372);
+}
+
+/// What goes on below the lower edge of the list fades out there instead of being cut through.
+void fade_lower_edge(App& app) {
+  if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1) return;
+  const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const ImVec2 hi{lo.x + size.x - ImGui::GetStyle().ScrollbarSize, lo.y + size.y};
+  const ImU32 solid = app.theme.colors.panel, clear = faded(solid, 0);
+  const float begin = hi.y - app.theme.px(34), full = hi.y - app.theme.px(6);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilledMultiColor({lo.x, begin}, {hi.x, full}, clear, clear, solid, solid);
+  draw.AddRectFilled({lo.x, full}, hi, solid);
+}
+
 void constants_panel(App& app, const Region& region) {
   const float padding = app.theme.px(16);
   if (!begin_region("constants", region, app.theme.colors.panel, {padding, app.theme.px(6)})) return end_region();
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(2)));
   // The picked particle stays in sight below the rows; where the window is too low it scrolls with them.
   const float particle = particle_panel_height(app);
-  const bool fixed = ImGui::GetContentRegionAvail().y - particle > app.theme.px(200);
+  const bool fixed = ImGui::GetContentRegionAvail().y - particle > least_list(app);
   const float below = fixed ? particle : 0;
   // The scrollbar stands in the margin, so that rows are as wide as the particle's read-outs below.
   const ImVec2 room = ImGui::GetContentRegionAvail();
@@ -202,6 +217,7 @@ void constants_panel(App& app, const Region& region) {
   view_section(app);
   if (!fixed) particle_panel(app);
   ImGui::Dummy({0, app.theme.px(4)});
+  fade_lower_edge(app);
   ImGui::EndChild();
   if (fixed) particle_panel(app);
   ImGui::PopStyleVar();

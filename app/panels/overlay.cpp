@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "app/panels/curves.h"
 #include "app/panels/panels.h"
@@ -34,7 +35,8 @@ void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, floa
   draw.AddCircle(at, app.theme.px(radius), color, 32, app.theme.scale * width);
 }
 
-void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view key) {
+/// `labels`: the middles of those drawn before.
+void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view key, std::vector<ImVec2>& labels) {
   const CurveStyle style = curve_style(app.theme.colors, key);
   const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
   if (length < app.theme.px(10)) return;
@@ -48,13 +50,19 @@ void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view 
   draw.AddTriangleFilled(to, {neck.x - uy * head * 0.5f, neck.y + ux * head * 0.5f},
                          {neck.x + uy * head * 0.5f, neck.y - ux * head * 0.5f}, style.color);
   if (length < app.theme.px(24)) return;
-  const float width = symbol_width(app.fonts, key), away = app.theme.px(16), high = app.theme.px(9),
-              pad = app.theme.px(4);
-  const ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
-  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high},
-                     {middle.x + width / 2 + pad, middle.y + high + pad / 2}, faded(app.theme.colors.ground, 0.85f),
-                     app.theme.px(5));
-  draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, key, style.color);
+  const float width = symbol_width(app.fonts, key), away = app.theme.px(18), high = app.theme.px(12),
+              pad = app.theme.px(7);
+  ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
+  // Labels of arrows that point the same way make room for each other, farther out.
+  const auto covered = [&](ImVec2 other) {
+    return std::abs(other.x - middle.x) < width + 2 * pad && std::abs(other.y - middle.y) < 2 * high + 1;
+  };
+  while (std::any_of(labels.begin(), labels.end(), covered)) middle.x += ux, middle.y += uy;
+  middle = {std::round(middle.x), std::round(middle.y)};
+  labels.push_back(middle);
+  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high}, {middle.x + width / 2 + pad, middle.y + high},
+                     faded(app.theme.colors.ground, 0.88f), app.theme.px(6));
+  draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, key, app.theme.colors.text);
 }
 
 /// F_s, F_b, F_d, F_g to one scale: the longest takes about 90 pixels. The scale moves slowly, so that growth is seen.
@@ -72,11 +80,12 @@ void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   scale = far ? longest : scale + follow * (longest - scale);
   const double depth = glm::dot(r.x - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
   const double metres_per_pixel = 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y;
+  std::vector<ImVec2> labels;
   for (const auto& [key, force] : forces) {
     const double pixels = std::min(glm::length(force) / scale, 1.6) * app.theme.px(90);
     if (pixels < 1) continue;
     if (const auto to = on_screen(app, r.x + glm::normalize(force) * pixels * metres_per_pixel))
-      arrow(app, draw, from, *to, key);
+      arrow(app, draw, from, *to, key, labels);
   }
 }
 
@@ -84,7 +93,7 @@ void picked(App& app, ImDrawList& draw) {
   if (!app.picked || app.preset().kind != Kind::cloth) return;
   const auto at = particle_on_screen(app, *app.picked);
   if (!at) return;
-  if (app.ui.force_arrows) force_arrows(app, draw, *at);
+  if (app.ui.force_arrows && !app.simulation->divergence()) force_arrows(app, draw, *at);
   ring(app, draw, *at, 7, app.theme.colors.text, 2);
 }
 

@@ -48,14 +48,29 @@ void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dve
 }
 
 float line_height(const App& app) {
-  return app.theme.px(22);
+  return app.theme.px(20);
 }
 
-/// Symbol with the sample of its curve, magnitude, unit.
-void force_cell(App& app, std::string_view key, const ParticleReadout* readout, float width) {
+/// Where numbers end, from the left of the panel: one grid for forces (two to a line) and motion (three to a line).
+struct Grid {
+  float first_end, middle_end, last_end;  ///< of numbers; units stand behind them
+  float second_start;                     ///< of the right force
+};
+
+Grid grid(const App& app) {
+  const float newton = app.theme.px(18), gap = app.theme.px(12);
+  const float last = app.ui.row_width - app.theme.px(34), first = std::floor((last - newton - gap) / 2);
+  return {first, std::floor((first + last) / 2), last, first + newton + gap};
+}
+
+constexpr float sample_length = 20, symbol_at = 26;  // at scale 1
+
+/// Symbol with the sample of its curve, magnitude, unit. The number ends `end` after the cell's left edge.
+void force_cell(App& app, std::string_view key, const ParticleReadout* readout, float end) {
   const Tokens& c = app.theme.colors;
   const Variable& what = variable(key);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = end + app.theme.px(18);
   const float height = line_height(app), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
   ImGui::InvisibleButton("variable", {width, height});
@@ -63,15 +78,14 @@ void force_cell(App& app, std::string_view key, const ParticleReadout* readout, 
   variable_tooltip(app, gui::item_id(), what, value);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(24), middle}};
+  const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(sample_length), middle}};
   draw_styled_line(draw, sample, 2, curve_style(c, key), app.theme.scale);
-  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(31), baseline_at(app.fonts, middle)}, what.symbol, c.text);
-  const float unit = app.theme.px(18);
+  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)}, what.symbol, c.text);
   const std::string text = readout != nullptr ? steady_number(glm::length(value)) : "–";
   const ImFont& mono = *app.fonts.mono;
   const float baseline = baseline_at(app.fonts, middle);
-  draw_on_baseline(draw, mono, {lo.x + width - unit - text_width(mono, text), baseline}, c.text, text);
-  draw_on_baseline(draw, *app.fonts.small, {lo.x + width - unit + app.theme.px(5), baseline}, c.quiet, what.unit);
+  draw_on_baseline(draw, mono, {lo.x + end - text_width(mono, text), baseline}, c.text, text);
+  draw_on_baseline(draw, *app.fonts.small, {lo.x + end + app.theme.px(5), baseline}, c.quiet, what.unit);
 }
 
 /// Symbol, three components, unit.
@@ -86,16 +100,16 @@ void motion_line(App& app, std::string_view key, const ParticleReadout* readout)
   variable_tooltip(app, gui::item_id(), what, value);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(31), baseline_at(app.fonts, middle)}, what.symbol, c.text);
+  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)}, what.symbol, c.text);
   const ImFont& mono = *app.fonts.mono;
-  const float baseline = baseline_at(app.fonts, middle), unit = app.theme.px(34), first = app.theme.px(48),
-              column = (width - unit - first) / 3;
+  const float baseline = baseline_at(app.fonts, middle);
+  const Grid columns = grid(app);
+  const float ends[3] = {columns.first_end, columns.middle_end, columns.last_end};
   for (int k = 0; k < 3; ++k) {
     const std::string text = readout != nullptr ? steady_number(value[k]) : "–";
-    const float end = lo.x + first + float(k + 1) * column;
-    draw_on_baseline(draw, mono, {end - text_width(mono, text), baseline}, c.text, text);
+    draw_on_baseline(draw, mono, {lo.x + ends[k] - text_width(mono, text), baseline}, c.text, text);
   }
-  draw_on_baseline(draw, *app.fonts.small, {lo.x + width - unit + app.theme.px(5), baseline}, c.quiet, what.unit);
+  draw_on_baseline(draw, *app.fonts.small, {lo.x + columns.last_end + app.theme.px(5), baseline}, c.quiet, what.unit);
 }
 
 constexpr const char* head = "Picked particle";
@@ -120,7 +134,7 @@ void particle_panel(App& app) {
   }
   if (app.preset().kind == Kind::one_weight) std::snprintf(where, sizeof where, "the weight");
   const ImFont& small = *app.fonts.small;
-  const float width = app.ui.row_width, x = lo.x + app.theme.px(118);
+  const float x = lo.x + app.theme.px(118);
   const float y = lo.y + app.theme.px(4) + std::round((app.theme.px(22) - small.FontSize) / 2);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float end = x + text_width(small, where) + app.theme.px(8);
@@ -130,10 +144,12 @@ void particle_panel(App& app) {
   ParticleReadout readout;
   const ParticleReadout* shown = nullptr;
   if (app.picked) readout = app.simulation->particle(app.picked->i, app.picked->j), shown = &readout;
-  const float gap = app.theme.px(20), cell = std::floor((width - gap) / 2);
+  const Grid columns = grid(app);
   for (std::size_t k = 0; k < forces.size(); ++k) {
-    force_cell(app, forces[k], shown, cell);
-    if (k % 2 == 0 && k + 1 < forces.size()) ImGui::SameLine(0, gap);
+    const bool right = k % 2 == 1;
+    if (right)
+      ImGui::SameLine(0, 0), ImGui::SetCursorScreenPos({lo.x + columns.second_start, ImGui::GetCursorScreenPos().y});
+    force_cell(app, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end);
   }
   for (std::string_view key : motion) motion_line(app, key, shown);
 }

@@ -46,9 +46,15 @@ const char* why_empty(const App& app) {
   return app.pacing.playing ? "Waiting for the first step" : "Press Space to run";
 }
 
+/// The simulated time that a plot shows, s: what the wheel has set, or else as little as holds the curve, up to ten.
+double window_for(const Plots& plots, double length) {
+  if (plots.window_s) return *plots.window_s;
+  return length <= 2 ? 2 : length <= 5 ? 5 : 10;
+}
+
 PlotFrame frame_of(App& app, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
-  const double window = app.ui.plots.window_s;
   const double now = series.empty() ? app.simulation->time() : series.t().back();
+  const double window = window_for(app.ui.plots, series.empty() ? 0 : now - series.t().front());
   const double end = std::max(now, window);
   return {.x_min = end - window, .x_max = end, .log = log, .from_zero = true, .unit = unit, .when_empty = when_empty};
 }
@@ -84,8 +90,8 @@ float legend(App& app, const Region& place, bool measure) {
   return y + line - place.at.y;
 }
 
-void zoom_time(App& app, float wheel) {
-  if (wheel != 0) app.ui.plots.window_s = std::clamp(app.ui.plots.window_s * std::pow(0.8, wheel), 0.1, 120.0);
+void zoom_time(App& app, const PlotFrame& frame, float wheel) {
+  if (wheel != 0) app.ui.plots.window_s = std::clamp((frame.x_max - frame.x_min) * std::pow(0.8, wheel), 0.1, 120.0);
 }
 
 void force_controls(App& app, const Region& inner) {
@@ -147,7 +153,7 @@ void force_card(App& app, float height) {
   const PlotFrame frame =
       frame_of(app, plots.forces, plots.log, "N", no_particle ? "Right-click a particle to pick it" : why_empty(app));
   if (plot_height > app.theme.px(24))
-    zoom_time(app, draw_plot(app, "plot", {inner.size.x, plot_height}, plots.forces.t(), curves, frame));
+    zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, plot_height}, plots.forces.t(), curves, frame));
   legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
 }
 
@@ -169,7 +175,8 @@ void height_card(App& app, float height) {
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   PlotFrame frame = frame_of(app, plots.height, false, "m", why_empty(app));
   frame.from_zero = false;
-  zoom_time(app, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, plots.height.t(), {&curve, 1}, frame));
+  zoom_time(app, frame,
+            draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, plots.height.t(), {&curve, 1}, frame));
 }
 
 }  // namespace
@@ -187,8 +194,10 @@ void plots_panel(App& app, const Region& region) {
     if (const int k = segments(app, "cards", names, 2, plots.tab); k >= 0) plots.tab = k;
     available -= app.theme.px(26) + ImGui::GetStyle().ItemSpacing.y;
   }
-  const float most = app.theme.px(420);
-  const float height = tabs ? available : std::min(most, (available - gap * float(cards - 1)) / float(cards));
+  // One card alone does not need the whole column: a plot much taller than wide is hard to read.
+  const float height = tabs         ? available
+                       : cards == 1 ? std::max(0.6f * available, std::min(available, app.theme.px(420)))
+                                    : (available - gap * float(cards - 1)) / float(cards);
   plots.height_shown = weight && (!tabs || plots.tab == 0);
   plots.forces_shown = !weight || !tabs || plots.tab == 1;
   if (plots.height_shown) height_card(app, std::floor(height));

@@ -35,11 +35,14 @@ void status_bar(App& app, const Region& region) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImFont& font = *app.fonts.small;
   const float y = std::round(region.at.y + (region.size.y - font.FontSize) / 2), margin = app.theme.px(16);
-  char facts[96] = "";
+  char facts[128] = "";
   const Lattice& lattice = app.simulation->lattice();
   if (app.preset().kind == Kind::cloth) {
     const int torn = app.simulation->tears().torn_count();
-    const int n = std::snprintf(facts, sizeof facts, "%d × %d particles", lattice.rows, lattice.columns);
+    int n = std::snprintf(facts, sizeof facts, "%d × %d particles", lattice.rows, lattice.columns);
+    if (app.view.every > 1)
+      n += std::snprintf(facts + n, sizeof facts - std::size_t(n), ", one in %d × %d drawn", app.view.every,
+                         app.view.every);
     if (torn > 0) std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d springs torn", torn);
   } else {
     std::snprintf(facts, sizeof facts, "one weight");
@@ -54,7 +57,7 @@ void status_bar(App& app, const Region& region) {
            {"Left drag", "cuts"},
            {"Middle drag", "orbits"},
            {"Right click", "picks"},
-           {"twice", "pins"},
+           {"Right double-click", "pins"},
            {"Wheel", "zooms"},
            {"F", "frames"},
            {"F1", "help"}});

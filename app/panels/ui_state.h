@@ -39,8 +39,8 @@ struct Plots {
   Source source = Source::particle;
   bool paused = false;
   bool log = false;
-  double window_s = 4;  ///< simulated time shown
-  int tab = 0;          ///< the card shown where only one has room
+  std::optional<double> window_s;  ///< simulated time shown, once the wheel has set it; until then it grows
+  int tab = 0;                     ///< the card shown where only one has room
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
   Series height{1};

@@ -34,6 +34,7 @@ struct Document {
 
 struct App {
   std::unique_ptr<Simulation> simulation;
+  int threads = 1;  ///< of the CPU engine, at most
   Document document;
   History history;
   Pacing pacing;

@@ -42,11 +42,11 @@ void begin(App& app) {
 
 void make_simulation(App& app, const Preset& preset) {
   try {
-    app.simulation = std::make_unique<Simulation>(preset);
+    app.simulation = std::make_unique<Simulation>(preset, app.threads);
   } catch (const EngineError& error) {
     if (preset.engine == EngineKind::cpu) throw;
     say_fallback(app, error.what());
-    app.simulation = std::make_unique<Simulation>(on_cpu(preset));
+    app.simulation = std::make_unique<Simulation>(on_cpu(preset), app.threads);
   }
 }
 

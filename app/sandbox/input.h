@@ -33,7 +33,8 @@ struct InputQueue {
   int mods = 0;
   bool scale_changed = false;   ///< the window went to a monitor with another content scale
   bool anything = false;        ///< an event of any kind arrived
-  bool double_click = false;    ///< the left button went down for the second time at the same place
+  bool double_click = false;    ///< the left button went down for the second time at the same place, just now
+  int double_click_frames = 0;  ///< for how many frames more that counts: Dear ImGui may show a press some frames late
   double double_click_s = 0.4;  ///< longest time between its presses; longer where frames are slow
   double last_press = -1;       ///< s, of the left button
   glm::vec2 last_press_at{0};
@@ -42,14 +43,15 @@ struct InputQueue {
   void note_left_press(double time) {
     const bool second =
         time - last_press < double_click_s && std::hypot(at.x - last_press_at.x, at.y - last_press_at.y) < 6;
-    double_click |= second;
+    if (second) double_click = true, double_click_frames = 3;
     last_press = second ? -1 : time;
     last_press_at = at;
   }
 
   void clear() {
     keys.clear(), pointer.clear(), dropped.clear();
-    scale_changed = anything = double_click = false;
+    scale_changed = anything = false;
+    double_click = double_click_frames > 0 && --double_click_frames > 0;
   }
 };
 

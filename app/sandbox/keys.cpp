@@ -69,6 +69,10 @@ std::optional<int> digit(const KeyEvent& event) {
 bool typing_takes(App& app, const KeyEvent& event) {
   SliderState& slider = app.ui.slider;
   if (slider.typing == 0 && !ImGui::GetIO().WantTextInput) return false;
+  if (event.key == GLFW_KEY_Q && (event.mods & counted) == control) {
+    slider.cancel = true;  // a number half typed is no change that could be lost
+    return false;
+  }
   if (slider.typing != 0) {
     slider.commit |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER || event.key == GLFW_KEY_TAB;
     slider.cancel |= event.key == GLFW_KEY_ESCAPE;

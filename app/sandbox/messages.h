@@ -20,7 +20,7 @@ class Messages {
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }
 
-  /// Drops what has been shown long enough (errors stay longer).
+  /// Drops what has been shown long enough: notes after 4 s, warnings and errors after 8 s.
   void age(double now) {
     for (Message& m : list_)
       if (m.born < 0) m.born = now;
@@ -30,7 +30,7 @@ class Messages {
   const std::vector<Message>& list() const { return list_; }
 
  private:
-  static double lifetime(Message::Severity severity) { return severity == Message::Severity::note ? 5 : 20; }
+  static double lifetime(Message::Severity severity) { return severity == Message::Severity::note ? 4 : 8; }
   void add(Message::Severity severity, std::string text) {
     if (severity != Message::Severity::note) std::fprintf(stderr, "tyglab: %s\n", text.c_str());
     std::erase_if(list_, [&](const Message& m) { return m.text == text; });

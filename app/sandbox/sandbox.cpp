@@ -11,8 +11,10 @@
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
 #include "app/sandbox/window.h"
+#include "app/viewport/drawn_cloth.h"
 #include "app/viewport/graphics_error.h"
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 
 namespace tyglab {
 namespace {
@@ -21,6 +23,7 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double gesture_end = 0.6;          // s without a change
+constexpr double calm_stretch = 5;           // rest lengths; what is longer is not drawn of a diverged cloth
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
 
 class Sandbox {
@@ -64,7 +67,17 @@ Settings settings_for(const SandboxOptions& options, App& app) {
   std::string problem;
   if (options.frames > 0) return {};
   Settings settings = load_settings(problem);
-  if (!problem.empty()) app.messages.warning(problem);
+  if (!problem.empty()) {
+    app.messages.warning(problem);
+    return settings;
+  }
+  try {
+    save_settings(settings);  // now, while there is somebody to read that it does not work
+  } catch (const OutputError& error) {
+    app.messages.warning(std::string(error.what()) +
+                         ". This session's settings will not be remembered. Make the folder writable, or name another "
+                         "one in TYGLAB_CONFIG_DIR.");
+  }
   return settings;
 }
 
@@ -72,6 +85,7 @@ Settings settings_for(const SandboxOptions& options, App& app) {
 App start_app(const SandboxOptions& options) {
   App app;
   app.scripted = options.frames > 0;
+  app.threads = options.threads;
   app.settings = settings_for(options, app);
   // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
   if (app.scripted) app.settings.width = 2560, app.settings.height = 1440;
@@ -213,6 +227,8 @@ void Sandbox::draw_cloth() {
   app_.view.mode = app_.preset().mode;
   app_.view.line_width = app_.theme.scale * 1.6f;
   app_.view.point_size = app_.theme.scale * 9;
+  app_.view.longest_edge = app_.simulation->divergence() ? float(calm_stretch * app_.preset().L) : 0.f;
+  app_.view.every = drawn_every(app_.simulation->lattice(), size.x, size.y);
   const bool same = app_.simulation->revision() == drawn_revision_ && app_.camera == drawn_camera_ &&
                     app_.view == drawn_view_ && size == drawn_size_ && !app_.redraw_cloth;
   if (same) return;
@@ -314,8 +330,8 @@ int Sandbox::write_outputs() {
     if (!options_.screenshot.empty() && !last_picture_.rgb.empty()) write_png(options_.screenshot, last_picture_);
     if (!options_.time_report.empty()) {
       const glm::ivec2 size = window_.framebuffer_size();
-      write_atomically(options_.time_report,
-                       app_.costs.json(size.x, size.y, app_.simulation->engine().name(), app_.document.label));
+      write_output(options_.time_report,
+                   app_.costs.json(size.x, size.y, app_.simulation->engine().name(), app_.document.label));
     }
     if (app_.report) app_.report->finish(app_);
   } catch (const OutputError& error) {
@@ -337,7 +353,7 @@ void Sandbox::remember() {
   try {
     save_settings(settings);
   } catch (const OutputError& error) {
-    std::fprintf(stderr, "tyglab: %s The settings of this session are not remembered.\n", error.what());
+    std::fprintf(stderr, "tyglab: %s. The settings of this session are not remembered.\n", error.what());
   }
 }
 

@@ -1,6 +1,6 @@
 #include "app/sandbox/series.h"
 
-#include <cstdio>
+#include "core/output/text.h"
 
 namespace tyglab {
 
@@ -28,13 +28,11 @@ std::string Series::csv(std::span<const std::string> names, std::string_view com
   std::string text = "# " + std::string(comment) + "\nt";
   for (const std::string& name : names) text += "," + name;
   text += '\n';
-  char number[40];
   for (std::size_t n = 0; n < t_.size(); ++n) {
-    std::snprintf(number, sizeof number, "%.9g", t_[n]);
-    text += number;
+    append_number(text, t_[n], 17);
     for (const auto& column : columns_) {
-      std::snprintf(number, sizeof number, ",%.9g", column[n]);
-      text += number;
+      text += ',';
+      append_number(text, column[n], 9);
     }
     text += '\n';
   }

@@ -19,7 +19,7 @@ class Series {
   void add(double t, std::span<const double> values);
   void clear();
   /// Text of a CSV file like those of `tyglab run --series`: a comment, a header with t and these names ("F_s [N]"),
-  /// rows with nine significant digits.
+  /// rows with nine significant digits, t with 17.
   std::string csv(std::span<const std::string> names, std::string_view comment) const;
 
  private:

@@ -21,50 +21,103 @@ fs::path settings_file() {
   return folder.empty() ? fs::path() : folder / "settings.json";
 }
 
-template <class T>
-void take(const Json& from, const char* key, T& value) {
-  if (from.contains(key)) value = from.at(key).get<T>();
+/// A sentence about what is wrong with the file, in plain words.
+class Fault : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An object of the file, which knows how it is called there.
+class Section {
+ public:
+  Section(const Json& json, std::string name) : json_(json), name_(std::move(name)) {
+    if (!json_.is_object()) throw Fault((name_.empty() ? "the file" : "“" + name_ + "”") + " is not a group { … }");
+  }
+  bool has(const char* key) const { return json_.contains(key); }
+  const Json& at(const char* key) const {
+    if (!has(key)) throw Fault("“" + path(key) + "” is missing");
+    return json_.at(key);
+  }
+  Section section(const char* key) const { return {at(key), path(key)}; }
+  /// Replaces the value by what stands there, if anything does.
+  template <class T>
+  void take(const char* key, T& value) const {
+    if (!has(key)) return;
+    try {
+      value = json_.at(key).get<T>();
+    } catch (const Json::exception&) {
+      throw Fault("“" + path(key) + "” has a value of the wrong kind");
+    }
+  }
+
+ private:
+  std::string path(const char* key) const { return name_.empty() ? key : name_ + "." + key; }
+  const Json& json_;
+  std::string name_;
+};
+
+Json parsed(const std::string& text) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const std::size_t end = std::min(error.byte, text.size());
+    const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '\n');
+    throw Fault("it is not JSON at line " + std::to_string(line));
+  }
 }
 
-Layout layout_from(const Json& json) {
+Layout layout_from(const Section& from) {
   Layout layout;
-  take(json, "left_width", layout.left_width);
-  take(json, "right_width", layout.right_width);
-  take(json, "left", layout.left);
-  take(json, "right", layout.right);
-  take(json, "status", layout.status);
-  if (json.contains("folded")) layout.folded = json.at("folded").get<std::set<std::string>>();
+  from.take("left_width", layout.left_width);
+  from.take("right_width", layout.right_width);
+  from.take("left", layout.left);
+  from.take("right", layout.right);
+  from.take("status", layout.status);
+  from.take("folded", layout.folded);
   layout.left_width = std::clamp(layout.left_width, 200.f, 900.f);
   layout.right_width = std::clamp(layout.right_width, 200.f, 1200.f);
   return layout;
 }
 
+Session session_from(const Section& from) {
+  Session session;
+  session.preset = parse_preset(from.at("preset").dump(), "the last session's preset");
+  session.saved = session.preset;
+  if (from.has("saved")) session.saved = parse_preset(from.at("saved").dump(), "the last session's saved preset");
+  from.take("label", session.label);
+  std::string file;
+  from.take("file", file);
+  session.file = file;
+  return session;
+}
+
 Settings settings_from(const Json& json) {
+  const Section all(json, "");
   Settings settings;
-  if (json.contains("window")) {
-    const Json& window = json.at("window");
-    take(window, "x", settings.x), take(window, "y", settings.y);
-    take(window, "width", settings.width), take(window, "height", settings.height);
-    take(window, "maximised", settings.maximised);
+  if (all.has("window")) {
+    const Section window = all.section("window");
+    window.take("x", settings.x), window.take("y", settings.y);
+    window.take("width", settings.width), window.take("height", settings.height);
+    window.take("maximised", settings.maximised);
     settings.width = std::clamp(settings.width, 480, 16384);
     settings.height = std::clamp(settings.height, 320, 16384);
   }
-  take(json, "ui_scale", settings.ui_scale);
+  all.take("ui_scale", settings.ui_scale);
   settings.ui_scale = settings.ui_scale > 0 ? std::clamp(settings.ui_scale, 0.5, 3.0) : 1;
-  take(json, "plot_log", settings.plot_log);
-  if (json.contains("layout")) settings.layout = layout_from(json.at("layout"));
-  if (json.contains("session")) {
-    const Json& from = json.at("session");
-    Session session;
-    session.preset = parse_preset(from.at("preset").dump(), "the last session's preset");
-    session.saved = session.preset;
-    if (from.contains("saved"))
-      session.saved = parse_preset(from.at("saved").dump(), "the last session's saved preset");
-    take(from, "label", session.label);
-    session.file = from.value("file", std::string());
-    settings.session = std::move(session);
-  }
+  all.take("plot_log", settings.plot_log);
+  if (all.has("layout")) settings.layout = layout_from(all.section("layout"));
+  if (all.has("session")) settings.session = session_from(all.section("session"));
   return settings;
+}
+
+/// Moves a file that is of no use out of the way; says where to, or what became of it.
+std::string put_aside(const fs::path& file) {
+  fs::path aside = file;
+  aside += ".broken";
+  std::error_code error;
+  fs::rename(file, aside, error);
+  if (error) return "It stays where it is until the window closes, and is then replaced; copy it if you need it.";
+  return "The old file is kept as " + aside.string() + ".";
 }
 
 Json to_json(const Settings& settings) {
@@ -114,10 +167,11 @@ Settings load_settings(std::string& problem) {
   std::ostringstream text;
   text << in.rdbuf();
   try {
-    return settings_from(Json::parse(text.str()));
+    if (!in) throw Fault("it cannot be opened");
+    return settings_from(parsed(text.str()));
   } catch (const std::exception& error) {
-    problem = "The settings in " + file.string() + " could not be read (" + error.what() +
-              "). The defaults are used, and the file is replaced when the window closes.";
+    problem = "The settings in " + file.string() + " are of no use: " + error.what() + ". The defaults are taken. " +
+              put_aside(file);
     return {};
   }
 }
@@ -127,7 +181,7 @@ void save_settings(const Settings& settings) {
   if (file.empty()) return;
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  if (error) throw OutputError("The folder " + file.parent_path().string() + " could not be made: " + error.message());
+  if (error) throw OutputError(file.parent_path().string() + ": the folder cannot be made: " + error.message());
   write_atomically(file, to_json(settings).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -39,7 +39,8 @@ struct Settings {
 std::filesystem::path config_folder();
 std::filesystem::path user_preset_folder();
 
-/// The settings, or the defaults and in `problem` a sentence when the file is there but of no use.
+/// The settings, or the defaults and in `problem` a few sentences when the file is there but of no use; it is then
+/// renamed to settings.json.broken, so that nothing of it is lost.
 Settings load_settings(std::string& problem);
 /// Writes them atomically. Throws OutputError.
 void save_settings(const Settings& settings);

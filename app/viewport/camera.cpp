@@ -1,11 +1,13 @@
 #include "app/viewport/camera.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/ext/matrix_clip_space.hpp>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <vector>
 
 namespace tyglab {
 namespace {
@@ -52,18 +54,66 @@ void Camera::zoom(float wheel_steps) {
   distance = std::clamp(distance * std::pow(0.875f, wheel_steps), 1e-3f, 1e6f);
 }
 
-void Camera::frame(glm::vec3 lo, glm::vec3 hi, float aspect) {
-  constexpr float margin = 0.88f;
-  target = (lo + hi) / 2.0f;
-  const float tan_y = margin * std::tan(fov_y / 2), tan_x = tan_y * aspect;
-  float needed = 1e-3f;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z);
+namespace {
+
+/// Of points on one axis of the picture (side, depth): where along `side` the eye stands, and how far ahead at most, so
+/// that |side − eye| <= slope·(depth − ahead) holds of all. Each point bounds `ahead` by two lines over the eye's
+/// place, one of either sign, so that only the least line of each sign counts.
+struct Fit {
+  float eye, ahead;
+};
+
+Fit fit(std::span<const glm::vec2> points, float slope) {
+  float falling = 1e30f, rising = 1e30f;
+  for (const glm::vec2& p : points) {
+    falling = std::min(falling, p.y - p.x / slope);
+    rising = std::min(rising, p.y + p.x / slope);
+  }
+  return {slope * (rising - falling) / 2, (falling + rising) / 2};
+}
+
+/// The eye's place that leaves as much room on one side as on the other, for an eye that far ahead: the narrowest slope
+/// that still fits is found by halving.
+float centred(std::span<const glm::vec2> points, float slope, float ahead) {
+  float narrow = 0, wide = slope;
+  for (int n = 0; n < 30; ++n) {
+    const float middle = (narrow + wide) / 2;
+    (fit(points, middle).ahead < ahead ? narrow : wide) = middle;
+  }
+  return fit(points, wide).eye;
+}
+
+}  // namespace
+
+void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part) {
+  std::vector<glm::vec2> across, upright;
+  float nearest = 1e30f, farthest = -1e30f;
+  for (const glm::vec3& p : points) {
+    const float depth = glm::dot(p, forward());
+    across.emplace_back(glm::dot(p, right()), depth);
+    upright.emplace_back(glm::dot(p, up()), depth);
+    nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+  }
+  const float tan_y = std::tan(fov_y / 2), middle = (nearest + farthest) / 2;
+  const glm::vec2 slope = part * glm::vec2(tan_y * aspect, tan_y);
+  distance = std::clamp(middle - std::min(fit(across, slope.x).ahead, fit(upright, slope.y).ahead), 1e-3f, 1e6f);
+  target = centred(across, slope.x, middle - distance) * right() + centred(upright, slope.y, middle - distance) * up() +
+           middle * forward();
+}
+
+void Camera::make_room(std::span<const glm::vec3> points, float aspect, float part) {
+  const float tan_y = part * std::tan(fov_y / 2), tan_x = tan_y * aspect;
+  for (const glm::vec3& p : points) {
     const glm::vec3 offset = p - target;
     const float side = std::max(std::abs(glm::dot(offset, right())) / tan_x, std::abs(glm::dot(offset, up())) / tan_y);
-    needed = std::max(needed, side - glm::dot(offset, forward()));
+    distance = std::min(std::max(distance, side - glm::dot(offset, forward())), 1e6f);
   }
-  distance = std::min(needed, 1e6f);
+}
+
+void Camera::frame(glm::vec3 lo, glm::vec3 hi, float aspect) {
+  std::array<glm::vec3, 8> corners;
+  for (int k = 0; k < 8; ++k) corners[k] = {k & 1 ? hi.x : lo.x, k & 2 ? hi.y : lo.y, k & 4 ? hi.z : lo.z};
+  frame(corners, aspect, glm::vec2(0.88f));
 }
 
 std::optional<glm::vec2> Camera::project(glm::dvec3 world, glm::vec2 size) const {

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 
 #include "core/engines/engine.h"
 #include "core/notation/preset.h"
@@ -31,6 +32,11 @@ struct Camera {
   void pan(float dx, float dy, float viewport_height);
   /// Positive steps come nearer, an eighth of the distance a step.
   void zoom(float wheel_steps);
+  /// Comes as near as it can while the points keep within that part of the picture's width and height; keeps the
+  /// direction. The points then stand in the middle of the picture.
+  void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part);
+  /// Goes back along its direction until the points keep within that part of the picture.
+  void make_room(std::span<const glm::vec3> points, float aspect, float part);
   /// Puts the box (corners lo, hi) into view; keeps the direction.
   void frame(glm::vec3 lo, glm::vec3 hi, float aspect);
 

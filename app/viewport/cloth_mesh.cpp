@@ -49,6 +49,9 @@ void range(const FloatPositions& p, const float* component, float& lo, float& hi
 void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed) {
   const PositionView& view = scene.positions;
   if (view.stride != stride_ || scene.lattice != lattice_) moved = topology_changed = true;
+  // Which edges are too long depends on where the particles are. A diverged cloth stands still, so it happens seldom.
+  if (options.longest_edge > 0 || options.longest_edge != longest_edge_) moved = topology_changed = true;
+  longest_edge_ = options.longest_edge;
   lattice_ = scene.lattice;
   stride_ = view.stride;
   if (topology_changed) {
@@ -133,6 +136,8 @@ void ClothMesh::prepare(List list, const ClothScene& scene) {
     case List::count:
       break;
   }
+  if (longest_edge_ > 0 && list != List::particles && list != List::pins)
+    remove_long(indices, list == List::triangles ? 3 : 2, floats_, longest_edge_);
   target.buffer.write(GL_ELEMENT_ARRAY_BUFFER, indices);
   target.count = GLsizei(indices.size());
   target.ready = true;

@@ -48,6 +48,7 @@ class ClothMesh {
   Normals normals_;
   std::optional<std::vector<std::uint32_t>> beside_tears_;
   bool normals_ready_ = false;
+  float longest_edge_ = 0;
   Lattice lattice_;
   int stride_ = 0;
   Bounds bounds_;

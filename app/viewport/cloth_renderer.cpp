@@ -7,6 +7,7 @@
 
 #include "app/viewport/cloth_mesh.h"
 #include "app/viewport/cloth_texture.h"
+#include "app/viewport/drawn_cloth.h"
 #include "app/viewport/gl_objects.h"
 #include "app/viewport/render_target.h"
 #include "app/viewport/shadow_map.h"
@@ -64,6 +65,8 @@ struct ClothRenderer::Parts {
 
   ClothTexture texture;
   ClothMesh mesh;
+  DrawnCloth drawn;  ///< where not every particle is
+  int every = 1;
   SolidMesh sphere{sphere_geometry(64, 40)};
   SolidMesh spring, hanger, rest_line, equilibrium_line;
   WeightModel weight_model;
@@ -96,6 +99,7 @@ struct ClothRenderer::Parts {
   void draw_opaque(const ViewOptions& options);
   void draw_blended(const ViewOptions& options);
   float scene_radius() const { return std::max(glm::length(framed.hi - framed.lo) / 2, 1e-4f); }
+  float spacing() const { return float(preset.L * every); }
   bool one_weight() const { return preset.kind == Kind::one_weight; }
 };
 
@@ -132,7 +136,13 @@ void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, 
 
 void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& options, bool moved,
                                 bool topology_changed) {
-  mesh.update(scene, options, moved, topology_changed);
+  every = options.every;
+  if (every > 1) {
+    drawn.take(scene, every, moved, topology_changed);
+    mesh.update(drawn.scene(scene), options, moved, topology_changed);
+  } else {
+    mesh.update(scene, options, moved, topology_changed);
+  }
   if (!moved) return;
   shadow_stale = true;
   if (!(preset == scene.preset) || framed.empty()) take_preset(scene.preset);
@@ -278,7 +288,7 @@ void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
 
 void ClothRenderer::Parts::draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width) {
   lines.use();
-  lines.set("spacing", float(preset.L));
+  lines.set("spacing", spacing());
   lines.set("max_width", width);
   lines.set("ink", glm::vec4(colour, opacity));
   glEnable(GL_BLEND);
@@ -288,7 +298,7 @@ void ClothRenderer::Parts::draw_lines(ClothMesh::List list, glm::vec3 colour, fl
 
 void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
   points.use();
-  points.set("spacing", float(preset.L));
+  points.set("spacing", spacing());
   points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
   points.set("towards", 0.0f);
   points.set("ink", glm::vec4(options.palette.points, 1));
@@ -301,7 +311,7 @@ void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
 
 void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
   points.use();
-  points.set("spacing", float(preset.L));
+  points.set("spacing", spacing());
   points.set("towards", 0.03f);
   glEnable(GL_BLEND);
   points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
@@ -315,7 +325,7 @@ void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
     points.set("ink", glm::vec4(options.palette.highlight, 1));
     points.set("ring", 0.2f * options.point_size);
     glDisable(GL_DEPTH_TEST);
-    mesh.draw_particle(options.highlighted->i, options.highlighted->j);
+    mesh.draw_particle(options.highlighted->i / every, options.highlighted->j / every);
     glEnable(GL_DEPTH_TEST);
   }
   glDisable(GL_BLEND);

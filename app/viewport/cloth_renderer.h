@@ -39,6 +39,10 @@ struct ViewOptions {
   float line_width = 1.6f;  ///< the thickest; lines get thinner where they are dense
   float point_size = 9;     ///< the largest; points get smaller where they are dense
   std::optional<Pins::Site> highlighted;
+  /// Triangles and lines with an edge longer than this are left out, m; 0: none is. Of a diverged cloth it leaves what
+  /// still looks like cloth.
+  float longest_edge = 0;
+  int every = 1;    ///< draws every so many rows and columns: cloth finer than the picture (drawn_every)
   int samples = 4;  ///< multisampling, 1: none
   /// Whether the view shows surfaces of the cloth, which need normals and cast shadows.
   bool lit() const { return mode == 1 || mode == 3; }

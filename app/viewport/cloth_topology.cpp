@@ -1,5 +1,6 @@
 #include "app/viewport/cloth_topology.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tyglab {
@@ -115,6 +116,20 @@ Indices particle_indices(const Lattice& lattice, int stride, const std::function
     for (int j = 0; j < lattice.columns; ++j)
       if (wanted(i, j)) list.push_back(std::uint32_t(i * stride + j));
   return list;
+}
+
+void remove_long(Indices& indices, int corners, const FloatPositions& p, float longest) {
+  const auto short_enough = [&](std::uint32_t a, std::uint32_t b) {
+    const float dx = p.x[a] - p.x[b], dy = p.y[a] - p.y[b], dz = p.z[a] - p.z[b];
+    return dx * dx + dy * dy + dz * dz <= longest * longest;
+  };
+  auto kept = indices.begin();
+  for (auto first = indices.begin(); first != indices.end(); first += corners) {
+    bool keep = true;
+    for (int k = 0; k < corners; ++k) keep = keep && short_enough(first[k], first[(k + 1) % corners]);
+    if (keep) kept = std::copy(first, first + corners, kept);
+  }
+  indices.erase(kept, indices.end());
 }
 
 std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears) {

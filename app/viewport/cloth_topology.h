@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "app/viewport/vertex_normals.h"
 #include "core/cloth/lattice.h"
 #include "core/cloth/tears.h"
 
@@ -22,6 +23,8 @@ Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears);
 Indices connection_indices(const Lattice& lattice, int stride, const Tears& tears);
 /// An index for each particle for which `wanted` holds.
 Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted);
+/// Takes out what has an edge longer than `longest` m or not finite; `corners` indices stand for each triangle or line.
+void remove_long(Indices& indices, int corners, const FloatPositions& positions, float longest);
 /// Particles, each once, that are a corner of a triangle that is not whole.
 std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears);
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "app/viewport/camera.h"
 
@@ -58,6 +59,75 @@ std::optional<double> plane_below(const Preset& p, double y) {
   return highest;
 }
 
+std::vector<glm::vec3> start_points(const Preset& p) {
+  std::vector<glm::vec3> points;
+  for (int i : {0, p.rows - 1})
+    for (int j : {0, p.columns - 1}) points.push_back(start_corner(p, i, j));
+  return points;
+}
+
+void add_corners(std::vector<glm::vec3>& points, const Bounds& b) {
+  for (int k = 0; k < 8; ++k)
+    points.emplace_back(k & 1 ? b.hi.x : b.lo.x, k & 2 ? b.hi.y : b.lo.y, k & 4 ? b.hi.z : b.lo.z);
+}
+
+/// Of the pins of a list, where the corners come to hang: below the nearest pin, nearly as far as the cloth reaches.
+void add_hanging_corners(std::vector<glm::vec3>& points, const Preset& p) {
+  for (int i : {0, p.rows - 1}) {
+    for (int j : {0, p.columns - 1}) {
+      const auto distance = [&](const Pins::Site& s) { return std::hypot(double(s.i - i), double(s.j - j)); };
+      const auto pin = std::min_element(p.pins.list.begin(), p.pins.list.end(),
+                                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      const glm::vec3 from = start_corner(p, pin->i, pin->j);
+      points.push_back(from);
+      points.emplace_back(from.x, from.y - 0.85f * float(distance(*pin) * p.L), from.z);
+    }
+  }
+}
+
+/// Where cloth that hangs from its top edge comes to rest, with as much swing as it had at the start.
+void add_hanging_sheet(std::vector<glm::vec3>& points, const Preset& p, const Bounds& start) {
+  const float bottom = lowest_hanging(p, start), swing = 0.2f * (start.hi.z - start.lo.z);
+  for (int j : {0, p.columns - 1}) {
+    const glm::vec3 top = start_corner(p, 0, j);
+    points.push_back(top);
+    for (const float z : {top.z - swing, top.z + swing}) points.emplace_back(top.x, bottom, z);
+  }
+}
+
+/// Corners of what is seen once the start is over: where the cloth will be, roughly, and the spheres.
+std::vector<glm::vec3> lasting_points(const Preset& p) {
+  std::vector<glm::vec3> points;
+  Bounds spheres;
+  for (const Body& body : p.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    // A draped cloth stands off from its sphere.
+    spheres.add(glm::vec3(body.c) - 1.1f * float(body.r));
+    spheres.add(glm::vec3(body.c) + 1.1f * float(body.r));
+  }
+  const Bounds start = start_bounds(p);
+  if (!spheres.empty()) add_corners(points, spheres);
+  if (hangs_from_top(p.pins)) {
+    add_hanging_sheet(points, p, start);
+  } else if (p.pins.mode == Pins::Mode::list && !p.pins.list.empty()) {
+    add_hanging_corners(points, p);
+  } else if (p.pins.mode == Pins::Mode::four_corners || p.pins.mode == Pins::Mode::boundary) {
+    points = start_points(p);
+    const glm::vec3 middle = (start.lo + start.hi) / 2.0f;
+    // The edges sag too; the near one would be the first to leave the picture. What tears off its pins hangs down.
+    const float torn = p.F_max > 0 ? 0.6f * std::max(start.hi.x - start.lo.x, start.hi.z - start.lo.z) : 0;
+    const float bottom = std::min(lowest_hanging(p, start), start.lo.y - torn);
+    for (const float z : {middle.z, start.hi.z}) points.emplace_back(middle.x, bottom, z);
+  } else if (p.pins.mode != Pins::Mode::none || spheres.empty()) {
+    Bounds box = scene_bounds(p);
+    if (p.pins.mode == Pins::Mode::left_column) box.hi.y += 0.15f * (box.hi.x - box.lo.x);  // it flies up at first
+    add_corners(points, box);
+  }
+  if (const auto plane = plane_below(p, start.hi.y))
+    for (glm::vec3& point : points) point.y = std::max(point.y, float(*plane));
+  return points;
+}
+
 Bounds weight_bounds(const Preset& p) {
   const double sag = p.k > 0 ? p.m * p.g / p.k : 0;
   const double reach = std::clamp(std::max(std::abs(p.offset), std::abs(sag)), 0.02, 1e3);
@@ -108,9 +178,21 @@ Bounds scene_bounds(const Preset& p) {
 
 Camera scene_camera(const Preset& p, float aspect) {
   Camera camera;
-  if (p.kind == Kind::one_weight) camera.yaw = 0, camera.pitch = 0.06f;
-  const Bounds b = scene_bounds(p);
-  camera.frame(b.lo, b.hi, aspect);
+  if (p.kind == Kind::one_weight) {
+    camera.yaw = 0, camera.pitch = 0.06f;
+    const Bounds b = scene_bounds(p);
+    camera.frame(b.lo, b.hi, aspect);
+    return camera;
+  }
+  // A cloth that lies flat is seen from higher up, or it would be but a line.
+  const double flatness = std::abs(std::cos(p.tilt_deg * std::numbers::pi / 180));
+  if (flatness > 0.9) camera.pitch = 0.3f;
+  // The start, which is left at once, may come nearer to the edges than what is looked at for long.
+  std::vector<glm::vec3> seen = start_points(p);
+  const std::vector<glm::vec3> lasting = lasting_points(p);
+  seen.insert(seen.end(), lasting.begin(), lasting.end());
+  camera.frame(seen, aspect, {0.98f, 0.92f});  // buttons stand along the upper edge
+  camera.make_room(lasting, aspect, 0.84f);
   return camera;
 }
 

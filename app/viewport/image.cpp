@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -77,7 +78,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3) == 0) {
     throw OutputError("The picture " + file.string() + " could not be made: is there memory left?");
   }
-  write_atomically(file, bytes);
+  write_output(file, bytes);
 }
 
 Image read_image(const std::filesystem::path& file) {

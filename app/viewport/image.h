@@ -14,7 +14,7 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
-/// Writes a PNG whole or not at all. Throws OutputError (core/notation/preset_io.h).
+/// Writes a PNG whole or not at all, or to standard output ("-"). Throws OutputError (core/notation/preset_io.h).
 void write_png(const std::filesystem::path& file, const Image& image);
 
 /// Reads PNG, JPEG, BMP or TGA (transparency is laid over white). At most 8192 pixels a side and 64 MB as a file.

@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "core/cloth/state.h"
-#include "core/engines/cpu/row_sweep.h"
+#include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/team.h"
 
 namespace tyglab {
 
 Machine this_machine() {
-  Machine machine{"unknown processor", 1, cpu::row_sweeps<float>().target};
+  Machine machine{"unknown processor", 1, cpu::pair_sweeps<float>().target};
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name")) {

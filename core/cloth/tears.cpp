@@ -4,8 +4,8 @@ namespace tyglab {
 
 bool Tears::tear(int direction, int i, int j) {
   if (!lattice_.has_spring(direction, i, j) || !whole(direction, i, j)) return false;
-  // Sweeps load whole vectors of masks, of this row and of the next: hence the margin.
-  if (masks_.empty()) masks_.assign(std::size_t(lattice_.size()) + lattice_.columns + 64, all_springs);
+  // Sweeps load whole vectors of masks, of a pair of rows and of the next one: hence the margin.
+  if (masks_.empty()) masks_.assign(std::size_t(lattice_.size()) + 2 * lattice_.columns + 128, all_springs);
   masks_[index(i, j)] &= std::uint8_t(~(1u << direction));
   ++torn_;
   // A bending spring lies over two E (or two S) springs: over the torn one and its neighbour on either side.

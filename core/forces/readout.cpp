@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/forces/spring-inl.h"
 #include "core/forces/wind-inl.h"
@@ -26,10 +27,10 @@ void add_spring(const Preset& p, const Look& look, const Direction& d, int i, in
   const glm::dvec3 x_ij = look.x(oi, oj) - look.x(i, j);
   const double r2 = glm::dot(x_ij, x_ij), rest = d.rest * p.L;
   if (d.bending) {
-    sum.F_b += bend_factor(Spring<double>::of(p.k_b, rest, std::identity()), r2, 0.0) * x_ij;
+    sum.F_b += bend_factor(Spring<double>::of(p.k_b, rest, std::identity()), r2) * x_ij;
     return;
   }
-  sum.F_s += stretch_factor(Spring<double>::of(p.k_s, rest, std::identity()), r2, 0.0) * x_ij;
+  sum.F_s += stretch_factor(Spring<double>::of(p.k_s, rest, std::identity()), r2) * x_ij;
   sum.F_d -= p.k_d * (look.v(i, j) - look.v(oi, oj));
 }
 
@@ -47,7 +48,7 @@ void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int 
           mine |= qi + corners[n].di == i && qj + corners[n].dj == j;
         }
         if (!mine || !tears.triangle_whole(qi, qj, which)) continue;
-        sum.F_wind += wind_on_corner(x[1] - x[0], x[2] - x[0], p.W, 1.0 / 3, 0.0);
+        sum.F_wind += wind_on_corner(x[1] - x[0], x[2] - x[0], p.W, 1.0 / 3, std::numeric_limits<double>::min());
       }
 }
 

@@ -1,5 +1,6 @@
 // Forces of springs (2.3) to (2.8), each formula once: V is a vector of the CPU engine's SIMD (simd-inl.h) or a plain
-// double. V brings multiply_add(a, b, c) = a·b + c, inverse_sqrt(r2) and if_greater(a, b, yes, no).
+// double. V brings positive(a) = max(a, 0), negative(a) = min(a, 0), if_greater(a, b, then) = then where
+// a > b else 0, and over_root(h, r2, c) = 2h/√r2 + c.
 // Included once for each SIMD target (hwy/foreach_target.h), so the guard toggles.
 #if defined(TYGLAB_SPRING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_SPRING_INL_H_
@@ -19,14 +20,19 @@ namespace tyglab::HWY_NAMESPACE {
 /// A spring shorter than this part of its rest length has no direction: its force is 0.
 inline constexpr double shortest = 1e-9;
 
-HWY_INLINE double multiply_add(double a, double b, double c) {
-  return a * b + c;
+/// 2h/√r2 + c. Twice h, since a Newton step for 1/√ takes a half of its factor.
+HWY_INLINE double over_root(double h, double r2, double c) {
+  return 2 * h / std::sqrt(r2) + c;
 }
-HWY_INLINE double inverse_sqrt(double r2) {
-  return 1 / std::sqrt(r2);
+/// a where it is positive (negative), else 0; 0 for NaN.
+HWY_INLINE double positive(double a) {
+  return a > 0 ? a : 0;
 }
-HWY_INLINE double if_greater(double a, double b, double yes, double no) {
-  return a > b ? yes : no;
+HWY_INLINE double negative(double a) {
+  return a < 0 ? a : 0;
+}
+HWY_INLINE double if_greater(double a, double b, double then) {
+  return a > b ? then : 0;
 }
 
 /// A spring's constants as the formulas take them.
@@ -36,25 +42,23 @@ struct Spring {
   template <class Fill>
   static HWY_INLINE Spring of(double k, double rest, Fill fill) {
     const double least = shortest * rest;
-    return {fill(k), fill(-k * rest), fill(rest * rest), fill(least * least)};
+    return {fill(k), fill(-k * rest / 2), fill(least * least)};
   }
-  V k;              ///< N/m
-  V minus_tension;  ///< -k times rest length, N
-  V rest2;          ///< rest length squared, m²
-  V shortest2;      ///< square of the length under which a spring has no direction
+  V k;           ///< N/m
+  V minus_half;  ///< -k times half of the rest length, N
+  V shortest2;   ///< square of the length under which a spring has no direction
 };
 
 /// F = factor · x_ij is F_s on particle i (2.5), for r2 = |x_ij|². Pulls only: 0 while |x_ij| <= rest.
 template <class V>
-HWY_INLINE V stretch_factor(const Spring<V>& s, V r2, V zero) {
-  return if_greater(r2, s.rest2, multiply_add(s.minus_tension, inverse_sqrt(r2), s.k), zero);
+HWY_INLINE V stretch_factor(const Spring<V>& s, V r2) {
+  return positive(over_root(s.minus_half, r2, s.k));
 }
 
 /// F = factor · x_ij is F_b on particle i (2.7, 2.8). Pushes only: 0 while |x_ij| >= rest.
 template <class V>
-HWY_INLINE V bend_factor(const Spring<V>& s, V r2, V zero) {
-  const V pushing = if_greater(s.rest2, r2, multiply_add(s.minus_tension, inverse_sqrt(r2), s.k), zero);
-  return if_greater(r2, s.shortest2, pushing, zero);
+HWY_INLINE V bend_factor(const Spring<V>& s, V r2) {
+  return if_greater(r2, s.shortest2, negative(over_root(s.minus_half, r2, s.k)));
 }
 
 /// F_s of (2.5) as a number, N: what tearing compares with F_max.

@@ -12,12 +12,13 @@ HWY_BEFORE_NAMESPACE();
 namespace tyglab::HWY_NAMESPACE {
 
 /// A third of F = N (N·W), what each corner takes, for the triangle with edges e1, e2 from one corner; 0 for a triangle
-/// of no area. V3 is three components of V with cross, dot and V·V3.
+/// of no area, which is one for which the square of twice its area is under `smallest`, the least normal number.
+/// V3 is three components of V with cross, dot and V·V3.
 template <class V3, class V>
-HWY_INLINE V3 wind_on_corner(V3 e1, V3 e2, V3 W, V third, V zero) {
+HWY_INLINE V3 wind_on_corner(V3 e1, V3 e2, V3 W, V third, V smallest) {
   const V3 n = cross(e1, e2);
   const V n2 = dot(n, n);
-  return if_greater(n2, zero, third * dot(n, W) / n2, zero) * n;
+  return if_greater(n2, smallest, third * dot(n, W) / n2) * n;
 }
 
 }  // namespace tyglab::HWY_NAMESPACE

@@ -1,7 +1,9 @@
 #include "core/integrators/remedy.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace tyglab {
 namespace {
@@ -12,6 +14,11 @@ std::string seconds(double dt) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g s", dt);
   return text;
+}
+
+/// The largest dt that is advised for Verlet, s, in the two digits in which it is said.
+double advised_verlet_dt(const Preset& p) {
+  return std::strtod(seconds(margin * stable_dt(p, "verlet")).c_str(), nullptr);
 }
 
 }  // namespace
@@ -29,7 +36,7 @@ double stable_dt(const Preset& p, const std::string& integrator) {
 
 std::string remedy(const Preset& p) {
   const std::string stiffness = p.kind == Kind::cloth ? "k_s" : "k";
-  const double verlet_dt = margin * stable_dt(p, "verlet");
+  const double verlet_dt = advised_verlet_dt(p);
   if (p.integrator == "verlet") {
     if (p.dt <= verlet_dt) return "Take a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
     return "Take dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
@@ -39,6 +46,14 @@ std::string remedy(const Preset& p) {
   const std::string own = own_dt > 0 ? "this method itself needs dt below about " + seconds(own_dt)
                                      : "without damping no dt makes this method stable";
   return "Take the integrator verlet" + step + " and restart; " + own + ".";
+}
+
+std::optional<Preset> cure(const Preset& p) {
+  Preset cured = p;
+  cured.integrator = "verlet";
+  cured.dt = std::min(p.dt, advised_verlet_dt(p));
+  if (cured == p || cured.dt < 1e-7) return std::nullopt;  // nothing to change, or below the range of dt
+  return cured;
 }
 
 }  // namespace tyglab

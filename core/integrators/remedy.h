@@ -2,6 +2,7 @@
 // meaning").
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/notation/preset.h"
@@ -16,5 +17,8 @@ double stable_dt(const Preset& preset, const std::string& integrator);
 
 /// What to change so that the preset does not diverge again.
 std::string remedy(const Preset& preset);
+
+/// The preset with the change of integrator and dt that remedy() names first, made; none where it names none.
+std::optional<Preset> cure(const Preset& preset);
 
 }  // namespace tyglab

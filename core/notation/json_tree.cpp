@@ -68,10 +68,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
-    // "[json.exception.parse_error.101] parse error at line 3, column 5: …": keep what a person can use.
-    std::string what = error.what();
-    if (const auto bracket = what.find("] "); bracket != std::string::npos) what.erase(0, bracket + 2);
-    return fail(what);
+    fail(error.what());
+    error_ = plain(error_);
+    return false;
   }
   const std::string& error() const { return error_; }
   int error_line() const { return error_line_; }
@@ -89,6 +88,17 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
       counted_to_ = end;
     }
     return lines_;
+  }
+  /// What a person can use of "[json.exception.parse_error.101] parse error at line 3, column 5: …". The line is told
+  /// already; the column counts only if it is one of that line, and not of the file's end further down.
+  std::string plain(std::string what) const {
+    if (const auto bracket = what.find("] "); bracket != std::string::npos) what.erase(0, bracket + 2);
+    constexpr std::string_view place = "parse error at line ";
+    const auto rest = what.find(": ");
+    if (!what.starts_with(place) || rest == std::string::npos) return what;
+    const std::string here = std::string(place) + std::to_string(error_line_) + ", column ";
+    const bool same_line = what.starts_with(here);
+    return what.substr(same_line ? here.size() - std::string_view("column ").size() : rest + 2);
   }
   bool fail(std::string why) {
     error_ = std::move(why);
@@ -175,14 +185,14 @@ std::string printable(std::string text) {
   return text;
 }
 
-JsonNode parse_json(std::string_view text, std::string_view source) {
+JsonNode parse_json(std::string_view text, std::string_view source, Lines lines) {
   JsonNode root;
   const char* seen = text.data();
   TreeBuilder builder(text, &seen, root);
   const Cursor first(text.data(), &seen), last(text.data() + text.size(), &seen);
   if (!nlohmann::json::sax_parse(first, last, &builder)) {
     std::string where(source);
-    if (builder.error_line() > 0) where += ":" + std::to_string(builder.error_line());
+    if (builder.error_line() > 0 && lines == Lines::told) where += ":" + std::to_string(builder.error_line());
     throw PresetError(printable(where + ": " + builder.error()));
   }
   return root;

@@ -35,7 +35,10 @@ std::string_view type_name(JsonNode::Type type);
 /// With control characters as spaces: a key of a file must not end an error message early, or reach a terminal as code.
 std::string printable(std::string text);
 
-/// Throws PresetError naming `source` and the line.
-JsonNode parse_json(std::string_view text, std::string_view source);
+/// Whether errors tell lines, or the text is one (a --set).
+enum class Lines { told, one };
+
+/// Throws PresetError naming `source`, and the line.
+JsonNode parse_json(std::string_view text, std::string_view source, Lines lines);
 
 }  // namespace tyglab

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <sstream>
+
+#include "core/notation/words.h"
 
 namespace tyglab {
 namespace {
@@ -111,15 +112,9 @@ int edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string number(double v) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", v);
-  return text;
-}
-
 template <class T>
 std::string range_text(const Row<T>& row) {
-  return row.max > row.min ? number(row.min) + " to " + number(row.max) : std::string("–");
+  return row.max > row.min ? shortest_number(row.min) + " to " + shortest_number(row.max) : std::string("–");
 }
 
 template <class T>
@@ -132,9 +127,10 @@ std::string default_text(const Row<T>& row) {
         if constexpr (std::is_same_v<Value, std::string>)
           return "`" + value + "`";
         else if constexpr (std::is_same_v<Value, glm::dvec3>)
-          return "[" + number(value.x) + ", " + number(value.y) + ", " + number(value.z) + "]";
+          return "[" + shortest_number(value.x) + ", " + shortest_number(value.y) + ", " + shortest_number(value.z) +
+                 "]";
         else
-          return row.zero_is_off && value == 0 ? "0 (never)" : number(double(value));
+          return row.zero_is_off && value == 0 ? "0 (never)" : shortest_number(double(value));
       },
       row.field);
 }
@@ -203,8 +199,8 @@ SliderRange slider_range(const PresetRow& row, double preset_value) {
 std::string notation_markdown() {
   std::ostringstream out;
   out << "# Notation\n\nMade from the notation table (`core/notation/notation.cpp`) by `tyglab presets notation`; a "
-         "test "
-         "holds it current. Symbols are those of table B.1 of the report, units are SI, ranges include their ends.\n\n"
+         "test holds it current. Symbols are those of table B.1 of the report, units are SI, ranges include their "
+         "ends.\n\n"
          "## Constants of a preset\n\n";
   table<Preset>(out, rows);
   out << "\nBeside them: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "

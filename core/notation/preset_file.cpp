@@ -13,6 +13,15 @@ namespace {
 
 constexpr std::uintmax_t max_file_size = 16u << 20;
 
+/// Where a link points in the end, whether that is there yet or not; a link still if they go round in a circle.
+std::filesystem::path followed(std::filesystem::path file) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  std::error_code error;
+  for (int n = 0; n < most_links && std::filesystem::is_symlink(file, error); ++n)
+    file = file.parent_path() / std::filesystem::read_symlink(file, error);
+  return file;
+}
+
 }  // namespace
 
 Preset load_preset(const std::filesystem::path& file) {
@@ -48,8 +57,9 @@ void write_atomically(const std::filesystem::path& file, std::string_view text) 
     if (!out) fail(std::strerror(errno));
     return;
   }
-  // Follow a link, so that the file it points to is replaced and not the link.
-  if (std::filesystem::is_symlink(target, error)) target = std::filesystem::weakly_canonical(target, error);
+  // The file that a link points to is replaced, and not the link.
+  target = followed(target);
+  if (std::filesystem::is_symlink(target, error)) fail(std::strerror(ELOOP));
   const std::filesystem::path temporary = target.string() + "." + std::to_string(::getpid()) + ".tmp";
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd < 0) fail(std::strerror(errno));

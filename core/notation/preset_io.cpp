@@ -97,7 +97,7 @@ class Reader {
     if (it == names.end()) {
       const auto meant = nearest(node.text, names);
       fail(node.line, path,
-           "\"" + node.text + "\" is not known" + (meant ? "; did you mean " + std::string(*meant) + "?" : "") +
+           "\"" + node.text + "\" is not known" + (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
                " Allowed: " + listed(names));
     }
     out = Enum(it - names.begin());
@@ -210,9 +210,12 @@ void check_version(const Reader& reader, const JsonNode& node) {
   if (node.number < 1) reader.fail(node.line, "tyglab_preset", "versions begin at 1");
 }
 
+/// Keys whose values are words, even where they begin like numbers: name=3 sheets, texture=./mine.png.
 bool is_text_key(const std::string& key) {
+  constexpr std::array<std::string_view, 5> words{"name", "description", "kind", "engine", "precision"};
   const PresetRow* row = find_row(key);
-  return key == "name" || key == "description" || (row && std::holds_alternative<std::string Preset::*>(row->field));
+  return std::find(words.begin(), words.end(), key) != words.end() ||
+         (row && std::holds_alternative<std::string Preset::*>(row->field));
 }
 
 /// A number as people type it: also .5 and 5.
@@ -226,16 +229,23 @@ JsonNode setting_number(const std::string& key, const std::string& text, const R
   return node;
 }
 
-/// Value of a --set: a bare word (integrator=euler, name=3 sheets), otherwise JSON.
-JsonNode setting_value(const std::string& key, const std::string& text, const Reader& reader,
-                       const std::string& source) {
+/// What comes from no file has no lines.
+void forget_lines(JsonNode& node) {
+  node.line = 0;
+  for (JsonNode& item : node.items) forget_lines(item);
+  for (JsonNode::Member& member : node.members) forget_lines(member.value);
+}
+
+/// Value of a setting: a bare word (integrator=euler, name=3 sheets), otherwise JSON. `key` without its block's name.
+JsonNode setting_value(const Setting& setting, const std::string& key, const Reader& reader) {
+  const std::string& text = setting.value;
   const bool word = !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0) && text != "null" &&
                     text != "true" && text != "false";
   if (word || (is_text_key(key) && !text.starts_with('"'))) {
     try {
       nlohmann::json(text).dump();
     } catch (const nlohmann::json::exception&) {
-      reader.fail(0, key, "must be UTF-8 text");
+      reader.fail(0, setting.key, "must be UTF-8 text");
     }
     JsonNode node;
     node.type = Type::text;
@@ -243,10 +253,9 @@ JsonNode setting_value(const std::string& key, const std::string& text, const Re
     return node;
   }
   if (text.empty() || std::string_view("[{\"").find(text[0]) == std::string_view::npos)
-    return setting_number(key, text, reader);
-  JsonNode node = parse_json(text, source);
-  node.line = 0;
-  for (JsonNode& item : node.items) item.line = 0;
+    return setting_number(setting.key, text, reader);
+  JsonNode node = parse_json(text, setting.typed, Lines::one);
+  forget_lines(node);
   return node;
 }
 
@@ -261,42 +270,50 @@ bool body_setting(const std::string& key, std::size_t& index, std::string& inner
   return result.ec == std::errc{} && result.ptr == key.data() + close;
 }
 
-void apply_setting(const std::string& setting, Preset& p) {
-  const Reader reader("--set " + setting);
-  const auto equals = setting.find('=');
-  if (equals == std::string::npos || equals == 0) reader.fail(0, "", "must be KEY=VALUE, for example k_s=500");
-  std::string key = setting.substr(0, equals);
-  const JsonNode node = setting_value(key, setting.substr(equals + 1), reader, "--set " + setting);
-  if (reader.top_key(key, node, p)) return;
+/// A key of a body: bodies[0].r. Of whole bodies there is only the whole list.
+void apply_to_body(const std::string& key, const JsonNode& node, const Reader& reader, Preset& p) {
   std::size_t index = 0;
   std::string inner;
-  if (body_setting(key, index, inner)) {
-    if (index >= p.bodies.size())
-      reader.fail(0, key, "there are " + std::to_string(p.bodies.size()) + " bodies, counted from 0");
-    return reader.body_key(inner, node, key, p.bodies[index]);
-  }
+  if (!body_setting(key, index, inner))
+    reader.fail(0, key, "one value of a body is set like bodies[0].r=0.3, and all bodies like bodies=[{\"r\": 0.3}]");
+  const std::size_t count = p.bodies.size();
+  if (index >= count)
+    reader.fail(0, key,
+                count == 0   ? "there are no bodies; bodies=[{\"r\": 0.3}] makes one"
+                : count == 1 ? "there is one body, bodies[0]"
+                             : "there are " + std::to_string(count) + " bodies, counted from 0");
+  reader.body_key(inner, node, key, p.bodies[index]);
+}
+
+/// x_0.y sets one component. False if the key is none.
+bool apply_to_component(const std::string& key, const JsonNode& node, const Reader& reader, Preset& p) {
+  if (key.size() <= 2 || key[key.size() - 2] != '.' || key.back() < 'x' || key.back() > 'z') return false;
+  const PresetRow* row = find_row(key.substr(0, key.size() - 2));
+  const auto* vector = row ? std::get_if<glm::dvec3 Preset::*>(&row->field) : nullptr;
+  if (!vector) return false;
+  reader.value(node, key, (p.**vector)[key.back() - 'x']);
+  if (const auto problem = value_problem(*row, p); !problem.empty()) reader.fail(0, key, problem);
+  return true;
+}
+
+void apply_setting(const Setting& setting, Preset& p) {
+  const Reader reader(setting.typed);
+  std::string key = setting.key;
   std::string_view section;
   if (const auto dot = key.find('.'); dot != std::string::npos) {
     const auto it = std::find(section_names.begin(), section_names.end(), key.substr(0, dot));
     if (it != section_names.end()) section = *it, key.erase(0, dot + 1);
   }
-  // x_0.y=2 sets one component.
-  if (key.size() > 2 && key[key.size() - 2] == '.' && key.back() >= 'x' && key.back() <= 'z') {
-    const PresetRow* row = find_row(key.substr(0, key.size() - 2));
-    const auto* vector = row ? std::get_if<glm::dvec3 Preset::*>(&row->field) : nullptr;
-    if (vector) {
-      reader.value(node, key, (p.**vector)[key.back() - 'x']);
-      if (const auto problem = value_problem(*row, p); !problem.empty()) reader.fail(0, key, problem);
-      return;
-    }
-  }
-  reader.key(section, key, node, key, p);
+  const JsonNode node = setting_value(setting, key, reader);
+  if (section.empty() && reader.top_key(key, node, p)) return;
+  if (section.empty() && key.starts_with("bodies[")) return apply_to_body(key, node, reader, p);
+  if (!apply_to_component(key, node, reader, p)) reader.key(section, key, node, key, p);
 }
 
 }  // namespace
 
 Preset parse_preset(std::string_view text, std::string_view source) {
-  const JsonNode root = parse_json(text, source);
+  const JsonNode root = parse_json(text, source, Lines::told);
   const Reader reader(source);
   if (root.type != Type::object) reader.wrong_type(root, "", "a block {…}");
   if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
@@ -319,11 +336,26 @@ Preset parse_preset(std::string_view text, std::string_view source) {
   return preset;
 }
 
-Preset with_settings(const Preset& preset, const std::vector<std::string>& settings) {
+Setting parse_setting(const std::string& text) {
+  const auto equals = text.find('=');
+  Setting setting{"--set " + text, text.substr(0, equals), {}};
+  if (equals == std::string::npos || equals == 0)
+    Reader(setting.typed).fail(0, "", "must be KEY=VALUE, for example k_s=500");
+  setting.value = text.substr(equals + 1);
+  return setting;
+}
+
+Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& settings) {
   Preset changed = preset;
-  for (const std::string& setting : settings) apply_setting(setting, changed);
+  for (const Setting& setting : settings) apply_setting(setting, changed);
   if (const auto problem = check_preset(changed); !problem.empty()) throw PresetError("--set: " + problem);
   return changed;
+}
+
+Preset with_settings(const Preset& preset, const std::vector<std::string>& settings) {
+  std::vector<Setting> parsed;
+  for (const std::string& text : settings) parsed.push_back(parse_setting(text));
+  return with_parsed_settings(preset, parsed);
 }
 
 std::string check_preset(const Preset& preset) {

@@ -36,9 +36,18 @@ void save_preset(const Preset& preset, const std::filesystem::path& file);
 /// 64-bit FNV-1a of the JSON text without name and description, in hex: tells scenes apart in state files.
 std::string preset_hash(const Preset& preset);
 
-/// Applies "KEY=VALUE" settings (contract: k_s=500, "W=[0,0,0.02]", "bodies[0].r=0.3") to a copy, checks the whole, and
-/// returns it. Throws PresetError naming the setting.
+/// The same for settings as --set takes them: k_s=500, "W=[0,0,0.02]", "bodies[0].r=0.3".
 Preset with_settings(const Preset& preset, const std::vector<std::string>& settings);
+
+/// A setting and how it was typed, which is what errors call it.
+struct Setting {
+  std::string typed;  ///< "--set k_s=500", "--dt 0.001"
+  std::string key, value;
+};
+/// Takes "KEY=VALUE" apart. Throws PresetError.
+Setting parse_setting(const std::string& text);
+/// Applies settings to a copy, in order, checks the whole, and returns it. Throws PresetError naming the setting.
+Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& settings);
 
 /// What would be wrong with this preset (as edited in a program), or empty. The same checks as for files.
 std::string check_preset(const Preset& preset);

@@ -82,7 +82,14 @@ std::string shortest_number(double v) {
   const bool plain = v == 0 || (std::abs(v) >= 1e-5 && std::abs(v) < 1e9);
   const auto end = plain ? std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::fixed).ptr
                          : std::to_chars(text.data(), text.data() + text.size(), v).ptr;
-  return {text.data(), end};
+  std::string number(text.data(), end);
+  // 1e+09 and 1e-07 as people write them: 1e9, 1e-7.
+  if (const auto e = number.find('e'); e != std::string::npos) {
+    if (number[e + 1] == '+') number.erase(e + 1, 1);
+    const auto digits = number.find_first_of("0123456789", e);
+    if (number[digits] == '0') number.erase(digits, 1);
+  }
+  return number;
 }
 
 std::string_view name_of(Kind v) {

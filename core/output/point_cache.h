@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <vector>
+#include <memory>
+#include <string>
+#include <string_view>
 
 #include "core/cloth/state.h"
 
@@ -16,21 +18,27 @@ namespace tyglab {
 /// sample to sample 1, int32 samples; then per sample x, y, z (m) of every particle in row order as float32.
 class PointCache {
  public:
-  /// Creates the file with no sample in it. Throws OutputError.
+  /// Creates the file with no sample in it. For standard output ("-") the samples gather in a temporary file, since
+  /// their number stands at the head. Throws OutputError.
   PointCache(const std::filesystem::path& file, std::int32_t points);
   /// Appends a sample. Throws OutputError.
   void add(const VectorField<double>& x);
+  /// Sends standard output what was gathered for it; a file is whole already. Throws OutputError.
+  void finish();
   std::int32_t samples() const { return samples_; }
 
  private:
-  void put_count();
-  void check();
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  void put(std::string_view bytes);
+  [[noreturn]] void fail() const;
 
   std::filesystem::path file_;
-  std::ofstream out_;
+  std::unique_ptr<std::FILE, Close> out_;
   std::int32_t points_;
   std::int32_t samples_ = 0;
-  std::vector<char> sample_;
+  std::string sample_;
 };
 
 }  // namespace tyglab

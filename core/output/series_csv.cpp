@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iostream>
 
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 #include "core/output/text.h"
 
 namespace tyglab {
 
 SeriesCsv::SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns,
                      const std::string& preset_hash)
-    : file_(file), out_(file, std::ios::trunc) {
+    : file_(file), out_(is_standard_output(file) ? std::cout : own_) {
+  if (!is_standard_output(file)) own_.open(file, std::ios::trunc);
   out_ << "# tyglab series, t in s, preset hash " << preset_hash << "\nt";
   for (const SeriesColumn& column : columns) {
     out_ << ',' << column.name;
@@ -34,7 +37,8 @@ void SeriesCsv::add(double t, std::span<const double> values) {
 }
 
 void SeriesCsv::check() {
-  if (!out_) throw OutputError(file_.string() + ": cannot be written: " + std::strerror(errno));
+  if (out_) return;
+  throw OutputError(output_name(file_) + ": cannot be written: " + std::strerror(errno));
 }
 
 std::vector<SeriesColumn> series_columns(Kind kind) {

@@ -18,10 +18,10 @@ struct SeriesColumn {
 };
 
 /// Writes a time series row by row: a comment, which names the unit of t; a header `t,NAME [UNIT],…`; rows with nine
-/// significant digits. Every row is on disk as soon as it is added, so that a run cut short leaves whole rows.
+/// significant digits. Every row is on its way as soon as it is added, so that a run cut short leaves whole rows.
 class SeriesCsv {
  public:
-  /// Creates the file with its header. Throws OutputError.
+  /// Creates the file (or takes standard output, "-") and writes the header. Throws OutputError.
   SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns, const std::string& preset_hash);
   /// Appends a row: t (s) and a value for each column. Throws OutputError.
   void add(double t, std::span<const double> values);
@@ -30,7 +30,8 @@ class SeriesCsv {
   void check();
 
   std::filesystem::path file_;
-  std::ofstream out_;
+  std::ofstream own_;
+  std::ostream& out_;  ///< own_ or std::cout
   std::string row_;
 };
 

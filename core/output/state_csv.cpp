@@ -1,6 +1,6 @@
 #include "core/output/state_csv.h"
 
-#include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 #include "core/output/text.h"
 
 namespace tyglab {
@@ -28,7 +28,7 @@ std::string state_csv(const Lattice& lattice, const State& state, const StateSta
 
 void write_state_csv(const std::filesystem::path& file, const Lattice& lattice, const State& state,
                      const StateStamp& stamp) {
-  write_atomically(file, state_csv(lattice, state, stamp));
+  write_output(file, state_csv(lattice, state, stamp));
 }
 
 }  // namespace tyglab

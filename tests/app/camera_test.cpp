@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
 #include "app/viewport/camera.h"
 #include "app/viewport/picking.h"
+#include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab {
@@ -113,6 +116,41 @@ TEST_CASE("the sphere in front is the one under the pointer") {
   bodies[2].shape = Body::Shape::plane;
   CHECK(body_under(bodies, camera, size / 2.0f, size) == 1);
   CHECK_FALSE(body_under(bodies, camera, {1, 1}, size).has_value());
+}
+
+TEST_CASE("a shipped scene's start fills the picture without leaving it") {
+  for (const auto& entry : std::filesystem::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+    CAPTURE(entry.path().string());
+    const Preset preset = load_preset(entry.path());
+    if (preset.kind == Kind::one_weight) continue;
+    const Camera camera = scene_camera(preset, size.x / size.y);
+    Simulation simulation(preset);
+    glm::vec2 lo(1e9f), hi(-1e9f);
+    for (const int i : {0, preset.rows - 1}) {
+      for (const int j : {0, preset.columns - 1}) {
+        const auto pixel = camera.project(simulation.positions().at(i, j), size);
+        REQUIRE(pixel.has_value());
+        lo = glm::min(lo, *pixel), hi = glm::max(hi, *pixel);
+      }
+    }
+    CHECK((lo.x >= 0 && lo.y >= 0 && hi.x <= size.x && hi.y <= size.y));
+    CHECK(std::max((hi.x - lo.x) / size.x, (hi.y - lo.y) / size.y) > 0.5f);
+  }
+}
+
+TEST_CASE("points are framed as near as can be, in the middle") {
+  Camera camera;
+  const std::vector<glm::vec3> points{{-1, 0, 0}, {1, 0, 0.5f}, {0.2f, 0.7f, -0.3f}};
+  camera.frame(points, size.x / size.y, {0.9f, 0.8f});
+  glm::vec2 lo(1e9f), hi(-1e9f);
+  for (const glm::vec3& point : points) {
+    const glm::vec2 pixel = *camera.project(glm::dvec3(point), size);
+    lo = glm::min(lo, pixel), hi = glm::max(hi, pixel);
+  }
+  const glm::vec2 part = (hi - lo) / size, middle = (lo + hi) / 2.0f;
+  CHECK((std::abs(part.x - 0.9f) < 1e-3f || std::abs(part.y - 0.8f) < 1e-3f));
+  CHECK((part.x < 0.901f && part.y < 0.801f));
+  CHECK(glm::length(middle - size / 2.0f) < 1);
 }
 
 TEST_CASE("a scene's camera shows all of it, and finite particles alone make its bounds") {

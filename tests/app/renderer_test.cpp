@@ -4,6 +4,8 @@
 #include <cstdlib>
 
 #include "app/viewport/cloth_renderer.h"
+#include "app/viewport/cloth_topology.h"
+#include "app/viewport/drawn_cloth.h"
 #include "app/viewport/headless_context.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
@@ -32,6 +34,7 @@ class Stage {
     return renderer_.pixels();
   }
   ClothRenderer& renderer() { return renderer_; }
+  ViewOptions& options() { return options_; }
 
  private:
   HeadlessContext context_;
@@ -111,6 +114,41 @@ TEST_CASE("torn triangles are not drawn in view 1, and are threads in view 3; a 
   CHECK(after[4] < before[4]);
   CHECK(after[3] <= after[1] + 400);  // the springs along the edges of the cut are whole, and lie on them
   CHECK(after[3] >= after[1]);
+}
+
+TEST_CASE("a cloth finer than the picture is drawn from a part of its rows and columns") {
+  CHECK(drawn_every({32, 32}, 600, 600) == 1);
+  CHECK(drawn_every({4096, 4096}, 600, 600) == 6);
+  CHECK(drawn_every({4096, 1}, 10, 10) >= 5);
+  Stage stage;
+  Preset preset = hanging();
+  preset.rows = preset.columns = 62;
+  preset.L *= 8.0 / 61;
+  Simulation simulation(preset);
+  for (const bool cut : {false, true}) {
+    std::vector<Pins::Site> row;
+    for (int j = 0; j < 62; ++j) row.push_back({30, j});
+    if (cut) simulation.apply(edit::Cut{row});
+    stage.options().every = 1;
+    const Image whole = stage.draw(simulation, 1);
+    stage.options().every = 3;
+    const Image part = stage.draw(simulation, 1);
+    // A cut is as wide as a drawn quad.
+    CHECK(difference(whole, part) < (cut ? 2200 : 400));
+  }
+  stage.options().every = 1;
+  Simulation untorn(preset);
+  CHECK(difference(stage.draw(untorn, 1), stage.draw(simulation, 1)) > 100);
+}
+
+TEST_CASE("triangles and lines with a long edge can be left out") {
+  const float x[] = {0, 1, 9}, zero[] = {0, 0, 0};
+  const FloatPositions line{1, 3, 3, x, zero, zero};
+  Indices lines{0, 1, 1, 2, 0, 1}, triangles{0, 1, 2, 0, 1, 1};
+  remove_long(lines, 2, line, 2);
+  CHECK(lines == Indices{0, 1, 0, 1});
+  remove_long(triangles, 3, line, 2);
+  CHECK(triangles == Indices{0, 1, 1});
 }
 
 TEST_CASE("bending springs can be drawn in view 2") {

@@ -113,12 +113,16 @@ TEST_CASE("settings come back, and a broken file gives a sentence and the defaul
   CHECK(again.session->label == "denim");
   for (const char* text : {"", "{", "{\"window\": {\"width\": \"wide\"}}", "{\"session\": {}}",
                            "{\"session\": {\"preset\": {\"forces\": {\"k_s\": -1}}}}", "{\"layout\": {\"folded\": 3}}",
-                           "{\"ui_scale\": []}"}) {
+                           "{\"ui_scale\": []}", "[]", "5", "{\"window\": 5}"}) {
     CAPTURE(std::string(text));
     test::write_file(folder / "settings.json", text);
     problem.clear();
     CHECK(load_settings(problem).width == Settings{}.width);
     CHECK(problem.find("settings.json") != std::string::npos);
+    CHECK(problem.find("exception") == std::string::npos);
+    // It is kept beside, whole.
+    CHECK_FALSE(std::filesystem::exists(folder / "settings.json"));
+    CHECK(test::read_file(folder / "settings.json.broken") == text);
   }
   test::write_file(folder / "settings.json", "{\"window\": {\"width\": -5, \"height\": 1e9}, \"ui_scale\": -3}");
   problem.clear();

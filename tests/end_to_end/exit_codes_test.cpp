@@ -52,12 +52,20 @@ TEST_CASE("2: the command line is wrong, --set included") {
                {{"run", "denim", "--steps", "-5"}, 2, "steps"},
                {{"run", "denim", "--steps", "5", "--seconds", "1"}, 2, "steps"},
                {{"run", "denim", "--steps", "1", "--set", "k_s"}, 2, "KEY=VALUE"},
-               {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e+09"},
+               {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e9"},
                {{"run", "denim", "--steps", "1", "--set", "k_x=3"}, 2, "did you mean"},
                {{"run", "denim", "--steps", "1", "--integrator", "eular"}, 2, "euler"},
                {{"run", "denim", "--steps", "1", "--precision", "half"}, 2, "precision"},
                {{"run", "denim", "--steps", "1", "--engine", "gpu"}, 2, "engine"},
-               {{"run", "denim", "--steps", "1", "--dt", "2"}, 2, "dt"},
+               {{"run", "denim", "--steps", "1", "--dt", "2"}, 2, "--dt 2: dt: 2 is not allowed; allowed: 1e-7 to 1 s"},
+               {{"run", "denim", "--seconds", "-1"}, 2, "0 to 1e9 s"},
+               {{"run", "denim", "--seconds", "nan"}, 2, "0 to 1e9 s"},
+               {{"run", "denim", "--steps", "1.5"}, 2, "not a whole number"},
+               {{"run", "denim", "--dt", ""}, 2, "empty"},
+               {{"run", "", "--steps", "1"}, 2, "empty"},
+               {{"run", "denim", "--steps", "1", "--state", ""}, 2, "empty"},
+               {{"run", "denim", "--steps", "1", "--set", "bodies[0]={}"}, 2, "bodies[0].r=0.3"},
+               {{"run", "denim", "--steps", "1", "--set", "pins=top"}, 2, "known. Allowed: none"},
                {{"run", "denim", "--steps", "1", "--threads", "0"}, 2, "threads"},
                {{"render", "denim"}, 2, "png"},
                {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
@@ -67,12 +75,31 @@ TEST_CASE("2: the command line is wrong, --set included") {
   CHECK(fs::is_empty(folder.path()));
 }
 
+TEST_CASE("2: an option that would do nothing, or outputs that would be one file") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "own.json", preset_to_json({}));
+  check_calls({{{"run", "denim", "--steps", "1", "--series-every", "5"}, 2, "--series F.csv"},
+               {{"run", "denim", "--steps", "1", "--fps", "5"}, 2, "--obj, --pc2"},
+               {{"run", "denim", "--steps", "1", "--series", "t.csv", "--series-every", "1", "--fps", "5"}, 2, "--fps"},
+               {{"run", "denim", "--steps", "1", "--state", "-", "--json", "-"}, 2, "both go to standard output"},
+               {{"run", "denim", "--steps", "1", "--state", "a", "--series", "./a"}, 2, "both go to"},
+               {{"run", "own.json", "--steps", "1", "--json", "own.json"}, 2, "would replace the preset"},
+               {{"run", "denim", "--steps", "1", "--obj", "-"}, 2, "name a folder"},
+               {{"render", "denim", "--png", "-", "--fps", "5"}, 2, "name a folder"},
+               {{"--screenshot", "a.png"}, 2, "--frames"},
+               {{"--session-report", "-"}, 2, "name a file"}},
+              folder.path());
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 1);
+}
+
 TEST_CASE("3: a preset is wrong or missing") {
   const test::TemporaryFolder folder;
   test::write_file(folder / "wrong.json", "{\n\"forces\": {\n\"k_s\": -1}}");
   test::write_file(folder / "not.json", "k_s = 5");
+  test::write_file(folder / "comma.json", "{\n\"name\": \"a\"\n\"kind\": 5}");
   check_calls({{{"run", "wrong.json", "--steps", "1"}, 3, "wrong.json:3: forces.k_s"},
                {{"run", "not.json", "--steps", "1"}, 3, "not.json:1"},
+               {{"run", "comma.json", "--steps", "1"}, 3, "comma.json:3: column 6: syntax error"},
                {{"run", "missing.json", "--steps", "1"}, 3, "missing.json"},
                {{"run", "demin", "--steps", "1"}, 3, "denim"},
                {{"render", "wrong.json", "--png", "a.png"}, 3, "forces.k_s"},
@@ -117,6 +144,48 @@ TEST_CASE("6: an output cannot be written") {
                {{"run", "denim", "--steps", "100", "--pc2", "/dev/full"}, 6, "/dev/full"},
                {{"render", "denim", "--seconds", "0.01", "--size", "64x64", "--png", "missing/p.png"}, 6, "missing"}},
               folder.path());
+}
+
+TEST_CASE("6: whatever goes to standard output and is lost") {
+  const test::TemporaryFolder folder;
+  for (const char* words :
+       {"--help", "--version", "run --help", "presets", "presets show denim", "presets notation", "devices",
+        "run hanging --steps 1", "run hanging --steps 1 --json -", "run hanging --steps 1 --series -",
+        "run hanging --steps 1 --pc2 -", "render hanging --seconds 0 --size 16x16 --png -"}) {
+    CAPTURE(std::string(words));
+    for (const char* nowhere : {" >/dev/full", " >&-"}) {
+      const auto outcome =
+          test::run(folder.path(), {"/bin/sh", "-c", std::string(TYGLAB_BINARY) + " " + words + nowhere});
+      CHECK(outcome.code == 6);
+      CHECK(outcome.err.find("standard output") != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("6: a file that grows beyond the limit of the shell leaves nothing behind") {
+  const test::TemporaryFolder folder;
+  const std::string call = "ulimit -f 4; " + std::string(TYGLAB_BINARY) + " run hanging --steps 1 --state s.csv";
+  const auto outcome = test::run(folder.path(), {"/bin/sh", "-c", call});
+  CHECK(outcome.code == 6);
+  CHECK(outcome.err.find("s.csv: cannot be written") != std::string::npos);
+  CHECK(fs::is_empty(folder.path()));
+}
+
+TEST_CASE("a file does not take the place of a closed standard output") {
+  const test::TemporaryFolder folder;
+  test::run(folder.path(), {"/bin/sh", "-c", std::string(TYGLAB_BINARY) + " run hanging --steps 1 --series t.csv >&-"});
+  const auto rows = test::lines(test::read_file(folder / "t.csv"));
+  REQUIRE(rows.size() == 3);
+  CHECK(rows.back().starts_with("0,"));
+}
+
+TEST_CASE("130: Ctrl-C while a huge cloth is built ends at once, with a sentence") {
+  const test::TemporaryFolder folder;
+  const auto outcome = test::tyglab_interrupted(
+      folder.path(),
+      {"run", "hanging", "--set", "rows=4096", "--set", "columns=4096", "--steps", "100000", "--state", "s.csv"}, 0.5);
+  CHECK(outcome.code == 130);
+  CHECK(outcome.err.find("Interrupted") != std::string::npos);
 }
 
 TEST_CASE("130: an interrupted run keeps what it had written") {

@@ -84,6 +84,51 @@ TEST_CASE("--json tells programs what was done, and - writes it to standard outp
   CHECK(fs::is_empty(folder.path()));
 }
 
+TEST_CASE("- is standard output for every file, and gives the same bytes") {
+  const test::TemporaryFolder folder;
+  for (const char* option : {"--state", "--series", "--pc2"}) {
+    CAPTURE(std::string(option));
+    const auto streamed = good(folder.path(), {"run", "hanging", "--seconds", "0.1", option, "-"});
+    good(folder.path(), {"run", "hanging", "--seconds", "0.1", option, "file"});
+    CHECK(streamed.out == test::read_file(folder / "file"));
+    CHECK(streamed.err.find("Wrote standard output") != std::string::npos);
+  }
+  const auto picture = good(folder.path(), {"render", "hanging", "--seconds", "0", "--size", "64x48", "--png", "-"});
+  CHECK(picture.out.starts_with("\x89PNG"));
+  CHECK_FALSE(fs::exists(folder / "-"));
+}
+
+TEST_CASE("run and presets check say in one line that the preset's picture is missing") {
+  const test::TemporaryFolder folder;
+  Preset preset;
+  preset.texture = "gone.png";
+  test::write_file(folder / "a.json", preset_to_json(preset));
+  for (const std::vector<std::string>& call : {std::vector<std::string>{"run", "a.json", "--steps", "1"},
+                                               std::vector<std::string>{"presets", "check", "a.json"}}) {
+    const auto outcome = good(folder.path(), call);
+    CHECK(test::lines(outcome.err).size() == 1);
+    CHECK(outcome.err.find("gone.png") != std::string::npos);
+  }
+}
+
+TEST_CASE("without a display every start gets a folder of its own, and nothing is replaced") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "tyglab-out", "not a folder");
+  for (const char* made : {"tyglab-out-2", "tyglab-out-3"}) {
+    const auto outcome = good(folder.path(), {"one_weight", "--frames", "2"});
+    CHECK(outcome.err.find(made) != std::string::npos);
+    CHECK(fs::exists(folder / made / "one_weight_0004.png"));
+  }
+  CHECK(test::read_file(folder / "tyglab-out") == "not a folder");
+}
+
+TEST_CASE("numbers are read as people type them") {
+  const test::TemporaryFolder folder;
+  CHECK(good(folder.path(), {"run", "one_weight", "--steps", "1e3"}).out.find(": 1000 steps") != std::string::npos);
+  CHECK(good(folder.path(), {"run", "one_weight", "--steps", "010"}).out.find(": 10 steps") != std::string::npos);
+  CHECK(good(folder.path(), {"run", "one_weight", "--steps", "1"}).out.find(": 1 step to") != std::string::npos);
+}
+
 TEST_CASE("--set and the short forms reach the simulation") {
   const test::TemporaryFolder folder;
   const auto outcome =

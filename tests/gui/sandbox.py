@@ -21,7 +21,7 @@ def centre(box):
 class Sandbox:
     """The program in a window of `size`, with a folder of its own for settings and presets."""
 
-    def __init__(self, tyglab, screen, arguments, size=(1280, 720), config=None):
+    def __init__(self, tyglab, screen, arguments, size=(1280, 720), config=None, with_settings=True):
         self.screen = screen
         self.tyglab = tyglab
         self.own = tempfile.TemporaryDirectory(prefix="tyglab-gui-")
@@ -29,7 +29,7 @@ class Sandbox:
         self.report_file = os.path.join(self.own.name, "report.json")
         self.errors = open(os.path.join(self.own.name, "stderr"), "w+")
         self.settings_file = os.path.join(self.config, "settings.json")
-        if not os.path.exists(self.settings_file):
+        if with_settings and not os.path.exists(self.settings_file):
             os.makedirs(self.config, exist_ok=True)
             with open(self.settings_file, "w") as file:
                 json.dump({"window": {"x": 0, "y": 0, "width": size[0], "height": size[1]}}, file)

@@ -1,7 +1,7 @@
 """Constants are changed by slider, by typing and by keys, undone and reset; the integrator is switched while running."""
 
 from cases import case, check, main
-from sandbox import LEFT, k_s
+from sandbox import LEFT, centre, k_s
 
 PRESET_K_S = 50
 
@@ -69,6 +69,37 @@ def typed(stage):
     sandbox.key("ctrl+z")
     sandbox.key("ctrl+z")
     sandbox.wait(lambda r: k_s(r) == PRESET_K_S and r["preset"]["solver"]["dt"] == 0.001, "two undos to take both back")
+
+
+@case
+def double_clicked(stage):
+    """a double click on a number lets one type it, also while its slider has the keys; Ctrl+Q quits from there"""
+    sandbox = stage.start("hanging")
+    sandbox.key("space")
+    sandbox.click(*along(sandbox.control("constants.k_s.slider"), 0.5))
+    sandbox.double_click(*centre(sandbox.control("constants.k_s.value")), LEFT, lambda r: r["typing"], "a text field")
+    sandbox.later(2)
+    sandbox.type("310")
+    sandbox.later(3)
+    sandbox.key("Return")
+    report = sandbox.wait(lambda r: k_s(r) == 310, "310 to be taken")
+    sandbox.key("ctrl+z")
+    sandbox.key("ctrl+z")
+    sandbox.wait(lambda r: not r["unsaved"], "two undos to take both back")
+    sandbox.double_click(*centre(sandbox.control("constants.k_b.value")), LEFT, lambda r: r["typing"], "a text field")
+    sandbox.xdotool("key", "ctrl+q")
+    check(sandbox.ended() == 0, "Ctrl+Q ends it while a number is typed")
+
+
+@case
+def dismissed(stage):
+    """a click anywhere on a message takes it away"""
+    sandbox = stage.start("hanging")
+    sandbox.type_value("k_s", "abc")
+    sandbox.wait(lambda r: r["messages"], "the message")
+    sandbox.click_control("viewport.dismiss")
+    report = sandbox.wait(lambda r: not r["messages"], "the message to go")
+    check(report["torn_springs"] == 0, "the click did not go through to the cloth")
 
 
 @case

@@ -33,6 +33,17 @@ def explodes(stage):
 
 
 @case
+def cure(stage):
+    """the banner makes the change that it names: the cloth of the preset that explodes then moves on"""
+    sandbox = stage.start("explodes")
+    sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
+    sandbox.click_control("viewport.Verlet_and_restart")
+    report = sandbox.wait(lambda r: r["divergence"] is None, "the button to restart")
+    check(report["preset"]["solver"]["integrator"] == "verlet" and report["unsaved"], "the integrator is Verlet")
+    sandbox.wait(lambda r: r["t"] > 0.5 and r["divergence"] is None, "the cloth to move on")
+
+
+@case
 def own_doing(stage):
     """a slider pushed too far offers to undo that change and restart, which heals the cloth"""
     sandbox = stage.start("hanging")

@@ -159,5 +159,29 @@ def session(stage):
     check(k_s(report) == 45 and report["unsaved"], "what was not saved is back, and counts as unsaved")
 
 
+@case
+def broken_settings(stage):
+    """settings of no use are kept beside, and said in plain words; a folder that cannot be written is said at once"""
+    sandbox = stage.start("hanging")
+    sandbox.key("ctrl+q")
+    sandbox.ended()
+    with open(sandbox.settings_file, "w") as file:
+        file.write("[]")
+    again = stage.start("hanging", config=sandbox.config)
+    report = again.wait(lambda r: r["messages"], "a message")
+    check("settings.json.broken" in report["messages"][0] and "exception" not in report["messages"][0],
+          f"it says where the file is: {report['messages']}")
+    with open(again.settings_file + ".broken") as file:
+        check(file.read() == "[]", "the file is kept")
+    again.close()
+    # A file where the folder should be stops even an administrator.
+    blocked = os.path.join(sandbox.own.name, "file", "config")
+    with open(os.path.dirname(blocked), "w") as file:
+        file.write("in the way")
+    third = stage.start("hanging", config=blocked, with_settings=False)
+    report = third.wait(lambda r: r["messages"], "a message")
+    check("will not be remembered" in report["messages"][0], f"it says so: {report['messages']}")
+
+
 if __name__ == "__main__":
     main()

@@ -1,7 +1,9 @@
 """The window: resized, closed, scaled; its borders dragged."""
 
 import json
+import os
 import signal
+import subprocess
 
 from cases import case, check, main
 
@@ -88,6 +90,19 @@ def closing(stage):
     sandbox = stage.start("flag")
     sandbox.key("ctrl+q")
     check(sandbox.ended() == 0, "Ctrl+Q ends it too")
+
+
+@case
+def threads(stage):
+    """--threads reaches the engine, and a cloth finer than the window is drawn from a part of it"""
+    sandbox = stage.start("hanging")
+    out = os.path.join(sandbox.own.name, "costs.json")
+    done = subprocess.run([sandbox.tyglab, "hanging", "--set", "rows=1500", "--set", "columns=1500", "--set", "L=6e-4",
+                           "--dt", "1e-6", "--threads", "2", "--frames", "2", "--time-report", out],
+                          env=sandbox.environment, capture_output=True, text=True)
+    check(done.returncode == 0, done.stderr)
+    with open(out) as file:
+        check("2 threads" in json.load(file)["engine"], "the engine has two threads")
 
 
 @case

@@ -84,6 +84,13 @@ TEST_CASE("a link is written through, not replaced") {
   write_atomically(folder / "link.json", "new");
   CHECK(fs::is_symlink(folder / "link.json"));
   CHECK(test::read_file(folder / "real.json") == "new");
+  // A link to what is not there yet makes it; a circle of links is refused.
+  fs::create_symlink("later.json", folder / "early.json");
+  write_atomically(folder / "early.json", "late");
+  CHECK(test::read_file(folder / "later.json") == "late");
+  CHECK(fs::is_symlink(folder / "early.json"));
+  fs::create_symlink("circle.json", folder / "circle.json");
+  CHECK_THROWS_AS(write_atomically(folder / "circle.json", "text"), OutputError);
 }
 
 TEST_CASE("every shipped preset is valid, has a name and a description, and the contract's names are there") {

@@ -99,24 +99,23 @@ TEST_CASE("a wrong type is refused with what is expected") {
 }
 
 TEST_CASE("a value out of range is refused with what is allowed") {
-  for (const Wrong& wrong :
-       {Wrong{on_line_37("forces", "\"k_s\": -1"), {":37", "forces.k_s", "-1", "0 to 1e+09", "N/m"}},
-        {on_line_37("forces", "\"k_d\": 1e7"), {":37", "forces.k_d", "0 to 1000000"}},
-        {on_line_37("forces", "\"g\": 100.001"), {":37", "forces.g", "-100 to 100"}},
-        {on_line_37("forces", "\"W\": [0, 0, 1001]"), {":37", "forces.W", "1001"}},
-        {on_line_37("cloth", "\"rows\": 1"), {":37", "cloth.rows", "2 to 4096"}},
-        {on_line_37("cloth", "\"rows\": 4097"), {":37", "cloth.rows", "4097"}},
-        {on_line_37("cloth", "\"rows\": 99999999999"), {":37", "cloth.rows"}},
-        {on_line_37("cloth", "\"rows\": 99999999999999999999999"), {":37", "cloth.rows"}},
-        {on_line_37("cloth", "\"rows\": -99999999999"), {":37", "cloth.rows"}},
-        {on_line_37("cloth", "\"columns\": 0"), {":37", "cloth.columns", "1 to 4096"}},
-        {on_line_37("cloth", "\"m\": 0"), {":37", "cloth.m", "kg"}},
-        {on_line_37("solver", "\"dt\": 0"), {":37", "solver.dt", "1e-07 to 1", "s"}},
-        {on_line_37("solver", "\"dt\": 1e300"), {":37", "solver.dt"}},
-        {on_line_37("view", "\"mode\": 6"), {":37", "view.mode", "1 to 5"}},
-        {"{\"bodies\": [{\"r\": 0}]}", {"bodies[0].r", "0.001 to 100"}},
-        {"{\"bodies\": [{\"c\": [0, 0, 2000]}]}", {"bodies[0].c", "2000"}},
-        {"{\"bodies\": [{\"restitution\": 1.5}]}", {"bodies[0].restitution", "0 to 1"}}}) {
+  for (const Wrong& wrong : {Wrong{on_line_37("forces", "\"k_s\": -1"), {":37", "forces.k_s", "-1", "0 to 1e9", "N/m"}},
+                             {on_line_37("forces", "\"k_d\": 1e7"), {":37", "forces.k_d", "0 to 1000000"}},
+                             {on_line_37("forces", "\"g\": 100.001"), {":37", "forces.g", "-100 to 100"}},
+                             {on_line_37("forces", "\"W\": [0, 0, 1001]"), {":37", "forces.W", "1001"}},
+                             {on_line_37("cloth", "\"rows\": 1"), {":37", "cloth.rows", "2 to 4096"}},
+                             {on_line_37("cloth", "\"rows\": 4097"), {":37", "cloth.rows", "4097"}},
+                             {on_line_37("cloth", "\"rows\": 99999999999"), {":37", "cloth.rows"}},
+                             {on_line_37("cloth", "\"rows\": 99999999999999999999999"), {":37", "cloth.rows"}},
+                             {on_line_37("cloth", "\"rows\": -99999999999"), {":37", "cloth.rows"}},
+                             {on_line_37("cloth", "\"columns\": 0"), {":37", "cloth.columns", "1 to 4096"}},
+                             {on_line_37("cloth", "\"m\": 0"), {":37", "cloth.m", "kg"}},
+                             {on_line_37("solver", "\"dt\": 0"), {":37", "solver.dt", "1e-7 to 1", "s"}},
+                             {on_line_37("solver", "\"dt\": 1e300"), {":37", "solver.dt"}},
+                             {on_line_37("view", "\"mode\": 6"), {":37", "view.mode", "1 to 5"}},
+                             {"{\"bodies\": [{\"r\": 0}]}", {"bodies[0].r", "0.001 to 100"}},
+                             {"{\"bodies\": [{\"c\": [0, 0, 2000]}]}", {"bodies[0].c", "2000"}},
+                             {"{\"bodies\": [{\"restitution\": 1.5}]}", {"bodies[0].restitution", "0 to 1"}}}) {
     check_contains(error_of(wrong.text), wrong.parts);
   }
 }
@@ -161,6 +160,14 @@ TEST_CASE("text that is not JSON is refused with its line") {
     CAPTURE(wrong.text);
     check_contains(error_of(wrong.text), wrong.parts);
   }
+}
+
+TEST_CASE("text that is not JSON is told its place once") {
+  const std::string what = error_of("{\n\"cloth\": {\n\"rows\" 5}}");
+  CHECK(what.starts_with("folder/wrong.json:3: column 8: syntax error"));
+  CHECK(what.find("at line") == std::string::npos);
+  // The end of the file lies further down than what is unfinished, so its column says nothing.
+  CHECK(error_of("{\n\"cloth\": {\n\n\n").find("column") == std::string::npos);
 }
 
 TEST_CASE("deep nesting and endless lists are refused, not followed") {

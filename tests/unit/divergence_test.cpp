@@ -2,8 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "core/integrators/remedy.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
@@ -189,6 +191,25 @@ TEST_CASE("what is bounded is not diverged: 10 s of free fall, and a torn spring
   cut.apply(edit::Cut{{{1, 0}}});
   cut.advance(1000);
   CHECK_FALSE(cut.divergence().has_value());
+}
+
+TEST_CASE("the cure makes the change that the remedy names first, and heals") {
+  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+    CAPTURE(std::string(integrator));
+    const Preset preset = explosive(integrator, Precision::double_);
+    const auto cured = cure(preset);
+    REQUIRE(cured.has_value());
+    CHECK(cured->integrator == "verlet");
+    CHECK(cured->dt < preset.dt);
+    char dt[32];
+    std::snprintf(dt, sizeof dt, "dt = %.2g s", cured->dt);
+    CHECK(remedy(preset).find(dt) != std::string::npos);
+    Simulation simulation(*cured);
+    CHECK_FALSE(simulation.advance(2000).diverged);
+  }
+  Preset calm;
+  calm.dt = 1e-6;
+  CHECK_FALSE(cure(calm).has_value());
 }
 
 }  // namespace

@@ -10,19 +10,17 @@ namespace tyglab::cpu {
 
 template <class R>
 Band<R>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
-  const std::size_t row = std::size_t(cloth.stride), margin = widest_vector / sizeof(R);
-  for (Field& field : ring_) field.resize(row);
-  old_row_.resize(row);
-  sum_row_.resize(row);
-  // The sweep loads rows and columns that lie beyond the halo before it masks them: as in the cloth's own arrays.
-  if (begin > 0) head_.x.resize(6 * row + margin), head_.v.resize(6 * row + margin);
-  if (end < cloth.lattice.rows) tail_.x.resize(6 * row + margin), tail_.v.resize(6 * row + margin);
+  ring_.resize(4, cloth.stride);
+  old_rows_.resize(2, cloth.stride);
+  sum_row_.resize(1, cloth.stride);
+  // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.
+  if (begin > 0) head_.x.resize(6, cloth.stride), head_.v.resize(6, cloth.stride);
+  if (end < cloth.lattice.rows) tail_.x.resize(6, cloth.stride), tail_.v.resize(6, cloth.stride);
 }
 
 template <class R>
 std::size_t Band<R>::bytes() const {
-  std::size_t total = old_row_.bytes() + sum_row_.bytes();
-  for (const Field& row : ring_) total += row.bytes();
+  std::size_t total = ring_.bytes() + old_rows_.bytes() + sum_row_.bytes();
   for (const Halo* halo : {&head_, &tail_}) total += halo->x.bytes() + halo->v.bytes();
   return total;
 }
@@ -30,14 +28,9 @@ std::size_t Band<R>::bytes() const {
 /// Rows first … first + count - 1 of the sweep's vectors to rows at … of a halo.
 template <class R>
 void Band<R>::copy_rows(const ResolvedSweep& s, int first, int count, Halo& halo, int at) {
-  for (int c = 0; c < 3; ++c) {
-    const auto copy = [&](int vector, Field& to) {
-      std::copy_n(cloth_.component(vector, c) + cloth_.row_begin(first), std::ptrdiff_t(count) * cloth_.stride,
-                  Cloth<R>::component(to, c) + cloth_.row_begin(at));
-    };
-    copy(s.position, halo.x);
-    copy(s.velocity, halo.v);
-  }
+  const Field &x = cloth_.vector(s.position), &v = cloth_.vector(s.velocity);
+  std::copy_n(x.row(first), count * x.pitch(), halo.x.row(at));
+  std::copy_n(v.row(first), count * v.pitch(), halo.v.row(at));
 }
 
 template <class R>
@@ -47,8 +40,8 @@ void Band<R>::copy_halo(const ResolvedSweep& s) {
 }
 
 template <class R>
-RowTask<R> Band<R>::task(const ResolvedSweep& s) {
-  RowTask<R> t{};
+PairTask<R> Band<R>::task(const ResolvedSweep& s) {
+  PairTask<R> t{};
   t.stride = cloth_.stride;
   t.columns = cloth_.lattice.columns;
   t.L = cloth_.preset.L, t.k_s = cloth_.preset.k_s, t.k_b = cloth_.preset.k_b, t.k_d = s.k_d;
@@ -61,51 +54,47 @@ RowTask<R> Band<R>::task(const ResolvedSweep& s) {
 }
 
 template <class R>
-void Band<R>::point(RowTask<R>& t, const Tears& tears, int i, int x_row, Field& x, Field& v) {
-  for (int c = 0; c < 3; ++c) {
-    t.x[c] = Cloth<R>::component(x, c) + cloth_.row_begin(x_row);
-    t.v[c] = Cloth<R>::component(v, c) + cloth_.row_begin(x_row);
-    for (int n = 0; n < 3; ++n) t.f[n][c] = force_row(i + n, c);
-  }
+void Band<R>::point(PairTask<R>& t, const Tears& tears, int i, int x_row, Field& x, Field& v) {
+  t.x = x.row(x_row), t.v = v.row(x_row);
+  for (int n = 0; n < 4; ++n) t.f[n] = force_row(i + n, 0);
   t.rows_below = cloth_.lattice.rows - 1 - i;
   t.whole = tears.row(i);
-  t.fixed = cloth_.has_fixed(i) ? cloth_.fixed.data() + std::size_t(i) * cloth_.lattice.columns : nullptr;
-  t.parity = i & 1;
+  for (const int row : {0, 1})
+    t.fixed[row] = i + row < cloth_.lattice.rows && cloth_.has_fixed(i + row)
+                       ? cloth_.fixed.data() + std::size_t(i + row) * cloth_.lattice.columns
+                       : nullptr;
 }
 
 template <class R>
-void Band<R>::point_at_row(RowTask<R>& t, const ResolvedSweep& s, const Tears& tears, int i) {
+void Band<R>::point_at_pair(PairTask<R>& t, const ResolvedSweep& s, const Tears& tears, int i) {
   if (!in_tail(i)) {
-    point(t, tears, i, i, cloth_.vectors[std::size_t(s.position)], cloth_.vectors[std::size_t(s.velocity)]);
+    point(t, tears, i, i, cloth_.vector(s.position), cloth_.vector(s.velocity));
     return;
   }
-  // The last two rows look at the next band's first two, which may have moved on: they are swept in the halo.
-  if (i == end_ - 2) copy_rows(s, i, 2, tail_, 0);
-  point(t, tears, i, i - (end_ - 2), tail_.x, tail_.v);
+  // The last pair looks at the next band's first one, which may have moved on: it is swept in the halo.
+  copy_rows(s, i, 2, tail_, 0);
+  point(t, tears, i, 0, tail_.x, tail_.v);
 }
 
-/// Clears the ring, and computes what the two rows above the band add to its first two.
+/// Clears the ring's first pair, and computes what the pair above the band adds to it.
 template <class R>
-void Band<R>::begin_forces(RowTask<R>& t, const Tears& tears) {
+void Band<R>::begin_forces(PairTask<R>& t, const Tears& tears) {
   const int first = std::max(0, begin_ - 2);
-  for (int i = first; i < first + 2; ++i)
-    for (int c = 0; c < 3; ++c) std::fill_n(force_row(i, c), cloth_.stride, R(0));
-  for (int i = first; i < begin_; ++i) {
-    point(t, tears, i, i - first, head_.x, head_.v);
-    forces_on_row(t, Update::force);
-  }
+  for (int i = first; i < first + 2; ++i) std::fill_n(force_row(i, 0), ring_.pitch(), R(0));
+  if (begin_ == 0) return;
+  point(t, tears, first, 0, head_.x, head_.v);
+  forces_on_pair(t, Update::force);
 }
 
 template <class R>
-void Band<R>::forces_on_row(const RowTask<R>& t, Update update) {
+void Band<R>::forces_on_pair(const PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
-    t.f[0][0][0] = R(0), t.f[0][2][0] = R(0);
-    t.f[0][1][0] =
-        R(HWY_NAMESPACE::hooke(t.x[1][0], cloth_.preset.x_0.y, cloth_.preset.k, t.v[1][0], t.k_d) - t.weight);
+    const R x = t.x[t.stride], v = t.v[t.stride];
+    t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
+    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, cloth_.preset.k, v, t.k_d) - t.weight);
     return;
   }
-  if (cloth_.preset.W != glm::dvec3(0) && t.rows_below > 0) cloth_.rows.wind(t);
-  cloth_.rows.sweep[cloth_.features][std::size_t(update)](t);
+  cloth_.sweeps.sweep[cloth_.features][std::size_t(update)](t);
 }
 
 /// The force on the hand's particle, if it is in this row.
@@ -131,10 +120,10 @@ void Band<R>::assign_row(const ResolvedSweep& s, int i) {
   for (const auto& assignment : s.assignments)
     for (int c = 0; c < 3; ++c) {
       const auto source = [&](int vector) -> const R* {
-        return vector == acceleration ? force_row(i, c) : cloth_.component(vector, c) + cloth_.row_begin(i);
+        return vector == acceleration ? force_row(i, c) : cloth_.row(vector, i, c);
       };
-      R* target = cloth_.component(assignment.target, c) + cloth_.row_begin(i);
-      R* sum = Cloth<R>::component(sum_row_, c);
+      R* target = cloth_.row(assignment.target, i, c);
+      R* sum = sum_row_.row(0, c);
       std::fill_n(sum, cloth_.lattice.columns, R(0));
       for (const auto [vector, factor] : assignment.terms) {
         const R* from = source(vector);
@@ -146,27 +135,23 @@ void Band<R>::assign_row(const ResolvedSweep& s, int i) {
 }
 
 template <class R>
-void Band<R>::keep_row(int i) {
-  for (int c = 0; c < 3; ++c)
-    std::copy_n(cloth_.component(vector_x, c) + cloth_.row_begin(i), cloth_.lattice.columns,
-                Cloth<R>::component(old_row_, c));
+void Band<R>::keep_pair(int i) {
+  for (int row = i; row < std::min(i + 2, end_); ++row)
+    std::copy_n(cloth_.row(vector_x, row, 0), old_rows_.pitch(), old_row(row, 0));
 }
 
-/// A row swept in the halo goes back to the cloth.
+/// A pair swept in the halo goes back to the cloth.
 template <class R>
-void Band<R>::give_back_row(const RowTask<R>& t, const ResolvedSweep& s, int i) {
-  for (int c = 0; c < 3; ++c) {
-    std::copy_n(t.x[c], cloth_.lattice.columns, cloth_.component(s.position, c) + cloth_.row_begin(i));
-    std::copy_n(t.v[c], cloth_.lattice.columns, cloth_.component(s.velocity, c) + cloth_.row_begin(i));
-  }
+void Band<R>::give_back_pair(const PairTask<R>& t, const ResolvedSweep& s, int i) {
+  Field &x = cloth_.vector(s.position), &v = cloth_.vector(s.velocity);
+  std::copy_n(t.x, 2 * x.pitch(), x.row(i));
+  std::copy_n(t.v, 2 * v.pitch(), v.row(i));
 }
 
 /// Whether a particle of the row may be inside a body; rounding is left to the exact test.
 template <class R>
 bool Band<R>::touches(int i) const {
-  const R *x = cloth_.component(vector_x, 0) + cloth_.row_begin(i),
-          *y = cloth_.component(vector_x, 1) + cloth_.row_begin(i),
-          *z = cloth_.component(vector_x, 2) + cloth_.row_begin(i);
+  const R *x = cloth_.row(vector_x, i, 0), *y = cloth_.row(vector_x, i, 1), *z = cloth_.row(vector_x, i, 2);
   for (const Body& body : cloth_.preset.bodies) {
     int inside = 0;
     if (body.shape == Body::Shape::plane) {
@@ -188,7 +173,6 @@ bool Band<R>::touches(int i) const {
 
 template <class R>
 void Band<R>::collide_row(int i) {
-  const std::ptrdiff_t row = cloth_.row_begin(i);
   const double scale = cloth_.keeps_displacement ? cloth_.preset.dt : 1;
   int next_fixed = cloth_.fixed_begin[i];
   for (int j = 0; j < cloth_.lattice.columns; ++j) {
@@ -197,9 +181,8 @@ void Band<R>::collide_row(int i) {
       continue;
     }
     R *x[3], *v[3];
-    for (int c = 0; c < 3; ++c)
-      x[c] = cloth_.component(vector_x, c) + row + j, v[c] = cloth_.component(vector_v, c) + row + j;
-    Passage p{{old_row_.x[j], old_row_.y[j], old_row_.z[j]}, {*x[0], *x[1], *x[2]}, {*v[0], *v[1], *v[2]}};
+    for (int c = 0; c < 3; ++c) x[c] = cloth_.row(vector_x, i, c) + j, v[c] = cloth_.row(vector_v, i, c) + j;
+    Passage p{{old_row(i, 0)[j], old_row(i, 1)[j], old_row(i, 2)[j]}, {*x[0], *x[1], *x[2]}, {*v[0], *v[1], *v[2]}};
     if (std::none_of(cloth_.preset.bodies.begin(), cloth_.preset.bodies.end(),
                      [&](const Body& b) { return depth(b, p.x) > 0; }))
       continue;
@@ -209,15 +192,14 @@ void Band<R>::collide_row(int i) {
   }
 }
 
-/// What the row sweep does itself where it makes the update: keeps the largest way.
+/// What the pair sweep does itself where it makes the update: keeps the largest way.
 template <class R>
 void Band<R>::watch_row(int i) {
   const R dt = R(cloth_.preset.dt / cloth_.velocity_scale());
   R largest = 0;
   int finite = 1;
   for (int c = 0; c < 3; ++c) {
-    const R *x = cloth_.component(vector_x, c) + cloth_.row_begin(i),
-            *v = cloth_.component(vector_v, c) + cloth_.row_begin(i), *old = Cloth<R>::component(old_row_, c);
+    const R *x = cloth_.row(vector_x, i, c), *v = cloth_.row(vector_v, i, c), *old = old_row(i, c);
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
       const R way = std::max(std::abs(x[j] - old[j]), std::abs(dt * v[j]));
       largest = way > largest ? way : largest;
@@ -248,40 +230,44 @@ double Band<R>::largest_way() const {
 
 template <class R>
 void Band<R>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
-  RowTask<R> t = task(s);
+  PairTask<R> t = task(s);
   const bool weight = cloth_.preset.kind == Kind::one_weight;
   const bool bodies = last && !cloth_.preset.bodies.empty() && !weight;
   const bool assigns = weight || s.update == Update::force;
   has_hand_ = false;
   begin_forces(t, tears);
-  for (int i = begin_; i < end_; ++i) {
-    point_at_row(t, s, tears, i);
-    if (bodies || (last && assigns)) keep_row(i);
-    forces_on_row(t, assigns ? Update::force : s.update);
-    if (assigns)
-      fix_row(i), assign_row(s, i);
-    else
-      read_hand(i);
-    if (!assigns && in_tail(i)) give_back_row(t, s, i);
-    if (bodies && touches(i)) collide_row(i);
-    if (last && assigns) watch_row(i);
+  for (int i = begin_; i < end_; i += 2) {
+    point_at_pair(t, s, tears, i);
+    if (bodies || (last && assigns)) keep_pair(i);
+    forces_on_pair(t, assigns ? Update::force : s.update);
+    if (!assigns && in_tail(i)) give_back_pair(t, s, i);
+    for (int row = i; row < std::min(i + 2, end_); ++row) {
+      if (assigns)
+        fix_row(row), assign_row(s, row);
+      else
+        read_hand(row);
+      if (bodies && touches(row)) collide_row(row);
+      if (last && assigns) watch_row(row);
+    }
   }
 }
 
 template <class R>
 void Band<R>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& out) {
-  RowTask<R> t = task(s);
+  PairTask<R> t = task(s);
   const R per_mass = R(1 / cloth_.preset.m);
   const glm::dvec3 hand_force = hand_force_;  // a look must not change what the last step measured
   begin_forces(t, tears);
-  for (int i = begin_; i < end_; ++i) {
-    point_at_row(t, s, tears, i);
-    forces_on_row(t, Update::force);
-    fix_row(i);
-    for (int c = 0; c < 3; ++c) {
-      const R* force = force_row(i, c);
-      R* a = Cloth<R>::component(out, c) + cloth_.row_begin(i);
-      for (int j = 0; j < cloth_.lattice.columns; ++j) a[j] = force[j] * per_mass;
+  for (int i = begin_; i < end_; i += 2) {
+    point_at_pair(t, s, tears, i);
+    forces_on_pair(t, Update::force);
+    for (int row = i; row < std::min(i + 2, end_); ++row) {
+      fix_row(row);
+      for (int c = 0; c < 3; ++c) {
+        const R* force = force_row(row, c);
+        R* a = out.row(row, c);
+        for (int j = 0; j < cloth_.lattice.columns; ++j) a[j] = force[j] * per_mass;
+      }
     }
   }
   hand_force_ = hand_force;

@@ -1,6 +1,6 @@
-// A band of rows, the work of one thread. Bands sweep in place at the same time; what a band needs of its neighbours'
-// rows it copies before anyone writes, and the forces that come from the two rows above it it computes again, in the
-// same order, so the result does not depend on the number of bands.
+// A band of rows, the work of one thread, pair after pair. Bands sweep in place at the same time; what a band needs of
+// its neighbours' rows it copies before anyone writes, and the forces that come from the pair above it it computes
+// again, in the same order, so the result does not depend on the number of bands.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
-#include "core/engines/cpu/row_sweep.h"
+#include "core/engines/cpu/pair_sweep.h"
+#include "core/engines/cpu/row_field.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset.h"
@@ -31,19 +32,19 @@ struct ResolvedSweep {
   int position = 0, velocity = 0;
   double k_d = 0;  ///< divided by dt where the velocity vector holds displacements
   std::vector<ResolvedAssignment> assignments;
-  Update update = Update::force;  ///< what the row sweep does by itself; force: the assignments are made row by row
+  Update update = Update::force;  ///< what the pair sweep does by itself; force: the assignments are made row by row
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other two
 };
 
 /// What all bands share: the arrays and what is known of the scene.
 template <class R>
 struct Cloth {
-  using Field = VectorField<R>;
+  using Field = RowField<R>;
 
   Preset preset;
   Lattice lattice;
   int stride = 0;
-  RowSweeps<R> rows;
+  PairSweeps<R> sweeps;
   unsigned features = 0;
   bool keeps_displacement = false;
   std::vector<Field> vectors;
@@ -52,10 +53,9 @@ struct Cloth {
   std::vector<std::uint8_t> fixed;  ///< mask over i·columns + j, empty if none
   Held held;
 
-  static R* component(Field& field, int c) { return (c == 0 ? field.x : c == 1 ? field.y : field.z).data(); }
-  R* component(int vector, int c) { return component(vectors[std::size_t(vector)], c); }
-  const R* component(int vector, int c) const { return const_cast<Cloth*>(this)->component(vector, c); }
-  std::ptrdiff_t row_begin(int i) const { return std::ptrdiff_t(i) * stride; }
+  Field& vector(int number) { return vectors[std::size_t(number)]; }
+  R* row(int vector, int i, int component) { return vectors[std::size_t(vector)].row(i, component); }
+  const R* row(int vector, int i, int component) const { return vectors[std::size_t(vector)].row(i, component); }
   double velocity_scale() const { return keeps_displacement ? preset.dt : 1; }
   bool has_fixed(int i) const { return fixed_begin[std::size_t(i)] < fixed_begin[std::size_t(i) + 1]; }
 };
@@ -63,9 +63,10 @@ struct Cloth {
 template <class R>
 class Band {
  public:
-  using Field = VectorField<R>;
+  using Field = RowField<R>;
 
-  /// Rows [begin, end) of the cloth; at least `least_rows` where there are several bands.
+  /// Rows [begin, end) of the cloth: `begin` even, and `end` too where there is a band below; at least `least_rows`
+  /// where there are several bands.
   Band(Cloth<R>& cloth, int begin, int end);
   static constexpr int least_rows = 8;
 
@@ -90,29 +91,30 @@ class Band {
   struct Halo {
     Field x, v;
   };
-  RowTask<R> task(const ResolvedSweep& sweep);
-  void point(RowTask<R>& task, const Tears& tears, int i, int x_row, Field& x, Field& v);
-  void point_at_row(RowTask<R>& task, const ResolvedSweep& sweep, const Tears& tears, int i);
+  PairTask<R> task(const ResolvedSweep& sweep);
+  void point(PairTask<R>& task, const Tears& tears, int i, int x_row, Field& x, Field& v);
+  void point_at_pair(PairTask<R>& task, const ResolvedSweep& sweep, const Tears& tears, int i);
   bool in_tail(int i) const { return end_ < cloth_.lattice.rows && i >= end_ - 2; }
   void copy_rows(const ResolvedSweep& sweep, int first, int count, Halo& halo, int at);
-  void begin_forces(RowTask<R>& task, const Tears& tears);
-  void forces_on_row(const RowTask<R>& task, Update update);
+  void begin_forces(PairTask<R>& task, const Tears& tears);
+  void forces_on_pair(const PairTask<R>& task, Update update);
   void read_hand(int i);
   void fix_row(int i);
   void assign_row(const ResolvedSweep& sweep, int i);
-  void keep_row(int i);
-  void give_back_row(const RowTask<R>& task, const ResolvedSweep& sweep, int i);
+  void keep_pair(int i);
+  void give_back_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
   bool touches(int i) const;
   void collide_row(int i);
   void watch_row(int i);
-  R* force_row(int i, int c) { return Cloth<R>::component(ring_[std::size_t(i) % 3], c); }
+  R* old_row(int i, int c) { return old_rows_.row(i % 2, c); }
+  R* force_row(int i, int c) { return ring_.row(i % 4, c); }
 
   Cloth<R>& cloth_;
   int begin_, end_;
-  std::array<Field, 3> ring_;  ///< force rows i, i+1, i+2
-  Field old_row_;              ///< positions of a row before it is overwritten
-  Field sum_row_;              ///< a row's linear combination while it is made
-  Halo head_, tail_;           ///< rows begin-2 … begin+1 and end-2 … end+1
+  Field ring_;        ///< force rows i … i+3
+  Field old_rows_;    ///< positions of a pair before it is overwritten
+  Field sum_row_;     ///< a row's linear combination while it is made
+  Halo head_, tail_;  ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
   alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> largest_way_{};  ///< by lane

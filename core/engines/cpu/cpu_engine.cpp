@@ -6,14 +6,7 @@
 namespace tyglab::cpu {
 namespace {
 
-/// Elements a row takes: whole cache lines, so that every row is aligned for SIMD loads.
-template <class R>
-int row_stride(int columns) {
-  constexpr int line = 64 / int(sizeof(R));
-  return (columns + line - 1) / line * line;
-}
-
-/// x, v and F as a scheme's assignments leave them, in terms of what they were: finds whether the row sweep can make
+/// x, v and F as a scheme's assignments leave them, in terms of what they were: finds whether the pair sweep can make
 /// the update by itself.
 struct Combination {
   double x, v, force;
@@ -51,10 +44,12 @@ CpuEngine<R>::CpuEngine(const Preset& preset, const Lattice& lattice, int thread
   cloth_.preset = preset;
   cloth_.lattice = lattice;
   cloth_.stride = row_stride<R>(lattice.columns);
-  cloth_.rows = row_sweeps<R>();
+  cloth_.sweeps = pair_sweeps<R>();
   cloth_.fixed_begin.assign(std::size_t(lattice.rows) + 1, 0);
   team_ = std::make_unique<Team>(useful_threads(lattice, threads));
-  const auto begin = [&](int n) { return int(std::int64_t(lattice.rows) * n / team_->size()); };
+  const auto begin = [&](int n) {
+    return n == team_->size() ? lattice.rows : int(std::int64_t(lattice.rows) * n / team_->size()) / 2 * 2;
+  };
   for (int n = 0; n < team_->size(); ++n) bands_.push_back(std::make_unique<Band<R>>(cloth_, begin(n), begin(n + 1)));
   resolve();
 }
@@ -83,26 +78,24 @@ void CpuEngine<R>::resolve() {
   for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
   cloth_.vectors.resize(std::size_t(scheme_->vectors));
   backup_.resize(cloth_.vectors.size());
-  // Two rows and a vector more than the cloth has: the sweep loads neighbours before it masks those that are not there.
-  const std::size_t size = std::size_t(cloth_.lattice.rows + 2) * cloth_.stride + widest_vector / sizeof(R);
   for (auto* fields : {&cloth_.vectors, &backup_})
     for (auto& field : *fields)
-      if (field.x.empty()) field.resize(size);
-  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u);
+      if (field.empty()) field.resize(array_rows(), cloth_.stride);
+  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
+                    (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
   free_motion_ = 0;
 }
 
 template <class R>
 void CpuEngine<R>::load(const State& state, const Tears& tears) {
-  const auto copy = [&](const Array<double>& from, R* to) {
-    for (int i = 0; i < cloth_.lattice.rows; ++i)
-      for (int j = 0; j < cloth_.lattice.columns; ++j)
-        to[cloth_.row_begin(i) + j] = R(from[std::size_t(i) * cloth_.lattice.columns + j]);
+  const auto copy = [&](const VectorField<double>& from, int vector) {
+    const Array<double>* components[] = {&from.x, &from.y, &from.z};
+    for (int c = 0; c < 3; ++c)
+      for (int i = 0; i < cloth_.lattice.rows; ++i)
+        for (int j = 0; j < cloth_.lattice.columns; ++j)
+          cloth_.row(vector, i, c)[j] = R((*components[c])[std::size_t(i) * cloth_.lattice.columns + j]);
   };
-  copy(state.x.x, cloth_.component(vector_x, 0)), copy(state.x.y, cloth_.component(vector_x, 1)),
-      copy(state.x.z, cloth_.component(vector_x, 2));
-  copy(state.v.x, cloth_.component(vector_v, 0)), copy(state.v.y, cloth_.component(vector_v, 1)),
-      copy(state.v.z, cloth_.component(vector_v, 2));
+  copy(state.x, vector_x), copy(state.v, vector_v);
   // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
   const Sweep start{vector_x, vector_v, 0, {scheme_->start}};
   const ResolvedSweep resolved = resolve(start);
@@ -119,11 +112,8 @@ void CpuEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
     accelerations(tears, acceleration_);
     const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
-    for (int c = 0; c < 3; ++c) {
-      R* d = cloth_.component(vector_v, c);
-      const R* a = Cloth<R>::component(acceleration_, c);
-      for (std::size_t p = 0; p < acceleration_.x.size(); ++p) d[p] = keep * d[p] + add * a[p];
-    }
+    Array<R>& d = cloth_.vector(vector_v).all();
+    for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
   }
   if (&next == scheme_) {
     cloth_.preset = preset;
@@ -151,8 +141,7 @@ void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
     cloth_.fixed_columns.push_back(j);
     ++cloth_.fixed_begin[std::size_t(i) + 1];
     const glm::dvec3 v = p == held.particle ? held.velocity : glm::dvec3(0);
-    for (int c = 0; c < 3; ++c)
-      cloth_.component(vector_v, c)[cloth_.row_begin(i) + j] = R(v[c] * cloth_.velocity_scale());
+    for (int c = 0; c < 3; ++c) cloth_.row(vector_v, i, c)[j] = R(v[c] * cloth_.velocity_scale());
   }
   for (std::size_t i = 1; i < cloth_.fixed_begin.size(); ++i) cloth_.fixed_begin[i] += cloth_.fixed_begin[i - 1];
   cloth_.fixed.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()) + widest_vector, 0);
@@ -168,7 +157,7 @@ void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
 
 template <class R>
 void CpuEngine<R>::accelerations(const Tears& tears, Field& out) {
-  if (out.x.empty()) out.resize(cloth_.vectors[0].x.size());
+  if (out.empty()) out.resize(array_rows(), cloth_.stride);
   ResolvedSweep look;
   look.position = vector_x, look.velocity = vector_v;
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
@@ -184,10 +173,10 @@ void CpuEngine<R>::read(State& state, const Tears& tears) {
   const double half_dt = cloth_.preset.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
-      const std::size_t to = std::size_t(i) * cloth_.lattice.columns + j, from = std::size_t(i) * cloth_.stride + j;
-      state.v.x[to] += half_dt * acceleration_.x[from];
-      state.v.y[to] += half_dt * acceleration_.y[from];
-      state.v.z[to] += half_dt * acceleration_.z[from];
+      const std::size_t to = std::size_t(i) * cloth_.lattice.columns + j;
+      state.v.x[to] += half_dt * acceleration_.row(i, 0)[j];
+      state.v.y[to] += half_dt * acceleration_.row(i, 1)[j];
+      state.v.z[to] += half_dt * acceleration_.row(i, 2)[j];
     }
 }
 
@@ -196,25 +185,24 @@ void CpuEngine<R>::read_raw(State& state) const {
   const std::size_t n = std::size_t(cloth_.lattice.size());
   if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
   const double per_dt = scheme_->keeps_displacement ? cloth_.preset.dt : 1;
-  const auto copy = [&](const R* from, Array<double>& to, double divisor) {
-    for (int i = 0; i < cloth_.lattice.rows; ++i)
-      for (int j = 0; j < cloth_.lattice.columns; ++j)
-        to[std::size_t(i) * cloth_.lattice.columns + j] = double(from[std::size_t(i) * cloth_.stride + j]) / divisor;
+  const auto copy = [&](int vector, VectorField<double>& to, double divisor) {
+    Array<double>* components[] = {&to.x, &to.y, &to.z};
+    for (int c = 0; c < 3; ++c)
+      for (int i = 0; i < cloth_.lattice.rows; ++i)
+        for (int j = 0; j < cloth_.lattice.columns; ++j)
+          (*components[c])[std::size_t(i) * cloth_.lattice.columns + j] = double(cloth_.row(vector, i, c)[j]) / divisor;
   };
-  copy(cloth_.component(vector_x, 0), state.x.x, 1), copy(cloth_.component(vector_x, 1), state.x.y, 1),
-      copy(cloth_.component(vector_x, 2), state.x.z, 1);
-  copy(cloth_.component(vector_v, 0), state.v.x, per_dt), copy(cloth_.component(vector_v, 1), state.v.y, per_dt),
-      copy(cloth_.component(vector_v, 2), state.v.z, per_dt);
+  copy(vector_x, state.x, 1), copy(vector_v, state.v, per_dt);
 }
 
 template <class R>
 PositionView CpuEngine<R>::positions() const {
-  PositionView view{cloth_.lattice.rows, cloth_.lattice.columns, cloth_.stride};
+  PositionView view{cloth_.lattice.rows, cloth_.lattice.columns, 3 * cloth_.stride};
   for (int c = 0; c < 3; ++c) {
     if constexpr (std::is_same_v<R, float>)
-      view.f[c] = cloth_.component(vector_x, c);
+      view.f[c] = cloth_.row(vector_x, 0, c);
     else
-      view.d[c] = cloth_.component(vector_x, c);
+      view.d[c] = cloth_.row(vector_x, 0, c);
   }
   return view;
 }
@@ -232,7 +220,7 @@ std::size_t CpuEngine<R>::bytes() const {
 template <class R>
 std::string CpuEngine<R>::name() const {
   const int threads = team_->size();
-  return std::string("CPU, ") + cloth_.rows.target + ", " + std::to_string(threads) +
+  return std::string("CPU, ") + cloth_.sweeps.target + ", " + std::to_string(threads) +
          (threads == 1 ? " thread" : " threads");
 }
 

@@ -27,7 +27,7 @@ class CpuEngine final : public Engine {
   std::string name() const override;
 
  private:
-  using Field = VectorField<R>;
+  using Field = RowField<R>;
   struct Fault {
     int i, j;
     const char* quantity;
@@ -35,6 +35,8 @@ class CpuEngine final : public Engine {
   };
   enum class End { none, fault, released };
 
+  /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
+  int array_rows() const { return cloth_.lattice.rows + 3; }
   void resolve();
   ResolvedSweep resolve(const Sweep& sweep) const;
   void accelerations(const Tears& tears, Field& out);
@@ -44,7 +46,8 @@ class CpuEngine final : public Engine {
   bool guarded(int i, int j) const {
     return !guards_.empty() && guards_[std::size_t(i) * cloth_.lattice.columns + j] != 0;
   }
-  double distance2(std::ptrdiff_t a, std::ptrdiff_t b) const;
+  /// Square of the distance from particle (i, j) to its neighbour in that direction, m².
+  double distance2(int i, int j, const Direction& to) const;
   /// Looks at every particle and spring; if all is well, says how much motion may pass before the next look.
   bool find_fault(const Tears& tears, Fault& fault);
   bool finite(Fault& fault) const;

@@ -17,10 +17,10 @@ constexpr double longest_factor = 1000;     // a spring longer than that many re
 }  // namespace
 
 template <class R>
-double CpuEngine<R>::distance2(std::ptrdiff_t a, std::ptrdiff_t b) const {
+double CpuEngine<R>::distance2(int i, int j, const Direction& to) const {
   double r2 = 0;
   for (int c = 0; c < 3; ++c) {
-    const double d = double(cloth_.component(vector_x, c)[b]) - double(cloth_.component(vector_x, c)[a]);
+    const double d = double(cloth_.row(vector_x, i + to.di, c)[j + to.dj]) - double(cloth_.row(vector_x, i, c)[j]);
     r2 += d * d;
   }
   return r2;
@@ -40,10 +40,9 @@ void CpuEngine<R>::tear_overloaded(Tears& tears) {
 template <class R>
 void CpuEngine<R>::tear_row(Tears& tears, int d, int i, double rest, R candidate) {
   const Direction& dir = directions[d];
-  const std::ptrdiff_t here = cloth_.row_begin(i), other = cloth_.row_begin(dir.di) + dir.dj;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
-  const R *x = cloth_.component(vector_x, 0) + here, *y = cloth_.component(vector_x, 1) + here,
-          *z = cloth_.component(vector_x, 2) + here;
+  const R *x = cloth_.row(vector_x, i, 0), *y = cloth_.row(vector_x, i, 1), *z = cloth_.row(vector_x, i, 2);
+  const std::ptrdiff_t other = dir.di * cloth_.vector(vector_x).pitch() + dir.dj;
   int any = 0;
   for (int j = begin; j < end; ++j) {
     const R dx = x[j + other] - x[j], dy = y[j + other] - y[j], dz = z[j + other] - z[j];
@@ -51,8 +50,7 @@ void CpuEngine<R>::tear_row(Tears& tears, int d, int i, double rest, R candidate
   }
   if (!any) return;
   for (int j = begin; j < end; ++j)
-    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, distance2(here + j, here + j + other)) >
-            cloth_.preset.F_max &&
+    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, distance2(i, j, dir)) > cloth_.preset.F_max &&
         !guarded(i, j) && !guarded(i + dir.di, j + dir.dj))
       tears.tear(d, i, j);
 }
@@ -63,7 +61,7 @@ bool CpuEngine<R>::finite(Fault& fault) const {
     for (int j = 0; j < cloth_.lattice.columns; ++j)
       for (int which : {vector_x, vector_v})
         for (int c = 0; c < 3; ++c) {
-          const double value = cloth_.component(which, c)[cloth_.row_begin(i) + j];
+          const double value = cloth_.row(which, i, c)[j];
           if (std::isfinite(value)) continue;
           fault = {i, j, which == vector_x ? "position" : "velocity", value};
           return false;
@@ -76,7 +74,7 @@ bool CpuEngine<R>::within_bounds(const Tears& tears, Fault& fault) {
   double slack = std::numeric_limits<double>::infinity();
   if (cloth_.preset.kind == Kind::one_weight) {
     const double bound = longest_factor * std::max(cloth_.preset.L, std::abs(cloth_.preset.offset));
-    const double away = std::abs(double(cloth_.component(vector_x, 1)[0]) - cloth_.preset.x_0.y);
+    const double away = std::abs(double(cloth_.row(vector_x, 0, 1)[0]) - cloth_.preset.x_0.y);
     fault = {0, 0, "distance from x_0", away};
     free_motion_ = bound - away;
     return free_motion_ >= 0;
@@ -85,8 +83,7 @@ bool CpuEngine<R>::within_bounds(const Tears& tears, Fault& fault) {
     for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i)
       for (int j = 0; j < cloth_.lattice.columns; ++j) {
         if (!cloth_.lattice.has_spring(d, i, j) || !tears.whole(d, i, j)) continue;
-        const std::ptrdiff_t a = cloth_.row_begin(i) + j, b = a + cloth_.row_begin(directions[d].di) + directions[d].dj;
-        const double length = std::sqrt(distance2(a, b));
+        const double length = std::sqrt(distance2(i, j, directions[d]));
         const double left = longest_factor * directions[d].rest * cloth_.preset.L - length;
         if (left < 0) {
           fault = {i, j, "spring length", length};

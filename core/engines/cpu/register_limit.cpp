@@ -10,11 +10,34 @@
 
 #include "core/engines/cpu/register_limit.h"
 #include "core/engines/cpu/simd-inl.h"
-#include "core/forces/spring-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
-using namespace tyglab::HWY_NAMESPACE;
+
+/// A spring's constants and its formulas as they stood when this loop was frozen.
+template <class D>
+struct FrozenSpring {
+  using L = Lanes<D>;
+  using T = hn::TFromD<D>;
+  L k, minus_tension, rest2, shortest2;
+
+  static HWY_INLINE FrozenSpring of(double k, double rest) {
+    const double least = 1e-9 * rest;
+    return {L::all(k), L::all(-k * rest), L::all(rest * rest), L::all(least * least)};
+  }
+  static HWY_INLINE L inverse_sqrt(L r2) {
+    if constexpr (sizeof(T) == 4) {
+      const auto y = hn::ApproximateReciprocalSqrt(r2.v);
+      const auto error = hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(1)));
+      return hn::MulAdd(hn::Mul(y, hn::Set(D(), T(0.5))), error, y);
+    } else {
+      return hn::Div(hn::Set(D(), T(1)), hn::Sqrt(r2.v));
+    }
+  }
+  HWY_INLINE L tension(L r2) const { return multiply_add(minus_tension, inverse_sqrt(r2), k); }
+  HWY_INLINE L stretch_factor(L r2) const { return if_greater(r2, rest2, tension(r2)); }
+  HWY_INLINE L bend_factor(L r2) const { return if_greater(r2, shortest2, if_greater(rest2, r2, tension(r2))); }
+};
 
 /// Makes the compiler believe that the registers have changed, so that it computes every spring anew.
 template <class D>
@@ -30,12 +53,13 @@ class Limit {
   using D = hn::ScalableTag<R>;
   using L = Lanes<D>;
   using V = Vec3<D>;
+  using Spring = FrozenSpring<D>;
 
  public:
   explicit HWY_INLINE Limit(double seed)
-      : straight_(Spring<L>::of(50, 1.0, &L::all)),
-        diagonal_(Spring<L>::of(50, 1.4, &L::all)),
-        bending_(Spring<L>::of(5, 2.0, &L::all)),
+      : straight_(Spring::of(50, 1.0)),
+        diagonal_(Spring::of(50, 1.4)),
+        bending_(Spring::of(5, 2.0)),
         k_d_(L::all(1e-6)),
         weight_(L::all(1e-3)),
         to_v_(L::all(1e-9 * seed)),
@@ -68,16 +92,16 @@ class Limit {
   }
 
  private:
-  HWY_INLINE V pull(const Spring<L>& s, V p, V q, V vp, V vq) const {
+  HWY_INLINE V pull(const Spring& s, V p, V q, V vp, V vq) const {
     const V x_ij = q - p;
-    return multiply_add(k_d_, vq - vp, stretch_factor(s, dot(x_ij, x_ij), L()) * x_ij);
+    return multiply_add(k_d_, vq - vp, s.stretch_factor(dot(x_ij, x_ij)) * x_ij);
   }
   HWY_INLINE V push(V p, V q) const {
     const V x_ij = q - p;
-    return bend_factor(bending_, dot(x_ij, x_ij), L()) * x_ij;
+    return bending_.bend_factor(dot(x_ij, x_ij)) * x_ij;
   }
 
-  const Spring<L> straight_, diagonal_, bending_;
+  const Spring straight_, diagonal_, bending_;
   const L k_d_, weight_, to_v_;
   const V A_, B_, C_, vA_, vB_;
 };

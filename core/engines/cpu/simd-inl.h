@@ -31,18 +31,42 @@ struct Lanes {
   friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
   friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
   friend HWY_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
-  friend HWY_INLINE Lanes if_greater(Lanes a, Lanes b, Lanes yes, Lanes no) {
-    return hn::IfThenElse(hn::Gt(a.v, b.v), yes.v, no.v);
+  friend HWY_INLINE Lanes if_greater(Lanes a, Lanes b, Lanes then) {
+    return hn::IfThenElseZero(hn::Gt(a.v, b.v), then.v);
   }
-  /// 1/sqrt(r2). In float the hardware's approximation and one Newton step (Hennessy, Patterson: y + y/2 (1 - r2 y²)),
-  /// within 2 ulp; in double exact roots and quotients.
-  friend HWY_INLINE Lanes inverse_sqrt(Lanes r2) {
+  /// a where it is positive (negative), else 0; 0 for NaN.
+  friend HWY_INLINE Lanes positive(Lanes a) {
+#if HWY_ARCH_X86
+    return hn::Max(a.v, hn::Zero(D()));  // of which x86 returns the second if one is NaN
+#else
+    return hn::IfThenElseZero(hn::Gt(a.v, hn::Zero(D())), a.v);
+#endif
+  }
+  friend HWY_INLINE Lanes negative(Lanes a) {
+#if HWY_ARCH_X86
+    return hn::Min(a.v, hn::Zero(D()));
+#else
+    return hn::IfThenElseZero(hn::Lt(a.v, hn::Zero(D())), a.v);
+#endif
+  }
+  /// 2h/√r2 + c. In float the hardware's approximation y of 1/√r2 and one Newton step, 2/√r2 = y (3 - r2 y²), within
+  /// 2 ulp. In double exact roots and quotients, or with AVX-512, where those are slow, its 14-bit approximation and
+  /// the series of 2/√(1 - e), e = 1 - r2 y², to the power e⁴: what is left out is under e⁵/2 < 2^-66.
+  friend HWY_INLINE Lanes over_root(Lanes h, Lanes r2, Lanes c) {
     if constexpr (sizeof(T) == 4) {
       const V y = hn::ApproximateReciprocalSqrt(r2.v);
-      const V error = hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(1)));
-      return hn::MulAdd(hn::Mul(y, hn::Set(D(), T(0.5))), error, y);
+      return hn::MulAdd(hn::Mul(y, h.v), hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(3))), c.v);
     } else {
-      return hn::Div(hn::Set(D(), T(1)), hn::Sqrt(r2.v));
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+      const V y{_mm512_rsqrt14_pd(r2.v.raw)};
+      const V e = hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(1)));
+      V sum = hn::MulAdd(hn::Set(D(), T(35.0 / 64)), e, hn::Set(D(), T(5.0 / 8)));
+      sum = hn::MulAdd(sum, e, hn::Set(D(), T(3.0 / 4)));
+      sum = hn::MulAdd(sum, e, hn::Set(D(), T(1)));
+      return hn::MulAdd(h.v, hn::MulAdd(y, hn::Mul(sum, e), hn::Add(y, y)), c.v);
+#else
+      return hn::MulAdd(hn::Add(h.v, h.v), hn::Div(hn::Set(D(), T(1)), hn::Sqrt(r2.v)), c.v);
+#endif
     }
   }
 };
@@ -90,12 +114,11 @@ struct Vec3 {
   // Written out: what the compiler generates by itself it generates for the baseline, and cannot inline here.
   HWY_INLINE Vec3() {}
   HWY_INLINE Vec3(L a, L b, L c) : x(a), y(b), z(c) {}
-  static HWY_INLINE Vec3 load(const T* const* p, std::ptrdiff_t at) {
-    return {L::load(p[0] + at), L::load(p[1] + at), L::load(p[2] + at)};
+  /// Components are `stride` apart.
+  static HWY_INLINE Vec3 load(const T* p, std::ptrdiff_t stride) {
+    return {L::load(p), L::load(p + stride), L::load(p + 2 * stride)};
   }
-  HWY_INLINE void store(T* const* p, std::ptrdiff_t at) const {
-    x.store(p[0] + at), y.store(p[1] + at), z.store(p[2] + at);
-  }
+  HWY_INLINE void store(T* p, std::ptrdiff_t stride) const { x.store(p), y.store(p + stride), z.store(p + 2 * stride); }
   friend HWY_INLINE Vec3 operator+(Vec3 a, Vec3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
   friend HWY_INLINE Vec3 operator-(Vec3 a, Vec3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
   friend HWY_INLINE Vec3 operator*(L a, Vec3 b) { return {a * b.x, a * b.y, a * b.z}; }

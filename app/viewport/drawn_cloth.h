@@ -1,0 +1,37 @@
+// Of a cloth that is finer than the picture, as much as is worth drawing.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "app/viewport/cloth_renderer.h"
+
+namespace tyglab {
+
+/// Every how many rows and columns are drawn in a picture of that size, so that no more than about four particles share
+/// a pixel of a cloth that fills it as framed: 1 draws all.
+int drawn_every(const Lattice& lattice, int width, int height);
+
+/// Every n-th row and column of a cloth, the last ones included, as a cloth of its own.
+class DrawnCloth {
+ public:
+  /// Takes what changed. `every` is 2 or more.
+  void take(const ClothScene& scene, int every, bool moved, bool topology_changed);
+  /// Valid until the next take(), while the scene that was taken lives.
+  ClothScene scene(const ClothScene& whole) const;
+
+ private:
+  int row(int i) const { return std::min(i * every_, whole_.rows - 1); }
+  int column(int j) const { return std::min(j * every_, whole_.columns - 1); }
+  void take_positions(const PositionView& view);
+  void take_tears(const Tears& tears);
+  bool torn_between(const Tears& tears, int direction, int i, int j) const;
+
+  int every_ = 0;
+  Lattice whole_, lattice_;
+  Tears tears_;
+  std::array<std::vector<float>, 3> positions_;
+};
+
+}  // namespace tyglab

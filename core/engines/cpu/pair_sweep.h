@@ -1,0 +1,60 @@
+// The sweep over a pair of rows, in SIMD: forces of the springs and triangles that the two rows own, and the update of
+// both. Springs are owned by their upper end, so once a pair is done the force on it is complete and it is overwritten
+// at once: a sweep runs in place, computes each spring once, and a never travels through memory. Two rows at a time,
+// since what the upper one hands to the lower then stays in registers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tyglab::cpu {
+
+/// What a scene needs; worked out once when something changes, and a template argument of the sweep, so that what is
+/// off costs nothing.
+enum Feature : unsigned { bending = 1, damping = 2, wind = 4, feature_sets = 8 };
+
+/// What happens with the force on a row.
+enum class Update : unsigned {
+  displacement,  ///< v += force_to_v·F, x += v: Verlet, whose v is a displacement
+  general,       ///< x += v_to_x·v + force_to_x·F, v += force_to_v·F
+  force,         ///< F takes the place of f[0] and f[1]: for schemes with more vectors, readouts
+  count
+};
+
+/// Two rows for the sweep, the upper one of even number. Vectors of particles are laid out as in row_field.h and begin
+/// at the pair's first particle; two more rows follow. Columns beyond the cloth up to the end of a vector are there,
+/// hold 0 in v, and stay as they are, and so does the lower row if the cloth ends above it.
+template <class R>
+struct PairTask {
+  R* x;
+  R* v;
+  R* f[4];  ///< rows i … i+3: reactions to forces on the rows above, to be subtracted; those on i+2 and i+3 are begun
+            ///< here
+  std::ptrdiff_t stride;  ///< elements from one component of a row to the next; 3 strides to the next row
+  int columns;
+  int rows_below;                ///< rows of the cloth under the upper row
+  const std::uint8_t* whole;     ///< tear masks of row i, the next two behind it, or nullptr while untorn
+  const std::uint8_t* fixed[2];  ///< non-zero at pinned and held particles; nullptr: none in that row. f[0], f[1] then
+                                 ///< keep the force on them
+  double L, k_s, k_b, k_d;       ///< k_d divided by dt where v holds displacements
+  double weight;                 ///< m·g, N
+  double W[3];
+  double v_to_x, force_to_x, force_to_v;
+  double dt_v;     ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
+  R* largest_way;  ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
+};
+
+/// The functions for one precision, for the best instruction set of this machine.
+template <class R>
+struct PairSweeps {
+  using Function = void (*)(const PairTask<R>&);
+  /// Indexed [features][update]. A way that is not finite makes largest_way ∞ or NaN.
+  Function sweep[feature_sets][std::size_t(Update::count)];
+  int lanes;
+  const char* target;
+};
+
+template <class R>
+PairSweeps<R> pair_sweeps();
+
+}  // namespace tyglab::cpu

@@ -1,0 +1,43 @@
+// A vector of every particle (position, velocity, force …), row after row, each row as its x, its y and its z: a row is
+// one stretch of memory, and the sweep reaches all its components from one pointer.
+#pragma once
+
+#include <cstddef>
+
+#include "core/cloth/state.h"
+
+namespace tyglab::cpu {
+
+inline constexpr int widest_vector = 64;  ///< bytes; rows begin at multiples of it
+
+/// Elements that one component of a row takes: whole vectors, so that every row is aligned.
+template <class R>
+constexpr int row_stride(int columns) {
+  constexpr int lanes = widest_vector / int(sizeof(R));
+  return (columns + lanes - 1) / lanes * lanes;
+}
+
+template <class R>
+class RowField {
+ public:
+  /// `rows` rows of zeros, and a vector more than that, since the sweep loads right neighbours before it masks them.
+  void resize(int rows, int stride) {
+    stride_ = stride;
+    data_.assign(std::size_t(rows) * pitch() + widest_vector / sizeof(R), R(0));
+  }
+  bool empty() const { return data_.empty(); }
+  std::ptrdiff_t pitch() const { return 3 * std::ptrdiff_t(stride_); }  ///< from a row to the next
+  R* row(int i) { return data_.data() + i * pitch(); }
+  const R* row(int i) const { return data_.data() + i * pitch(); }
+  R* row(int i, int component) { return row(i) + component * std::ptrdiff_t(stride_); }
+  const R* row(int i, int component) const { return row(i) + component * std::ptrdiff_t(stride_); }
+  Array<R>& all() { return data_; }
+  const Array<R>& all() const { return data_; }
+  std::size_t bytes() const { return data_.size() * sizeof(R); }
+
+ private:
+  int stride_ = 0;
+  Array<R> data_;
+};
+
+}  // namespace tyglab::cpu
