@@ -354,6 +354,7 @@ Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& se
 
 Preset with_settings(const Preset& preset, const std::vector<std::string>& settings) {
   std::vector<Setting> parsed;
+  parsed.reserve(settings.size());
   for (const std::string& text : settings) parsed.push_back(parse_setting(text));
   return with_parsed_settings(preset, parsed);
 }

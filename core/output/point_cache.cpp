@@ -28,7 +28,8 @@ PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
   if (std::fseek(out_.get(), 0, SEEK_SET) != 0)
     throw OutputError(file_.string() +
                       ": a point cache counts its samples at its head, so it cannot go into a pipe; name a file, or -");
-  std::string header("POINTCACHE2", 12);  // with its closing zero
+  std::string header("POINTCACHE2");
+  header.push_back('\0');
   append_little_endian<std::int32_t>(header, 1);
   append_little_endian<std::int32_t>(header, points_);
   append_little_endian<float>(header, 0);

@@ -250,5 +250,34 @@ TEST_CASE("pinning and unpinning while running") {
   CHECK_FALSE(simulation.divergence().has_value());
 }
 
+TEST_CASE("looking only when a spring may have grown enough finds what a look in every step finds") {
+  // The engine skips looks by how far particles have moved. An edit makes it look again.
+  Preset preset;
+  preset.rows = preset.columns = 14;
+  preset.pins.mode = Pins::Mode::top_row;
+  preset.F_max = 0.02;
+  preset.bodies = {Body{}};
+  preset.bodies[0].c = {0, 0.75, 0.15}, preset.bodies[0].r = 0.1;
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    preset.precision = precision;
+    Simulation rarely(preset), always(preset);
+    for (Simulation* simulation : {&rarely, &always}) {
+      simulation->apply(edit::Grab{12, 7});
+      simulation->apply(edit::MoveHand{{0.2, 0.2, 0.4}, 400});
+    }
+    REQUIRE_FALSE(rarely.advance(400).diverged);
+    for (int step = 0; step < 400; ++step) {
+      always.apply(edit::Change{always.preset()});
+      REQUIRE_FALSE(always.advance(1).diverged);
+    }
+    CHECK(rarely.tears().torn_count() > 10);
+    CHECK(rarely.tears().torn_count() == always.tears().torn_count());
+    for (int direction = 0; direction < stretch_directions; ++direction)
+      for (int i = 0; i < preset.rows; ++i)
+        for (int j = 0; j < preset.columns; ++j)
+          CHECK(rarely.tears().whole(direction, i, j) == always.tears().whole(direction, i, j));
+  }
+}
+
 }  // namespace
 }  // namespace tyglab

@@ -83,7 +83,7 @@ void CpuEngine<R>::resolve() {
       if (field.empty()) field.resize(array_rows(), cloth_.stride);
   cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
                     (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
-  free_motion_ = 0;
+  measure_again();
 }
 
 template <class R>
@@ -102,7 +102,7 @@ void CpuEngine<R>::load(const State& state, const Tears& tears) {
   for (const auto& band : bands_) band->copy_halo(resolved);
   for (const auto& band : bands_) band->sweep(resolved, tears, false);
   set_fixed(std::vector<int>(pinned_), cloth_.held);
-  free_motion_ = 0;
+  measure_again();
 }
 
 template <class R>
@@ -153,6 +153,7 @@ void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
         if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj;
             cloth_.lattice.contains(i, j))
           guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
+  measure_again();
 }
 
 template <class R>

@@ -41,8 +41,8 @@ class CpuEngine final : public Engine {
   ResolvedSweep resolve(const Sweep& sweep) const;
   void accelerations(const Tears& tears, Field& out);
 
-  void tear_overloaded(Tears& tears);
-  void tear_row(Tears& tears, int direction, int i, double rest, R candidate);
+  double tear_overloaded(Tears& tears);
+  double tear_row(Tears& tears, int direction, int i);
   bool guarded(int i, int j) const {
     return !guards_.empty() && guards_[std::size_t(i) * cloth_.lattice.columns + j] != 0;
   }
@@ -52,6 +52,8 @@ class CpuEngine final : public Engine {
   bool find_fault(const Tears& tears, Fault& fault);
   bool finite(Fault& fault) const;
   bool within_bounds(const Tears& tears, Fault& fault);
+  /// Forgets how far particles may still move: something else than their motion has changed.
+  void measure_again() { free_motion_ = tear_motion_ = 0; }
   End finish_step(Tears& tears, Fault& fault);
   /// Steps until done, the hand lets go, or a fault is found (end_ says which); returns the steps without fault.
   int run(int steps, Tears& tears, Fault& fault);
@@ -68,6 +70,7 @@ class CpuEngine final : public Engine {
   std::vector<std::unique_ptr<Band<R>>> bands_;
   End end_ = End::none;
   glm::dvec3 hand_force_{0};
+  double tear_motion_ = 0;  ///< m that particles may still move before a spring can be overloaded
   double free_motion_ = 0;  ///< m that particles may still move before springs must be measured again
 };
 

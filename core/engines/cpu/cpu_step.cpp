@@ -6,13 +6,16 @@
 #include <numbers>
 
 #include "core/engines/cpu/cpu_engine.h"
+#include "core/engines/cpu/row_lengths.h"
 #include "core/forces/spring-inl.h"
 
 namespace tyglab::cpu {
 namespace {
 
 constexpr int steps_between_backups = 256;  // a copy of the state costs about a step's memory traffic: under 1 %
-constexpr double longest_factor = 1000;     // a spring longer than that many rest lengths has diverged
+template <class R>
+constexpr double rounding = 16 * double(std::numeric_limits<R>::epsilon());  // of a length computed in R, generously
+constexpr double longest_factor = 1000;  // a spring longer than that many rest lengths has diverged
 
 }  // namespace
 
@@ -26,33 +29,39 @@ double CpuEngine<R>::distance2(int i, int j, const Direction& to) const {
   return r2;
 }
 
+/// Breaks what is overloaded, and says by how much any other spring may still grow, m.
 template <class R>
-void CpuEngine<R>::tear_overloaded(Tears& tears) {
+double CpuEngine<R>::tear_overloaded(Tears& tears) {
+  double slack = std::numeric_limits<double>::infinity();
   for (int d = 0; d < stretch_directions; ++d) {
-    const double rest = directions[d].rest * cloth_.preset.L;
-    // First by squares in the state's precision, row by row in SIMD; then the few candidates exactly.
-    const double longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
-    const R candidate = R(longest * longest * (1 - 16 * double(std::numeric_limits<R>::epsilon())));
-    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i) tear_row(tears, d, i, rest, candidate);
+    const double longest = directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / cloth_.preset.k_s;
+    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i)
+      slack = std::min(slack, longest * (1 - rounding<R>)-std::sqrt(tear_row(tears, d, i)));
   }
+  return slack;
 }
 
+/// Breaks the overloaded springs of a row in one direction; returns the square of the longest one that it leaves and
+/// that could break, m².
 template <class R>
-void CpuEngine<R>::tear_row(Tears& tears, int d, int i, double rest, R candidate) {
+double CpuEngine<R>::tear_row(Tears& tears, int d, int i) {
   const Direction& dir = directions[d];
+  const double rest = dir.rest * cloth_.preset.L, longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
-  const R *x = cloth_.row(vector_x, i, 0), *y = cloth_.row(vector_x, i, 1), *z = cloth_.row(vector_x, i, 2);
-  const std::ptrdiff_t other = dir.di * cloth_.vector(vector_x).pitch() + dir.dj;
-  int any = 0;
+  // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be overloaded.
+  const double found = double(longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
+                                              dir.di * cloth_.vector(vector_x).pitch() + dir.dj, begin, end));
+  if (found <= longest * longest * (1 - rounding<R>)) return found;
+  double left = 0;
   for (int j = begin; j < end; ++j) {
-    const R dx = x[j + other] - x[j], dy = y[j + other] - y[j], dz = z[j + other] - z[j];
-    any |= dx * dx + dy * dy + dz * dz > candidate;
-  }
-  if (!any) return;
-  for (int j = begin; j < end; ++j)
-    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, distance2(i, j, dir)) > cloth_.preset.F_max &&
-        !guarded(i, j) && !guarded(i + dir.di, j + dir.dj))
+    if (!tears.whole(d, i, j) || guarded(i, j) || guarded(i + dir.di, j + dir.dj)) continue;
+    const double r2 = distance2(i, j, dir);
+    if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, r2) > cloth_.preset.F_max)
       tears.tear(d, i, j);
+    else
+      left = std::max(left, r2);
+  }
+  return left;
 }
 
 template <class R>
@@ -104,14 +113,18 @@ bool CpuEngine<R>::find_fault(const Tears& tears, Fault& fault) {
 template <class R>
 typename CpuEngine<R>::End CpuEngine<R>::finish_step(Tears& tears, Fault& fault) {
   const Preset& preset = cloth_.preset;
-  if (preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth) tear_overloaded(tears);
   double largest = 0;
   for (const auto& band : bands_) {
     largest = std::max(largest, band->largest_way());
     if (band->has_hand()) hand_force_ = band->hand_force();
   }
   // Two ends, each by at most √3 of its largest component.
-  free_motion_ -= 2 * std::numbers::sqrt3 * largest;
+  const double growth = 2 * std::numbers::sqrt3 * largest;
+  if (preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth) {
+    tear_motion_ -= growth;
+    if (!(tear_motion_ > 0)) tear_motion_ = tear_overloaded(tears);
+  }
+  free_motion_ -= growth;
   if (!(free_motion_ > 0) && find_fault(tears, fault)) return End::fault;
   if (cloth_.held.particle >= 0 && preset.F_release > 0 && glm::length(hand_force_) > preset.F_release)
     return End::released;
@@ -159,7 +172,7 @@ Advance CpuEngine<R>::advance(int steps, Tears& tears) {
       for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
       if (cloth_.preset.F_max > 0) tears = tears_backup_;
       run(done, tears, fault);
-      free_motion_ = 0;
+      measure_again();
     }
     result.steps += done;
   }
