@@ -219,9 +219,10 @@ void Simulation::diverge(const Advance& part) {
   d.i = part.i, d.j = part.j;
   d.quantity = part.quantity;
   d.value = part.value;
-  d.cause = part.quantity == "spring length"       ? "a spring grew past 1000 times its rest length"
-            : part.quantity == "distance from x_0" ? "the weight went more than 1000 times as far as it began"
-                                                   : "a " + part.quantity + " is no longer a finite number";
+  d.cause = part.quantity == "spring length" ? "a spring grew past 1000 times its rest length"
+            : part.quantity == "distance from x_0"
+                ? "the weight is more than 1000 times L, or its offset if that is more, away from x_0"
+                : "a " + part.quantity + " is no longer a finite number";
   d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
   d.remedy = remedy(preset_);
   divergence_ = d;

@@ -7,4 +7,8 @@ namespace tyglab {
 
 void add_bench_command(CLI::App& program, Action& action);
 
+/// Its own commands, a file each: bench_throughput.cpp, bench_skip.cpp.
+void add_bench_throughput(CLI::App& bench, Action& action);
+void add_bench_skip(CLI::App& bench, Action& action);
+
 }  // namespace tyglab

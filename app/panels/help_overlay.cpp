@@ -62,6 +62,7 @@ void table(App& app, const char* title, const Entry (&entries)[N], float column)
 }  // namespace
 
 void help_overlay(App& app) {
+  if (app.ui.dialog.kind != Dialog::Kind::none) app.ui.help = false;
   if (!app.ui.help) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const float column = app.theme.px(190), width = std::min(app.theme.px(960), window.x - app.theme.px(32));

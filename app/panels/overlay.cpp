@@ -78,6 +78,7 @@ void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   const double follow = 1 - std::exp(-double(ImGui::GetIO().DeltaTime) / 0.5);
   const bool far = longest > 3 * scale || longest < scale / 20;
   scale = far ? longest : scale + follow * (longest - scale);
+  if (std::abs(longest - scale) > 0.01 * scale) app.ui.draw_by = app.ui.now;
   const double depth = glm::dot(r.x - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
   const double metres_per_pixel = 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y;
   std::vector<ImVec2> labels;

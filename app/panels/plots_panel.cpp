@@ -5,6 +5,7 @@
 #include "app/panels/curves.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/panels.h"
+#include "app/panels/performance.h"
 #include "app/panels/plot.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
@@ -187,7 +188,9 @@ void plots_panel(App& app, const Region& region) {
   if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
   const bool weight = app.preset().kind == Kind::one_weight;
   const int cards = weight ? 2 : 1;
-  float available = ImGui::GetContentRegionAvail().y;
+  const float column = ImGui::GetContentRegionAvail().y, least_plots = app.theme.px(260);
+  const float performance = std::max(std::min(performance_card_height(app), column - gap - least_plots), 0.f);
+  float available = column - (performance > 0 ? performance + gap : 0);
   const bool tabs = cards > 1 && (available - gap * float(cards - 1)) / float(cards) < app.theme.px(240);
   if (tabs) {
     static constexpr const char* names[] = {"Height", "Forces"};
@@ -203,6 +206,10 @@ void plots_panel(App& app, const Region& region) {
   if (plots.height_shown) height_card(app, std::floor(height));
   if (plots.height_shown && plots.forces_shown) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
   if (plots.forces_shown) force_card(app, std::floor(height));
+  if (performance > 0) {
+    ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + region.size.y - margin - performance});
+    performance_card(app, performance);
+  }
   end_region();
 }
 

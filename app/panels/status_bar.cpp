@@ -43,7 +43,8 @@ void status_bar(App& app, const Region& region) {
     if (app.view.every > 1)
       n += std::snprintf(facts + n, sizeof facts - std::size_t(n), ", one in %d × %d drawn", app.view.every,
                          app.view.every);
-    if (torn > 0) std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d springs torn", torn);
+    if (torn > 0) n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d springs torn", torn);
+    if (app.asleep()) std::snprintf(facts + n, sizeof facts - std::size_t(n), " · at rest: asleep until touched");
   } else {
     std::snprintf(facts, sizeof facts, "one weight");
   }

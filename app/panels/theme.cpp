@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 namespace tyglab {
@@ -158,11 +159,29 @@ ImU32 mixed(ImU32 a, ImU32 b, float t) {
   return out;
 }
 
+namespace {
+
+/// By more than 60 degrees.
+bool turns_sharply(ImVec2 a, ImVec2 b, ImVec2 c) {
+  const ImVec2 in(b.x - a.x, b.y - a.y), out(c.x - b.x, c.y - b.y);
+  return in.x * out.x + in.y * out.y < 0.5f * std::hypot(in.x, in.y) * std::hypot(out.x, out.y);
+}
+
+}  // namespace
+
 void draw_styled_line(ImDrawList& draw, const ImVec2* points, int count, const CurveStyle& style, float scale,
                       float* phase) {
   if (count < 2) return;
   if (style.line == LineStyle::solid) {
-    draw.AddPolyline(points, count, style.color, ImDrawFlags_None, style.width * scale);
+    // Dear ImGui draws a polyline thinner where it turns sharply, down to nothing, so it is drawn in pieces between
+    // such turns.
+    int begin = 0;
+    for (int k = 1; k < count; ++k) {
+      const bool last = k + 1 == count;
+      if (!last && !turns_sharply(points[k - 1], points[k], points[k + 1])) continue;
+      draw.AddPolyline(points + begin, k + 1 - begin, style.color, ImDrawFlags_None, style.width * scale);
+      begin = k;
+    }
     return;
   }
   Dasher dasher(draw, style, scale, phase != nullptr ? *phase : 0);

@@ -141,7 +141,7 @@ void readings(App& app, float x, float end) {
   x = speed_combo(app, x, end);
   const double part = app.pacing.speed > 0 ? app.pacing.reached() / app.pacing.speed : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * app.pacing.reached());
-  const bool running = app.pacing.playing && !app.simulation->divergence();
+  const bool running = app.pacing.playing && !app.simulation->divergence() && !app.asleep();
   x = reading(
       app, x, end, "real time", running ? text : "–", "100 %",
       !running      ? c.quiet

@@ -79,6 +79,7 @@ struct Ui {
   bool force_arrows = true;
   double arrow_scale = 0;  ///< N for the longest arrow, smoothed
   double now = 0;          ///< s since the window opened
+  double draw_by = 0;      ///< when the next frame is wanted though nothing moves (a tooltip, a cursor, a message)
   double last_change = 0;  ///< when constants changed last, to tell gestures apart
   unsigned hovered = 0;    ///< what the pointer rests on, for tooltips
   double hovered_since = 0;

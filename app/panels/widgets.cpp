@@ -35,7 +35,9 @@ bool tooltip_due(App& app, ImGuiID id) {
     app.ui.hovered = id;
     app.ui.hovered_since = app.ui.now;
   }
-  return app.ui.now - app.ui.hovered_since > tooltip_delay;
+  const double due = app.ui.hovered_since + tooltip_delay;
+  if (app.ui.now <= due) app.ui.draw_by = std::min(app.ui.draw_by, due + 0.01);
+  return app.ui.now > due;
 }
 
 void begin_tooltip(App& app) {

@@ -19,6 +19,7 @@
 #include "app/sandbox/requests.h"
 #include "app/sandbox/session_report.h"
 #include "app/sandbox/settings.h"
+#include "app/sandbox/sleep.h"
 #include "app/viewport/camera.h"
 #include "app/viewport/cloth_renderer.h"
 #include "core/simulation.h"
@@ -38,6 +39,7 @@ struct App {
   Document document;
   History history;
   Pacing pacing;
+  Sleep sleep;
   std::int64_t steps_made = 0;    ///< in the last frame
   bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
 
@@ -66,6 +68,7 @@ struct App {
   bool quit = false;
   bool scripted = false;  ///< --frames: nothing is restored, asked or remembered
 
+  bool asleep() const { return pacing.playing && sleep.asleep(*simulation); }
   const Preset& preset() const { return simulation->preset(); }
   void request(Request request) { requests.push_back(std::move(request)); }
   void command(Command command) { requests.emplace_back(request::Do{command}); }

@@ -3,6 +3,24 @@
 #include <nlohmann/json.hpp>
 
 namespace tyglab {
+namespace {
+
+constexpr double smoothing = 0.05;     // of a mean over about the last twenty frames
+constexpr double least_recent = 1e-4;  // ms; a part that fell below it has stopped
+
+}  // namespace
+
+void FrameCosts::end_frame() {
+  ++frames_;
+  for (std::size_t k = 0; k < part_names.size(); ++k) {
+    const double ms = 1e3 * now_[k].wall_s;
+    recent_ms_[k] = frames_ == 1 ? ms : recent_ms_[k] + smoothing * (ms - recent_ms_[k]);
+    if (recent_ms_[k] < least_recent) recent_ms_[k] = 0;
+    counts_[k] += now_[k].wall_s > 0;
+    sum_[k].wall_s += now_[k].wall_s, sum_[k].cpu_s += now_[k].cpu_s;
+  }
+  now_ = {};
+}
 
 std::string FrameCosts::json(int width, int height, const std::string& engine, const std::string& preset) const {
   nlohmann::ordered_json report;
@@ -11,14 +29,22 @@ std::string FrameCosts::json(int width, int height, const std::string& engine, c
   report["engine"] = engine;
   report["width"] = width;
   report["height"] = height;
-  report["frames"] = counts_[std::size_t(Part::frame)];
+  report["frames"] = frames_;
   report["steps"] = steps_;
-  nlohmann::ordered_json means, counts;
+  const double per_frame = frames_ > 0 ? 1e3 / double(frames_) : 0;
+  nlohmann::ordered_json means, cpu, counts;
   for (std::size_t k = 0; k < part_names.size(); ++k) {
-    means[std::string(part_names[k])] = mean_ms(Part(k));
-    counts[std::string(part_names[k])] = counts_[k];
+    const std::string name(part_names[k]);
+    means[name] = per_frame * sum_[k].wall_s;
+    cpu[name] = per_frame * sum_[k].cpu_s;
+    counts[name] = counts_[k];
   }
   report["mean_ms_per_frame"] = means;
+  report["mean_cpu_ms_per_frame"] = cpu;
+  const auto of = [&](Part part) { return per_frame * sum_[std::size_t(part)].cpu_s; };
+  // The shadow is drawn in draw_cloth, which counts it too.
+  report["own_cpu_ms_per_frame"] =
+      of(Part::frame) - of(Part::simulate) - of(Part::draw_cloth) - of(Part::ui_draw) - of(Part::swap);
   report["times_run"] = counts;
   return report.dump(2) + "\n";
 }

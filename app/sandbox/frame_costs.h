@@ -2,47 +2,48 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "app/stopwatch.h"
+
 namespace tyglab {
 
-enum class Part { simulate, upload, draw_cloth, panels, ui_draw, swap, frame };
-inline constexpr std::array<std::string_view, 7> part_names{"simulate", "upload", "draw_cloth", "panels",
-                                                            "ui_draw",  "swap",   "frame"};
+enum class Part { simulate, sample, normals, upload, shadow, draw_cloth, panels, ui_draw, swap, frame };
+inline constexpr std::array<std::string_view, 10> part_names{"simulate",   "sample", "normals", "upload", "shadow",
+                                                             "draw_cloth", "panels", "ui_draw", "swap",   "frame"};
 
 class FrameCosts {
  public:
-  using Clock = std::chrono::steady_clock;
   /// Counts the time from its making to its end towards a part.
   class Timer {
    public:
-    Timer(FrameCosts& costs, Part part) : costs_(costs), part_(part), start_(Clock::now()) {}
-    ~Timer() { costs_.add(part_, std::chrono::duration<double>(Clock::now() - start_).count()); }
-    Timer(const Timer&) = delete;
-    Timer& operator=(const Timer&) = delete;
+    Timer(FrameCosts& costs, Part part) : watch_(costs.now_[std::size_t(part)]) {}
 
    private:
-    FrameCosts& costs_;
-    Part part_;
-    Clock::time_point start_;
+    Stopwatch watch_;
   };
 
-  void add(Part part, double seconds) { seconds_[std::size_t(part)] += seconds, ++counts_[std::size_t(part)]; }
-  void add_steps(std::int64_t steps) { steps_ += steps; }
-  double mean_ms(Part part) const {
-    const std::int64_t frames = counts_[std::size_t(Part::frame)];
-    return frames > 0 ? 1e3 * seconds_[std::size_t(part)] / double(frames) : 0;
+  /// What was measured elsewhere, in this frame.
+  void add(Part part, const Duration& time) {
+    now_[std::size_t(part)].wall_s += time.wall_s, now_[std::size_t(part)].cpu_s += time.cpu_s;
   }
-  /// JSON: mean milliseconds a frame by part, how often each part ran, frames, steps, size of the window.
+  void add_steps(std::int64_t steps) { steps_ += steps; }
+  /// Closes the frame: what its parts took joins the means.
+  void end_frame();
+  /// Milliseconds a frame, over about the last second; 0 once a part has not run for a while.
+  double recent_ms(Part part) const { return recent_ms_[std::size_t(part)]; }
+  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, frames,
+  /// steps, size of the window.
   std::string json(int width, int height, const std::string& engine, const std::string& preset) const;
 
  private:
-  std::array<double, part_names.size()> seconds_{};
+  using Parts = std::array<Duration, part_names.size()>;
+  Parts now_{}, sum_{};
+  std::array<double, part_names.size()> recent_ms_{};
   std::array<std::int64_t, part_names.size()> counts_{};
-  std::int64_t steps_ = 0;
+  std::int64_t frames_ = 0, steps_ = 0;
 };
 
 }  // namespace tyglab

@@ -95,16 +95,19 @@ bool slider_takes(App& app, const KeyEvent& event) {
   return true;
 }
 
+/// The help lies over everything but a dialog.
+bool help_takes(App& app, const KeyEvent& event) {
+  if (!app.ui.help || event.key != GLFW_KEY_ESCAPE) return false;
+  app.ui.help = false;
+  return true;
+}
+
 bool list_takes(App& app, const KeyEvent& event) {
   if (!app.viewport.blocked || event.key != GLFW_KEY_ESCAPE) return false;
   return app.ui.close_lists = true;
 }
 
 void command_for(App& app, const KeyEvent& event) {
-  if (event.key == GLFW_KEY_ESCAPE) {
-    app.ui.help = false;
-    return;
-  }
   if (const auto mode = digit(event)) {
     Preset next = app.preset();
     next.mode = *mode;
@@ -120,7 +123,8 @@ void command_for(App& app, const KeyEvent& event) {
 
 void handle_keys(App& app) {
   for (const KeyEvent& event : app.input.keys) {
-    if (dialog_takes(app, event) || list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event))
+    if (dialog_takes(app, event) || help_takes(app, event) || list_takes(app, event) || typing_takes(app, event) ||
+        slider_takes(app, event))
       continue;
     command_for(app, event);
   }

@@ -1,7 +1,9 @@
 // What the program tells its user: in the window, and in the log.
 #pragma once
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,12 @@ class Messages {
     for (Message& m : list_)
       if (m.born < 0) m.born = now;
     std::erase_if(list_, [&](const Message& m) { return now - m.born > lifetime(m.severity); });
+  }
+  /// When the next one is to go, s of the window's clock.
+  double next_end() const {
+    double end = std::numeric_limits<double>::infinity();
+    for (const Message& m : list_) end = std::min(end, m.born + lifetime(m.severity));
+    return end;
   }
   void dismiss(std::size_t index) { list_.erase(list_.begin() + std::ptrdiff_t(index)); }
   const std::vector<Message>& list() const { return list_; }

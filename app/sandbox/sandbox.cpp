@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 
 #include "app/commands/interrupt.h"
 #include "app/panels/curves.h"
@@ -10,6 +11,7 @@
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
+#include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
 #include "app/viewport/drawn_cloth.h"
 #include "app/viewport/graphics_error.h"
@@ -22,6 +24,7 @@ namespace {
 enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
+constexpr double settle_time = 0.3;          // s after an event
 constexpr double gesture_end = 0.6;          // s without a change
 constexpr double calm_stretch = 5;           // rest lengths; what is longer is not drawn of a diverged cloth
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
@@ -37,7 +40,10 @@ class Sandbox {
  private:
   void start_preset();
   void frame();
+  void frame_parts();
   void wait_for_events();
+  bool due();
+  void plan_next_frame();
   void take_dropped_files();
   void rescale();
   void simulate(double real_seconds);
@@ -54,7 +60,8 @@ class Sandbox {
   Window window_;
   Gui gui_;
   int frames_ = 0;
-  int busy_frames_ = 4;  ///< Dear ImGui needs a few frames after an event to settle
+  int busy_frames_ = 4;      ///< Dear ImGui needs a few frames after an event to settle
+  double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
   Image last_picture_;
   std::uint64_t drawn_revision_ = ~0ull;
@@ -62,37 +69,6 @@ class Sandbox {
   ViewOptions drawn_view_;
   glm::ivec2 drawn_size_{0};
 };
-
-Settings settings_for(const SandboxOptions& options, App& app) {
-  std::string problem;
-  if (options.frames > 0) return {};
-  Settings settings = load_settings(problem);
-  if (!problem.empty()) {
-    app.messages.warning(problem);
-    return settings;
-  }
-  try {
-    save_settings(settings);  // now, while there is somebody to read that it does not work
-  } catch (const OutputError& error) {
-    app.messages.warning(std::string(error.what()) +
-                         ". This session's settings will not be remembered. Make the folder writable, or name another "
-                         "one in TYGLAB_CONFIG_DIR.");
-  }
-  return settings;
-}
-
-/// Members are made in order: settings come before the window that they size.
-App start_app(const SandboxOptions& options) {
-  App app;
-  app.scripted = options.frames > 0;
-  app.threads = options.threads;
-  app.settings = settings_for(options, app);
-  // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
-  if (app.scripted) app.settings.width = 2560, app.settings.height = 1440;
-  app.ui.plots.log = app.settings.plot_log;
-  if (!options.session_report.empty()) app.report = std::make_unique<SessionReport>(options.session_report);
-  return app;
-}
 
 Sandbox::Sandbox(const SandboxOptions& options)
     : options_(options),
@@ -129,19 +105,36 @@ void Sandbox::start_preset() {
 }
 
 bool Sandbox::idle() const {
-  const bool still = !app_.pacing.playing || app_.simulation->divergence().has_value();
-  return still && !app_.scripted && busy_frames_ <= 0 && app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
+  const bool still = !app_.pacing.playing || app_.simulation->divergence().has_value() || app_.asleep();
+  return still && !app_.scripted && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ && app_.requests.empty() &&
+         app_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
   if (window_.iconified()) {
     glfwWaitEventsTimeout(0.5);
   } else if (idle()) {
-    glfwWaitEventsTimeout(app_.report ? 0.1 : 0.25);  // a text cursor blinks, a message fades, a report is due
+    const double longest = app_.report ? 0.1 : 0.5;  // a report is due; Ctrl-C is seen
+    const double wait = std::min(app_.ui.draw_by - glfwGetTime(), longest);
+    wait > 0 ? glfwWaitEventsTimeout(wait) : glfwPollEvents();
   } else {
     glfwPollEvents();
   }
-  busy_frames_ = app_.input.anything ? 4 : busy_frames_ - 1;
+  busy_frames_ = app_.input.anything ? 4 : std::max(busy_frames_ - 1, 0);
+  if (app_.input.anything) settle_until_ = glfwGetTime() + settle_time;
+}
+
+/// Whether there is anything that a new frame would show.
+bool Sandbox::due() {
+  if (window_.framebuffer_size().x == 0) return false;
+  return !idle() || app_.input.anything || app_.report != nullptr || glfwGetTime() >= app_.ui.draw_by;
+}
+
+/// When a frame is wanted again though nothing moves; the panels have said what they want of it.
+void Sandbox::plan_next_frame() {
+  const bool cursor_blinks = app_.ui.slider.typing != 0 || ImGui::GetIO().WantTextInput;
+  if (cursor_blinks) app_.ui.draw_by = std::min(app_.ui.draw_by, app_.ui.now + 0.25);
+  app_.ui.draw_by = std::min(app_.ui.draw_by, app_.messages.next_end() + 0.01);
 }
 
 void Sandbox::take_dropped_files() {
@@ -172,7 +165,8 @@ void Sandbox::rescale() {
 void Sandbox::simulate(double real_seconds) {
   const FrameCosts::Timer timer(app_.costs, Part::simulate);
   Simulation& simulation = *app_.simulation;
-  if (!app_.pacing.playing || simulation.divergence()) return;
+  app_.sleep.begin(simulation);
+  if (!app_.pacing.playing || simulation.divergence() || app_.asleep()) return;
   const double dt = app_.preset().dt;
   const int due = app_.pacing.due(real_seconds, dt);
   move_hand(app_, due);
@@ -196,12 +190,14 @@ void Sandbox::simulate(double real_seconds) {
   }
   app_.pacing.made(made, dt, spent());
   app_.steps_made += made;
+  if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none);
 }
 
 /// Data is collected only while a plot shows it, and only when the simulation moved.
 void Sandbox::sample() {
   Plots& plots = app_.ui.plots;
   if (app_.steps_made == 0 || plots.paused) return;
+  const FrameCosts::Timer timer(app_.costs, Part::sample);
   const double t = app_.simulation->time();
   if (plots.forces_shown && plots.source == Source::particle && app_.picked) {
     plots.forces.add(t, force_values(app_.simulation->particle(app_.picked->i, app_.picked->j)));
@@ -232,12 +228,15 @@ void Sandbox::draw_cloth() {
   const bool same = app_.simulation->revision() == drawn_revision_ && app_.camera == drawn_camera_ &&
                     app_.view == drawn_view_ && size == drawn_size_ && !app_.redraw_cloth;
   if (same) return;
+  app_.renderer->update(*app_.simulation, app_.view);
   {
-    const FrameCosts::Timer timer(app_.costs, Part::upload);
-    app_.renderer->update(*app_.simulation, app_.view);
+    const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
+    app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
   }
-  const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
-  app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
+  const RenderWork work = app_.renderer->take_work();
+  app_.costs.add(Part::normals, work.normals);
+  app_.costs.add(Part::upload, work.upload);
+  app_.costs.add(Part::shadow, work.shadow);
   drawn_revision_ = app_.simulation->revision();
   drawn_camera_ = app_.camera, drawn_view_ = app_.view, drawn_size_ = size;
   app_.redraw_cloth = false;
@@ -276,13 +275,21 @@ void Sandbox::present() {
 }
 
 void Sandbox::frame() {
-  const FrameCosts::Timer timer(app_.costs, Part::frame);
+  {
+    const FrameCosts::Timer timer(app_.costs, Part::frame);
+    frame_parts();
+  }
+  app_.costs.end_frame();
+}
+
+void Sandbox::frame_parts() {
   const double now = glfwGetTime();
   const double elapsed = app_.scripted ? scripted_frame : now - last_time_;
   // Events carry the time at which they were polled, so two clicks of one gesture may be a frame apart.
   app_.input.double_click_s = std::max(0.4, 1.5 * (now - last_time_));
   last_time_ = now;
   app_.ui.now = now;
+  app_.ui.draw_by = std::numeric_limits<double>::infinity();
   app_.steps_made = 0;
   app_.full_screen = window_.full_screen();
   if (window_.wants_close()) window_.forget_close(), app_.request(request::Quit{});
@@ -301,6 +308,7 @@ void Sandbox::frame() {
   const bool quiet = !ImGui::IsAnyItemActive() && app_.tool.kind == Tool::Kind::none;
   if (quiet && now - app_.ui.last_change > gesture_end) app_.history.end_gesture();
   window_.set_title((unsaved(app_) ? "• " : "") + app_.preset().name + " – Tyglab");
+  plan_next_frame();
   if (app_.report) app_.report->end_frame(app_);
   app_.input.clear();
   ++frames_;
@@ -311,7 +319,7 @@ int Sandbox::run() {
   while (!app_.quit && !InterruptGuard::interrupted() && (options_.frames == 0 || frames_ < options_.frames)) {
     const double start = glfwGetTime();
     wait_for_events();
-    if (window_.framebuffer_size().x == 0) {
+    if (!due()) {
       app_.input.clear();
       continue;
     }

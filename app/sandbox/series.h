@@ -18,6 +18,7 @@ class Series {
   /// One value a column. Samples that do not come after the last one start a new series.
   void add(double t, std::span<const double> values);
   void clear();
+  std::size_t bytes() const { return t_.capacity() * sizeof(double) * (1 + columns_.size()); }
   /// Text of a CSV file like those of `tyglab run --series`: a comment, a header with t and these names ("F_s [N]"),
   /// rows with nine significant digits, t with 17.
   std::string csv(std::span<const std::string> names, std::string_view comment) const;

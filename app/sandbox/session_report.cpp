@@ -119,6 +119,7 @@ void add_simulation(Json& json, const App& app) {
   json["t"] = simulation.time();
   json["steps"] = simulation.steps();
   json["paused"] = !app.pacing.playing;
+  json["asleep"] = app.asleep();
   json["speed"] = app.pacing.speed;
   json["divergence"] = divergence(app);
   json["label"] = app.document.label;

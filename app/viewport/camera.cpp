@@ -117,12 +117,24 @@ void Camera::frame(glm::vec3 lo, glm::vec3 hi, float aspect) {
 }
 
 std::optional<glm::vec2> Camera::project(glm::dvec3 world, glm::vec2 size) const {
-  const glm::dvec3 offset = world - glm::dvec3(eye());
-  const double depth = glm::dot(offset, glm::dvec3(forward()));
-  if (!(depth > 0.01 * distance)) return std::nullopt;
-  const double pixels_per_slope = size.y / (2 * std::tan(fov_y / 2));
-  return glm::vec2(size.x / 2 + pixels_per_slope * glm::dot(offset, glm::dvec3(right())) / depth,
-                   size.y / 2 - pixels_per_slope * glm::dot(offset, glm::dvec3(up())) / depth);
+  return Projector(*this, size)(world);
+}
+
+Projector::Projector(const Camera& camera, glm::vec2 size)
+    : eye_(camera.eye()),
+      ahead_(camera.forward()),
+      right_(camera.right()),
+      up_(camera.up()),
+      middle_(size / 2.0f),
+      pixels_per_slope_(size.y / (2 * std::tan(camera.fov_y / 2))),
+      nearest_(0.01 * camera.distance) {}
+
+std::optional<glm::vec2> Projector::operator()(glm::dvec3 world) const {
+  const glm::dvec3 offset = world - eye_;
+  const double depth = glm::dot(offset, ahead_);
+  if (!(depth > nearest_)) return std::nullopt;
+  return glm::vec2(middle_.x + pixels_per_slope_ * glm::dot(offset, right_) / depth,
+                   middle_.y - pixels_per_slope_ * glm::dot(offset, up_) / depth);
 }
 
 glm::dvec3 Camera::ray(glm::vec2 pixel, glm::vec2 size) const {

@@ -1,6 +1,7 @@
 // A camera that orbits a point. Angles in radians, lengths in metres, pixels with y down from the top left corner.
 #pragma once
 
+#include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -48,6 +49,20 @@ struct Camera {
   glm::dvec3 ray(glm::vec2 pixel, glm::vec2 size) const;
 
   bool operator==(const Camera&) const = default;
+};
+
+/// Camera::project for many points: what depends on the camera alone is worked out once.
+class Projector {
+ public:
+  Projector(const Camera& camera, glm::vec2 size);
+  std::optional<glm::vec2> operator()(glm::dvec3 world) const;
+  /// Distance before the camera, m.
+  double depth(glm::dvec3 world) const { return glm::dot(world - eye_, ahead_); }
+
+ private:
+  glm::dvec3 eye_, ahead_, right_, up_;
+  glm::dvec2 middle_;
+  double pixels_per_slope_, nearest_;
 };
 
 /// An axis-aligned box, m. Empty while lo > hi.

@@ -19,7 +19,7 @@ class ClothMesh {
   enum class List { triangles, straight, diagonal, bending, outlines, connections, particles, pins, count };
 
   /// Uploads positions if `moved` and whatever else this view lacks.
-  void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
+  void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed, RenderWork& work);
   /// Draws a list that update() was asked for: GL_TRIANGLES, GL_LINES or GL_POINTS.
   void draw(List list, GLenum primitive) const;
   /// Draws one particle as a point.
@@ -27,6 +27,8 @@ class ClothMesh {
 
   const Bounds& bounds() const { return bounds_; }
   int stride() const { return stride_; }
+  /// Of all buffers here, on either side of the bus.
+  std::size_t bytes() const;
   const Lattice& lattice() const { return lattice_; }
 
  private:
@@ -35,17 +37,17 @@ class ClothMesh {
     GLsizei count = 0;
     bool ready = false;
   };
-  void upload_positions(const PositionView& positions);
-  void upload_normals(const ClothScene& scene);
+  void take_positions(const PositionView& positions, bool moved);
+  void make_normals(const ClothScene& scene);
   void prepare(List list, const ClothScene& scene);
-  void set_attribute(GLuint attribute, gl::Buffer& buffer, const float* data, std::size_t count);
+  void set_attributes(GLuint first, gl::Buffer& buffer, const float* data);
 
   gl::VertexArray array_;
-  std::array<gl::Buffer, 3> position_buffers_, normal_buffers_;
+  gl::Buffer position_buffer_, normal_buffer_;
   std::array<IndexList, int(List::count)> lists_;
-  std::array<std::vector<float>, 3> converted_;  ///< of a solver in double
-  FloatPositions floats_;                        ///< valid during update() alone
-  Normals normals_;
+  std::vector<float> converted_;  ///< of a solver in double
+  FloatRows floats_;              ///< valid during update() alone
+  std::vector<float> normals_;
   std::optional<std::vector<std::uint32_t>> beside_tears_;
   bool normals_ready_ = false;
   float longest_edge_ = 0;

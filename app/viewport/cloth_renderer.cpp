@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "app/viewport/cloth_mesh.h"
 #include "app/viewport/cloth_texture.h"
@@ -26,26 +27,6 @@ constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
 struct FrameBlock {
   glm::mat4 clip_from_world, shadow_from_world;
   glm::vec4 eye, to_light, viewport, focus, background_top, background_bottom, grid;
-};
-
-/// What draw() finds bound, bound again when it ends, by an exception too.
-class SavedTarget {
- public:
-  SavedTarget() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
-    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
-    glGetIntegerv(GL_VIEWPORT, viewport_);
-  }
-  ~SavedTarget() {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_));
-    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
-  }
-  SavedTarget(const SavedTarget&) = delete;
-  SavedTarget& operator=(const SavedTarget&) = delete;
-
- private:
-  GLint draw_ = 0, read_ = 0, viewport_[4] = {};
 };
 
 }  // namespace
@@ -79,6 +60,7 @@ struct ClothRenderer::Parts {
   float ground_y = 0;
   bool shadow_stale = true;
   bool shadow_of_cloth = false;  ///< whether the cloth is in the shadow map: a net casts none
+  RenderWork work;
   // What update() saw last.
   const Simulation* simulation = nullptr;
   std::uint64_t revision = 0, tear_revision = 0;
@@ -139,9 +121,9 @@ void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& opti
   every = options.every;
   if (every > 1) {
     drawn.take(scene, every, moved, topology_changed);
-    mesh.update(drawn.scene(scene), options, moved, topology_changed);
+    mesh.update(drawn.scene(scene), options, moved, topology_changed, work);
   } else {
-    mesh.update(scene, options, moved, topology_changed);
+    mesh.update(scene, options, moved, topology_changed, work);
   }
   if (!moved) return;
   shadow_stale = true;
@@ -192,6 +174,7 @@ void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& o
 
 void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
   if (!options.shadows || (!shadow_stale && shadow_of_cloth == options.lit())) return;
+  const Stopwatch watch(work.shadow);
   shadow.begin();
   if (!one_weight() && options.lit()) {
     cloth_depth.use();
@@ -390,6 +373,12 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
 
 unsigned ClothRenderer::texture_id() const {
   return parts_->target.texture();
+}
+RenderWork ClothRenderer::take_work() {
+  return std::exchange(parts_->work, {});
+}
+std::size_t ClothRenderer::bytes() const {
+  return parts_->mesh.bytes() + parts_->drawn.bytes();
 }
 Image ClothRenderer::pixels() const {
   return parts_->target.pixels();

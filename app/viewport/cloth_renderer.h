@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "app/stopwatch.h"
 #include "app/viewport/camera.h"
 #include "app/viewport/image.h"
 #include "core/simulation.h"
@@ -58,6 +59,12 @@ struct ClothScene {
   std::function<bool(int, int)> pinned;  ///< may be empty: none is
 };
 
+/// What updates and drawings took; 0: it was skipped.
+struct RenderWork {
+  Duration normals, upload;
+  Duration shadow;  ///< a part of draw()
+};
+
 class ClothRenderer {
  public:
   /// Needs a current OpenGL 3.3 context whose functions are loaded. Throws GraphicsError (with the compiler's log) and
@@ -79,6 +86,10 @@ class ClothRenderer {
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
+  /// What was done since the last call.
+  RenderWork take_work();
+  /// Of the buffers that grow with the cloth.
+  std::size_t bytes() const;
   /// What was drawn last.
   Image pixels() const;
 

@@ -118,9 +118,11 @@ Indices particle_indices(const Lattice& lattice, int stride, const std::function
   return list;
 }
 
-void remove_long(Indices& indices, int corners, const FloatPositions& p, float longest) {
+void remove_long(Indices& indices, int corners, const FloatRows& p, float longest) {
   const auto short_enough = [&](std::uint32_t a, std::uint32_t b) {
-    const float dx = p.x[a] - p.x[b], dy = p.y[a] - p.y[b], dz = p.z[a] - p.z[b];
+    const float *from = p.data + a, *to = p.data + b;
+    const auto y = std::size_t(p.component), z = 2 * y;
+    const float dx = to[0] - from[0], dy = to[y] - from[y], dz = to[z] - from[z];
     return dx * dx + dy * dy + dz * dz <= longest * longest;
   };
   auto kept = indices.begin();

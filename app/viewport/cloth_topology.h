@@ -24,7 +24,7 @@ Indices connection_indices(const Lattice& lattice, int stride, const Tears& tear
 /// An index for each particle for which `wanted` holds.
 Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted);
 /// Takes out what has an edge longer than `longest` m or not finite; `corners` indices stand for each triangle or line.
-void remove_long(Indices& indices, int corners, const FloatPositions& positions, float longest);
+void remove_long(Indices& indices, int corners, const FloatRows& positions, float longest);
 /// Particles, each once, that are a corner of a triangle that is not whole.
 std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears);
 

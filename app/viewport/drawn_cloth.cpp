@@ -29,14 +29,13 @@ void DrawnCloth::take(const ClothScene& scene, int every, bool moved, bool topol
 }
 
 void DrawnCloth::take_positions(const PositionView& view) {
-  for (int c = 0; c < 3; ++c) {
-    positions_[c].resize(std::size_t(lattice_.size()));
-    for (int i = 0; i < lattice_.rows; ++i) {
-      const std::size_t from = std::size_t(row(i)) * view.stride;
-      float* to = positions_[c].data() + std::size_t(i) * lattice_.columns;
+  positions_.resize(3 * std::size_t(lattice_.size()));
+  float* to = positions_.data();
+  for (int i = 0; i < lattice_.rows; ++i) {
+    const std::size_t from = std::size_t(row(i)) * view.stride;
+    for (int c = 0; c < 3; ++c)
       for (int j = 0; j < lattice_.columns; ++j)
-        to[j] = view.f[c] != nullptr ? view.f[c][from + column(j)] : float(view.d[c][from + column(j)]);
-    }
+        *to++ = view.f[c] != nullptr ? view.f[c][from + column(j)] : float(view.d[c][from + column(j)]);
   }
 }
 
@@ -60,8 +59,8 @@ void DrawnCloth::take_tears(const Tears& tears) {
 }
 
 ClothScene DrawnCloth::scene(const ClothScene& whole) const {
-  PositionView view{lattice_.rows, lattice_.columns, lattice_.columns};
-  for (int c = 0; c < 3; ++c) view.f[c] = positions_[c].data();
+  PositionView view{lattice_.rows, lattice_.columns, 3 * lattice_.columns};
+  for (int c = 0; c < 3; ++c) view.f[c] = positions_.data() + std::ptrdiff_t(c) * lattice_.columns;
   std::function<bool(int, int)> pinned;
   if (whole.pinned) pinned = [this, &whole](int i, int j) { return whole.pinned(row(i), column(j)); };
   return {view, lattice_, tears_, whole.preset, pinned};

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "app/viewport/cloth_renderer.h"
@@ -20,6 +19,7 @@ class DrawnCloth {
   void take(const ClothScene& scene, int every, bool moved, bool topology_changed);
   /// Valid until the next take(), while the scene that was taken lives.
   ClothScene scene(const ClothScene& whole) const;
+  std::size_t bytes() const { return positions_.capacity() * sizeof(float); }
 
  private:
   int row(int i) const { return std::min(i * every_, whole_.rows - 1); }
@@ -31,7 +31,7 @@ class DrawnCloth {
   int every_ = 0;
   Lattice whole_, lattice_;
   Tears tears_;
-  std::array<std::vector<float>, 3> positions_;
+  std::vector<float> positions_;  ///< laid out as an engine's: a row's x, its y, its z
 };
 
 }  // namespace tyglab

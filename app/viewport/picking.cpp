@@ -20,12 +20,12 @@ struct Picture {
 template <class Wanted>
 std::vector<Picture> pictures(const PositionView& positions, const Camera& camera, glm::vec2 size, Wanted wanted) {
   std::vector<Picture> found;
-  const glm::dvec3 eye(camera.eye()), ahead(camera.forward());
+  const Projector project(camera, size);
   for (int i = 0; i < positions.rows; ++i) {
     for (int j = 0; j < positions.columns; ++j) {
       const glm::dvec3 x = positions.at(i, j);
-      const auto pixel = camera.project(x, size);
-      if (pixel && wanted(i, j, *pixel)) found.push_back({{i, j}, *pixel, glm::dot(x - eye, ahead)});
+      const auto pixel = project(x);
+      if (pixel && wanted(i, j, *pixel)) found.push_back({{i, j}, *pixel, project.depth(x)});
     }
   }
   return found;

@@ -28,4 +28,24 @@ class RenderTarget {
   int width_ = 0, height_ = 0, samples_ = 0;
 };
 
+/// The framebuffers and the viewport in use, put back when this ends, by an exception too.
+class SavedTarget {
+ public:
+  SavedTarget() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_);
+  }
+  ~SavedTarget() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+  }
+  SavedTarget(const SavedTarget&) = delete;
+  SavedTarget& operator=(const SavedTarget&) = delete;
+
+ private:
+  GLint draw_ = 0, read_ = 0, viewport_[4] = {};
+};
+
 }  // namespace tyglab

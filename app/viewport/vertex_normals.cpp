@@ -11,9 +11,8 @@ struct RowPointers {
   const float *x, *y, *z;
 };
 
-RowPointers row(const FloatPositions& p, int i) {
-  const std::size_t start = std::size_t(i) * p.stride;
-  return {p.x + start, p.y + start, p.z + start};
+RowPointers row(const FloatRows& p, int i) {
+  return {p.row(i, 0), p.row(i, 1), p.row(i, 2)};
 }
 
 /// Down × along at columns [1, n-1), from the rows above and below and the row itself.
@@ -33,7 +32,7 @@ glm::vec3 position(const RowPointers& r, int j) {
   return {r.x[j], r.y[j], r.z[j]};
 }
 
-glm::vec3 normal_from_triangles(const FloatPositions& p, const Tears& tears, int i, int j) {
+glm::vec3 normal_from_triangles(const FloatRows& p, const Tears& tears, int i, int j) {
   glm::vec3 sum(0);
   for (int qi = std::max(i - 1, 0); qi <= std::min(i, p.rows - 2); ++qi) {
     for (int qj = std::max(j - 1, 0); qj <= std::min(j, p.columns - 2); ++qj) {
@@ -53,17 +52,18 @@ glm::vec3 normal_from_triangles(const FloatPositions& p, const Tears& tears, int
 
 }  // namespace
 
-void compute_normals(const FloatPositions& p, const Tears& tears, std::span<const std::uint32_t> beside_tears,
-                     Normals& normals) {
-  const std::size_t size = std::size_t(p.rows) * p.stride;
-  for (auto* component : {&normals.x, &normals.y, &normals.z}) component->resize(size);
+void compute_normals(const FloatRows& p, const Tears& tears, std::span<const std::uint32_t> beside_tears,
+                     std::vector<float>& normals) {
+  normals.resize(p.size());
+  const std::size_t y = std::size_t(p.component), z = 2 * y;
   const auto set = [&](std::size_t index, glm::vec3 n) {
-    normals.x[index] = n.x, normals.y[index] = n.y, normals.z[index] = n.z;
+    normals[index] = n.x, normals[index + y] = n.y, normals[index + z] = n.z;
   };
   for (int i = 0; i < p.rows; ++i) {
     const RowPointers above = row(p, std::max(i - 1, 0)), below = row(p, std::min(i + 1, p.rows - 1)), here = row(p, i);
-    const std::size_t start = std::size_t(i) * p.stride;
-    inner_row(above, below, here, p.columns, &normals.x[start], &normals.y[start], &normals.z[start]);
+    const std::size_t start = std::size_t(i) * p.stride();
+    float* to = normals.data() + start;
+    inner_row(above, below, here, p.columns, to, to + y, to + z);
     for (const int j : {0, p.columns - 1}) {
       const glm::vec3 down = position(below, j) - position(above, j);
       const glm::vec3 along = position(here, std::min(j + 1, p.columns - 1)) - position(here, std::max(j - 1, 0));
@@ -71,7 +71,7 @@ void compute_normals(const FloatPositions& p, const Tears& tears, std::span<cons
     }
   }
   for (const std::uint32_t index : beside_tears) {
-    set(index, normal_from_triangles(p, tears, int(index) / p.stride, int(index) % p.stride));
+    set(index, normal_from_triangles(p, tears, int(index) / p.stride(), int(index) % p.stride()));
   }
 }
 

@@ -9,22 +9,21 @@
 
 namespace tyglab {
 
-/// Three float arrays over the particles, particle (i, j) at i·stride + j.
-struct FloatPositions {
-  int rows = 0, columns = 0, stride = 0;
-  const float* x = nullptr;
-  const float* y = nullptr;
-  const float* z = nullptr;
-};
-
-struct Normals {
-  std::vector<float> x, y, z;
+/// A vector of every particle as the solver lays it out and the buffers hold it: row after row, each as its x, its y
+/// and its z. Component c of particle (i, j) stands at i·stride() + j + c·component.
+struct FloatRows {
+  int rows = 0, columns = 0;
+  int component = 0;  ///< from a row's x to its y and from its y to its z
+  const float* data = nullptr;
+  int stride() const { return 3 * component; }
+  std::size_t size() const { return std::size_t(rows) * std::size_t(stride()); }
+  const float* row(int i, int c) const { return data + std::size_t(i) * stride() + std::size_t(c) * component; }
 };
 
 /// Normals on the front side, not of unit length: the cross product of the differences to the neighbours down and along
 /// the row. Those of `beside_tears` are the sum over their whole triangles instead, so that the other side of a tear
-/// does not count; without a whole triangle (0, 0, 1).
-void compute_normals(const FloatPositions& positions, const Tears& tears, std::span<const std::uint32_t> beside_tears,
-                     Normals& normals);
+/// does not count; without a whole triangle (0, 0, 1). `normals` are laid out as the positions are.
+void compute_normals(const FloatRows& positions, const Tears& tears, std::span<const std::uint32_t> beside_tears,
+                     std::vector<float>& normals);
 
 }  // namespace tyglab

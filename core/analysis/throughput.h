@@ -21,9 +21,10 @@ struct ThroughputRow {
   double ns_lowest = 0, ns_highest = 0;
   int repeats = 0;
   int threads_used = 1;
-  double register_limit_ns = 0;   ///< arithmetic alone, divided by the threads
-  double memory_limit_ns = 0;     ///< moving the state once through memory (or the cache that holds it)
-  double bytes_per_particle = 0;  ///< of all the solver's arrays
+  double register_limit_ns = 0;                ///< arithmetic alone, divided by the threads
+  double memory_limit_ns = 0;                  ///< moving the state once through memory (or the cache that holds it)
+  std::vector<std::string> features, skipped;  ///< what the steps did, and what this scene has no need of
+  double bytes_per_particle = 0;               ///< of all the solver's arrays
 };
 
 /// The cases, smallest first. `quick`: fewer sizes.

@@ -45,7 +45,8 @@ struct Advance {
   glm::dvec3 hand_force{0, 0, 0};  ///< force on the held particle at the last step, N, before it was set to 0
 };
 
-/// Read-only view of the engine's own position arrays: particle (i, j) at index i·stride + j. One of f or d is set.
+/// Read-only view of the engine's own positions: particle (i, j) at index i·stride + j of each component's pointer. One
+/// of f or d is set. Rows lie one after the other, each as its x, its y and its z of stride/3 values (RowField).
 struct PositionView {
   int rows = 0, columns = 0, stride = 0;
   const float* f[3] = {nullptr, nullptr, nullptr};

@@ -21,7 +21,7 @@ def centre(box):
 class Sandbox:
     """The program in a window of `size`, with a folder of its own for settings and presets."""
 
-    def __init__(self, tyglab, screen, arguments, size=(1280, 720), config=None, with_settings=True):
+    def __init__(self, tyglab, screen, arguments, size=(1280, 720), config=None, with_settings=True, reported=True):
         self.screen = screen
         self.tyglab = tyglab
         self.own = tempfile.TemporaryDirectory(prefix="tyglab-gui-")
@@ -36,10 +36,12 @@ class Sandbox:
         self.environment = dict(os.environ, DISPLAY=screen.display, TYGLAB_CONFIG_DIR=self.config)
         self.environment.pop("WAYLAND_DISPLAY", None)
         self.xdotool("mousemove", screen.width - 1, screen.height - 1)
-        self.process = subprocess.Popen([tyglab, *arguments, "--session-report", self.report_file], stderr=self.errors,
-                                        env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
-        self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
-        self.window = int(self.xdotool("search", "--onlyvisible", "--name", "Tyglab").split()[0])
+        report = ["--session-report", self.report_file] if reported else []
+        self.process = subprocess.Popen([tyglab, *arguments, *report], stderr=self.errors, env=self.environment,
+                                        cwd=self.own.name, preexec_fn=end_with_parent)
+        if reported:
+            self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
+        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", "--name", "Tyglab").split()[0])
         self.xdotool("windowfocus", self.window)
 
     def xdotool(self, *arguments):

@@ -172,6 +172,7 @@ TEST_CASE("one weight diverges at 1000 times the larger of L and the offset") {
     CHECK(std::abs(weight.y - preset.x_0.y) <= limit * (1 + 1e-9));
     weight.step();
     CHECK(std::abs(weight.y - preset.x_0.y) > limit);
+    CHECK(simulation.divergence()->value == doctest::Approx(std::abs(weight.y - preset.x_0.y)).epsilon(1e-6));
   }
 }
 

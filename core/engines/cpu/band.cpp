@@ -8,8 +8,8 @@
 
 namespace tyglab::cpu {
 
-template <class R>
-Band<R>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
+template <class R, unsigned Present>
+Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
   ring_.resize(4, cloth.stride);
   old_rows_.resize(2, cloth.stride);
   sum_row_.resize(1, cloth.stride);
@@ -18,29 +18,29 @@ Band<R>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin
   if (end < cloth.lattice.rows) tail_.x.resize(6, cloth.stride), tail_.v.resize(6, cloth.stride);
 }
 
-template <class R>
-std::size_t Band<R>::bytes() const {
+template <class R, unsigned Present>
+std::size_t Band<R, Present>::bytes() const {
   std::size_t total = ring_.bytes() + old_rows_.bytes() + sum_row_.bytes();
   for (const Halo* halo : {&head_, &tail_}) total += halo->x.bytes() + halo->v.bytes();
   return total;
 }
 
 /// Rows first … first + count - 1 of the sweep's vectors to rows at … of a halo.
-template <class R>
-void Band<R>::copy_rows(const ResolvedSweep& s, int first, int count, Halo& halo, int at) {
+template <class R, unsigned Present>
+void Band<R, Present>::copy_rows(const ResolvedSweep& s, int first, int count, Halo& halo, int at) {
   const Field &x = cloth_.vector(s.position), &v = cloth_.vector(s.velocity);
   std::copy_n(x.row(first), count * x.pitch(), halo.x.row(at));
   std::copy_n(v.row(first), count * v.pitch(), halo.v.row(at));
 }
 
-template <class R>
-void Band<R>::copy_halo(const ResolvedSweep& s) {
+template <class R, unsigned Present>
+void Band<R, Present>::copy_halo(const ResolvedSweep& s) {
   if (begin_ > 0) copy_rows(s, begin_ - 2, 4, head_, 0);
   if (end_ < cloth_.lattice.rows) copy_rows(s, end_, 2, tail_, 2);
 }
 
-template <class R>
-PairTask<R> Band<R>::task(const ResolvedSweep& s) {
+template <class R, unsigned Present>
+PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   PairTask<R> t{};
   t.stride = cloth_.stride;
   t.columns = cloth_.lattice.columns;
@@ -53,20 +53,20 @@ PairTask<R> Band<R>::task(const ResolvedSweep& s) {
   return t;
 }
 
-template <class R>
-void Band<R>::point(PairTask<R>& t, const Tears& tears, int i, int x_row, Field& x, Field& v) {
+template <class R, unsigned Present>
+void Band<R, Present>::point(PairTask<R>& t, const Tears& tears, int i, int x_row, Field& x, Field& v) {
   t.x = x.row(x_row), t.v = v.row(x_row);
   for (int n = 0; n < 4; ++n) t.f[n] = force_row(i + n, 0);
   t.rows_below = cloth_.lattice.rows - 1 - i;
-  t.whole = tears.row(i);
+  t.whole = has(part::tearing) ? tears.row(i) : nullptr;
   for (const int row : {0, 1})
-    t.fixed[row] = i + row < cloth_.lattice.rows && cloth_.has_fixed(i + row)
+    t.fixed[row] = has(part::pins) && i + row < cloth_.lattice.rows && cloth_.has_fixed(i + row)
                        ? cloth_.fixed.data() + std::size_t(i + row) * cloth_.lattice.columns
                        : nullptr;
 }
 
-template <class R>
-void Band<R>::point_at_pair(PairTask<R>& t, const ResolvedSweep& s, const Tears& tears, int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::point_at_pair(PairTask<R>& t, const ResolvedSweep& s, const Tears& tears, int i) {
   if (!in_tail(i)) {
     point(t, tears, i, i, cloth_.vector(s.position), cloth_.vector(s.velocity));
     return;
@@ -77,8 +77,8 @@ void Band<R>::point_at_pair(PairTask<R>& t, const ResolvedSweep& s, const Tears&
 }
 
 /// Clears the ring's first pair, and computes what the pair above the band adds to it.
-template <class R>
-void Band<R>::begin_forces(PairTask<R>& t, const Tears& tears) {
+template <class R, unsigned Present>
+void Band<R, Present>::begin_forces(PairTask<R>& t, const Tears& tears) {
   const int first = std::max(0, begin_ - 2);
   for (int i = first; i < first + 2; ++i) std::fill_n(force_row(i, 0), ring_.pitch(), R(0));
   if (begin_ == 0) return;
@@ -86,8 +86,8 @@ void Band<R>::begin_forces(PairTask<R>& t, const Tears& tears) {
   forces_on_pair(t, Update::force);
 }
 
-template <class R>
-void Band<R>::forces_on_pair(const PairTask<R>& t, Update update) {
+template <class R, unsigned Present>
+void Band<R, Present>::forces_on_pair(const PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
@@ -98,8 +98,8 @@ void Band<R>::forces_on_pair(const PairTask<R>& t, Update update) {
 }
 
 /// The force on the hand's particle, if it is in this row.
-template <class R>
-void Band<R>::read_hand(int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::read_hand(int i) {
   if (cloth_.held.particle < 0 || cloth_.held.particle / cloth_.lattice.columns != i) return;
   const int j = cloth_.held.particle % cloth_.lattice.columns;
   has_hand_ = true;
@@ -108,15 +108,16 @@ void Band<R>::read_hand(int i) {
 
 /// Pinned and held particles: the force is measured, then set to 0, so a = 0 and they keep the velocity they were
 /// given.
-template <class R>
-void Band<R>::fix_row(int i) {
-  read_hand(i);
+template <class R, unsigned Present>
+void Band<R, Present>::fix_row(int i) {
+  if constexpr (has(part::hand)) read_hand(i);
+  if constexpr (!has(part::pins)) return;
   for (int n = cloth_.fixed_begin[i]; n < cloth_.fixed_begin[i + 1]; ++n)
     for (int c = 0; c < 3; ++c) force_row(i, c)[cloth_.fixed_columns[n]] = R(0);
 }
 
-template <class R>
-void Band<R>::assign_row(const ResolvedSweep& s, int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::assign_row(const ResolvedSweep& s, int i) {
   for (const auto& assignment : s.assignments)
     for (int c = 0; c < 3; ++c) {
       const auto source = [&](int vector) -> const R* {
@@ -134,23 +135,23 @@ void Band<R>::assign_row(const ResolvedSweep& s, int i) {
     }
 }
 
-template <class R>
-void Band<R>::keep_pair(int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::keep_pair(int i) {
   for (int row = i; row < std::min(i + 2, end_); ++row)
     std::copy_n(cloth_.row(vector_x, row, 0), old_rows_.pitch(), old_row(row, 0));
 }
 
 /// A pair swept in the halo goes back to the cloth.
-template <class R>
-void Band<R>::give_back_pair(const PairTask<R>& t, const ResolvedSweep& s, int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::give_back_pair(const PairTask<R>& t, const ResolvedSweep& s, int i) {
   Field &x = cloth_.vector(s.position), &v = cloth_.vector(s.velocity);
   std::copy_n(t.x, 2 * x.pitch(), x.row(i));
   std::copy_n(t.v, 2 * v.pitch(), v.row(i));
 }
 
 /// Whether a particle of the row may be inside a body; rounding is left to the exact test.
-template <class R>
-bool Band<R>::touches(int i) const {
+template <class R, unsigned Present>
+bool Band<R, Present>::touches(int i) const {
   const R *x = cloth_.row(vector_x, i, 0), *y = cloth_.row(vector_x, i, 1), *z = cloth_.row(vector_x, i, 2);
   for (const Body& body : cloth_.preset.bodies) {
     int inside = 0;
@@ -171,12 +172,12 @@ bool Band<R>::touches(int i) const {
   return false;
 }
 
-template <class R>
-void Band<R>::collide_row(int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::collide_row(int i) {
   const double scale = cloth_.keeps_displacement ? cloth_.preset.dt : 1;
   int next_fixed = cloth_.fixed_begin[i];
   for (int j = 0; j < cloth_.lattice.columns; ++j) {
-    if (next_fixed < cloth_.fixed_begin[i + 1] && cloth_.fixed_columns[next_fixed] == j) {
+    if (has(part::pins) && next_fixed < cloth_.fixed_begin[i + 1] && cloth_.fixed_columns[next_fixed] == j) {
       ++next_fixed;
       continue;
     }
@@ -197,8 +198,8 @@ void Band<R>::collide_row(int i) {
 }
 
 /// What the pair sweep does itself where it makes the update: keeps the largest way.
-template <class R>
-void Band<R>::watch_row(int i) {
+template <class R, unsigned Present>
+void Band<R, Present>::watch_row(int i) {
   const R dt = R(cloth_.preset.dt / cloth_.velocity_scale());
   R largest = 0;
   int finite = 1;
@@ -214,15 +215,15 @@ void Band<R>::watch_row(int i) {
   finite_ &= finite != 0;
 }
 
-template <class R>
-void Band<R>::begin_watch() {
+template <class R, unsigned Present>
+void Band<R, Present>::begin_watch() {
   largest_way_.fill(R(0));
   finite_ = true;
   left_inside_ = 0;
 }
 
-template <class R>
-double Band<R>::largest_way() const {
+template <class R, unsigned Present>
+double Band<R, Present>::largest_way() const {
   double largest = 0;
   bool finite = finite_;
   for (const R way : largest_way_) {
@@ -232,11 +233,11 @@ double Band<R>::largest_way() const {
   return finite ? largest : std::numeric_limits<double>::infinity();
 }
 
-template <class R>
-void Band<R>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
+template <class R, unsigned Present>
+void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
   PairTask<R> t = task(s);
   const bool weight = cloth_.preset.kind == Kind::one_weight;
-  const bool bodies = last && !cloth_.preset.bodies.empty() && !weight;
+  const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && !weight;
   const bool assigns = weight || s.update == Update::force;
   has_hand_ = false;
   begin_forces(t, tears);
@@ -248,7 +249,7 @@ void Band<R>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
     for (int row = i; row < std::min(i + 2, end_); ++row) {
       if (assigns)
         fix_row(row), assign_row(s, row);
-      else
+      else if constexpr (has(part::hand))
         read_hand(row);
       if (bodies && touches(row)) collide_row(row);
       if (last && assigns) watch_row(row);
@@ -256,8 +257,8 @@ void Band<R>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
   }
 }
 
-template <class R>
-void Band<R>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& out) {
+template <class R, unsigned Present>
+void Band<R, Present>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& out) {
   PairTask<R> t = task(s);
   const R per_mass = R(1 / cloth_.preset.m);
   const glm::dvec3 hand_force = hand_force_;  // a look must not change what the last step measured
@@ -277,7 +278,8 @@ void Band<R>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& o
   hand_force_ = hand_force;
 }
 
-template class Band<float>;
-template class Band<double>;
+#define TYGLAB_MAKE(R, present) template class Band<R, (present)>;
+TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
+#undef TYGLAB_MAKE
 
 }  // namespace tyglab::cpu

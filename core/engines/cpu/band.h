@@ -12,6 +12,7 @@
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
 #include "core/engines/cpu/pair_sweep.h"
+#include "core/engines/cpu/parts.h"
 #include "core/engines/cpu/row_field.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
@@ -60,7 +61,8 @@ struct Cloth {
   bool has_fixed(int i) const { return fixed_begin[std::size_t(i)] < fixed_begin[std::size_t(i) + 1]; }
 };
 
-template <class R>
+/// `Present`: the parts of the engine that are compiled in (parts.h).
+template <class R, unsigned Present = part::everything>
 class Band {
  public:
   using Field = RowField<R>;
@@ -87,6 +89,7 @@ class Band {
   std::size_t bytes() const;
 
  private:
+  static constexpr bool has(unsigned which) { return (Present & which) != 0; }
   /// Copies of four rows of one position and one velocity vector.
   struct Halo {
     Field x, v;

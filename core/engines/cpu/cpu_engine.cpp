@@ -39,8 +39,8 @@ int useful_threads(const Lattice& lattice, int asked) {
 
 }  // namespace
 
-template <class R>
-CpuEngine<R>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads) {
+template <class R, unsigned Present>
+CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads) {
   cloth_.preset = preset;
   cloth_.lattice = lattice;
   cloth_.stride = row_stride<R>(lattice.columns);
@@ -50,12 +50,13 @@ CpuEngine<R>::CpuEngine(const Preset& preset, const Lattice& lattice, int thread
   const auto begin = [&](int n) {
     return n == team_->size() ? lattice.rows : int(std::int64_t(lattice.rows) * n / team_->size()) / 2 * 2;
   };
-  for (int n = 0; n < team_->size(); ++n) bands_.push_back(std::make_unique<Band<R>>(cloth_, begin(n), begin(n + 1)));
+  for (int n = 0; n < team_->size(); ++n)
+    bands_.push_back(std::make_unique<Band<R, Present>>(cloth_, begin(n), begin(n + 1)));
   resolve();
 }
 
-template <class R>
-ResolvedSweep CpuEngine<R>::resolve(const Sweep& sweep) const {
+template <class R, unsigned Present>
+ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   ResolvedSweep out;
   out.position = sweep.position, out.velocity = sweep.velocity;
   out.k_d = cloth_.preset.k_d * std::pow(cloth_.preset.dt, sweep.velocity_dt_power);
@@ -70,8 +71,8 @@ ResolvedSweep CpuEngine<R>::resolve(const Sweep& sweep) const {
   return out;
 }
 
-template <class R>
-void CpuEngine<R>::resolve() {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::resolve() {
   scheme_ = &scheme(cloth_.preset.integrator);
   cloth_.keeps_displacement = scheme_->keeps_displacement;
   sweeps_.clear();
@@ -81,13 +82,13 @@ void CpuEngine<R>::resolve() {
   for (auto* fields : {&cloth_.vectors, &backup_})
     for (auto& field : *fields)
       if (field.empty()) field.resize(array_rows(), cloth_.stride);
-  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
-                    (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
+  cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
+                               (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
   measure_again();
 }
 
-template <class R>
-void CpuEngine<R>::load(const State& state, const Tears& tears) {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::load(const State& state, const Tears& tears) {
   const auto copy = [&](const VectorField<double>& from, int vector) {
     const Array<double>* components[] = {&from.x, &from.y, &from.z};
     for (int c = 0; c < 3; ++c)
@@ -105,8 +106,8 @@ void CpuEngine<R>::load(const State& state, const Tears& tears) {
   measure_again();
 }
 
-template <class R>
-void CpuEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
   const Scheme& next = scheme(preset.integrator);
   if (&next == scheme_ && scheme_->keeps_displacement && preset.dt != cloth_.preset.dt) {
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
@@ -127,8 +128,8 @@ void CpuEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   load(state, tears);
 }
 
-template <class R>
-void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   pinned_.assign(pinned.begin(), pinned.end());
   cloth_.held = held;
   std::vector<int> all(pinned_);
@@ -156,8 +157,8 @@ void CpuEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
   measure_again();
 }
 
-template <class R>
-void CpuEngine<R>::accelerations(const Tears& tears, Field& out) {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::accelerations(const Tears& tears, Field& out) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
   ResolvedSweep look;
   look.position = vector_x, look.velocity = vector_v;
@@ -166,8 +167,8 @@ void CpuEngine<R>::accelerations(const Tears& tears, Field& out) {
   for (const auto& band : bands_) band->accelerations(look, tears, out);
 }
 
-template <class R>
-void CpuEngine<R>::read(State& state, const Tears& tears) {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_raw(state);
   if (!scheme_->full_velocity_needs_a) return;
   accelerations(tears, acceleration_);
@@ -181,8 +182,8 @@ void CpuEngine<R>::read(State& state, const Tears& tears) {
     }
 }
 
-template <class R>
-void CpuEngine<R>::read_raw(State& state) const {
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::read_raw(State& state) const {
   const std::size_t n = std::size_t(cloth_.lattice.size());
   if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
   const double per_dt = scheme_->keeps_displacement ? cloth_.preset.dt : 1;
@@ -196,8 +197,8 @@ void CpuEngine<R>::read_raw(State& state) const {
   copy(vector_x, state.x, 1), copy(vector_v, state.v, per_dt);
 }
 
-template <class R>
-PositionView CpuEngine<R>::positions() const {
+template <class R, unsigned Present>
+PositionView CpuEngine<R, Present>::positions() const {
   PositionView view{cloth_.lattice.rows, cloth_.lattice.columns, 3 * cloth_.stride};
   for (int c = 0; c < 3; ++c) {
     if constexpr (std::is_same_v<R, float>)
@@ -208,8 +209,8 @@ PositionView CpuEngine<R>::positions() const {
   return view;
 }
 
-template <class R>
-std::size_t CpuEngine<R>::bytes() const {
+template <class R, unsigned Present>
+std::size_t CpuEngine<R, Present>::bytes() const {
   std::size_t total = acceleration_.bytes() + cloth_.fixed.size() + guards_.size() +
                       (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto& band : bands_) total += band->bytes();
@@ -218,15 +219,24 @@ std::size_t CpuEngine<R>::bytes() const {
   return total;
 }
 
-template <class R>
-std::string CpuEngine<R>::name() const {
+template <class R, unsigned Present>
+std::string CpuEngine<R, Present>::name() const {
   const int threads = team_->size();
   return std::string("CPU, ") + cloth_.sweeps.target + ", " + std::to_string(threads) +
          (threads == 1 ? " thread" : " threads");
 }
 
-template class CpuEngine<float>;
-template class CpuEngine<double>;
+#define TYGLAB_MAKE(R, present) template class CpuEngine<R, (present)>;
+TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
+#undef TYGLAB_MAKE
+
+std::unique_ptr<Engine> make_engine_without(unsigned absent, const Preset& preset, const Lattice& lattice) {
+#define TYGLAB_MAKE(R, present) \
+  if (absent == (part::everything & ~(present))) return std::make_unique<CpuEngine<R, (present)>>(preset, lattice, 1);
+  TYGLAB_FOR_EACH_PART(TYGLAB_MAKE)
+#undef TYGLAB_MAKE
+  return nullptr;
+}
 
 }  // namespace tyglab::cpu
 

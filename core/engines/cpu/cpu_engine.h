@@ -10,7 +10,8 @@
 
 namespace tyglab::cpu {
 
-template <class R>
+/// `Present`: the parts that are compiled in (parts.h).
+template <class R, unsigned Present = part::everything>
 class CpuEngine final : public Engine {
  public:
   CpuEngine(const Preset& preset, const Lattice& lattice, int threads);
@@ -35,6 +36,7 @@ class CpuEngine final : public Engine {
   };
   enum class End { none, fault, released };
 
+  static constexpr bool has(unsigned which) { return (Present & which) != 0; }
   /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
   int array_rows() const { return cloth_.lattice.rows + 3; }
   void resolve();
@@ -67,7 +69,7 @@ class CpuEngine final : public Engine {
   std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
   std::vector<int> pinned_;
   std::unique_ptr<Team> team_;
-  std::vector<std::unique_ptr<Band<R>>> bands_;
+  std::vector<std::unique_ptr<Band<R, Present>>> bands_;
   End end_ = End::none;
   glm::dvec3 hand_force_{0};
   double tear_motion_ = 0;  ///< m that particles may still move before a spring can be overloaded

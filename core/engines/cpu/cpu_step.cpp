@@ -19,8 +19,8 @@ constexpr double longest_factor = 1000;  // a spring longer than that many rest 
 
 }  // namespace
 
-template <class R>
-double CpuEngine<R>::distance2(int i, int j, const Direction& to) const {
+template <class R, unsigned Present>
+double CpuEngine<R, Present>::distance2(int i, int j, const Direction& to) const {
   double r2 = 0;
   for (int c = 0; c < 3; ++c) {
     const double d = double(cloth_.row(vector_x, i + to.di, c)[j + to.dj]) - double(cloth_.row(vector_x, i, c)[j]);
@@ -30,8 +30,8 @@ double CpuEngine<R>::distance2(int i, int j, const Direction& to) const {
 }
 
 /// Breaks what is overloaded, and says by how much any other spring may still grow, m.
-template <class R>
-double CpuEngine<R>::tear_overloaded(Tears& tears) {
+template <class R, unsigned Present>
+double CpuEngine<R, Present>::tear_overloaded(Tears& tears) {
   double slack = std::numeric_limits<double>::infinity();
   for (int d = 0; d < stretch_directions; ++d) {
     const double longest = directions[d].rest * cloth_.preset.L + cloth_.preset.F_max / cloth_.preset.k_s;
@@ -43,8 +43,8 @@ double CpuEngine<R>::tear_overloaded(Tears& tears) {
 
 /// Breaks the overloaded springs of a row in one direction; returns the square of the longest one that it leaves and
 /// that could break, m².
-template <class R>
-double CpuEngine<R>::tear_row(Tears& tears, int d, int i) {
+template <class R, unsigned Present>
+double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   const Direction& dir = directions[d];
   const double rest = dir.rest * cloth_.preset.L, longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
@@ -64,8 +64,8 @@ double CpuEngine<R>::tear_row(Tears& tears, int d, int i) {
   return left;
 }
 
-template <class R>
-bool CpuEngine<R>::finite(Fault& fault) const {
+template <class R, unsigned Present>
+bool CpuEngine<R, Present>::finite(Fault& fault) const {
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j)
       for (int which : {vector_x, vector_v})
@@ -78,8 +78,8 @@ bool CpuEngine<R>::finite(Fault& fault) const {
   return true;
 }
 
-template <class R>
-bool CpuEngine<R>::within_bounds(const Tears& tears, Fault& fault) {
+template <class R, unsigned Present>
+bool CpuEngine<R, Present>::within_bounds(const Tears& tears, Fault& fault) {
   double slack = std::numeric_limits<double>::infinity();
   if (cloth_.preset.kind == Kind::one_weight) {
     const double bound = longest_factor * std::max(cloth_.preset.L, std::abs(cloth_.preset.offset));
@@ -104,39 +104,40 @@ bool CpuEngine<R>::within_bounds(const Tears& tears, Fault& fault) {
   return true;
 }
 
-template <class R>
-bool CpuEngine<R>::find_fault(const Tears& tears, Fault& fault) {
+template <class R, unsigned Present>
+bool CpuEngine<R, Present>::find_fault(const Tears& tears, Fault& fault) {
   return !finite(fault) || !within_bounds(tears, fault);
 }
 
 /// Ends a step on one thread: says whether to go on.
-template <class R>
-typename CpuEngine<R>::End CpuEngine<R>::finish_step(Tears& tears, Fault& fault) {
+template <class R, unsigned Present>
+typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(Tears& tears, Fault& fault) {
   const Preset& preset = cloth_.preset;
   double largest = 0;
   for (const auto& band : bands_) {
     largest = std::max(largest, band->largest_way());
-    if (band->has_hand()) hand_force_ = band->hand_force();
+    if (has(part::hand) && band->has_hand()) hand_force_ = band->hand_force();
   }
   // Two ends, each by at most √3 of its largest component.
   const double growth = 2 * std::numbers::sqrt3 * largest;
-  if (preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth) {
+  if (has(part::tearing) && preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth) {
     tear_motion_ -= growth;
     if (!(tear_motion_ > 0)) tear_motion_ = tear_overloaded(tears);
   }
   free_motion_ -= growth;
   if (!(free_motion_ > 0) && find_fault(tears, fault)) return End::fault;
-  if (cloth_.held.particle >= 0 && preset.F_release > 0 && glm::length(hand_force_) > preset.F_release)
+  if (has(part::hand) && cloth_.held.particle >= 0 && preset.F_release > 0 &&
+      glm::length(hand_force_) > preset.F_release)
     return End::released;
   return End::none;
 }
 
-template <class R>
-int CpuEngine<R>::run(int steps, Tears& tears, Fault& fault) {
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault) {
   int done = 0;
   end_ = End::none;
   team_->run([&](int number) {
-    Band<R>& band = *bands_[std::size_t(number)];
+    Band<R, Present>& band = *bands_[std::size_t(number)];
     for (int n = 0; n < steps && end_ == End::none; ++n) {
       band.begin_watch();
       for (const ResolvedSweep& sweep : sweeps_) {
@@ -155,23 +156,25 @@ int CpuEngine<R>::run(int steps, Tears& tears, Fault& fault) {
   return done;
 }
 
-template <class R>
-Advance CpuEngine<R>::advance(int steps, Tears& tears) {
+template <class R, unsigned Present>
+Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   Advance result;
   const int torn_before = tears.torn_count();
   Fault fault{};
   while (result.steps < steps && !result.diverged && !result.released) {
     const int batch = std::min(steps - result.steps, steps_between_backups);
     for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) backup_[n] = cloth_.vectors[n];
-    if (cloth_.preset.F_max > 0) tears_backup_ = tears;
+    if (has(part::tearing) && cloth_.preset.F_max > 0) tears_backup_ = tears;
     const int done = run(batch, tears, fault);
     result.diverged = end_ == End::fault;
     result.released = end_ == End::released;
     if (result.diverged) {
       // The sweep works in place: return to the backup and repeat the good steps, which gives the same bits.
       for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
-      if (cloth_.preset.F_max > 0) tears = tears_backup_;
-      run(done, tears, fault);
+      if (has(part::tearing) && cloth_.preset.F_max > 0) tears = tears_backup_;
+      measure_again();
+      Fault none{};
+      run(done, tears, none);
       measure_again();
     }
     result.steps += done;
@@ -180,12 +183,13 @@ Advance CpuEngine<R>::advance(int steps, Tears& tears) {
   if (result.diverged) result.quantity = fault.quantity;
   result.torn = tears.torn_count() - torn_before;
   for (const auto& band : bands_) result.left_inside += band->left_inside();
-  result.hand_force = cloth_.held.particle >= 0 ? hand_force_ : glm::dvec3(0);
+  result.hand_force = has(part::hand) && cloth_.held.particle >= 0 ? hand_force_ : glm::dvec3(0);
   return result;
 }
 
 // What cpu_engine.cpp, where the class is instantiated, needs of this file.
-template Advance CpuEngine<float>::advance(int, Tears&);
-template Advance CpuEngine<double>::advance(int, Tears&);
+#define TYGLAB_MAKE(R, present) template Advance CpuEngine<R, (present)>::advance(int, Tears&);
+TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
+#undef TYGLAB_MAKE
 
 }  // namespace tyglab::cpu

@@ -1,0 +1,49 @@
+#include "app/commands/bench_output.h"
+
+#include <chrono>
+#include <ctime>
+#include <iostream>
+
+#include "app/commands/command_line.h"
+#include "app/commands/interrupt.h"
+#include "core/analysis/machine.h"
+
+namespace tyglab {
+namespace {
+
+/// "2026-11-21", the day on which something is measured (UTC).
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
+  return text;
+}
+
+}  // namespace
+
+std::string machine_line() {
+  const Machine machine = this_machine();
+  return machine.processor + ", " + counted(machine.cores, "core") + ", " + machine.instruction_set +
+         "; tyglab " TYGLAB_VERSION ", " + build_description();
+}
+
+nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs) {
+  const Machine machine = this_machine();
+  return {{"benchmark", benchmark},
+          {"machine",
+           {{"processor", machine.processor}, {"cores", machine.cores}, {"instruction_set", machine.instruction_set}}},
+          {"version", TYGLAB_VERSION},
+          {"build", build_description()},
+          {"date", today()},
+          {"runs", std::move(runs)}};
+}
+
+int bench_exit() {
+  if (!InterruptGuard::interrupted()) return exit_done;
+  std::cerr << "tyglab: Interrupted; the figures measured so far are whole.\n";
+  return exit_interrupted;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,188 @@
+#include "app/panels/performance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+constexpr const char* heading = "Performance";
+constexpr float line_at_1 = 19, head_at_1 = 36, foot_at_1 = 10;  // pixels at scale 1
+
+bool cloth(const App& app) {
+  return app.preset().kind == Kind::cloth;
+}
+bool stepping(const App& app) {
+  return app.pacing.playing && !app.simulation->divergence();
+}
+
+/// Where a feature's time is spent.
+enum class Spent {
+  step,   ///< fused into the step's one pass
+  frame,  ///< a part of the frame
+};
+
+/// One row a feature: whether the scene and what is shown need it. What belongs to the step sleeps with it.
+struct Feature {
+  std::string_view name, help;
+  bool (*needed)(const App&);
+  Spent spent;
+  Part part = Part::simulate;
+};
+
+constexpr Feature features[] = {
+    {"all steps", "Everything that the cloth's motion takes; the features below, down to the watch, are done in it.",
+     [](const App&) { return true; }, Spent::frame, Part::simulate},
+    {"bending", "Springs over two particles: k_b > 0.", [](const App& a) { return cloth(a) && a.preset().k_b > 0; },
+     Spent::step},
+    {"damping", "k_d > 0.", [](const App& a) { return a.preset().k_d > 0; }, Spent::step},
+    {"wind", "W is not 0.", [](const App& a) { return cloth(a) && a.preset().W != glm::dvec3(0); }, Spent::step},
+    {"bodies", "Collision with spheres and planes.",
+     [](const App& a) { return cloth(a) && !a.preset().bodies.empty(); }, Spent::step},
+    {"tearing", "F_max > 0: springs are measured when one may have grown enough.",
+     [](const App& a) { return cloth(a) && a.preset().F_max > 0; }, Spent::step},
+    {"tear masks", "Only once a spring is torn.", [](const App& a) { return !a.simulation->tears().untorn(); },
+     Spent::step},
+    {"pins, hand", "Particles that do not move freely.",
+     [](const App& a) {
+       return cloth(a) && (a.simulation->held().has_value() || a.preset().pins.mode != Pins::Mode::none);
+     },
+     Spent::step},
+    {"divergence watch", "Always on: how far particles moved, and whether all is finite.",
+     [](const App&) { return true; }, Spent::step},
+    {"plot data", "Collected only for plots that are seen, and while the cloth moves.",
+     [](const App& a) { return (a.ui.plots.forces_shown || a.ui.plots.height_shown) && !a.ui.plots.paused; },
+     Spent::frame, Part::sample},
+    {"normals", "Only views 1 and 3 have light.", [](const App& a) { return cloth(a) && a.view.lit(); }, Spent::frame,
+     Part::normals},
+    {"upload", "Positions (and normals) go to the graphics card when something moved.",
+     [](const App& a) { return cloth(a); }, Spent::frame, Part::upload},
+    {"shadow", "Drawn anew when something moved.", [](const App& a) { return a.view.shadows; }, Spent::frame,
+     Part::shadow},
+};
+
+std::string text(const char* format, double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, format, value);
+  return buffer;
+}
+
+std::string megabytes(double bytes) {
+  return bytes < 1e6 ? text("%.0f kB", bytes / 1e3) : text("%.1f MB", bytes / 1e6);
+}
+
+ImU32 color_of(const Tokens& c, Activity activity) {
+  return activity == Activity::on ? c.good : activity == Activity::asleep ? c.accent : c.quiet;
+}
+
+/// Name, state, milliseconds a frame.
+void feature_line(App& app, const FeatureRow& row, float width) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float height = app.theme.px(line_at_1), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
+  ImGui::InvisibleButton("feature", {width, height});
+  tooltip(app, gui::item_id(), row.help);
+  ImGui::PopID();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 ink = row.activity == Activity::on ? c.text : c.quiet;
+  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, ink, row.name);
+  draw_on_baseline(draw, *app.fonts.small, {lo.x + app.theme.px(130), baseline}, color_of(c, row.activity),
+                   name_of(row.activity));
+  const ImFont& font = row.ms ? *app.fonts.mono : *app.fonts.small;
+  const std::string time = row.activity != Activity::on ? "–" : row.ms ? text("%.3f ms", *row.ms) : "in the steps";
+  draw_on_baseline(draw, font, {lo.x + width - text_width(font, time), baseline}, ink, time);
+}
+
+void fact_line(App& app, const PerformanceFact& fact, float width) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float height = app.theme.px(line_at_1), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  ImGui::Dummy({width, height});
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
+  const ImFont& mono = *app.fonts.mono;
+  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, fact.value), baseline}, c.text, fact.value);
+}
+
+}  // namespace
+
+std::string_view name_of(Activity activity) {
+  switch (activity) {
+    case Activity::on:
+      return "on";
+    case Activity::skipped:
+      return "skipped";
+    case Activity::asleep:
+      break;
+  }
+  return "asleep";
+}
+
+std::vector<FeatureRow> feature_rows(const App& app) {
+  std::vector<FeatureRow> rows;
+  for (const Feature& feature : features) {
+    FeatureRow row{feature.name, feature.help, Activity::skipped, std::nullopt};
+    const bool runs = feature.needed(app) && stepping(app);
+    if (runs) row.activity = app.asleep() ? Activity::asleep : Activity::on;
+    if (feature.spent == Spent::frame) row.ms = app.costs.recent_ms(feature.part);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<PerformanceFact> performance_facts(const App& app) {
+  Engine& engine = app.simulation->engine();
+  const double particles = app.simulation->lattice().size();
+  const double arrays = double(engine.bytes());
+  const double buffers = app.renderer != nullptr ? double(app.renderer->bytes()) : 0;
+  const double plots = double(app.ui.plots.forces.bytes() + app.ui.plots.height.bytes());
+  std::vector<PerformanceFact> facts;
+  facts.push_back({"engine", engine.name()});
+  facts.push_back({"per particle and step", text("%.2f ns", 1e9 * app.pacing.step_cost_s() / particles)});
+  facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
+  facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
+  facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
+  facts.push_back({"drawing's buffers", megabytes(buffers)});
+  facts.push_back({"plots' history", megabytes(plots)});
+  return facts;
+}
+
+float performance_card_height(const App& app) {
+  const bool open = app.settings.layout.folded.count(heading) == 0;
+  if (!open) return app.theme.px(head_at_1);
+  const auto lines = float(std::size(features) + performance_facts(app).size());
+  return app.theme.px(head_at_1) + lines * app.theme.px(line_at_1) + app.theme.px(foot_at_1);
+}
+
+void performance_card(App& app, float height) {
+  const Tokens& c = app.theme.colors;
+  const float padding = app.theme.px(12);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, inner = width - 2 * padding;
+  ImGui::GetWindowDrawList()->AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, app.theme.px(8));
+  gui::begin_child("performance", {width, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+  ImGui::Dummy({inner, app.theme.px(4)});
+  ImGui::Indent(padding);
+  const float row_width = app.ui.row_width;
+  app.ui.row_width = inner;  // a section is as wide as its panel's rows
+  const bool open = section(app, heading);
+  app.ui.row_width = row_width;
+  if (open) {
+    ImGui::Dummy({inner, app.theme.px(4)});
+    for (const PerformanceFact& fact : performance_facts(app)) fact_line(app, fact, inner);
+    for (const FeatureRow& row : feature_rows(app)) feature_line(app, row, inner);
+  }
+  ImGui::Unindent(padding);
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+}  // namespace tyglab

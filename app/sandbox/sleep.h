@@ -1,0 +1,43 @@
+// A cloth at rest goes to sleep: the sandbox makes no more steps until something touches it. Only the sandbox does
+// that; runs, benchmarks and --frames compute every step.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// What counts as rest, of a cloth of side ℓ that swings in τ = √(ℓ/|g|) (1 s without gravity).
+struct RestTolerance {
+  double radius;  ///< m; every particle stays that near to where it was …
+  double window;  ///< s; … for that long, 2 τ, …
+  double speed;   ///< m/s; … and ends slower than that
+  double error;   ///< m; how far from its place the cloth may be that sleeps, as measured in the tests
+};
+RestTolerance rest_tolerance(const Preset& preset);
+
+class Sleep {
+ public:
+  /// Whether it sleeps. Any edit wakes it (Simulation::revision).
+  bool asleep(const Simulation& simulation) const { return asleep_ && simulation.revision() == seen_; }
+  /// Before a frame's steps: an edit since the last look begins a new watch.
+  void begin(const Simulation& simulation);
+  /// After a frame's steps. `touched`: a tool acts on the cloth.
+  void look(Simulation& simulation, bool touched);
+
+ private:
+  void take_anchor(const Simulation& simulation);
+  bool near_anchor(const Simulation& simulation, double radius) const;
+  static double largest_speed(Simulation& simulation);
+
+  bool asleep_ = false;
+  bool moving_ = true;  ///< a particle has left its place since the anchor was taken
+  std::uint64_t seen_ = 0;
+  double anchored_ = 0;             ///< s, simulated time of the anchor
+  std::vector<glm::dvec3> anchor_;  ///< where the particles were; empty: nothing has been watched yet
+};
+
+}  // namespace tyglab
