@@ -233,9 +233,9 @@ const State& Simulation::read() {
   return state_;
 }
 
-State Simulation::read_raw() const {
+State Simulation::read_raw() {
   State state;
-  engine_->read_raw(state);
+  engine_->read_raw(state, tears_);
   return state;
 }
 

@@ -56,7 +56,7 @@ class Simulation {
   /// Full-step positions and velocities, dense.
   const State& read();
   /// As the method holds them: what a state file shows.
-  State read_raw() const;
+  State read_raw();
   ParticleReadout particle(int i, int j);
   ForceSummary forces(Reduction reduction);
   /// Counts up whenever positions, tears or bodies changed: views compare it to know whether to upload.

@@ -5,6 +5,7 @@
 
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
+#include "core/integrators/names.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 
@@ -40,6 +41,16 @@ void warn_of_missing_texture(const Preset& preset) {
               << "', so the cloth would be drawn without one; check the name and the folder.\n";
 }
 
+namespace {
+
+std::string known_integrators() {
+  std::string list;
+  for (const std::string_view name : integrator_names()) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
+}
+
+}  // namespace
+
 void PresetArgument::add_to(CLI::App& command, bool required) {
   command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
       ->required(required)
@@ -52,7 +63,7 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command.add_option("--integrator", integrator, "Numerical method: euler, improved_euler, verlet")
+  command.add_option("--integrator", integrator, "Numerical method: " + known_integrators())
       ->type_name("NAME")
       ->check(not_empty());
   command.add_option("--dt", dt, "Time step, s")->type_name("S")->check(not_empty());

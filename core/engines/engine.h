@@ -70,8 +70,8 @@ class Engine {
   virtual Advance advance(int steps, Tears& tears) = 0;
   /// Positions and the velocities that belong to them (v + dt/2 a for Verlet).
   virtual void read(State& state, const Tears& tears) = 0;
-  /// Positions and the velocities as the method holds them (d/dt for Verlet): what state files show.
-  virtual void read_raw(State& state) const = 0;
+  /// What state files show: as read(), but for Verlet the backward velocity d/dt.
+  virtual void read_raw(State& state, const Tears& tears) = 0;
   virtual PositionView positions() const = 0;
   /// Bytes of all arrays that grow with the cloth.
   virtual std::size_t bytes() const = 0;

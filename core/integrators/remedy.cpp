@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/integrators/amplification.h"
+
 namespace tyglab {
 namespace {
 
@@ -28,10 +30,8 @@ double stable_dt(const Preset& p, const std::string& integrator) {
   const double stiffness = weight ? p.k : 12 * p.k_s + 8 * p.k_b;
   const double damping = (weight ? 1 : 12) * p.k_d;
   if (stiffness == 0) return 1;
-  if (integrator == "euler") return damping / stiffness;
-  if (integrator == "improved_euler") return 2 * damping / stiffness;
-  const double omega = std::sqrt(stiffness / p.m), xi = damping / p.m / (2 * omega);
-  return 2 / (std::sqrt(1 + xi * xi) + xi) / omega;  // = 2(√(1+ξ²) − ξ)/ω without its cancellation
+  const double omega = std::sqrt(stiffness / p.m), zeta = damping / p.m / (2 * omega);
+  return stability_limit(scheme(integrator), zeta) / omega;
 }
 
 std::string remedy(const Preset& p) {

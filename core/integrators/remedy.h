@@ -9,10 +9,9 @@
 
 namespace tyglab {
 
-/// Largest dt at which the method is stable for any configuration of the cloth, by its linearisation; 0 where no dt is.
-/// Verlet: hω <= 2(√(1+ξ²) − ξ) with ω² <= (12 k_s + 8 k_b)/m, damping 12 k_d/m; Euler: h <= k_d/k_s; improved Euler:
-/// h <= 2 k_d/k_s (from the determinants of their amplification matrices). One-sided springs switch, so it is advice
-/// and no guarantee.
+/// Largest dt at which the method is stable for any configuration of the cloth, by its linearisation, with
+/// ω² <= (12 k_s + 8 k_b)/m and damping 12 k_d/m; 0 where no dt is. From the method's own table (amplification.h).
+/// One-sided springs switch, so it is advice and no guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
 
 /// What to change so that the preset does not diverge again.

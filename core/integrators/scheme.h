@@ -35,6 +35,8 @@ struct Sweep {
   std::vector<Assignment> assignments;
 };
 
+/// Vector 0 changes in the last sweep alone, or in the only one: bodies act on the way from the old to the new
+/// position.
 struct Scheme {
   std::string_view name;      ///< in presets and on the command line
   std::string_view title;     ///< for people
@@ -46,14 +48,18 @@ struct Scheme {
   bool keeps_displacement;  ///< vector 1 is d = dt·v, not v
   std::string_view note;    ///< a sentence said where it is offered
   std::vector<Sweep> sweeps;
-  /// What vector 1 becomes at the start, from v in vector 1 and a(x, v).
-  Assignment start;
+  /// What the vectors become at the start, in order, from x in vector 0, v in vector 1 and a(x, v).
+  std::vector<Assignment> start;
   /// The velocity that belongs to the position, from vector 1 and a at the present state.
   Assignment full_velocity;
   bool full_velocity_needs_a;
 };
 
 std::span<const Scheme> schemes();
+/// The vector that damping sees where a step begins: v itself or a prediction of it.
+inline int seen_velocity(const Scheme& scheme) {
+  return scheme.sweeps.front().velocity;
+}
 /// The scheme of that name; the name must be known (is_integrator).
 const Scheme& scheme(std::string_view name);
 

@@ -21,7 +21,7 @@ State after(Engine& engine, const Preset& preset, int steps) {
   engine.load(start_state(preset), tears);
   CHECK(engine.advance(steps, tears).steps == steps);
   State state;
-  engine.read_raw(state);
+  engine.read_raw(state, tears);
   return state;
 }
 

@@ -191,6 +191,7 @@ void Band<R, Present>::collide_row(int i) {
     if (!collide(cloth_.preset.bodies, cloth_.preset.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
+      cloth_.row(cloth_.seen_velocity, i, c)[j] = *v[c];
       // A body that was moved into the cloth may push a particle further than it would have gone.
       largest_way_[0] = std::max(largest_way_[0], std::abs(*x[c] - old_row(i, c)[j]));
     }

@@ -48,6 +48,7 @@ struct Cloth {
   PairSweeps<R> sweeps;
   unsigned features = 0;
   bool keeps_displacement = false;
+  int seen_velocity = vector_v;  ///< vector that damping sees where a step begins
   std::vector<Field> vectors;
   std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row after row
   std::vector<int> fixed_begin;     ///< where each row's begin

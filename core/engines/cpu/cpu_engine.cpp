@@ -75,6 +75,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::resolve() {
   scheme_ = &scheme(cloth_.preset.integrator);
   cloth_.keeps_displacement = scheme_->keeps_displacement;
+  cloth_.seen_velocity = seen_velocity(*scheme_);
   sweeps_.clear();
   for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
   cloth_.vectors.resize(std::size_t(scheme_->vectors));
@@ -98,7 +99,7 @@ void CpuEngine<R, Present>::load(const State& state, const Tears& tears) {
   };
   copy(state.x, vector_x), copy(state.v, vector_v);
   // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
-  const Sweep start{vector_x, vector_v, 0, {scheme_->start}};
+  const Sweep start{vector_x, vector_v, 0, scheme_->start};
   const ResolvedSweep resolved = resolve(start);
   for (const auto& band : bands_) band->copy_halo(resolved);
   for (const auto& band : bands_) band->sweep(resolved, tears, false);
@@ -109,14 +110,16 @@ void CpuEngine<R, Present>::load(const State& state, const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
   const Scheme& next = scheme(preset.integrator);
-  if (&next == scheme_ && scheme_->keeps_displacement && preset.dt != cloth_.preset.dt) {
+  // Where what is kept belongs to half a step ago, it depends on dt. The velocity must stay.
+  const bool shifts = scheme_->full_velocity_needs_a && preset.dt != cloth_.preset.dt;
+  if (&next == scheme_ && shifts && scheme_->keeps_displacement) {
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
     accelerations(tears, acceleration_);
     const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
     Array<R>& d = cloth_.vector(vector_v).all();
     for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
   }
-  if (&next == scheme_) {
+  if (&next == scheme_ && (!shifts || scheme_->keeps_displacement)) {
     cloth_.preset = preset;
     resolve();
     return;
@@ -142,7 +145,8 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
     cloth_.fixed_columns.push_back(j);
     ++cloth_.fixed_begin[std::size_t(i) + 1];
     const glm::dvec3 v = p == held.particle ? held.velocity : glm::dvec3(0);
-    for (int c = 0; c < 3; ++c) cloth_.row(vector_v, i, c)[j] = R(v[c] * cloth_.velocity_scale());
+    for (const int vector : {vector_v, seen_velocity(*scheme_)})
+      for (int c = 0; c < 3; ++c) cloth_.row(vector, i, c)[j] = R(v[c] * cloth_.velocity_scale());
   }
   for (std::size_t i = 1; i < cloth_.fixed_begin.size(); ++i) cloth_.fixed_begin[i] += cloth_.fixed_begin[i - 1];
   cloth_.fixed.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()) + widest_vector, 0);
@@ -161,7 +165,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::accelerations(const Tears& tears, Field& out) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
   ResolvedSweep look;
-  look.position = vector_x, look.velocity = vector_v;
+  look.position = vector_x, look.velocity = seen_velocity(*scheme_);
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
   for (const auto& band : bands_) band->copy_halo(look);
   for (const auto& band : bands_) band->accelerations(look, tears, out);
@@ -169,7 +173,7 @@ void CpuEngine<R, Present>::accelerations(const Tears& tears, Field& out) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
-  read_raw(state);
+  read_stored(state);
   if (!scheme_->full_velocity_needs_a) return;
   accelerations(tears, acceleration_);
   const double half_dt = cloth_.preset.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
@@ -183,7 +187,15 @@ void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::read_raw(State& state) const {
+void CpuEngine<R, Present>::read_raw(State& state, const Tears& tears) {
+  if (scheme_->keeps_displacement)
+    read_stored(state);
+  else
+    read(state, tears);
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::read_stored(State& state) const {
   const std::size_t n = std::size_t(cloth_.lattice.size());
   if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
   const double per_dt = scheme_->keeps_displacement ? cloth_.preset.dt : 1;

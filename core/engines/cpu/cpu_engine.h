@@ -21,7 +21,7 @@ class CpuEngine final : public Engine {
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
   void read(State& state, const Tears& tears) override;
-  void read_raw(State& state) const override;
+  void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
   std::size_t bytes() const override;
   int threads() const override { return team_->size(); }
@@ -42,6 +42,8 @@ class CpuEngine final : public Engine {
   void resolve();
   ResolvedSweep resolve(const Sweep& sweep) const;
   void accelerations(const Tears& tears, Field& out);
+  /// Positions and vector 1 as a velocity.
+  void read_stored(State& state) const;
 
   double tear_overloaded(Tears& tears);
   double tear_row(Tears& tears, int direction, int i);

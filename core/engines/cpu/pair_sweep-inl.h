@@ -1,6 +1,12 @@
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/engines/cpu/pair_sweep.cpp"
-#include <hwy/foreach_target.h>
+// The sweep itself, for any precision and instruction set; pair_sweep_float.cpp and pair_sweep_double.cpp compile it.
+// Included once for each SIMD target, so the guard toggles.
+#if defined(TYGLAB_PAIR_SWEEP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef TYGLAB_PAIR_SWEEP_INL_H_
+#undef TYGLAB_PAIR_SWEEP_INL_H_
+#else
+#define TYGLAB_PAIR_SWEEP_INL_H_
+#endif
+
 #include <hwy/highway.h>
 
 #include <limits>
@@ -225,36 +231,17 @@ void sweep_pair(const PairTask<R>& task) {
 }
 
 template <class R, std::size_t... F>
-PairSweeps<R> table(std::index_sequence<F...>) {
+PairSweeps<R> table_of(std::index_sequence<F...>) {
   using enum Update;
   return {{{&sweep_pair<R, F, displacement>, &sweep_pair<R, F, general>, &sweep_pair<R, F, force>}...},
           int(hn::MaxLanes(hn::ScalableTag<R>())),
           hwy::TargetName(HWY_TARGET)};
 }
-PairSweeps<float> table_float() {
-  return table<float>(std::make_index_sequence<feature_sets>());
-}
-PairSweeps<double> table_double() {
-  return table<double>(std::make_index_sequence<feature_sets>());
+template <class R>
+PairSweeps<R> table() {
+  return table_of<R>(std::make_index_sequence<feature_sets>());
 }
 
 }  // namespace tyglab::cpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
-
-#if HWY_ONCE
-namespace tyglab::cpu {
-
-HWY_EXPORT(table_float);
-HWY_EXPORT(table_double);
-
-template <>
-PairSweeps<float> pair_sweeps<float>() {
-  return HWY_DYNAMIC_DISPATCH(table_float)();
-}
-template <>
-PairSweeps<double> pair_sweeps<double>() {
-  return HWY_DYNAMIC_DISPATCH(table_double)();
-}
-
-}  // namespace tyglab::cpu
 #endif
