@@ -30,6 +30,7 @@ fs::path on_path(const std::string& name) {
 /// Runs a program to its end, silently. Whether it ended well.
 bool run_silently(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
