@@ -199,7 +199,9 @@ void type_value(App& app, double value, float width, float height, SliderResult&
   ImGui::PopStyleVar();
   ImGui::PopFont();
   if (ImGui::IsItemActive()) state.typing_starts = false;
-  const bool over = state.commit || state.cancel || (!state.typing_starts && !ImGui::IsItemActive());
+  // Enter counts once the text field has been shown all that was typed before it.
+  const bool ended = (state.commit || state.cancel) && !app.input.unread;
+  const bool over = ended || (!state.typing_starts && !ImGui::IsItemActive());
   if (!over) return;
   state.typing = 0;
   if (state.cancel) return;

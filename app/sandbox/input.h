@@ -25,14 +25,22 @@ struct PointerEvent {
   double time = 0;     ///< s, glfwGetTime
 };
 
+/// A character that was typed, and how many of the queue's keys were pressed before it.
+struct TypedCharacter {
+  unsigned character;
+  std::size_t keys_before;
+};
+
 struct InputQueue {
   std::vector<KeyEvent> keys;
+  std::vector<TypedCharacter> text;  ///< filled only where Dear ImGui keeps no order itself (before 1.87)
   std::vector<PointerEvent> pointer;
   std::vector<std::string> dropped;  ///< files dropped on the window
   glm::vec2 at{-1e6f};               ///< the pointer's last position
   int mods = 0;
   bool scale_changed = false;   ///< the window went to a monitor with another content scale
   bool anything = false;        ///< an event of any kind arrived
+  bool unread = false;          ///< Dear ImGui has not yet been shown everything that was typed
   bool double_click = false;    ///< the left button went down for the second time at the same place, just now
   int double_click_frames = 0;  ///< for how many frames more that counts: Dear ImGui may show a press some frames late
   double double_click_s = 0.4;  ///< longest time between its presses; longer where frames are slow
@@ -49,7 +57,7 @@ struct InputQueue {
   }
 
   void clear() {
-    keys.clear(), pointer.clear(), dropped.clear();
+    keys.clear(), text.clear(), pointer.clear(), dropped.clear();
     scale_changed = anything = false;
     double_click = double_click_frames > 0 && --double_click_frames > 0;
   }

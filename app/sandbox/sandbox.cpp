@@ -254,7 +254,7 @@ void Sandbox::draw_panels() {
   if (!slider.focused_seen || app_.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;
   slider.wanted_order = -1;
   slider.keys.clear();
-  slider.commit = slider.cancel = false;
+  if (slider.typing == 0 || !app_.input.unread) slider.commit = slider.cancel = false;
   app_.ui.close_lists = false;
   if (!app_.ui.hover_seen) app_.ui.hovered = 0;
 }

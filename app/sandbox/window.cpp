@@ -38,6 +38,14 @@ void on_key(GLFWwindow* window, int key, int, int action, int mods) {
   queue.mods = mods;
 }
 
+#if IMGUI_VERSION_NUM < 18700
+void on_character(GLFWwindow* window, unsigned character) {
+  InputQueue& queue = queue_of(window);
+  queue.anything = true;
+  queue.text.push_back({character, queue.keys.size()});
+}
+#endif
+
 void on_button(GLFWwindow* window, int button, int action, int mods) {
   InputQueue& queue = queue_of(window);
   queue.anything = true;
@@ -228,6 +236,9 @@ Gui::Gui(GLFWwindow* window) : window_(window) {
   gui::prepare_io(ImGui::GetIO());
   // The backend calls the callbacks that stood before its own, so the input queue keeps seeing everything.
   ImGui_ImplGlfw_InitForOpenGL(window, true);
+#if IMGUI_VERSION_NUM < 18700
+  glfwSetCharCallback(window, on_character);  // in place of the backend's: the order of keys and characters matters
+#endif
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -238,12 +249,18 @@ Gui::~Gui() {
 }
 
 #if IMGUI_VERSION_NUM < 18700
-/// Before 1.87 Dear ImGui looks at the keyboard once a frame, and text fields miss what is shorter. So every press is
-/// shown for a frame; the same key again, or keys with other modifiers, in a later one.
-void Gui::show_short_presses(const InputQueue& input) {
+/// Before 1.87 Dear ImGui looks at the keyboard once a frame: text fields miss presses that are shorter, and see a
+/// frame's characters before its keys. So every press is shown for a frame; the same key again, keys with other
+/// modifiers, and characters typed after a key that edits, in a later one.
+void Gui::show_typing(InputQueue& input) {
   ImGuiIO& io = ImGui::GetIO();
-  for (const KeyEvent& event : input.keys)
-    if (!event.repeat && event.key >= 0) waiting_.push_back(event);
+  std::size_t next = 0;
+  for (std::size_t n = 0; n <= input.keys.size(); ++n) {
+    for (; next < input.text.size() && input.text[next].keys_before <= n; ++next)
+      waiting_.push_back({{GLFW_KEY_UNKNOWN, 0, false}, input.text[next].character});
+    if (n < input.keys.size() && !input.keys[n].repeat && input.keys[n].key >= 0)
+      waiting_.push_back({input.keys[n], 0});
+  }
   const std::vector<int> before = std::move(shown_);
   shown_.clear();
   for (const int key : before) io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
@@ -252,30 +269,43 @@ void Gui::show_short_presses(const InputQueue& input) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
   };
   std::optional<int> mods;
-  while (!waiting_.empty()) {
-    const KeyEvent event = waiting_.front();
+  bool edits = false;
+  std::size_t done = 0;
+  for (; done < waiting_.size(); ++done) {
+    const auto& [event, character] = waiting_[done];
+    if (event.key == GLFW_KEY_UNKNOWN) {
+      if (edits) break;
+      io.AddInputCharacter(character);
+      continue;
+    }
     const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;
     const bool again = has(before, event.key) || has(shown_, event.key);
     if (has(before, event.key)) io.KeysDown[event.key] = false;
     if (again || (mods && !modifier && event.mods != mods)) break;
     io.KeysDown[event.key] = true;
     if (!modifier) mods = event.mods;
+    edits |= !modifier && (event.key >= GLFW_KEY_ESCAPE || (event.mods & GLFW_MOD_CONTROL) != 0);
     shown_.push_back(event.key);
-    waiting_.erase(waiting_.begin());
   }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(done));
+  input.unread = !waiting_.empty();
   io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) || (mods.value_or(0) & GLFW_MOD_CONTROL) != 0;
   io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) || (mods.value_or(0) & GLFW_MOD_SHIFT) != 0;
   io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) || (mods.value_or(0) & GLFW_MOD_ALT) != 0;
 }
-#else
-void Gui::show_short_presses(const InputQueue&) {}
 #endif
 
-void Gui::begin_frame(const InputQueue& input) {
+void Gui::begin_frame(InputQueue& input) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  show_short_presses(input);
+#if IMGUI_VERSION_NUM < 18700
+  show_typing(input);
   ImGui::NewFrame();
+#else
+  // It spreads what one frame cannot hold over the next ones itself.
+  ImGui::NewFrame();
+  input.unread = ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
+#endif
 }
 
 void Gui::draw() {

@@ -62,18 +62,23 @@ class Gui {
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
   /// Shows it also the keys that went down and up since the last frame.
-  void begin_frame(const InputQueue& input);
+  void begin_frame(InputQueue& input);
   /// Ends the frame and draws it.
   void draw();
   /// The font atlas was filled anew.
   void fonts_changed();
 
  private:
-  void show_short_presses(const InputQueue& input);
+  void show_typing(InputQueue& input);
 
   GLFWwindow* window_;
-  std::vector<KeyEvent> waiting_;  ///< presses that are to be shown
-  std::vector<int> shown_;         ///< keys shown as pressed in the last frame
+  /// A press that is to be shown, or a character (then key is GLFW_KEY_UNKNOWN).
+  struct Waiting {
+    KeyEvent event;
+    unsigned character;
+  };
+  std::vector<Waiting> waiting_;
+  std::vector<int> shown_;  ///< keys shown as pressed in the last frame
 };
 
 }  // namespace tyglab

@@ -92,6 +92,19 @@ def double_clicked(stage):
 
 
 @case
+def typed_fast(stage):
+    """keys that fall into one long frame arrive all and in order: select all, digits, a backspace, Enter"""
+    sandbox = stage.start("hanging")
+    for keys, value in ((["ctrl+a", "5", "1", "Return"], 51), (["BackSpace", "6", "2", "Return"], 62),
+                        (["ctrl+a", "7", "8", "BackSpace", "3", "Return"], 73)):
+        sandbox.double_click(*centre(sandbox.control("constants.k_s.value")), LEFT, lambda r: r["typing"],
+                             "a text field")
+        sandbox.xdotool("key", "--delay", "4", *keys)
+        sandbox.wait(lambda r: k_s(r) == value, f"{value} to be taken")
+        sandbox.wait(lambda r: not r["typing"], "the text field to close")
+
+
+@case
 def dismissed(stage):
     """a click anywhere on a message takes it away"""
     sandbox = stage.start("hanging")
