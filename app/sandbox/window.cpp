@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include "app/panels/imgui_compat.h"
@@ -101,6 +102,11 @@ glm::ivec2 fit_to_screen(int width, int height) {
 }  // namespace
 
 Window::Window(int width, int height, const Settings& settings, InputQueue& queue) {
+#ifdef GLFW_PLATFORM
+  // GLFW 3.4 looks for a Wayland compositor first, and where there is none libwayland complains on stderr.
+  if (std::getenv("WAYLAND_DISPLAY") == nullptr && std::getenv("WAYLAND_SOCKET") == nullptr)
+    glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
   if (glfwInit() != GLFW_TRUE)
     throw GraphicsError("There is no display to open a window on (" + glfw_problem() +
                         "). Start it in a desktop session or under xvfb-run, or use tyglab render, which needs none.");
