@@ -67,9 +67,7 @@ void Simulation::rebase_time() {
 }
 
 void Simulation::update_fixed() {
-  pinned_.clear();
-  for (int p = 0; p < lattice_.size(); ++p)
-    if (pinned_mask_[p]) pinned_.push_back(p);
+  pinned_ = particles_in(pinned_mask_);
   engine_->set_fixed(pinned_, held_);
 }
 

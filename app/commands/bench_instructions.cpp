@@ -48,11 +48,14 @@ bool run_silently(const std::vector<std::string>& command) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// A new file in the system's folder for temporary ones, removed at the end.
+/// A new file in the system's folder for temporary ones, removed at the end; no path if none could be made.
 class TemporaryFile {
  public:
   TemporaryFile() : path_((fs::temp_directory_path() / "tyglab-callgrind.XXXXXX").string()) {
-    if (const int descriptor = mkstemp(path_.data()); descriptor >= 0) close(descriptor);
+    if (const int descriptor = mkstemp(path_.data()); descriptor >= 0)
+      close(descriptor);
+    else
+      path_.clear();
   }
   ~TemporaryFile() {
     std::error_code ignored;
@@ -86,8 +89,9 @@ InstructionCounter::InstructionCounter(fs::path tyglab) : tyglab_(std::move(tygl
 
 std::string InstructionCounter::instruction_set() const {
   const TemporaryFile file;
-  if (!available() || !run_silently({valgrind_, "--tool=none", tyglab_, "bench", "skip", "--only", "bending:on",
-                                     "--side", "16", "--steps", "1", "--json", file.path()}))
+  if (!available() || file.path().empty() ||
+      !run_silently({valgrind_, "--tool=none", tyglab_, "bench", "skip", "--only", "bending:on", "--side", "16",
+                     "--steps", "1", "--json", file.path()}))
     return {};
   std::ifstream in(file.path());
   return nlohmann::json::parse(in)["machine"]["instruction_set"];
@@ -95,11 +99,12 @@ std::string InstructionCounter::instruction_set() const {
 
 std::optional<double> InstructionCounter::per_particle_step(const CountedCase& which) const {
   const TemporaryFile counts;
-  if (!available() || !run_silently({valgrind_, "--tool=callgrind", "--callgrind-out-file=" + counts.path(),
-                                     "--collect-atstart=no", counted_function, tyglab_, "bench", "skip", "--only",
-                                     which.feature + ":" + std::string(name_of(which.state)), "--precision",
-                                     std::string(name_of(which.precision)), "--side", std::to_string(side), "--steps",
-                                     std::to_string(steps)}))
+  if (!available() || counts.path().empty() ||
+      !run_silently({valgrind_, "--tool=callgrind", "--callgrind-out-file=" + counts.path(), "--collect-atstart=no",
+                     counted_function, tyglab_, "bench", "skip", "--only",
+                     which.feature + ":" + std::string(name_of(which.state)), "--precision",
+                     std::string(name_of(which.precision)), "--side", std::to_string(side), "--steps",
+                     std::to_string(steps)}))
     return {};
   const auto total = total_in(counts.path());
   if (!total) return {};

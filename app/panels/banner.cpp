@@ -60,14 +60,16 @@ std::string cure_label(const Preset& now, const Preset& cured) {
 }
 
 /// What is offered, the most helpful first: to take back what the user did, to do what the linear theory advises.
-std::vector<Way> ways_out(const App& app) {
+std::vector<Way> ways_out(App& app) {
   std::vector<Way> ways;
   if (app.history.can_undo())
     ways.push_back({"Undo last change and restart", "Takes the last change of constants back", "Ctrl+Z, then R",
                     [](App& a) { a.command(Command::undo_and_restart); }});
-  if (const auto cured = cure(app.preset()))
+  Advice& advice = app.ui.advice;
+  if (advice.of != app.preset()) advice = {app.preset(), cure(app.preset())};
+  if (const auto& cured = advice.cure)
     ways.push_back({cure_label(app.preset(), *cured), "Makes the change that the linear theory advises", "",
-                    [cured](App& a) { a.propose(*cured), a.command(Command::restart); }});
+                    [cured = *cured](App& a) { a.propose(cured), a.command(Command::restart); }});
   ways.push_back(
       {"Restart", "From the start, with the constants as they are", "R", [](App& a) { a.command(Command::restart); }});
   return ways;

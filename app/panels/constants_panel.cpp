@@ -68,12 +68,18 @@ std::string order_text(const Scheme& scheme) {
   return text;
 }
 
+/// "Verlet (2.15)"; methods that the report does not have bear no number.
+std::string label_of(const Scheme& scheme) {
+  const std::string title(scheme.title);
+  return scheme.equation.empty() ? title : title + " (" + std::string(scheme.equation) + ")";
+}
+
 void integrator_row(App& app) {
   const Tokens& c = app.theme.colors;
   const Scheme& now = scheme(app.preset().integrator);
   const float width = app.ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string label = "      " + std::string(now.title) + " (" + std::string(now.equation) + ")";
+  const std::string label = "      " + label_of(now);
   const bool open = begin_combo(app, "##integrator", label.c_str(), width);
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -87,7 +93,7 @@ void integrator_row(App& app) {
     return;
   }
   for (const Scheme& choice : schemes()) {
-    const std::string name = std::string(choice.title) + " (" + std::string(choice.equation) + ")";
+    const std::string name = label_of(choice);
     if (ImGui::Selectable(name.c_str(), choice.name == now.name) && choice.name != now.name) {
       Preset next = app.preset();
       next.integrator = choice.name;

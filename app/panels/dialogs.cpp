@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "app/data_files.h"
 #include "app/panels/imgui_compat.h"
@@ -363,13 +364,15 @@ void dialogs(App& app) {
                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                  ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::PushTextWrapPos(0);
+    // Enter waits until the field has the text that was typed before it.
+    const bool enter = std::exchange(dialog.enter, dialog.enter && !app.input.unread);
     contents(app);
+    dialog.enter = enter && app.input.unread;
     if (dialog.kind == DialogKind::none) ImGui::CloseCurrentPopup();
     ImGui::PopTextWrapPos();
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar(3);
-  dialog.enter = false;
 }
 
 }  // namespace tyglab

@@ -28,10 +28,16 @@ enum class Spent {
   frame,  ///< a part of the frame
 };
 
+/// Whether the engine needs the feature of that name for the present scene.
+bool stepped(const App& app, std::string_view name) {
+  const auto all = app.simulation->engine().features();
+  return std::any_of(all.begin(), all.end(), [&](const StepFeature& f) { return f.name == name && f.on; });
+}
+
 /// One row a feature: whether the scene and what is shown need it. What belongs to the step sleeps with it.
 struct Feature {
   std::string_view name, help;
-  bool (*needed)(const App&);
+  bool (*needed)(const App&);  ///< null: the engine says, under the same name
   Spent spent;
   Part part = Part::simulate;
 };
@@ -39,20 +45,14 @@ struct Feature {
 constexpr Feature features[] = {
     {"all steps", "Everything that the cloth's motion takes; the features below, down to the watch, are done in it.",
      [](const App&) { return true; }, Spent::frame, Part::simulate},
-    {"bending", "Springs over two particles: k_b > 0.", [](const App& a) { return cloth(a) && a.preset().k_b > 0; },
-     Spent::step},
-    {"damping", "k_d > 0.", [](const App& a) { return a.preset().k_d > 0; }, Spent::step},
-    {"wind", "W is not 0.", [](const App& a) { return cloth(a) && a.preset().W != glm::dvec3(0); }, Spent::step},
-    {"bodies", "Collision with spheres and planes.",
-     [](const App& a) { return cloth(a) && !a.preset().bodies.empty(); }, Spent::step},
-    {"tearing", "F_max > 0: springs are measured when one may have grown enough.",
-     [](const App& a) { return cloth(a) && a.preset().F_max > 0; }, Spent::step},
+    {"bending", "Springs over two particles: k_b > 0.", nullptr, Spent::step},
+    {"damping", "k_d > 0.", nullptr, Spent::step},
+    {"wind", "W is not 0.", nullptr, Spent::step},
+    {"bodies", "Collision with spheres and planes.", nullptr, Spent::step},
+    {"tearing", "F_max > 0: springs are measured when one may have grown enough.", nullptr, Spent::step},
+    {"pins", "Particles that keep their place.", nullptr, Spent::step},
+    {"hand", "The particle that follows the pointer.", nullptr, Spent::step},
     {"tear masks", "Only once a spring is torn.", [](const App& a) { return !a.simulation->tears().untorn(); },
-     Spent::step},
-    {"pins, hand", "Particles that do not move freely.",
-     [](const App& a) {
-       return cloth(a) && (a.simulation->held().has_value() || a.preset().pins.mode != Pins::Mode::none);
-     },
      Spent::step},
     {"divergence watch", "Always on: how far particles moved, and whether all is finite.",
      [](const App&) { return true; }, Spent::step},
@@ -129,7 +129,8 @@ std::vector<FeatureRow> feature_rows(const App& app) {
   std::vector<FeatureRow> rows;
   for (const Feature& feature : features) {
     FeatureRow row{feature.name, feature.help, Activity::skipped, std::nullopt};
-    const bool runs = feature.needed(app) && stepping(app);
+    const bool needed = feature.needed != nullptr ? feature.needed(app) : stepped(app, feature.name);
+    const bool runs = needed && stepping(app);
     if (runs) row.activity = app.asleep() ? Activity::asleep : Activity::on;
     if (feature.spent == Spent::frame) row.ms = app.costs.recent_ms(feature.part);
     rows.push_back(row);

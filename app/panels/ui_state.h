@@ -70,10 +70,18 @@ struct Dialog {
   int selected = -1;
 };
 
+/// The cure for constants that diverged (cure of remedy.h): kept, since it takes milliseconds and is asked for in every
+/// frame.
+struct Advice {
+  std::optional<Preset> of;  ///< none: nothing has been asked yet
+  std::optional<Preset> cure;
+};
+
 struct Ui {
   SliderState slider;
   Plots plots;
   Dialog dialog;
+  Advice advice;
   bool help = false;
   bool panels = true;  ///< Tab hides them all
   bool force_arrows = true;

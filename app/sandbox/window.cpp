@@ -39,6 +39,18 @@ void on_key(GLFWwindow* window, int key, int, int action, int mods) {
   queue.mods = mods;
 }
 
+/// Whether a press does nothing but type a character. Dear ImGui needs such keys only as text; shown as keys too, they
+/// would take it a frame each.
+bool only_types(int key, int mods) {
+  return key < GLFW_KEY_ESCAPE && (mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) == 0;
+}
+
+/// In place of the backend's callback, which calls on_key itself.
+void on_key_for_gui(GLFWwindow* window, int key, int scancode, int action, int mods) {
+  if (action != GLFW_RELEASE && only_types(key, mods)) return on_key(window, key, scancode, action, mods);
+  ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, mods);
+}
+
 #if IMGUI_VERSION_NUM < 18700
 void on_character(GLFWwindow* window, unsigned character) {
   InputQueue& queue = queue_of(window);
@@ -242,6 +254,7 @@ Gui::Gui(GLFWwindow* window) : window_(window) {
   gui::prepare_io(ImGui::GetIO());
   // The backend calls the callbacks that stood before its own, so the input queue keeps seeing everything.
   ImGui_ImplGlfw_InitForOpenGL(window, true);
+  glfwSetKeyCallback(window, on_key_for_gui);
 #if IMGUI_VERSION_NUM < 18700
   glfwSetCharCallback(window, on_character);  // in place of the backend's: the order of keys and characters matters
 #endif
@@ -264,8 +277,11 @@ void Gui::show_typing(InputQueue& input) {
   for (std::size_t n = 0; n <= input.keys.size(); ++n) {
     for (; next < input.text.size() && input.text[next].keys_before <= n; ++next)
       waiting_.push_back({{GLFW_KEY_UNKNOWN, 0, false}, input.text[next].character});
-    if (n < input.keys.size() && !input.keys[n].repeat && input.keys[n].key >= 0)
-      waiting_.push_back({input.keys[n], 0});
+    if (n == input.keys.size()) break;
+    const KeyEvent& event = input.keys[n];
+    const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;  // told by the mods
+    if (event.key >= 0 && !event.repeat && !modifier && !only_types(event.key, event.mods))
+      waiting_.push_back({event, 0});
   }
   const std::vector<int> before = std::move(shown_);
   shown_.clear();
@@ -284,13 +300,12 @@ void Gui::show_typing(InputQueue& input) {
       io.AddInputCharacter(character);
       continue;
     }
-    const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;
     const bool again = has(before, event.key) || has(shown_, event.key);
     if (has(before, event.key)) io.KeysDown[event.key] = false;
-    if (again || (mods && !modifier && event.mods != mods)) break;
+    if (again || (mods && event.mods != mods)) break;
     io.KeysDown[event.key] = true;
-    if (!modifier) mods = event.mods;
-    edits |= !modifier && (event.key >= GLFW_KEY_ESCAPE || (event.mods & GLFW_MOD_CONTROL) != 0);
+    mods = event.mods;
+    edits = true;
     shown_.push_back(event.key);
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(done));

@@ -81,14 +81,10 @@ SkipCase::SkipCase(const SkipFeature& feature, SkipState state) {
   particles_ = lattice.size();
   tears_ = Tears(lattice);
   engine_ = make_engine_for(feature, state, preset);
-  std::vector<int> pinned;
-  const auto mask = pinned_particles(preset);
-  for (int p = 0; p < particles_; ++p)
-    if (mask[std::size_t(p)]) pinned.push_back(p);
   Held held;
   if (state == SkipState::on && feature.held_when_on)
     held.particle = (lattice.rows / 2) * lattice.columns + lattice.columns / 2;
-  engine_->set_fixed(pinned, held);
+  engine_->set_fixed(particles_in(pinned_particles(preset)), held);
   engine_->load(start_state(preset), tears_);
   engine_->advance(1, tears_);  // in which every spring is measured
 }

@@ -21,18 +21,6 @@ Preset square(int side) {
   return preset;
 }
 
-/// Names what a step of that scene does and what it leaves out.
-void list_features(const Preset& p, ThroughputRow& row) {
-  const std::pair<const char*, bool> all[] = {{"bending", p.k_b > 0},
-                                              {"damping", p.k_d > 0},
-                                              {"wind", p.W != glm::dvec3(0)},
-                                              {"bodies", !p.bodies.empty()},
-                                              {"tearing", p.F_max > 0},
-                                              {"pins", p.pins.mode != Pins::Mode::none},
-                                              {"hand", false}};
-  for (const auto& [name, on] : all) (on ? row.features : row.skipped).emplace_back(name);
-}
-
 double seconds_of(Simulation& simulation, int steps) {
   const auto start = std::chrono::steady_clock::now();
   simulation.advance(steps);
@@ -82,7 +70,7 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   ThroughputRow row;
   row.of = which;
   row.repeats = repeats;
-  list_features(which.preset, row);
+  for (const auto& [name, on] : simulation.engine().features()) (on ? row.features : row.skipped).emplace_back(name);
   std::vector<double> times;
   times.reserve(std::size_t(repeats));
   for (int n = 0; n < repeats; ++n) times.push_back(seconds_of(simulation, steps) * 1e9 / steps / particles);

@@ -86,4 +86,11 @@ std::vector<std::uint8_t> pinned_particles(const Preset& p) {
   return mask;
 }
 
+std::vector<int> particles_in(const std::vector<std::uint8_t>& mask) {
+  std::vector<int> list;
+  for (std::size_t p = 0; p < mask.size(); ++p)
+    if (mask[p] != 0) list.push_back(int(p));
+  return list;
+}
+
 }  // namespace tyglab

@@ -16,5 +16,7 @@ Lattice lattice_of(const Preset& preset);
 State start_state(const Preset& preset);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);
+/// Numbers of the particles that are set in such a mask, rising.
+std::vector<int> particles_in(const std::vector<std::uint8_t>& mask);
 
 }  // namespace tyglab

@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/cloth/state.h"
@@ -57,6 +58,12 @@ struct PositionView {
   }
 };
 
+/// Something that a step does only for scenes that need it.
+struct StepFeature {
+  std::string_view name;
+  bool on;
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -77,6 +84,8 @@ class Engine {
   virtual std::size_t bytes() const = 0;
   /// Threads that it uses.
   virtual int threads() const = 0;
+  /// What a step does for the present scene, and what it skips.
+  virtual std::vector<StepFeature> features() const = 0;
   /// "CPU, AVX2, 2 threads": for people.
   virtual std::string name() const = 0;
 };

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/integrators/amplification.h"
+#include "core/notation/words.h"
 
 namespace tyglab {
 namespace {
@@ -14,8 +15,8 @@ constexpr double margin = 0.9;
 
 std::string seconds(double dt) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g s", dt);
-  return text;
+  std::snprintf(text, sizeof text, "%.2g", dt);
+  return shortest_number(std::strtod(text, nullptr)) + " s";
 }
 
 /// The largest dt that is advised for Verlet, s, in the two digits in which it is said.

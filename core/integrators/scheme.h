@@ -48,11 +48,10 @@ struct Scheme {
   bool keeps_displacement;  ///< vector 1 is d = dt·v, not v
   std::string_view note;    ///< a sentence said where it is offered
   std::vector<Sweep> sweeps;
-  /// What the vectors become at the start, in order, from x in vector 0, v in vector 1 and a(x, v).
+  /// What the vectors become at the start, in order, from x in vector 0, v in vector 1 and a(x, v); none: these are
+  /// kept.
   std::vector<Assignment> start;
-  /// The velocity that belongs to the position, from vector 1 and a at the present state.
-  Assignment full_velocity;
-  bool full_velocity_needs_a;
+  bool lags;  ///< vector 1 holds the velocity of half a step ago: dt/2 a more belongs to the position
 };
 
 std::span<const Scheme> schemes();

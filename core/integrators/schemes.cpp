@@ -10,8 +10,6 @@ namespace {
 
 constexpr int x = vector_x, v = vector_v, a = acceleration;
 
-const Assignment keep_v{v, {{v, 1, 0}}};
-
 const std::vector<Scheme>& table() {
   static const std::vector<Scheme> rows{
       {.name = "euler",
@@ -24,9 +22,8 @@ const std::vector<Scheme>& table() {
        .keeps_displacement = false,
        .note = "First order. Feeds energy into every oscillation; stable only with enough damping.",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
-       .start = {keep_v},
-       .full_velocity = keep_v,
-       .full_velocity_needs_a = false},
+       .start = {},
+       .lags = false},
       {.name = "improved_euler",
        .title = "Improved Euler",
        .equation = "2.11",
@@ -37,9 +34,8 @@ const std::vector<Scheme>& table() {
        .keeps_displacement = false,
        .note = "A Taylor expansion of the position; its velocity is first order, so the method is.",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
-       .start = {keep_v},
-       .full_velocity = keep_v,
-       .full_velocity_needs_a = false},
+       .start = {},
+       .lags = false},
       // d[n] = x[n] - x[n-1] is kept: x[n+1] = 2x[n] - x[n-1] + dt² a would lose a float's last digits in every step.
       {.name = "verlet",
        .title = "Verlet",
@@ -53,8 +49,7 @@ const std::vector<Scheme>& table() {
            "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
        .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
        .start = {{v, {{v, 1, 1}, {a, -0.5, 2}}}},
-       .full_velocity = {v, {{v, 1, -1}, {a, 0.5, 1}}},
-       .full_velocity_needs_a = true},
+       .lags = true},
       {.name = "semi_implicit_euler",
        .title = "Semi-implicit Euler",
        .equation = "",
@@ -65,9 +60,8 @@ const std::vector<Scheme>& table() {
        .keeps_displacement = false,
        .note = "Verlet's recurrence with a simpler start: first order, and just as stable.",
        .sweeps = {{x, v, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}}}},
-       .start = {keep_v},
-       .full_velocity = keep_v,
-       .full_velocity_needs_a = false},
+       .start = {},
+       .lags = false},
       // Vector 1 is v half a step back; vector 2 is v + dt a of the step before, a second-order prediction that the
       // damping sees, so that one evaluation a step is enough.
       {.name = "velocity_verlet",
@@ -83,8 +77,7 @@ const std::vector<Scheme>& table() {
        .note = "Second order with damping too, since the damping sees a predicted velocity. One evaluation a step.",
        .sweeps = {{x, 2, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}, {2, {{v, 1, 0}, {a, 0.5, 1}}}}}},
        .start = {{2, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -0.5, 1}}}},
-       .full_velocity = {v, {{v, 1, 0}, {a, 0.5, 1}}},
-       .full_velocity_needs_a = true},
+       .lags = true},
       // Vectors 2 and 3 gather the result, 4 and 5 hold the stage.
       {.name = "rk4",
        .title = "Runge-Kutta 4",
@@ -117,9 +110,8 @@ const std::vector<Scheme>& table() {
                     {4, {{x, 1, 0}, {5, 1, 1}}},
                     {5, {{v, 1, 0}, {a, 1, 1}}}}},
                   {4, 5, 0, {{x, {{2, 1, 0}, {5, 1.0 / 6, 1}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
-       .start = {keep_v},
-       .full_velocity = keep_v,
-       .full_velocity_needs_a = false},
+       .start = {},
+       .lags = false},
       // Vectors 2 and 3 gather the result, 4 and 5 hold the stage.
       {.name = "rkn4",
        .title = "Nyström 4",
@@ -146,9 +138,8 @@ const std::vector<Scheme>& table() {
                     {4, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}},
                     {5, {{v, 1, 0}, {a, 1, 1}}}}},
                   {4, 5, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
-       .start = {keep_v},
-       .full_velocity = keep_v,
-       .full_velocity_needs_a = false},
+       .start = {},
+       .lags = false},
   };
   return rows;
 }

@@ -37,6 +37,15 @@ TEST_CASE("stability limits have their closed forms") {
   CHECK(stability_limit(scheme("rk4"), 0) == doctest::Approx(2 * std::sqrt(2.0)).epsilon(1e-6));
 }
 
+TEST_CASE("positions change in a method's last sweep alone, as bodies need it") {
+  for (const Scheme& s : schemes())
+    for (const Sweep& sweep : s.sweeps)
+      for (const Assignment& assignment : sweep.assignments) {
+        CAPTURE(std::string(s.name));
+        CHECK((assignment.target != vector_x || &sweep == &s.sweeps.back()));
+      }
+}
+
 TEST_CASE("the tables say what the running code does: a weight on its spring grows or decays as predicted") {
   for (const Scheme& s : schemes())
     for (const double zeta : {0.0, 0.2})

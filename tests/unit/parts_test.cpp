@@ -13,11 +13,7 @@ namespace part = cpu::part;
 
 State after(Engine& engine, const Preset& preset, int steps) {
   Tears tears(lattice_of(preset));
-  std::vector<int> pinned;
-  const auto mask = pinned_particles(preset);
-  for (int p = 0; p < int(mask.size()); ++p)
-    if (mask[std::size_t(p)]) pinned.push_back(p);
-  engine.set_fixed(pinned, {});
+  engine.set_fixed(particles_in(pinned_particles(preset)), {});
   engine.load(start_state(preset), tears);
   CHECK(engine.advance(steps, tears).steps == steps);
   State state;

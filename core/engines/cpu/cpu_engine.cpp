@@ -98,11 +98,12 @@ void CpuEngine<R, Present>::load(const State& state, const Tears& tears) {
           cloth_.row(vector, i, c)[j] = R((*components[c])[std::size_t(i) * cloth_.lattice.columns + j]);
   };
   copy(state.x, vector_x), copy(state.v, vector_v);
-  // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
-  const Sweep start{vector_x, vector_v, 0, scheme_->start};
-  const ResolvedSweep resolved = resolve(start);
-  for (const auto& band : bands_) band->copy_halo(resolved);
-  for (const auto& band : bands_) band->sweep(resolved, tears, false);
+  if (!scheme_->start.empty()) {
+    // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
+    const ResolvedSweep start = resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
+    for (const auto& band : bands_) band->copy_halo(start);
+    for (const auto& band : bands_) band->sweep(start, tears, false);
+  }
   set_fixed(std::vector<int>(pinned_), cloth_.held);
   measure_again();
 }
@@ -110,25 +111,25 @@ void CpuEngine<R, Present>::load(const State& state, const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
   const Scheme& next = scheme(preset.integrator);
-  // Where what is kept belongs to half a step ago, it depends on dt. The velocity must stay.
-  const bool shifts = scheme_->full_velocity_needs_a && preset.dt != cloth_.preset.dt;
-  if (&next == scheme_ && shifts && scheme_->keeps_displacement) {
+  // What lags half a step depends on dt, and the velocity must stay.
+  const bool shifts = scheme_->lags && preset.dt != cloth_.preset.dt;
+  if (&next != scheme_ || (shifts && !scheme_->keeps_displacement)) {
+    State state;
+    read(state, tears);
+    cloth_.preset = preset;
+    resolve();
+    load(state, tears);
+    return;
+  }
+  if (shifts) {
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
     accelerations(tears, acceleration_);
     const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
     Array<R>& d = cloth_.vector(vector_v).all();
     for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
   }
-  if (&next == scheme_ && (!shifts || scheme_->keeps_displacement)) {
-    cloth_.preset = preset;
-    resolve();
-    return;
-  }
-  State state;
-  read(state, tears);
   cloth_.preset = preset;
   resolve();
-  load(state, tears);
 }
 
 template <class R, unsigned Present>
@@ -174,7 +175,7 @@ void CpuEngine<R, Present>::accelerations(const Tears& tears, Field& out) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_stored(state);
-  if (!scheme_->full_velocity_needs_a) return;
+  if (!scheme_->lags) return;
   accelerations(tears, acceleration_);
   const double half_dt = cloth_.preset.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
   for (int i = 0; i < cloth_.lattice.rows; ++i)
@@ -229,6 +230,20 @@ std::size_t CpuEngine<R, Present>::bytes() const {
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
   return total;
+}
+
+template <class R, unsigned Present>
+std::vector<StepFeature> CpuEngine<R, Present>::features() const {
+  const Preset& p = cloth_.preset;
+  const bool cloth = p.kind == Kind::cloth;
+  const auto swept = [&](unsigned feature) { return (cloth_.features & feature) != 0; };
+  return {{"bending", cloth && swept(bending)},
+          {"damping", swept(damping)},
+          {"wind", cloth && swept(wind)},
+          {"bodies", has(part::bodies) && cloth && !p.bodies.empty()},
+          {"tearing", has(part::tearing) && cloth && p.F_max > 0 && p.k_s > 0},
+          {"pins", has(part::pins) && !pinned_.empty()},
+          {"hand", has(part::hand) && cloth_.held.particle >= 0}};
 }
 
 template <class R, unsigned Present>

@@ -25,6 +25,7 @@ class CpuEngine final : public Engine {
   PositionView positions() const override;
   std::size_t bytes() const override;
   int threads() const override { return team_->size(); }
+  std::vector<StepFeature> features() const override;
   std::string name() const override;
 
  private:

@@ -24,7 +24,6 @@ struct Lanes {
   HWY_INLINE Lanes(V from) : v(from) {}
   static HWY_INLINE Lanes all(double value) { return hn::Set(D(), T(value)); }
   static HWY_INLINE Lanes load(const T* p) { return hn::LoadU(D(), p); }
-  static HWY_INLINE Lanes load_aligned(const T* p) { return hn::Load(D(), p); }
   HWY_INLINE void store(T* p) const { hn::Store(v, D(), p); }
   friend HWY_INLINE Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.v, b.v); }
   friend HWY_INLINE Lanes operator-(Lanes a, Lanes b) { return hn::Sub(a.v, b.v); }
