@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/engines/cpu/row_distances.h"
 #include "core/forces/contact.h"
 #include "core/forces/spring-inl.h"
 
@@ -152,22 +153,18 @@ void Band<R, Present>::give_back_pair(const PairTask<R>& t, const ResolvedSweep&
 /// Whether a particle of the row may be inside a body; rounding is left to the exact test.
 template <class R, unsigned Present>
 bool Band<R, Present>::touches(int i) const {
-  const R *x = cloth_.row(vector_x, i, 0), *y = cloth_.row(vector_x, i, 1), *z = cloth_.row(vector_x, i, 2);
+  const R* x = cloth_.row(vector_x, i, 0);
+  constexpr double epsilon = double(std::numeric_limits<R>::epsilon());
   for (const Body& body : cloth_.preset.bodies) {
-    int inside = 0;
     if (body.shape == Body::Shape::plane) {
       const R height = std::nextafter(R(body.y), std::numeric_limits<R>::max());
-      for (int j = 0; j < cloth_.lattice.columns; ++j) inside |= y[j] < height;
-    } else {
-      const R cx = R(body.c.x), cy = R(body.c.y), cz = R(body.c.z);
-      const double reach = body.r + contact_tolerance(body, body.c, double(std::numeric_limits<R>::epsilon()));
-      const R r2 = R(reach * reach * (1 + 8 * double(std::numeric_limits<R>::epsilon())));
-      for (int j = 0; j < cloth_.lattice.columns; ++j) {
-        const R dx = x[j] - cx, dy = y[j] - cy, dz = z[j] - cz;
-        inside |= dx * dx + dy * dy + dz * dz < r2;
-      }
+      if (lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
+      continue;
     }
-    if (inside) return true;
+    const R centre[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
+    const double reach = body.r + contact_tolerance(body, body.c, epsilon);
+    if (double(nearest_squared(x, cloth_.stride, cloth_.lattice.columns, centre)) < reach * reach * (1 + 8 * epsilon))
+      return true;
   }
   return false;
 }

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/engines/cpu/cpu_engine.h"
-#include "core/engines/cpu/row_lengths.h"
+#include "core/engines/cpu/row_distances.h"
 #include "core/forces/spring-inl.h"
 
 namespace tyglab::cpu {
