@@ -113,7 +113,7 @@ int skip(const SkipOptions& options) {
   for (const SkipFeature& feature : features) {
     if (InterruptGuard::interrupted()) break;
     const SkipRow row = measure_skip(feature, options.quick ? 41 : 201);
-    const Counts counts = counted_with.empty() ? Counts() : count(counter, feature.name, this_machine().cores);
+    const Counts counts = counted_with.empty() ? Counts() : count(counter, feature.name, processors());
     progress.clear();
     print_row(out, row, counts);
     rows.push_back(row_json(row, counts));

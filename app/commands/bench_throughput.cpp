@@ -66,7 +66,7 @@ void print_row(std::ostream& out, const ThroughputRow& row) {
 int throughput(const ThroughputOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
-  const int threads = options.threads > 0 ? options.threads : this_machine().cores;
+  const int threads = options.threads > 0 ? options.threads : processors();
   out << machine_line() << "\nns per particle and step: the median of " << counted(options.repeats, "run")
       << ", and the limits of this machine measured beside it\n\n"
       << "      cloth  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n"

@@ -5,6 +5,7 @@
 
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
+#include "core/analysis/machine.h"
 #include "core/integrators/names.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
@@ -77,8 +78,8 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
       ->check(not_empty());
   command
       .add_option("--threads", threads,
-                  "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay. "
-                  "The result is the same to the last bit")
+                  "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay "
+                  "(all processors if it is not given). The result is the same to the last bit")
       ->type_name("N")
       ->transform(whole_number_between(1, 256));
 }
@@ -110,7 +111,7 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback) const {
   } catch (const PresetError& error) {
     throw UsageError(error.what());
   }
-  resolved.threads = threads;
+  resolved.threads = threads > 0 ? threads : processors();
   return resolved;
 }
 

@@ -26,7 +26,7 @@ PresetSource find_preset(const std::string& name_or_file);
 struct ResolvedPreset {
   Preset preset;
   PresetSource source;
-  int threads = 1;  ///< at most, of the CPU engine
+  int threads = 1;  ///< of the CPU engine, at most
 };
 
 /// Says in a line on stderr if the picture that the preset names is not there: who does not draw it would not notice.
@@ -37,7 +37,7 @@ struct PresetArgument {
   std::string preset;
   std::vector<std::string> settings;
   std::string integrator, dt, engine, precision;
-  int threads = 1;
+  int threads = 0;  ///< 0: as many as there are processors
 
   /// Adds the argument and its options to a command. It must outlive the parsing.
   void add_to(CLI::App& command, bool required);

@@ -129,8 +129,15 @@ Json divergence_json(const std::optional<Divergence>& divergence) {
           {"cause", d.cause}, {"remedy", d.remedy}};
 }
 
+/// What the steps did at the end, and what they skipped.
+Json features_json(const Engine& engine) {
+  Json json = Json::object();
+  for (const auto& [name, on] : engine.features()) json[std::string(name)] = on;
+  return json;
+}
+
 /// What a run did, for programs.
-Json summary(const Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
+Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
              double ns_per_particle_step, Json files) {
   const Preset& preset = simulation.preset();
   return {{"version", TYGLAB_VERSION},
@@ -138,6 +145,8 @@ Json summary(const Simulation& simulation, const ResolvedPreset& scene, const st
           {"preset_hash", preset_hash(preset)},
           {"status", status},
           {"engine", name_of(preset.engine)},
+          {"engine_name", simulation.engine().name()},
+          {"threads", simulation.engine().threads()},
           {"precision", name_of(preset.precision)},
           {"integrator", preset.integrator},
           {"rows", simulation.lattice().rows},
@@ -147,6 +156,8 @@ Json summary(const Simulation& simulation, const ResolvedPreset& scene, const st
           {"t", simulation.time()},
           {"seconds", wall_seconds},
           {"ns_per_particle_step", ns_per_particle_step},
+          {"bytes_per_particle", double(simulation.engine().bytes()) / simulation.lattice().size()},
+          {"features", features_json(simulation.engine())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"diverged", divergence_json(simulation.divergence())},

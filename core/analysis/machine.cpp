@@ -21,9 +21,13 @@ Machine this_machine() {
       machine.processor = line.substr(line.find(": ") + 2);
       break;
     }
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) == 0) machine.cores = CPU_COUNT(&set);
+  machine.cores = processors();
   return machine;
+}
+
+int processors() {
+  cpu_set_t set;
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
 std::string build_description() {

@@ -7,10 +7,13 @@ namespace tyglab {
 
 struct Machine {
   std::string processor;        ///< model name as the system tells it
-  int cores = 1;                ///< processors this process may run on
+  int cores = 1;                ///< processors()
   std::string instruction_set;  ///< that the CPU engine picked
 };
 Machine this_machine();
+
+/// Processors that this process may run on, at least 1.
+int processors();
 
 /// "Release, GCC 12.2.0": how this program was built.
 std::string build_description();
