@@ -6,7 +6,7 @@
 
 namespace tyglab {
 
-/// "AMD EPYC, 2 cores, AVX3_ZEN4; tyglab 0.1.0, Release, GCC 12.2.0"
+/// "AMD EPYC, 2 cores, AVX-512; tyglab 0.1.0, Release, GCC 12.2.0"
 std::string machine_line();
 
 /// The frame of a benchmark's JSON: its name, the machine, the version and build, and the rows under "runs".

@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/charts/chart.h"
 #include "app/commands/bench.h"
 #include "app/commands/bench_instructions.h"
 #include "app/commands/bench_output.h"
@@ -28,13 +29,13 @@ constexpr std::array all_states{SkipState::absent, SkipState::off, SkipState::on
 
 struct SkipOptions {
   bool quick = false;
-  std::string json;
+  std::string json, png;
   std::string only;  ///< "wind:off"; empty: everything
   int side = 128;
   int steps = 1000;  ///< with `only`
   Precision precision = Precision::float_;
 
-  std::vector<Output> outputs() const { return {{"--json", json}}; }
+  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
 };
 
 /// Instructions per particle and step of one feature; empty where they could not be counted. As all_states.
@@ -100,6 +101,26 @@ void print_head(std::ostream& out, const SkipOptions& options, const std::string
       << std::flush;
 }
 
+/// A line a feature, a disc for each state.
+Chart skip_chart(const std::vector<SkipRow>& rows, int side) {
+  Chart chart;
+  chart.title = "What a feature costs: not compiled in, off, on";
+  chart.note = machine_line();
+  const std::string cloth = std::to_string(side) + " x " + std::to_string(side);
+  chart.x = {"ns per particle and step, " + cloth + ", float, one thread", false, true, {}};
+  const Tokens colors = dark_tokens();
+  chart.series = {{"absent", {colors.quiet, LineStyle::solid, 1.8f}, false, 7, {}, {}},
+                  {"off", {colors.blue, LineStyle::solid, 1.8f}, false, 4, {}, {}},
+                  {"on", {colors.orange, LineStyle::solid, 1.8f}, false, 5, {}, {}}};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double line = double(rows.size() - 1 - k);  // the first on top
+    chart.y.ticks.insert(chart.y.ticks.begin(), {line, rows[k].feature.name});
+    const double values[] = {rows[k].ns_absent, rows[k].ns_off, rows[k].ns_on};
+    for (std::size_t s = 0; s < 3; ++s) chart.series[s].x.push_back(values[s]), chart.series[s].y.push_back(line);
+  }
+  return chart;
+}
+
 int skip(const SkipOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
@@ -107,7 +128,8 @@ int skip(const SkipOptions& options) {
   const std::string counted_with = counter.instruction_set();
   print_head(out, options, counted_with);
   const auto features = skip_features(options.side);
-  Json rows = Json::array();
+  Json json = Json::array();
+  std::vector<SkipRow> rows;
   InterruptGuard guard;
   Progress progress("bench skip");
   for (const SkipFeature& feature : features) {
@@ -116,15 +138,17 @@ int skip(const SkipOptions& options) {
     const Counts counts = counted_with.empty() ? Counts() : count(counter, feature.name, processors());
     progress.clear();
     print_row(out, row, counts);
-    rows.push_back(row_json(row, counts));
+    json.push_back(row_json(row, counts));
+    rows.push_back(row);
     progress.update(double(rows.size()) / double(features.size()));
   }
   progress.clear();
   if (!options.json.empty()) {
-    Json all = bench_json("skip", rows);
+    Json all = bench_json("skip", json);
     all["instructions_counted_with"] = counted_with.empty() ? Json(nullptr) : Json(counted_with);
     write_output(options.json, all.dump(2) + "\n");
   }
+  if (!options.png.empty()) write_charts(options.png, {skip_chart(rows, options.side)});
   return bench_exit();
 }
 
@@ -194,6 +218,9 @@ void add_bench_skip(CLI::App& bench, Action& action) {
       ->needs(one);
   add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
       ->type_name("F.json");
+  add_output(*command, "--png", options->png, "Draw the cost of each feature; - is standard output")
+      ->type_name("F.png")
+      ->excludes(one);
   command->footer(
       "Examples: tyglab bench skip --json skip.json\n"
       "          valgrind --tool=callgrind tyglab bench skip --only wind:off --steps 200");

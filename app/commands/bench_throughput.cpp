@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/charts/chart.h"
 #include "app/commands/bench.h"
 #include "app/commands/bench_output.h"
 #include "app/commands/interrupt.h"
@@ -24,9 +25,9 @@ struct ThroughputOptions {
   bool quick = false;
   int repeats = 9;
   int threads = 0;  ///< 0: as many as there are processors
-  std::string json;
+  std::string json, png;
 
-  std::vector<Output> outputs() const { return {{"--json", json}}; }
+  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
 };
 
 Json row_json(const ThroughputRow& row) {
@@ -63,6 +64,39 @@ void print_row(std::ostream& out, const ThroughputRow& row) {
   flush_standard_output();  // which sees now, not after all rows, that nobody gets them
 }
 
+/// Time over size: a curve for each precision, number of threads and integrator, in the plain scene.
+Chart throughput_chart(const std::vector<ThroughputRow>& rows, int repeats) {
+  Chart chart;
+  chart.title = "Time for one particle and step";
+  chart.note = machine_line();
+  chart.x = {"particles along a side", true, false, {}};
+  chart.y = {"ns, median of " + counted(repeats, "run"), false, true, {}};
+  const auto add = [&](const std::string& name, const ThroughputRow& row, double y) {
+    auto series = std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == name; });
+    if (series == chart.series.end()) {
+      const auto style = series_style(Tokens(dark_tokens()), int(chart.series.size()));
+      series = chart.series.insert(series, {name, style, true, 3, {}, {}});
+    }
+    const double side = row.of.preset.rows;
+    series->x.push_back(side), series->y.push_back(y);
+    const auto same = [&](const PlotTick& tick) { return tick.at == side; };
+    if (std::none_of(chart.x.ticks.begin(), chart.x.ticks.end(), same))
+      chart.x.ticks.push_back({side, std::to_string(row.of.preset.rows)});
+  };
+  for (const ThroughputRow& row : rows) {
+    const Preset& p = row.of.preset;
+    if (!row.of.variant.empty() || row.threads_used < row.of.threads) continue;
+    const std::string precision(name_of(p.precision));
+    add(p.integrator + ", " + precision + ", " + counted(row.threads_used, "thread"), row, row.ns_per_particle_step);
+    if (row.threads_used == 1 && p.integrator == "verlet")
+      add("arithmetic alone, " + precision, row, row.register_limit_ns);
+  }
+  std::erase_if(chart.series, [](const ChartSeries& series) { return series.x.size() < 2; });
+  const auto smaller = [](const PlotTick& a, const PlotTick& b) { return a.at < b.at; };
+  std::sort(chart.x.ticks.begin(), chart.x.ticks.end(), smaller);
+  return chart;
+}
+
 int throughput(const ThroughputOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
@@ -71,20 +105,22 @@ int throughput(const ThroughputOptions& options) {
       << ", and the limits of this machine measured beside it\n\n"
       << "      cloth  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n"
       << std::flush;
-  Json rows = Json::array();
+  Json json = Json::array();
+  std::vector<ThroughputRow> rows;
   const auto cases = throughput_cases(options.quick, threads);
   InterruptGuard guard;
   Progress progress("bench throughput");
   for (const ThroughputCase& which : cases) {
     if (InterruptGuard::interrupted()) break;
-    const ThroughputRow row = measure_throughput(which, options.repeats);
+    rows.push_back(measure_throughput(which, options.repeats));
     progress.clear();
-    print_row(out, row);
-    rows.push_back(row_json(row));
+    print_row(out, rows.back());
+    json.push_back(row_json(rows.back()));
     progress.update(double(rows.size()) / double(cases.size()));
   }
   progress.clear();
-  if (!options.json.empty()) write_output(options.json, bench_json("throughput", rows).dump(2) + "\n");
+  if (!options.json.empty()) write_output(options.json, bench_json("throughput", json).dump(2) + "\n");
+  if (!options.png.empty()) write_charts(options.png, {throughput_chart(rows, options.repeats)});
   return bench_exit();
 }
 
@@ -105,7 +141,8 @@ void add_bench_throughput(CLI::App& bench, Action& action) {
       ->transform(whole_number_between(1, 256));
   add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
       ->type_name("F.json");
-  command->footer("Example: tyglab bench throughput --json throughput.json");
+  add_output(*command, "--png", options->png, "Draw time over size; - is standard output")->type_name("F.png");
+  command->footer("Example: tyglab bench throughput --json throughput.json --png throughput.png");
   command->callback([&action, options] { action = [options] { return throughput(*options); }; });
 }
 

@@ -10,21 +10,6 @@
 namespace tyglab {
 namespace {
 
-/// From values to pixels.
-struct Axes {
-  ImVec2 lo, hi;  ///< of the plot's own area
-  double x_min, x_max, y_min, y_max;
-  bool log;
-  float x(double v) const { return lo.x + float((v - x_min) / (x_max - x_min)) * (hi.x - lo.x); }
-  float y(double v) const {
-    const double t = log ? std::log10(v / y_min) / std::log10(y_max / y_min) : (v - y_min) / (y_max - y_min);
-    // Far values keep to a bounded height, so that pixels stay exact; the clip rectangle hides them.
-    return hi.y - float(std::clamp(t, -3.0, 4.0)) * (hi.y - lo.y);
-  }
-  double value_at(float px) const { return x_min + (px - lo.x) / (hi.x - lo.x) * (x_max - x_min); }
-  bool drawable(double v) const { return std::isfinite(v) && (!log || v > 0); }
-};
-
 struct Window {
   std::size_t first, last;
 };
@@ -38,97 +23,55 @@ Window window_of(std::span<const double> x, const PlotFrame& frame) {
   return {std::size_t(first - x.begin()), std::size_t(last - x.begin())};
 }
 
-class CurveDrawer {
- public:
-  CurveDrawer(App& app, ImDrawList& draw, const Axes& axes, std::span<const double> x, Window window)
-      : app_(app), draw_(draw), axes_(axes), x_(x), window_(window) {}
-
-  void curve(const PlotCurve& curve) {
-    std::vector<ImVec2> points;
-    // Dashes stay with the data while the window moves over it.
-    float phase = window_.first < window_.last ? float(std::fmod(axes_.x(x_[window_.first]) - axes_.x(0), 1e4)) : 0;
-    phase = std::max(phase, 0.f);
-    const auto flush = [&] {
-      draw_styled_line(draw_, points.data(), int(points.size()), curve.style, app_.theme.scale, &phase);
-      points.clear();
-    };
-    float column = -1e9f;
-    for (std::size_t n = window_.first; n < window_.last; ++n) {
-      const double v = curve.y[n];
-      if (!axes_.drawable(v)) {
-        flush();
-        if (!std::isfinite(v)) flag(axes_.x(x_[n]), true, curve.style.color);
-        continue;
-      }
-      const float at = axes_.x(x_[n]), y = axes_.y(v);
-      if (v > axes_.y_max * (1 + 1e-9)) flag(at, true, curve.style.color);
-      if (v < axes_.y_min - 1e-9 * std::abs(axes_.y_min)) flag(at, false, curve.style.color);
-      // Samples closer than half a pixel add nothing to see unless they swing.
-      if (at - column < 0.5f && !points.empty() && std::abs(y - points.back().y) < 1) continue;
-      column = at;
-      points.push_back({at, y});
-    }
-    flush();
+/// The finite values that the window shows, thinned to a bounded number.
+std::vector<double> values_in(std::span<const PlotCurve> curves, const PlotFrame& frame) {
+  std::vector<double> values;
+  for (const PlotCurve& curve : curves) {
+    const auto first = std::size_t(std::lower_bound(curve.x.begin(), curve.x.end(), frame.x_min) - curve.x.begin());
+    const auto last = std::size_t(std::upper_bound(curve.x.begin(), curve.x.end(), frame.x_max) - curve.x.begin());
+    const std::size_t stride = std::max<std::size_t>(1, (last - first) / 1000);
+    for (std::size_t n = first; n < last; n += stride)
+      if (std::isfinite(curve.y[n]) && (!frame.log || curve.y[n] > 0)) values.push_back(curve.y[n]);
   }
-
- private:
-  /// A small triangle at the edge: here a curve has left the scale.
-  void flag(float x, bool above, ImU32 color) {
-    float& last = above ? last_above_ : last_below_;
-    const float r = app_.theme.px(4);
-    if (x < axes_.lo.x || x > axes_.hi.x || std::abs(x - last) < 3 * r) return;
-    last = x;
-    const float edge = above ? axes_.lo.y + 1 : axes_.hi.y - 1, tip = above ? -1.f : 1.f;
-    const float base = edge - tip * 1.6f * r;
-    draw_.AddTriangleFilled({x - r, base}, {x + r, base}, {x, edge}, color);
-  }
-
-  App& app_;
-  ImDrawList& draw_;
-  const Axes& axes_;
-  std::span<const double> x_;
-  Window window_;
-  float last_above_ = -1e9f, last_below_ = -1e9f;
-};
-
-void draw_axes(App& app, ImDrawList& draw, const Axes& axes, const PlotRange& range, const PlotFrame& frame) {
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.small;
-  draw.AddRectFilled(axes.lo, axes.hi, c.ground, app.theme.px(3));
-  for (double tick : range.ticks) {
-    const float y = std::round(axes.y(tick));
-    draw.AddLine({axes.lo.x, y}, {axes.hi.x, y}, faded(c.line, tick == 0 ? 1.f : 0.7f));
-    const std::string label = short_number(rounded(tick, 6));
-    const float top = std::clamp(y - font.FontSize / 2, axes.lo.y - font.FontSize / 2, axes.hi.y - font.FontSize + 2);
-    draw_text(draw, font, {axes.lo.x - app.theme.px(6) - text_width(font, label), std::round(top)}, c.quiet, label);
-  }
-  const float below = axes.hi.y + app.theme.px(4);
-  const std::string from = short_number(rounded(frame.x_min, 4)) + " s",
-                    to = short_number(rounded(frame.x_max, 4)) + " s";
-  draw_text(draw, font, {axes.lo.x, below}, c.quiet, from);
-  draw_text(draw, font, {axes.hi.x - text_width(font, to), below}, c.quiet, to);
+  std::sort(values.begin(), values.end());
+  return values;
 }
 
-float label_width(App& app, const PlotRange& range) {
+double quantile(const std::vector<double>& sorted, double q) {
+  return sorted[std::size_t(q * double(sorted.size() - 1))];
+}
+
+float label_width(App& app, std::span<const PlotTick> ticks) {
   float width = app.theme.px(38);
-  for (double tick : range.ticks)
-    width = std::max(width, text_width(*app.fonts.small, short_number(rounded(tick, 6))) + app.theme.px(7));
+  for (const PlotTick& tick : ticks)
+    width = std::max(width, text_width(*app.fonts.small, tick.label) + app.theme.px(7));
   return width;
 }
 
-void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const double> x,
-              std::span<const PlotCurve> curves, std::string_view unit) {
-  const double wanted = axes.value_at(ImGui::GetIO().MousePos.x);
+/// The times at both ends, below.
+void draw_times(const PlotPaint& paint, const PlotAxes& axes) {
+  const ImFont& font = *paint.fonts.small;
+  const float below = axes.hi.y + paint.theme.px(4);
+  const std::string from = short_number(rounded(axes.x.lo, 4)) + " s", to = short_number(rounded(axes.x.hi, 4)) + " s";
+  draw_text(paint.draw, font, {axes.lo.x, below}, paint.theme.colors.quiet, from);
+  draw_text(paint.draw, font, {axes.hi.x - text_width(font, to), below}, paint.theme.colors.quiet, to);
+}
+
+void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const PlotCurve> curves,
+              std::string_view unit) {
+  const std::span<const double> x = curves.front().x;
+  const double along = (ImGui::GetIO().MousePos.x - axes.lo.x) / (axes.hi.x - axes.lo.x);
+  const double wanted = axes.x.lo + along * (axes.x.hi - axes.x.lo);
   auto after = std::lower_bound(x.begin(), x.end(), wanted);
   if (after == x.end()) --after;
   if (after != x.begin() && wanted - *(after - 1) < *after - wanted) --after;
   const auto n = std::size_t(after - x.begin());
   const Tokens& c = app.theme.colors;
-  const float at = std::round(axes.x(x[n]));
+  const float at = std::round(axes.px(x[n]));
   draw.AddLine({at, axes.lo.y}, {at, axes.hi.y}, faded(c.text, 0.4f));
   for (const PlotCurve& curve : curves)
-    if (axes.drawable(curve.y[n]))
-      draw.AddCircleFilled({at, axes.y(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
+    if (axes.y.drawable(curve.y[n]))
+      draw.AddCircleFilled({at, axes.py(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
   begin_tooltip(app);
   ImGui::PushFont(app.fonts.mono);
   char time[48];
@@ -151,36 +94,44 @@ void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const doub
 
 }  // namespace
 
-float draw_plot(App& app, const char* id, ImVec2 size, std::span<const double> x, std::span<const PlotCurve> curves,
-                const PlotFrame& frame) {
-  const Tokens& c = app.theme.colors;
+PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) {
+  const std::vector<double> values = values_in(curves, frame);
+  if (values.empty()) return frame.log ? log_range(1e-3, 1) : linear_range(0, 1, true);
+  // Nearly all of the values count; beyond three times their spread begins what leaves the scale.
+  const double low = quantile(values, 0.02), high = quantile(values, 0.97);
+  if (frame.log) return log_range(std::max(values.front(), low * 1e-2), std::min(values.back(), high * 1e3));
+  const double reach = 3 * std::max({high - low, 0.1 * std::abs(high), 1e-300});
+  return linear_range(std::max(values.front(), low - reach), std::min(values.back(), high + reach), frame.from_zero);
+}
+
+float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + size.x, lo.y + size.y};
   ImGui::InvisibleButton(id, size);
   const bool hovered = ImGui::IsItemHovered();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const PlotRange range = plot_range(x, curves, frame);
+  const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
+  const PlotRange range = plot_range(curves, frame);
+  const std::vector<PlotTick> ticks = labelled(range.ticks);
   const ImFont& font = *app.fonts.small;
-  const Axes axes{{lo.x + label_width(app, range), lo.y + std::round(font.FontSize / 2)},
-                  {hi.x, hi.y - font.FontSize - app.theme.px(6)},
-                  frame.x_min,
-                  frame.x_max,
-                  range.lo,
-                  range.hi,
-                  frame.log};
+  const PlotAxes axes{{lo.x + label_width(app, ticks), lo.y + std::round(font.FontSize / 2)},
+                      {hi.x, hi.y - font.FontSize - app.theme.px(6)},
+                      {frame.x_min, frame.x_max},
+                      {range.lo, range.hi, frame.log}};
   if (axes.hi.x - axes.lo.x < 8 || axes.hi.y - axes.lo.y < 8) return 0;
-  draw_axes(app, draw, axes, range, frame);
-  if (x.empty() || curves.empty()) {
+  draw_ground(paint, axes, ticks);
+  draw_times(paint, axes);
+  if (curves.empty() || curves.front().x.empty()) {
     const float width = text_width(font, frame.when_empty);
-    draw_text(draw, font, {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},
-              c.quiet, frame.when_empty);
+    draw_text(paint.draw, font,
+              {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},
+              app.theme.colors.quiet, frame.when_empty);
     return 0;
   }
-  draw.PushClipRect(axes.lo, axes.hi, true);
-  CurveDrawer drawer(app, draw, axes, x, window_of(x, frame));
-  for (const PlotCurve& curve : curves) drawer.curve(curve);
-  draw.PopClipRect();
+  const auto [first, last] = window_of(curves.front().x, frame);
+  paint.draw.PushClipRect(axes.lo, axes.hi, true);
+  for (const PlotCurve& curve : curves) draw_curve(paint, axes, curve, first, last);
+  paint.draw.PopClipRect();
   if (!hovered) return 0;
-  if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(app, draw, axes, x, curves, frame.unit);
+  if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(app, paint.draw, axes, curves, frame.unit);
   return ImGui::GetIO().MouseWheel;
 }
 

@@ -146,7 +146,8 @@ void force_card(App& app, float height) {
   std::vector<PlotCurve> curves;
   for (std::size_t k = 0; k < force_keys.size(); ++k)
     if (!plots.hidden[k])
-      curves.push_back({force_keys[k], curve_style(app.theme.colors, force_keys[k]), plots.forces.column(k)});
+      curves.push_back(
+          {force_keys[k], curve_style(app.theme.colors, force_keys[k]), plots.forces.t(), plots.forces.column(k)});
   const float head = app.theme.px(34), legend_height = legend(app, inner, true);
   const float plot_height = inner.size.y - head - legend_height - app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
@@ -154,7 +155,7 @@ void force_card(App& app, float height) {
   const PlotFrame frame =
       frame_of(app, plots.forces, plots.log, "N", no_particle ? "Right-click a particle to pick it" : why_empty(app));
   if (plot_height > app.theme.px(24))
-    zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, plot_height}, plots.forces.t(), curves, frame));
+    zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, plot_height}, curves, frame));
   legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
 }
 
@@ -171,13 +172,13 @@ void height_card(App& app, float height) {
             app.theme.colors.quiet, note);
   const PlotCurve curve{"y",
                         {integrator_color(app.theme.colors, app.preset().integrator), LineStyle::solid, 1.8f},
+                        plots.height.t(),
                         plots.height.column(0)};
   const float head = side + app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   PlotFrame frame = frame_of(app, plots.height, false, "m", why_empty(app));
   frame.from_zero = false;
-  zoom_time(app, frame,
-            draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, plots.height.t(), {&curve, 1}, frame));
+  zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, {&curve, 1}, frame));
 }
 
 }  // namespace

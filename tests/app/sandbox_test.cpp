@@ -181,16 +181,16 @@ TEST_CASE("a plot's scale survives blow-ups, constants and nothing at all") {
   for (const bool log : {false, true}) {
     const PlotFrame frame{0, 5, log, false, "N", ""};
     const std::vector<PlotCurve> curves[] = {
-        {{"F", {}, calm}}, {{"F", {}, blown}}, {{"F", {}, constant}}, {{"F", {}, broken}}, {}};
+        {{"F", {}, x, calm}}, {{"F", {}, x, blown}}, {{"F", {}, x, constant}}, {{"F", {}, x, broken}}, {}};
     for (const auto& curve : curves) {
-      const PlotRange range = plot_range(x, curve, frame);
+      const PlotRange range = plot_range(curve, frame);
       CHECK(std::isfinite(range.lo));
       CHECK(std::isfinite(range.hi));
       CHECK(range.lo < range.hi);
       CHECK(range.ticks.size() < 100);
     }
     if (log) continue;
-    const PlotRange range = plot_range(x, curves[1], frame);
+    const PlotRange range = plot_range(curves[1], frame);
     CHECK(range.hi < 100);
     CHECK(range.hi >= 1);
     CHECK(range.lo <= -1);

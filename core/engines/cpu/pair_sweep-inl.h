@@ -235,7 +235,7 @@ PairSweeps<R> table_of(std::index_sequence<F...>) {
   using enum Update;
   return {{{&sweep_pair<R, F, displacement>, &sweep_pair<R, F, general>, &sweep_pair<R, F, force>}...},
           int(hn::MaxLanes(hn::ScalableTag<R>())),
-          hwy::TargetName(HWY_TARGET)};
+          HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 ? "AVX-512" : hwy::TargetName(HWY_TARGET)};
 }
 template <class R>
 PairSweeps<R> table() {

@@ -51,7 +51,7 @@ struct PairSweeps {
   /// Indexed [features][update]. A way that is not finite makes largest_way ∞ or NaN.
   Function sweep[feature_sets][std::size_t(Update::count)];
   int lanes;
-  const char* target;
+  const char* target;  ///< the instruction set: "AVX-512", "AVX2" …
 };
 
 template <class R>

@@ -1,0 +1,47 @@
+// A whole chart with title, axes and legend, as the benchmarks write it, and its picture as PNG without a display.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/charts/plot.h"
+
+namespace tyglab {
+
+struct ChartAxis {
+  std::string title;  ///< with its unit
+  bool log = false;
+  bool from_zero = false;  ///< a linear axis begins at 0
+  std::vector<PlotTick>
+      ticks;  ///< in place of worked-out ones: the axis then holds them, and half a step on either side
+};
+
+struct ChartSeries {
+  std::string name;
+  CurveStyle style;
+  bool line = true;
+  float marks = 3;  ///< radius of the discs, at scale 1; 0: none
+  std::vector<double> x, y;
+};
+
+struct Chart {
+  std::string title;
+  std::string note;  ///< a quiet line under the title
+  ChartAxis x, y;
+  std::vector<ChartSeries> series;
+};
+
+/// A colour and a line style for the k-th of many series, the same in every chart; alike only eight apart.
+CurveStyle series_style(const Tokens& colors, int k);
+
+/// Draws a chart into the rectangle: title, the plot, and as many lines of legend as it needs.
+void draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& chart);
+
+/// Draws charts side by side in rows of `columns`, each 640 x 400 points at that scale, and writes a PNG ("-" is
+/// standard output). Needs no display (EGL's surfaceless platform). Throws GraphicsError, OutputError.
+void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns = 2,
+                  float scale = 2);
+
+}  // namespace tyglab
