@@ -42,7 +42,11 @@ Box red_box(const Image& image) {
 }
 
 Chart one(std::vector<double> x, std::vector<double> y, bool log) {
-  return {"Title", "note", {"t (s)", log}, {"e (m)", log}, {{"red", {red, LineStyle::solid, 2}, true, 3, x, y}}};
+  return {"Title",
+          "note",
+          {"t (s)", log, false, {}},
+          {"e (m)", log, false, {}},
+          {{"red", {red, LineStyle::solid, 2}, true, 3, x, y}}};
 }
 
 TEST_CASE("a straight line goes from corner to corner, linear and logarithmic") {
