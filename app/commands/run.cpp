@@ -136,6 +136,16 @@ Json features_json(const Engine& engine) {
   return json;
 }
 
+/// What an implicit method did; null for others.
+Json solves_json(const Engine& engine) {
+  const SolveCounts counts = engine.solves();
+  if (counts.newton == 0) return nullptr;
+  return {{"newton_steps", counts.newton},
+          {"linear_steps", counts.linear},
+          {"force_evaluations", counts.force_evaluations},
+          {"unconverged", counts.unconverged}};
+}
+
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
              double ns_per_particle_step, Json files) {
@@ -158,6 +168,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"ns_per_particle_step", ns_per_particle_step},
           {"bytes_per_particle", double(simulation.engine().bytes()) / simulation.lattice().size()},
           {"features", features_json(simulation.engine())},
+          {"solves", solves_json(simulation.engine())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"diverged", divergence_json(simulation.divergence())},

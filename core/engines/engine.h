@@ -58,6 +58,14 @@ struct PositionView {
   }
 };
 
+/// What implicit methods have done since the engine was made.
+struct SolveCounts {
+  std::int64_t newton = 0;  ///< steps of Newton's method
+  std::int64_t linear = 0;  ///< steps of conjugate gradients in them
+  std::int64_t force_evaluations = 0;
+  std::int64_t unconverged = 0;  ///< solves, linear or not, that did not reach their tolerance
+};
+
 /// Something that a step does only for scenes that need it.
 struct StepFeature {
   std::string_view name;
@@ -84,6 +92,7 @@ class Engine {
   virtual std::size_t bytes() const = 0;
   /// Threads that it uses.
   virtual int threads() const = 0;
+  virtual SolveCounts solves() const = 0;
   /// What a step does for the present scene, and what it skips.
   virtual std::vector<StepFeature> features() const = 0;
   /// "CPU, AVX2, 2 threads": for people.

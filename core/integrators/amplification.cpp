@@ -29,11 +29,9 @@ bool stable(const Scheme& scheme, double h, double zeta) {
 Matrix amplification(const Scheme& scheme, double h, double zeta) {
   const int n = scheme.vectors;
   Matrix now = identity(n);  // row: a vector's coefficients in terms of the vectors at the beginning of the step
-  for (const Sweep& sweep : scheme.sweeps) {
-    std::vector<double> force(std::size_t(n), 0);
-    for (int k = 0; k < n; ++k)
-      force[std::size_t(k)] = -h * h * now.at(sweep.position, k) - 2 * zeta * h * now.at(sweep.velocity, k);
-    for (const Assignment& assignment : sweep.assignments) {
+  std::vector<double> force(std::size_t(n), 0);
+  const auto assign = [&](const std::vector<Assignment>& assignments) {
+    for (const Assignment& assignment : assignments) {
       std::vector<double> sum(std::size_t(n), 0);
       for (const Term& term : assignment.terms)  // dt = 1: no powers of it
         for (int k = 0; k < n; ++k)
@@ -41,6 +39,18 @@ Matrix amplification(const Scheme& scheme, double h, double zeta) {
               term.factor * (term.vector == acceleration ? force[std::size_t(k)] : now.at(term.vector, k));
       for (int k = 0; k < n; ++k) now.at(assignment.target, k) = sum[std::size_t(k)];
     }
+  };
+  for (const Sweep& sweep : scheme.sweeps) {
+    assign(sweep.before);
+    if (const double b = sweep.solves; b != 0)
+      for (int k = 0; k < n; ++k) {
+        double &x = now.at(sweep.position, k), &v = now.at(sweep.velocity, k);
+        v = (v - b * h * h * x) / (1 + 2 * b * zeta * h + b * b * h * h);
+        x += b * v;
+      }
+    for (int k = 0; k < n; ++k)
+      force[std::size_t(k)] = -h * h * now.at(sweep.position, k) - 2 * zeta * h * now.at(sweep.velocity, k);
+    assign(sweep.assignments);
   }
   return now;
 }

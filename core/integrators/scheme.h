@@ -1,6 +1,6 @@
-// Explicit integrators as data: a step is a few sweeps, each of which evaluates the force on every particle at one pair
-// of state vectors and then replaces some state vectors by linear combinations. One sweep in each engine runs them all;
-// a new scheme is one row in schemes.cpp.
+// Integrators as data: a step is a few sweeps, each of which evaluates the force on every particle at one pair of state
+// vectors, or solves an implicit stage for them, and then replaces some state vectors by linear combinations. One sweep
+// in each engine runs them all; a new scheme is one row in schemes.cpp.
 #pragma once
 
 #include <span>
@@ -27,12 +27,16 @@ struct Assignment {
   std::vector<Term> terms;
 };
 
-/// Evaluate a(vectors[position], vectors[velocity] · dt^velocity_dt_power), then assign.
+/// Evaluate a(vectors[position], vectors[velocity] · dt^velocity_dt_power), then assign. Where `solves` is not 0, make
+/// the assignments of `before`, take these two vectors c_x and c_v to the solution of
+/// x = c_x + solves·dt·v, v = c_v + solves·dt·a(x, v), then assign (what is assigned then does not name a).
 struct Sweep {
   int position;
   int velocity;
   int velocity_dt_power;
   std::vector<Assignment> assignments;
+  double solves = 0;
+  std::vector<Assignment> before = {};
 };
 
 /// Vector 0 changes in the last sweep alone, or in the only one: bodies act on the way from the old to the new
@@ -57,7 +61,14 @@ struct Scheme {
 std::span<const Scheme> schemes();
 /// The vector that damping sees where a step begins: v itself or a prediction of it.
 inline int seen_velocity(const Scheme& scheme) {
-  return scheme.sweeps.front().velocity;
+  const Sweep& first = scheme.sweeps.front();
+  return first.solves != 0 ? vector_v : first.velocity;
+}
+/// Whether a step solves equations.
+inline bool is_implicit(const Scheme& scheme) {
+  for (const Sweep& sweep : scheme.sweeps)
+    if (sweep.solves != 0) return true;
+  return false;
 }
 /// The scheme of that name; the name must be known (is_integrator).
 const Scheme& scheme(std::string_view name);

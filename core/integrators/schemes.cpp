@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,8 @@ namespace tyglab {
 namespace {
 
 constexpr int x = vector_x, v = vector_v, a = acceleration;
+constexpr double gamma = 2 - std::numbers::sqrt2;  // of TR-BDF2, and the weights of its second stage
+constexpr double bdf_stage = 1 / (gamma * (2 - gamma)), bdf_start = (1 - gamma) * (1 - gamma) / (gamma * (2 - gamma));
 
 const std::vector<Scheme>& table() {
   static const std::vector<Scheme> rows{
@@ -138,6 +141,56 @@ const std::vector<Scheme>& table() {
                     {4, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}},
                     {5, {{v, 1, 0}, {a, 1, 1}}}}},
                   {4, 5, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
+       .start = {},
+       .lags = false},
+      {.name = "implicit_euler",
+       .title = "Implicit Euler",
+       .equation = "",
+       .source = "D. Baraff, A. Witkin, SIGGRAPH 1998; here with Newton's method to the end",
+       .order_undamped = 1,
+       .order_damped = 1,
+       .vectors = 4,
+       .keeps_displacement = false,
+       .note = "Stable at every dt and k_s, since it takes energy away: the more, the larger dt.",
+       .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
+       .start = {},
+       .lags = false},
+      {.name = "implicit_midpoint",
+       .title = "Implicit midpoint",
+       .equation = "",
+       .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed. (2006), II.1",
+       .order_undamped = 2,
+       .order_damped = 2,
+       .vectors = 4,
+       .keeps_displacement = false,
+       .note = "Second order, symplectic, stable at every dt while no spring switches; fast oscillations stay.",
+       .sweeps = {{2,
+                   3,
+                   0,
+                   {{x, {{2, 2, 0}, {x, -1, 0}}}, {v, {{3, 2, 0}, {v, -1, 0}}}},
+                   0.5,
+                   {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
+       .start = {},
+       .lags = false},
+      // The trapezium to t + γ dt, then BDF2 over both points, γ = 2 - √2: both solve with γ/2.
+      {.name = "tr_bdf2",
+       .title = "TR-BDF2",
+       .equation = "",
+       .source = "R. E. Bank et al., IEEE Trans. Electron Devices 32, 1992 (1985); M. E. Hosea, L. F. Shampine, Appl. "
+                 "Numer. Math. 20, 21 (1996)",
+       .order_undamped = 2,
+       .order_damped = 2,
+       .vectors = 4,
+       .keeps_displacement = false,
+       .note = "Second order, and takes fast oscillations away: what dt resolves stays, the rest calms. Two solves.",
+       .sweeps = {{x, v, 0, {{2, {{x, 1, 0}, {v, gamma / 2, 1}}}, {3, {{v, 1, 0}, {a, gamma / 2, 1}}}}},
+                  {2,
+                   3,
+                   0,
+                   {{2, {{2, bdf_stage, 0}, {x, -bdf_start, 0}}}, {3, {{3, bdf_stage, 0}, {v, -bdf_start, 0}}}},
+                   gamma / 2,
+                   {}},
+                  {2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, gamma / 2, {}}},
        .start = {},
        .lags = false},
   };

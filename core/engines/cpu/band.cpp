@@ -118,8 +118,8 @@ void Band<R, Present>::fix_row(int i) {
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::assign_row(const ResolvedSweep& s, int i) {
-  for (const auto& assignment : s.assignments)
+void Band<R, Present>::assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i) {
+  for (const auto& assignment : assignments)
     for (int c = 0; c < 3; ++c) {
       const auto source = [&](int vector) -> const R* {
         return vector == acceleration ? force_row(i, c) : cloth_.row(vector, i, c);
@@ -246,12 +246,23 @@ void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool la
     if (!assigns && in_tail(i)) give_back_pair(t, s, i);
     for (int row = i; row < std::min(i + 2, end_); ++row) {
       if (assigns)
-        fix_row(row), assign_row(s, row);
+        fix_row(row), assign_row(s.assignments, row);
       else if constexpr (has(part::hand))
         read_hand(row);
       if (bodies && touches(row)) collide_row(row);
       if (last && assigns) watch_row(row);
     }
+  }
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last) {
+  const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && cloth_.preset.kind == Kind::cloth;
+  for (int i = begin_; i < end_; ++i) {
+    if (last && i % 2 == 0) keep_pair(i);
+    assign_row(assignments, i);
+    if (bodies && touches(i)) collide_row(i);
+    if (last) watch_row(i);
   }
 }
 

@@ -33,6 +33,8 @@ struct ResolvedSweep {
   int position = 0, velocity = 0;
   double k_d = 0;  ///< divided by dt where the velocity vector holds displacements
   std::vector<ResolvedAssignment> assignments;
+  double solve_dt = 0;                     ///< not 0: an implicit stage over that time is solved first
+  std::vector<ResolvedAssignment> before;  ///< made before it
   Update update = Update::force;  ///< what the pair sweep does by itself; force: the assignments are made row by row
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other two
 };
@@ -77,6 +79,8 @@ class Band {
   void copy_halo(const ResolvedSweep& sweep);
   /// One pass over the band's rows. `last`: the last sweep of a step, in which bodies act and motion is watched.
   void sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
+  /// Makes assignments, none of which names a. `last` as above.
+  void assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last);
   /// F/m of the present state into `out`; nothing else changes.
   void accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out);
 
@@ -104,7 +108,7 @@ class Band {
   void forces_on_pair(const PairTask<R>& task, Update update);
   void read_hand(int i);
   void fix_row(int i);
-  void assign_row(const ResolvedSweep& sweep, int i);
+  void assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i);
   void keep_pair(int i);
   void give_back_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
   bool touches(int i) const;

@@ -60,13 +60,18 @@ ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   ResolvedSweep out;
   out.position = sweep.position, out.velocity = sweep.velocity;
   out.k_d = cloth_.preset.k_d * std::pow(cloth_.preset.dt, sweep.velocity_dt_power);
-  for (const Assignment& assignment : sweep.assignments) {
-    auto& target = out.assignments.emplace_back();
-    target.target = assignment.target;
-    for (const Term& term : assignment.terms) {
-      const double factor = term.factor * std::pow(cloth_.preset.dt, term.dt_power);
-      target.terms.push_back({term.vector, term.vector == acceleration ? factor / cloth_.preset.m : factor});
-    }
+  out.solve_dt = sweep.solves * cloth_.preset.dt;
+  for (const Assignment& assignment : sweep.assignments) out.assignments.push_back(resolve(assignment));
+  for (const Assignment& assignment : sweep.before) out.before.push_back(resolve(assignment));
+  return out;
+}
+
+template <class R, unsigned Present>
+ResolvedSweep::ResolvedAssignment CpuEngine<R, Present>::resolve(const Assignment& assignment) const {
+  ResolvedSweep::ResolvedAssignment out{assignment.target, {}};
+  for (const Term& term : assignment.terms) {
+    const double factor = term.factor * std::pow(cloth_.preset.dt, term.dt_power);
+    out.terms.push_back({term.vector, term.vector == acceleration ? factor / cloth_.preset.m : factor});
   }
   return out;
 }
@@ -123,7 +128,7 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
   }
   if (shifts) {
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
-    accelerations(tears, acceleration_);
+    accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
     const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
     Array<R>& d = cloth_.vector(vector_v).all();
     for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
@@ -163,20 +168,27 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::accelerations(const Tears& tears, Field& out) {
+void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
   ResolvedSweep look;
-  look.position = vector_x, look.velocity = seen_velocity(*scheme_);
+  look.position = position, look.velocity = velocity;
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
   for (const auto& band : bands_) band->copy_halo(look);
   for (const auto& band : bands_) band->accelerations(look, tears, out);
 }
 
 template <class R, unsigned Present>
+void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
+  for (const auto& band : bands_) band->assign(sweep.before, false);
+  solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
+                [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out); });
+}
+
+template <class R, unsigned Present>
 void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_stored(state);
   if (!scheme_->lags) return;
-  accelerations(tears, acceleration_);
+  accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
   const double half_dt = cloth_.preset.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
@@ -224,7 +236,7 @@ PositionView CpuEngine<R, Present>::positions() const {
 
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
-  std::size_t total = acceleration_.bytes() + cloth_.fixed.size() + guards_.size() +
+  std::size_t total = acceleration_.bytes() + solver_.bytes() + cloth_.fixed.size() + guards_.size() +
                       (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto& band : bands_) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})

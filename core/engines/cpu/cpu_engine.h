@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/engines/cpu/band.h"
+#include "core/engines/cpu/implicit.h"
 #include "core/engines/cpu/team.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
@@ -25,6 +26,7 @@ class CpuEngine final : public Engine {
   PositionView positions() const override;
   std::size_t bytes() const override;
   int threads() const override { return team_->size(); }
+  SolveCounts solves() const override { return solver_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
 
@@ -42,7 +44,11 @@ class CpuEngine final : public Engine {
   int array_rows() const { return cloth_.lattice.rows + 3; }
   void resolve();
   ResolvedSweep resolve(const Sweep& sweep) const;
-  void accelerations(const Tears& tears, Field& out);
+  ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
+  /// F/m at two of the vectors.
+  void accelerations(int position, int velocity, const Tears& tears, Field& out);
+  /// The implicit stage of a sweep, on this thread alone.
+  void solve(const ResolvedSweep& sweep, const Tears& tears);
   /// Positions and vector 1 as a velocity.
   void read_stored(State& state) const;
 
@@ -71,6 +77,7 @@ class CpuEngine final : public Engine {
   Field acceleration_;                ///< used between steps alone (readouts, starts)
   std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
   std::vector<int> pinned_;
+  ImplicitSolver<R> solver_;
   std::unique_ptr<Team> team_;
   std::vector<std::unique_ptr<Band<R, Present>>> bands_;
   End end_ = End::none;

@@ -141,9 +141,17 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault) {
     for (int n = 0; n < steps && end_ == End::none; ++n) {
       band.begin_watch();
       for (const ResolvedSweep& sweep : sweeps_) {
+        const bool last = &sweep == &sweeps_.back();
+        if (sweep.solve_dt != 0) {
+          if (number == 0) solve(sweep, tears);
+          team_->barrier();
+          band.assign(sweep.assignments, last);
+          team_->barrier();
+          continue;
+        }
         band.copy_halo(sweep);
         team_->barrier();
-        band.sweep(sweep, tears, &sweep == &sweeps_.back());
+        band.sweep(sweep, tears, last);
         team_->barrier();
       }
       if (number == 0) {

@@ -11,8 +11,8 @@ namespace tyglab::cpu {
 inline constexpr int widest_vector = 64;  ///< bytes; rows begin at multiples of it
 
 /// Elements that one component of a row takes: whole vectors, so that every row is aligned, and in long rows an odd
-/// number of them. With a number that powers of two divide, the two dozen rows that the sweep reads and writes at a time
-/// would fall on the same few lines of the first cache (1024 columns: more than half as slow again).
+/// number of them. With a number that powers of two divide, the two dozen rows that the sweep reads and writes at a
+/// time would fall on the same few lines of the first cache (1024 columns: more than half as slow again).
 template <class R>
 constexpr int row_stride(int columns) {
   constexpr int lanes = widest_vector / int(sizeof(R)), long_row = 16;

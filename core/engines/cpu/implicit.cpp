@@ -1,0 +1,224 @@
+#include "core/engines/cpu/implicit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tyglab::cpu {
+namespace {
+
+constexpr double linear_tolerance = 1e-3;  // |r| of its start; Newton's method multiplies it from step to step
+template <class R>
+constexpr double newton_tolerance = sizeof(R) == 8 ? 1e-10 : 1e-5;  // |r| of its start
+constexpr double too_steep = 0.9;  // of the slope along a step at its beginning: more than that at its end overshoots
+constexpr int most_shorter_steps = 6;
+
+}  // namespace
+
+template <class R>
+void ImplicitSolver<R>::resize(const Cloth<R>& cloth) {
+  if (rows_ == cloth.lattice.rows && stride_ == cloth.stride) return;
+  rows_ = cloth.lattice.rows, stride_ = cloth.stride;
+  for (Field* field :
+       {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
+    field->resize(rows_ + 3, stride_);
+  blocks_.assign(std::size_t(rows_ + 2) * 6 * stride_, R(0));
+  coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), R(0));
+}
+
+template <class R>
+std::size_t ImplicitSolver<R>::bytes() const {
+  std::size_t total = (blocks_.size() + coefficients_.size()) * sizeof(R);
+  for (const Field* field :
+       {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
+    total += field->bytes();
+  return total;
+}
+
+template <class R>
+double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
+  double sum = 0;  // row by row in double: one sum of a large cloth in float would lose digits
+  for (int i = 0; i < rows_; ++i) sum += dot_row(a.row(i), b.row(i), int(a.pitch()));
+  return sum;
+}
+
+/// Takes the vectors to x = c_x + dt v and the residual to what they leave; returns its norm.
+template <class R>
+double ImplicitSolver<R>::evaluate(Cloth<R>& cloth, int position, int velocity, double dt,
+                                   const Accelerations& accelerations) {
+  Array<R>&x = cloth.vector(position).all(), &v = cloth.vector(velocity).all();
+  const R h = R(dt);
+  for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + h * v[n];
+  accelerations(acceleration_);
+  ++counts_.force_evaluations;
+  Array<R>& r = residual_.all();
+  for (std::size_t n = 0; n < r.size(); ++n) r[n] = h * acceleration_.all()[n] - (v[n] - start_v_.all()[n]);
+  return std::sqrt(inner(residual_, residual_));
+}
+
+template <class R>
+void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
+                              const Accelerations& accelerations) {
+  resize(cloth);
+  start_x_ = cloth.vector(position), start_v_ = cloth.vector(velocity);
+  const int most = cloth.preset.iterations;
+  const double first = evaluate(cloth, position, velocity, dt, accelerations);
+  // A step that moves nothing by more than the last digits of a position cannot be bettered.
+  const double last_digits = 4 * double(std::numeric_limits<R>::epsilon()) * std::sqrt(inner(start_x_, start_x_));
+  double norm = first;
+  bool solved = norm == 0;
+  for (int n = 0; n < most && !solved && std::isfinite(norm); ++n) {
+    linearise(cloth, cloth.vector(position), dt, tears);
+    before_ = residual_;
+    const bool linear = conjugate_gradients(cloth);
+    ++counts_.newton;
+    if (!linear) ++counts_.unconverged;
+    std::swap(residual_, before_);
+    if (most == 1) {  // a linearly implicit step, taken as it is
+      for (std::size_t k = 0; k < step_.all().size(); ++k) cloth.vector(velocity).all()[k] += step_.all()[k];
+      solved = true;
+      break;
+    }
+    norm = take_step(cloth, position, velocity, dt, norm, accelerations);
+    solved = norm <= newton_tolerance<R> * first || dt * std::sqrt(inner(step_, step_)) <= last_digits;
+  }
+  if (!solved) ++counts_.unconverged;
+  Array<R>&x = cloth.vector(position).all(), &v = cloth.vector(velocity).all();
+  for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + R(dt) * v[n];
+}
+
+/// Goes along the step, or less far where that overshoots; leaves the residual there and returns its norm.
+template <class R>
+double ImplicitSolver<R>::take_step(Cloth<R>& cloth, int position, int velocity, double dt, double norm,
+                                    const Accelerations& accelerations) {
+  Array<R>& v = cloth.vector(velocity).all();
+  before_ = cloth.vector(velocity);
+  // The residual is minus the slope of the potential that a solution makes least; the system is positive, so this is >
+  // 0.
+  const double slope = inner(residual_, step_);
+  double part = 1, now = norm;
+  for (int tries = 0; tries <= most_shorter_steps; ++tries) {
+    for (std::size_t n = 0; n < v.size(); ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
+    now = evaluate(cloth, position, velocity, dt, accelerations);
+    const double there = inner(residual_, step_);
+    if (now < norm || std::abs(there) <= too_steep * slope) break;
+    const double secant = std::isfinite(there) ? part * slope / (slope - there) : 0;
+    part = std::clamp(secant, 0.1 * part, 0.9 * part);
+  }
+  return now;
+}
+
+template <class R>
+void ImplicitSolver<R>::linearise(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears) {
+  std::fill(blocks_.begin(), blocks_.end(), R(0));
+  const double per_mass = 1 / cloth.preset.m;
+  const bool weight = cloth.preset.kind == Kind::one_weight;
+  const double own = weight ? 1 + per_mass * (dt * cloth.preset.k_d + dt * dt * cloth.preset.k) : 1;
+  mass_ = own;
+  for (int i = 0; i < rows_; ++i)
+    for (int c = 0; c < 3; ++c) std::fill_n(block(i) + c * stride_, cloth.lattice.columns, R(own));
+  if (!weight)
+    for (int i = 0; i < rows_; ++i)
+      for (int d = 0; d < springs_of_a_particle; ++d) linearise_row(cloth, x, dt, tears, d, i);
+  invert_blocks(cloth);
+}
+
+/// The springs of a row in one direction: their coefficients, and what they add to the blocks of both ends.
+template <class R>
+void ImplicitSolver<R>::linearise_row(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears, int d,
+                                      int i) {
+  const Direction& to = directions[d];
+  R* part = coefficients_.data() + i * coefficient_pitch(stride_) + d * spring_parts * stride_;
+  std::fill_n(part, spring_parts * stride_, R(0));
+  if (i + to.di >= rows_) return;
+  const Preset& p = cloth.preset;
+  const R rest = R(to.rest * p.L), k = R(dt * dt * (to.bending ? p.k_b : p.k_s) / p.m);
+  const R damped = to.bending ? R(0) : R(dt * p.k_d / p.m), least = R(1e-9) * rest;
+  // Stored at the lower end of a spring to the lower left, at the owner otherwise.
+  const int shift = to.dj == -1 ? 1 : 0, columns = cloth.lattice.columns - std::abs(to.dj);
+  const R *upper = x.row(i) + shift, *lower = x.row(i + to.di) + (shift ? 0 : to.dj);
+  R *one = block(i) + shift, *other = block(i + to.di) + (shift ? 0 : to.dj);
+  for (int j = 0; j < columns; ++j) {
+    if (!tears.whole(d, i, j + shift)) continue;
+    const R dx = lower[j] - upper[j], dy = lower[j + stride_] - upper[j + stride_],
+            dz = lower[j + 2 * stride_] - upper[j + 2 * stride_];
+    const R length = std::sqrt(dx * dx + dy * dy + dz * dz);
+    R t = damped, along = 0;  // along: of a = along · unit vector
+    if (to.bending ? length < rest && length > least : length > rest) {
+      // Along the spring k, across it k (1 - rest/length), where that is positive.
+      const R across = to.bending ? R(0) : k * (1 - rest / length);
+      t += across;
+      along = std::sqrt(k - across) / length;
+    }
+    const R ax = along * dx, ay = along * dy, az = along * dz;
+    part[j] = ax, part[j + stride_] = ay, part[j + 2 * stride_] = az, part[j + 3 * stride_] = t;
+    const R add[6] = {t + ax * ax, t + ay * ay, t + az * az, ay * az, az * ax, ax * ay};
+    for (int c = 0; c < 6; ++c) one[j + c * stride_] += add[c], other[j + c * stride_] += add[c];
+  }
+}
+
+/// The inverse of each particle's block; 0 for a fixed one, which takes no step.
+template <class R>
+void ImplicitSolver<R>::invert_blocks(const Cloth<R>& cloth) {
+  for (int i = 0; i < rows_; ++i) {
+    R* b = block(i);
+    for (int j = 0; j < cloth.lattice.columns; ++j) {
+      R *xx = b + j, *yy = xx + stride_, *zz = yy + stride_, *yz = zz + stride_, *zx = yz + stride_, *xy = zx + stride_;
+      const R cx = *yy * *zz - *yz * *yz, cy = *zx * *yz - *xy * *zz, cz = *xy * *yz - *yy * *zx;
+      const R per = 1 / (*xx * cx + *xy * cy + *zx * cz);
+      const R ix = cx * per, iy = (*xx * *zz - *zx * *zx) * per, iz = (*xx * *yy - *xy * *xy) * per;
+      const R iyz = (*xy * *zx - *xx * *yz) * per;
+      *xx = ix, *yy = iy, *zz = iz, *yz = iyz, *zx = cz * per, *xy = cy * per;
+    }
+    for (int n = cloth.fixed_begin[i]; n < cloth.fixed_begin[i + 1]; ++n)
+      for (int c = 0; c < 6; ++c) b[cloth.fixed_columns[n] + c * stride_] = R(0);
+  }
+}
+
+/// product_ = A direction_; returns their inner product.
+template <class R>
+double ImplicitSolver<R>::multiply(const Cloth<R>& cloth) {
+  double sum = 0;
+  for (int i = 0; i < rows_; ++i)
+    sum += multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(stride_), direction_.row(i),
+                                       product_.row(i), stride_, cloth.lattice.columns, i == 0, mass_});
+  return sum;
+}
+
+template <class R>
+Residual ImplicitSolver<R>::update(const Cloth<R>& cloth, double alpha) {
+  Residual sum{0, 0};
+  for (int i = 0; i < rows_; ++i) {
+    const Residual row =
+        update_row(UpdateTask<R>{direction_.row(i), product_.row(i), block(i), step_.row(i), residual_.row(i),
+                                 preconditioned_.row(i), stride_, cloth.lattice.columns, alpha});
+    sum.squared += row.squared, sum.preconditioned += row.preconditioned;
+  }
+  return sum;
+}
+
+/// Solves A step_ = residual_, using residual_ up. Returns whether it got there.
+template <class R>
+bool ImplicitSolver<R>::conjugate_gradients(const Cloth<R>& cloth) {
+  for (Field* field : {&step_, &direction_, &product_}) std::fill(field->all().begin(), field->all().end(), R(0));
+  Residual now = update(cloth, 0);
+  const double enough = linear_tolerance * linear_tolerance * now.squared;
+  const int most = 200 + 20 * (rows_ + cloth.lattice.columns);
+  double before = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < most; ++n) {
+    if (now.squared <= enough) return true;
+    const double keep = now.preconditioned / before;
+    for (int i = 0; i < rows_; ++i)
+      add_scaled_row(preconditioned_.row(i), keep, direction_.row(i), int(direction_.pitch()));
+    before = now.preconditioned;
+    now = update(cloth, before / multiply(cloth));
+    ++counts_.linear;
+    if (!std::isfinite(now.squared)) return false;
+  }
+  return now.squared <= enough;
+}
+
+template class ImplicitSolver<float>;
+template class ImplicitSolver<double>;
+
+}  // namespace tyglab::cpu
