@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <utility>
 
 #include "app/data_files.h"
 #include "app/panels/curves.h"
 #include "app/panels/dialogs.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
+#include "core/cloth/start.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -25,6 +27,8 @@ double particles(const Preset& preset) {
 void follow_up(App& app, const Preset& before) {
   const Preset& now = app.preset();
   const Lattice& lattice = app.simulation->lattice();
+  // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
+  if (app.picked && before.L != now.L) app.picked = site_in_resolution(*app.picked, before, now);
   if (app.picked && !lattice.contains(app.picked->i, app.picked->j)) app.picked.reset();
   if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
     app.tool.site.reset(), app.tool.last_site.reset();
@@ -206,7 +210,20 @@ void apply(App& app, const request::Quit& what) {
 bool unsaved(const App& app) {
   Preset saved = app.document.saved;
   saved.mode = app.preset().mode;
-  return !(saved == app.preset());
+  if (saved == app.preset()) return false;
+  // A particle that was pinned and freed again leaves a list of pins that says what the name of a set said before.
+  const Pins named = std::exchange(saved.pins, app.preset().pins);
+  if (!(saved == app.preset())) return true;
+  saved.pins = named;
+  return !same_pins(saved, app.preset());
+}
+
+bool changed_since_divergence(const App& app) {
+  if (!app.simulation->divergence()) return false;
+  Preset then = app.simulation->diverged_preset();
+  const Preset& now = app.preset();
+  then.mode = now.mode, then.texture = now.texture, then.name = now.name, then.description = now.description;
+  return then != now;
 }
 
 bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
