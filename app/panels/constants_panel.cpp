@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "app/panels/constant_row.h"
@@ -79,7 +80,7 @@ void integrator_row(App& app) {
   const Scheme& now = scheme(app.preset().integrator);
   const float width = app.ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string label = "      " + label_of(now);
+  const std::string room_for_dot = "      ", label = room_for_dot + label_of(now);
   const bool open = begin_combo(app, "##integrator", label.c_str(), width);
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -93,14 +94,19 @@ void integrator_row(App& app) {
     return;
   }
   for (const Scheme& choice : schemes()) {
-    const std::string name = label_of(choice);
-    if (ImGui::Selectable(name.c_str(), choice.name == now.name) && choice.name != now.name) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const std::string name = room_for_dot + label_of(choice);
+    const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
+    ImGui::GetWindowDrawList()->AddCircleFilled(
+        {at.x + app.theme.px(7), std::round(at.y + ImGui::GetTextLineHeight() / 2)}, app.theme.px(4.5f),
+        integrator_color(c, choice.name), 20);
+    if (chosen && choice.name != now.name) {
       Preset next = app.preset();
       next.integrator = choice.name;
       app.propose(std::move(next));
     }
     report_control(app, choice.name);
-    tooltip(app, ImGui::GetID(name.c_str()), order_text(choice) + ". " + std::string(choice.note));
+    tooltip(app, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
   }
   end_combo();
 }
@@ -219,6 +225,7 @@ void constants_panel(App& app, const Region& region) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   app.ui.row_width = room.x;
   gui::begin_child("rows", {room.x + padding - app.theme.px(3), room.y - below});
+  if (std::exchange(app.ui.constants_to_top, false)) ImGui::SetScrollY(0);
   constants_sections(app);
   view_section(app);
   if (!fixed) particle_panel(app);

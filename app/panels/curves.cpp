@@ -27,7 +27,11 @@ ImU32 integrator_color(const Tokens& c, std::string_view name) {
   if (name == "verlet") return c.blue;
   if (name == "improved_euler") return c.green;
   if (name == "euler") return c.magenta;
-  return c.accent;
+  if (name == "semi_implicit_euler") return c.orange;
+  if (name == "velocity_verlet") return c.sky;
+  if (name == "rk4") return c.yellow;
+  if (name == "rkn4") return c.text;
+  return c.quiet;
 }
 
 std::vector<std::string> force_column_names() {

@@ -19,7 +19,8 @@ inline constexpr std::array<std::string_view, Plots::forces_count> force_keys{"F
                                                                               "F_g", "F_int", "F_ext"};
 const Variable& variable(std::string_view key);
 CurveStyle curve_style(const Tokens& colors, std::string_view key);
-/// The colours of figure 3.2: blue Verlet, green improved Euler, magenta Euler; further methods take the accent.
+/// The report's three methods as in figure 3.2 (blue Verlet, green improved Euler, magenta Euler), the others in
+/// colours of their own. Vermilion is left to the exact solution.
 ImU32 integrator_color(const Tokens& colors, std::string_view name);
 /// "F_s [N]", …
 std::vector<std::string> force_column_names();

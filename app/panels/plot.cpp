@@ -129,11 +129,9 @@ void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const doub
   for (const PlotCurve& curve : curves)
     if (axes.drawable(curve.y[n]))
       draw.AddCircleFilled({at, axes.y(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
-  begin_tooltip(app);
+  begin_tooltip_at_pointer(app);
   ImGui::PushFont(app.fonts.mono);
-  char time[48];
-  std::snprintf(time, sizeof time, "t = %.4g s", x[n]);
-  wrapped(app, time, c.quiet);
+  wrapped(app, "t = " + time_number(x[n], app.preset().dt) + " s", c.quiet);
   ImDrawList& tip = *ImGui::GetWindowDrawList();
   for (const PlotCurve& curve : curves) {
     const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -146,7 +144,7 @@ void read_out(App& app, ImDrawList& draw, const Axes& axes, std::span<const doub
     ImGui::Dummy({app.theme.px(84) + text_width(*app.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
   }
   ImGui::PopFont();
-  end_tooltip();
+  end_tooltip(app);
 }
 
 }  // namespace
@@ -156,7 +154,7 @@ float draw_plot(App& app, const char* id, ImVec2 size, std::span<const double> x
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + size.x, lo.y + size.y};
   ImGui::InvisibleButton(id, size);
-  const bool hovered = ImGui::IsItemHovered();
+  const bool hovered = ImGui::IsItemHovered() && !app.ui.help;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const PlotRange range = plot_range(x, curves, frame);
   const ImFont& font = *app.fonts.small;
