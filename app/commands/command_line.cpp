@@ -51,7 +51,8 @@ std::string listed(const std::vector<std::string>& names) {
 std::string command_problem(const CLI::App& program, std::span<const char* const> words) {
   const CLI::App* at = &program;
   std::string typed = "tyglab";
-  for (const std::string word : words) {
+  for (const char* const each : words) {
+    const std::string word = each;
     const std::vector<std::string> names = command_names(*at);
     if (names.empty() || word.starts_with('-')) return {};
     if (std::find(names.begin(), names.end(), word) != names.end()) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
-#include <utility>
 
 #include "app/data_files.h"
 #include "app/panels/curves.h"
@@ -37,6 +36,16 @@ void follow_up(App& app, const Preset& before) {
   }
   if (before.bodies.size() != now.bodies.size() && app.tool.kind == Tool::Kind::body) app.tool.kind = Tool::Kind::none;
   app.pacing.forget_cost();
+}
+
+/// A particle that was pinned and freed again leaves a list of pins; where it says what the document says by a name, or
+/// by a list in another order, it is put as the document puts it.
+void spell_pins_as_saved(App& app) {
+  const Preset& saved = app.document.saved;
+  if (app.preset().pins == saved.pins || !same_pins(app.preset(), saved)) return;
+  Preset next = app.preset();
+  next.pins = saved.pins;
+  app.simulation->apply(edit::Change{next});
 }
 
 /// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
@@ -210,12 +219,7 @@ void apply(App& app, const request::Quit& what) {
 bool unsaved(const App& app) {
   Preset saved = app.document.saved;
   saved.mode = app.preset().mode;
-  if (saved == app.preset()) return false;
-  // A particle that was pinned and freed again leaves a list of pins that says what the name of a set said before.
-  const Pins named = std::exchange(saved.pins, app.preset().pins);
-  if (!(saved == app.preset())) return true;
-  saved.pins = named;
-  return !same_pins(saved, app.preset());
+  return !(saved == app.preset());
 }
 
 bool changed_since_divergence(const App& app) {
@@ -233,6 +237,7 @@ bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
     if (!take_texture(app, edit)) return false;
     const Preset before = app.preset();
     app.simulation->apply(edit);
+    if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
     if (before == app.preset()) return true;
     Preset same_view = before;
     same_view.mode = app.preset().mode;

@@ -88,6 +88,7 @@ TEST_CASE("pinning a particle is unsaved, freeing it again is as it was saved") 
   CHECK(unsaved(app));
   REQUIRE(apply_edit(app, edit::Pin{4, 4, false}));
   CHECK_FALSE(unsaved(app));
+  CHECK(app.preset().pins.mode == Pins::Mode::top_corners);
   REQUIRE(apply_edit(app, edit::Pin{0, 0, false}));
   CHECK(unsaved(app));
   REQUIRE(apply_edit(app, edit::Pin{0, 0, true}));
