@@ -50,14 +50,14 @@ std::string listed(const std::vector<std::string>& names) {
 /// is.
 std::string command_problem(const CLI::App& program, std::span<const char* const> words) {
   const CLI::App* at = &program;
-  std::string typed = "tyglab";
+  std::string typed;
   for (const char* const each : words) {
     const std::string word = each;
     const std::vector<std::string> names = command_names(*at);
     if (names.empty() || word.starts_with('-')) return {};
     if (std::find(names.begin(), names.end(), word) != names.end()) {
       at = at->get_subcommand(word);
-      typed += " " + word;
+      typed += (typed.empty() ? "" : " ") + word;
       continue;
     }
     const std::vector<std::string_view> known(names.begin(), names.end());

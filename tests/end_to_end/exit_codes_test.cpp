@@ -72,7 +72,7 @@ TEST_CASE("2: the command line is wrong, --set included") {
        {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
        {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
        {{"presets", "shwo", "denim"}, 2, "'shwo' is none of its commands: show, notation, check. Did you mean 'show'?"},
-       {{"bench", "nonsense"}, 2, "'nonsense' is none of its commands: throughput, skip"},
+       {{"bench", "nonsense"}, 2, "tyglab: bench: 'nonsense' is none of its commands: throughput, skip"},
        {{"bench"}, 2, "throughput, skip"},
        {{"runn", "denim", "--steps", "1"}, 2, "Did you mean 'run'?"}},
       folder.path());
