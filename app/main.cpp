@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return tyglab::exit_of_parsing(program, error);
+    return tyglab::exit_of_parsing(program, error, {argv + 1, argv + argc});
   }
   return tyglab::run_action(action);
 }

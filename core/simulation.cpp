@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/cloth/start.h"
+#include "core/forces/contact.h"
 #include "core/forces/readout.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
@@ -24,6 +26,11 @@ std::string printed(const char* format, double a) {
   char text[64];
   std::snprintf(text, sizeof text, format, a);
   return text;
+}
+
+double rounding_unit(Precision precision) {
+  return precision == Precision::float_ ? double(std::numeric_limits<float>::epsilon())
+                                        : std::numeric_limits<double>::epsilon();
 }
 
 }  // namespace
@@ -224,6 +231,7 @@ void Simulation::diverge(const Advance& part) {
   d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
   d.remedy = remedy(preset_);
   divergence_ = d;
+  diverged_preset_ = preset_;
 }
 
 const State& Simulation::read() {
@@ -253,6 +261,8 @@ ParticleReadout Simulation::particle(int i, int j) {
   out.x = {state.x.x[p], state.x.y[p], state.x.z[p]};
   out.v = {state.v.x[p], state.v.y[p], state.v.z[p]};
   out.a = out.pinned ? glm::dvec3(0) : out.F / preset_.m;
+  out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
+                held_by_contact(preset_.bodies, preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
   return out;
 }
 

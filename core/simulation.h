@@ -18,6 +18,7 @@ struct ParticleReadout {
   glm::dvec3 F{0}, F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0}, F_int{0}, F_ext{0};
   glm::dvec3 x{0}, v{0}, a{0};
   bool pinned = false, held = false;
+  bool on_body = false;  ///< a body bears on it, which neither F nor a contains
 };
 
 /// One number for the whole cloth a frame: what the plots' "sum" and "maximum" show. Magnitudes, N.
@@ -39,6 +40,8 @@ class Simulation {
   double time() const;
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
+  /// The constants with which it diverged; of use only while divergence() holds one.
+  const Preset& diverged_preset() const { return diverged_preset_; }
   Engine& engine() { return *engine_; }
   PositionView positions() const { return engine_->positions(); }
 
@@ -92,6 +95,7 @@ class Simulation {
   std::int64_t steps_at_dt_ = 0;  ///< step at which the present dt was set
   double time_at_dt_ = 0;         ///< and the time then
   std::optional<Divergence> divergence_;
+  Preset diverged_preset_;
   State state_;
   std::uint64_t state_revision_ = ~0ull;
   std::uint64_t revision_ = 0, tear_revision_ = 0;

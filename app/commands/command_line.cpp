@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -11,9 +12,11 @@
 #include <optional>
 
 #include "app/commands/interrupt.h"
+#include "app/commands/preset_argument.h"
 #include "app/data_files.h"
 #include "app/viewport/graphics_error.h"
 #include "core/engines/engine.h"
+#include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 #include "core/notation/words.h"
 #include "core/output/destination.h"
@@ -37,10 +40,43 @@ std::string range_problem(double value, double lowest, double highest, const std
          shortest_number(highest) + (unit.empty() ? "" : " " + unit);
 }
 
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+/// What is wrong with the first word that should be a command and is none, or with the lack of one; empty if nothing
+/// is.
+std::string command_problem(const CLI::App& program, std::span<const char* const> words) {
+  const CLI::App* at = &program;
+  std::string typed;
+  for (const char* const each : words) {
+    const std::string word = each;
+    const std::vector<std::string> names = command_names(*at);
+    if (names.empty() || word.starts_with('-')) return {};
+    if (std::find(names.begin(), names.end(), word) != names.end()) {
+      at = at->get_subcommand(word);
+      typed += (typed.empty() ? "" : " ") + word;
+      continue;
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const auto near = nearest(word, known);
+    const std::string meant = near ? " Did you mean '" + std::string(*near) + "'?" : "";
+    if (at != &program) return typed + ": '" + word + "' is none of its commands: " + listed(names) + "." + meant;
+    // Beside commands, the program itself takes presets.
+    if (!near || is_preset(word)) return {};
+    return "'" + word + "' is neither a command nor a preset." + meant;
+  }
+  if (at->get_require_subcommand_min() == 0) return {};
+  return typed + ": one of its commands must follow: " + listed(command_names(*at)) + ".";
+}
+
 }  // namespace
 
 void prepare_process() {
   std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
   // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
   // reading alone, so that what is written to it fails and is told.
   int descriptor = 0;
@@ -50,7 +86,20 @@ void prepare_process() {
   if (descriptor > STDERR_FILENO) ::close(descriptor);
 }
 
-int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error) {
+std::vector<std::string> command_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(each->get_name());
+  return names;
+}
+
+int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words) {
+  if (error.get_exit_code() != 0) {
+    if (const std::string problem = command_problem(program, words); !problem.empty()) {
+      std::cerr << "tyglab: " << problem << '\n';
+      return exit_command_line;
+    }
+  }
   if (program.exit(error) != 0) return exit_command_line;
   return run_action([] { return int(exit_done); });  // which sees that the help has arrived
 }

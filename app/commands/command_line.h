@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace tyglab {
 
@@ -31,10 +33,13 @@ class UsageError : public std::runtime_error {
 using Action = std::function<int()>;
 
 /// Gives streams that were closed (>&-) to nothing, so that no file that is opened later takes their place; makes
-/// writing beyond a limit (ulimit -f) an error that is told instead of the process's end.
+/// writing beyond a limit (ulimit -f) or to nobody (| head) an error that is told instead of the process's end.
 void prepare_process();
-/// Ends the program's parsing: prints help (0) or what is wrong with the command line (2).
-int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error);
+/// Ends the program's parsing: prints help (0) or what is wrong with the command line (2). `words` are those typed
+/// after the program's name: one that should be a command and is none is named, with those that there are.
+int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words);
+/// The names of a command's own commands.
+std::vector<std::string> command_names(const CLI::App& command);
 /// Does the work; an error becomes a sentence on stderr and its exit code.
 int run_action(const Action& action);
 

@@ -21,15 +21,23 @@ std::vector<std::string> shipped_presets() {
   return names;
 }
 
-PresetSource find_preset(const std::string& name_or_file) {
+bool is_preset(const std::string& name_or_file) {
+  const std::vector<std::string> names = shipped_presets();
+  std::error_code error;
+  return std::binary_search(names.begin(), names.end(), name_or_file) || fs::exists(name_or_file, error);
+}
+
+PresetSource find_preset(const std::string& name_or_file, const std::vector<std::string>& commands) {
   const std::vector<std::string> names = shipped_presets();
   if (std::binary_search(names.begin(), names.end(), name_or_file))
     return {data_file("presets/" + name_or_file + ".json"), name_or_file};
   std::error_code error;
   const fs::path file(name_or_file);
   if (fs::exists(file, error)) return {file, file.stem().string()};
-  std::string problem = "'" + name_or_file + "' is neither a shipped preset nor a file.";
-  const std::vector<std::string_view> known(names.begin(), names.end());
+  std::string problem =
+      "'" + name_or_file + "' is neither " + (commands.empty() ? "" : "a command, ") + "a shipped preset nor a file.";
+  std::vector<std::string_view> known(names.begin(), names.end());
+  known.insert(known.end(), commands.begin(), commands.end());
   if (const auto near = nearest(name_or_file, known)) problem += " Did you mean '" + std::string(*near) + "'?";
   throw PresetError(problem + " `tyglab presets` lists the shipped ones.");
 }
@@ -102,9 +110,9 @@ bool PresetArgument::typed() const {
   return !settings.empty() || std::any_of(typed.begin(), typed.end(), [](auto* text) { return !text->empty(); });
 }
 
-ResolvedPreset PresetArgument::resolve(const std::string& fallback) const {
+ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands) const {
   ResolvedPreset resolved;
-  resolved.source = find_preset(preset.empty() ? fallback : preset);
+  resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
   resolved.preset = load_preset(resolved.source.file);
   try {
     resolved.preset = with_parsed_settings(resolved.preset, all_settings());

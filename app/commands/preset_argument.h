@@ -19,8 +19,11 @@ struct PresetSource {
   std::filesystem::path file;
   std::string label;  ///< the shipped name, or the file's name without its extension: what outputs are called after
 };
-/// A shipped name, or else a file. Throws PresetError; an unknown name is answered with the nearest.
-PresetSource find_preset(const std::string& name_or_file);
+/// A shipped name, or else a file. Throws PresetError; an unknown name is answered with the nearest, one of `commands`
+/// if the word might have been meant for one.
+PresetSource find_preset(const std::string& name_or_file, const std::vector<std::string>& commands = {});
+/// Whether there is a shipped preset or a file of that name.
+bool is_preset(const std::string& name_or_file);
 
 /// A preset with the command line's settings.
 struct ResolvedPreset {
@@ -42,8 +45,9 @@ struct PresetArgument {
   /// Adds the argument and its options to a command. It must outlive the parsing.
   void add_to(CLI::App& command, bool required);
   /// Reads the preset (`fallback` where none was typed) and applies the settings: --set
-  /// first, then the options of their own. Throws PresetError for the file, UsageError for a setting.
-  ResolvedPreset resolve(const std::string& fallback = {}) const;
+  /// first, then the options of their own. Throws PresetError for the file, UsageError for a setting. `commands`: words
+  /// that might have been meant in place of the preset.
+  ResolvedPreset resolve(const std::string& fallback = {}, const std::vector<std::string>& commands = {}) const;
   /// Whether anything of the scene was typed.
   bool typed() const;
 

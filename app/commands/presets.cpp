@@ -28,10 +28,10 @@ int show(const std::string& name) {
   return exit_done;
 }
 
-int check(const std::string& file) {
-  const Preset preset = load_preset(file);
+int check(const std::string& name_or_file) {
+  const Preset preset = load_preset(find_preset(name_or_file).file);
   warn_of_missing_texture(preset);
-  std::cout << file << " is a valid preset: " << preset.name << ", "
+  std::cout << name_or_file << " is a valid preset: " << preset.name << ", "
             << (preset.kind == Kind::one_weight
                     ? std::string("one weight")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
@@ -65,7 +65,7 @@ void add_presets_command(CLI::App& program, Action& action) {
   });
 
   CLI::App* check_one = command->add_subcommand("check", "Judge a preset file: every key, type and range");
-  check_one->add_option("FILE", *word, "The file")->required();
+  check_one->add_option("FILE", *word, "A preset file, or a shipped preset's name")->required();
   check_one->footer("Example: tyglab presets check my_denim.json");
   check_one->callback([word, &action] { action = [word] { return check(*word); }; });
 }

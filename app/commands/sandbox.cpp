@@ -34,12 +34,12 @@ bool has_display() {
   return named && glfwInit() == GLFW_TRUE;
 }
 
-int open_sandbox(const Options& options) {
+int open_sandbox(const Options& options, const std::vector<std::string>& commands) {
   if (!options.screenshot.empty() && options.frames == 0)
     throw UsageError("--screenshot: writes the last frame; say with --frames N which one that is");
   if (is_standard_output(options.session_report))
     throw UsageError("--session-report -: the report is rewritten all the time; name a file");
-  const ResolvedPreset scene = options.preset.resolve(default_preset);
+  const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
   const std::vector<Output> outputs = options.outputs();
   check_outputs(outputs, scene.source.file);
   SandboxOptions sandbox;
@@ -76,7 +76,7 @@ void add_sandbox_command(CLI::App& program, Action& action) {
       ->type_name("F.json");
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {
-      action = [options] { return open_sandbox(*options); };
+      action = [options, commands = command_names(program)] { return open_sandbox(*options, commands); };
       return;
     }
     for (const CLI::Option* option : program.get_options())

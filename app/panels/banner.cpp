@@ -24,12 +24,17 @@ void draw_wrapped(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, 
   draw.AddText(&font, font.FontSize, at, color, text.data(), text.data() + text.size(), width);
 }
 
-std::string what_happened(const Divergence& d) {
+/// What it was, and the constants that decided it: they may be others by now.
+std::string what_happened(const Divergence& d, const Preset& then) {
   const char* unit = d.quantity == "velocity" ? "m/s" : "m";
   char text[256];
-  std::snprintf(text, sizeof text, "At t = %.4g s (step %lld), particle (%d, %d): %s = %s %s.", d.t,
-                static_cast<long long>(d.step), d.i, d.j, d.quantity.c_str(), short_number(d.value).c_str(), unit);
-  return text;
+  std::snprintf(text, sizeof text, "At t = %s s (step %lld), particle (%d, %d): %s = %s %s.",
+                time_number(d.t, then.dt).c_str(), static_cast<long long>(d.step), d.i, d.j, d.quantity.c_str(),
+                short_number(d.value).c_str(), unit);
+  const bool cloth = then.kind == Kind::cloth;
+  return std::string(text) + "\nWith " + (cloth ? "k_s = " + short_number(then.k_s) : "k = " + short_number(then.k)) +
+         " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
+         " kg, dt = " + short_number(then.dt) + " s.";
 }
 
 std::string capitalised(std::string text) {
@@ -59,19 +64,31 @@ std::string cure_label(const Preset& now, const Preset& cured) {
   return label + " and restart";
 }
 
-/// What is offered, the most helpful first: to take back what the user did, to do what the linear theory advises.
+/// Why, and what to do about it: the advice holds for the constants that diverged, and goes with them.
+std::string why_and_what_now(const App& app, const Divergence& d) {
+  const char* changed = "Constants have changed since then: restart to see what they do.";
+  return sentence(d.cause) + " " + (changed_since_divergence(app) ? changed : sentence(d.remedy));
+}
+
+/// What is offered, the most helpful first: to take back what the user did, to do what the linear theory advises. Once
+/// constants have changed, to try them.
 std::vector<Way> ways_out(App& app) {
   std::vector<Way> ways;
   if (app.history.can_undo())
     ways.push_back({"Undo last change and restart", "Takes the last change of constants back", "Ctrl+Z, then R",
                     [](App& a) { a.command(Command::undo_and_restart); }});
+  const Way restart{"Restart", "From the start, with the constants as they are", "R",
+                    [](App& a) { a.command(Command::restart); }};
+  if (changed_since_divergence(app)) {
+    ways.insert(ways.begin(), restart);
+    return ways;
+  }
   Advice& advice = app.ui.advice;
   if (advice.of != app.preset()) advice = {app.preset(), cure(app.preset())};
   if (const auto& cured = advice.cure)
     ways.push_back({cure_label(app.preset(), *cured), "Makes the change that the linear theory advises", "",
                     [cured = *cured](App& a) { a.propose(cured), a.command(Command::restart); }});
-  ways.push_back(
-      {"Restart", "From the start, with the constants as they are", "R", [](App& a) { a.command(Command::restart); }});
+  ways.push_back(restart);
   return ways;
 }
 
@@ -107,8 +124,8 @@ void banner(App& app) {
   const float width = std::min(app.theme.px(600), size.x - app.theme.px(32)), padding = app.theme.px(16);
   const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const std::string happened = what_happened(*divergence),
-                    why = sentence(divergence->cause) + " " + sentence(divergence->remedy);
+  const std::string happened = what_happened(*divergence, app.simulation->diverged_preset()),
+                    why = why_and_what_now(app, *divergence);
   const std::vector<Way> ways = ways_out(app);
   const std::vector<ImVec2> places = flow(app, ways, inner);
   const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);

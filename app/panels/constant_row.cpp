@@ -138,7 +138,7 @@ void row_tooltip(App& app, const Line& line) {
                                  "slider to reset. Right-click for more.",
           c.quiet);
   ImGui::PopFont();
-  end_tooltip();
+  end_tooltip(app);
 }
 
 void row_menu(App& app, const Line& line, ImVec2 lo, ImVec2 hi) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "app/panels/constant_row.h"
@@ -74,17 +75,25 @@ std::string label_of(const Scheme& scheme) {
   return scheme.equation.empty() ? title : title + " (" + std::string(scheme.equation) + ")";
 }
 
+/// The line of a method's curves, as a sample beside its name.
+void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle, const Scheme& scheme) {
+  CurveStyle style = integrator_style(theme.colors, scheme.name);
+  style.width = 3;
+  const ImVec2 ends[] = {{left, std::round(middle)}, {left + theme.px(20), std::round(middle)}};
+  draw_styled_line(draw, ends, 2, style, theme.scale);
+}
+
 void integrator_row(App& app) {
   const Tokens& c = app.theme.colors;
   const Scheme& now = scheme(app.preset().integrator);
   const float width = app.ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string label = "      " + label_of(now);
+  const std::string room = "         ", label = room + label_of(now);
   const bool open = begin_combo(app, "##integrator", label.c_str(), width);
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (!open) {
-    draw.AddCircleFilled({lo.x + app.theme.px(15), middle}, app.theme.px(4.5f), integrator_color(c, now.name), 20);
+    draw_sample(app.theme, draw, lo.x + app.theme.px(10), middle, now);
     const std::string order = order_text(now);
     const float x = lo.x + width - app.theme.px(34) - text_width(*app.fonts.small, order);
     if (x > lo.x + text_width(*app.fonts.text, label) + app.theme.px(16))
@@ -93,14 +102,18 @@ void integrator_row(App& app) {
     return;
   }
   for (const Scheme& choice : schemes()) {
-    const std::string name = label_of(choice);
-    if (ImGui::Selectable(name.c_str(), choice.name == now.name) && choice.name != now.name) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const std::string name = room + label_of(choice);
+    const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
+    draw_sample(app.theme, *ImGui::GetWindowDrawList(), at.x + app.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
+                choice);
+    if (chosen && choice.name != now.name) {
       Preset next = app.preset();
       next.integrator = choice.name;
       app.propose(std::move(next));
     }
     report_control(app, choice.name);
-    tooltip(app, ImGui::GetID(name.c_str()), order_text(choice) + ". " + std::string(choice.note));
+    tooltip(app, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
   }
   end_combo();
 }
@@ -219,6 +232,7 @@ void constants_panel(App& app, const Region& region) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   app.ui.row_width = room.x;
   gui::begin_child("rows", {room.x + padding - app.theme.px(3), room.y - below});
+  if (std::exchange(app.ui.constants_to_top, false)) ImGui::SetScrollY(0);
   constants_sections(app);
   view_section(app);
   if (!fixed) particle_panel(app);

@@ -23,11 +23,26 @@ CurveStyle curve_style(const Tokens& c, std::string_view key) {
   return {c.text, LineStyle::solid, 1.2f};
 }
 
-ImU32 integrator_color(const Tokens& c, std::string_view name) {
-  if (name == "verlet") return c.blue;
-  if (name == "improved_euler") return c.green;
-  if (name == "euler") return c.magenta;
-  return c.accent;
+CurveStyle integrator_style(const Tokens& c, std::string_view name) {
+  struct Style {
+    std::string_view name;
+    ImU32 Tokens::*color;
+    LineStyle line;
+  };
+  // Implicit methods are dashed.
+  static constexpr Style styles[] = {{"verlet", &Tokens::blue, LineStyle::solid},
+                                     {"improved_euler", &Tokens::green, LineStyle::solid},
+                                     {"euler", &Tokens::magenta, LineStyle::solid},
+                                     {"semi_implicit_euler", &Tokens::orange, LineStyle::solid},
+                                     {"velocity_verlet", &Tokens::sky, LineStyle::solid},
+                                     {"rk4", &Tokens::yellow, LineStyle::solid},
+                                     {"rkn4", &Tokens::text, LineStyle::solid},
+                                     {"implicit_euler", &Tokens::magenta, LineStyle::dashed},
+                                     {"implicit_midpoint", &Tokens::sky, LineStyle::dashed},
+                                     {"tr_bdf2", &Tokens::green, LineStyle::dashed}};
+  for (const Style& style : styles)
+    if (style.name == name) return {c.*style.color, style.line, 1.8f};
+  return {c.quiet, LineStyle::solid, 1.8f};
 }
 
 std::vector<std::string> force_column_names() {

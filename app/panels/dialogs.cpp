@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "app/commands/preset_argument.h"
 #include "app/data_files.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/symbol.h"
@@ -156,9 +157,10 @@ void open_presets(App& app) {
   ImGui::SameLine();
   if (text_button(app, "Cancel")) return close(app);
   if (!open || dialog.path[0] == 0) return;
-  const fs::path file = path_of(dialog.path);
+  fs::path file;
   try {
-    load_preset(file);  // a wrong file is said here, where another can be chosen
+    file = find_preset(path_of(dialog.path).string()).file;  // shipped ones by name, as on the command line
+    load_preset(file);                                       // a wrong file is said here, where another can be chosen
   } catch (const std::exception& error) {
     dialog.problem = error.what();
     return;

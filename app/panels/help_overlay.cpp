@@ -1,5 +1,6 @@
 // F1: what mouse and keys do.
 #include <algorithm>
+#include <span>
 
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
@@ -43,20 +44,47 @@ constexpr Entry sliders[] = {
     {"Tab, ↑ ↓ · Esc", "next slider · back to the cloth"},
 };
 
-template <std::size_t N>
-void table(App& app, const char* title, const Entry (&entries)[N], float column) {
+/// Text that is wrapped between `left` and `right`, pixels within the window; returns where it ends below.
+float text_between(App& app, const char* text, ImVec2 at, float right, ImU32 color) {
+  ImGui::SetCursorPos(at);
+  ImGui::PushTextWrapPos(right);
+  wrapped(app, text, color);
+  ImGui::PopTextWrapPos();
+  return ImGui::GetCursorPosY();
+}
+
+/// A column of the help: from where to where, and how much of it the keys take.
+struct Column {
+  float left, width, keys;
+};
+
+void table(App& app, const char* title, std::span<const Entry> entries, const Column& column) {
   const Tokens& c = app.theme.colors;
+  const float right = column.left + column.width, does = column.left + column.keys;
   ImGui::PushFont(app.fonts.title);
-  wrapped(app, title, c.text);
+  float y = text_between(app, title, {column.left, ImGui::GetCursorPosY()}, right, c.text);
   ImGui::PopFont();
   for (const Entry& entry : entries) {
-    const float x = ImGui::GetCursorPosX();
-    wrapped(app, entry.keys, c.accent);
-    ImGui::SameLine();
-    ImGui::SetCursorPosX(x + column);
-    wrapped(app, entry.does, c.text);
+    const float keys_end = text_between(app, entry.keys, {column.left, y}, does - app.theme.px(12), c.accent);
+    y = std::max(keys_end, text_between(app, entry.does, {does, y}, right, c.text));
   }
-  ImGui::Dummy({0, app.theme.px(4)});
+  ImGui::SetCursorPos({column.left, y + app.theme.px(8)});
+}
+
+void tables(App& app, float width) {
+  const ImVec2 start = ImGui::GetCursorPos();
+  const float gap = app.theme.px(32);
+  const bool two = width > app.theme.px(640);
+  const float column = two ? (width - gap) / 2 : width, key_width = std::min(app.theme.px(180), 0.42f * column);
+  const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
+  table(app, "In the viewport", mouse, left);
+  table(app, "On sliders", sliders, left);
+  const float half = ImGui::GetCursorPosY();
+  if (two) ImGui::SetCursorPosY(start.y);
+  table(app, "Keys", keys, right);
+  text_between(app, "A slider or text field in use keeps its keys; Esc gives them back.",
+               {right.left, ImGui::GetCursorPosY()}, right.left + column, app.theme.colors.quiet);
+  ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + app.theme.px(4)});
 }
 
 }  // namespace
@@ -65,7 +93,7 @@ void help_overlay(App& app) {
   if (app.ui.dialog.kind != Dialog::Kind::none) app.ui.help = false;
   if (!app.ui.help) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float column = app.theme.px(190), width = std::min(app.theme.px(960), window.x - app.theme.px(32));
+  const float width = std::min(app.theme.px(960), window.x - app.theme.px(32));
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - app.theme.px(32)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
@@ -76,17 +104,7 @@ void help_overlay(App& app) {
   if (ImGui::Begin("help", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    const bool wide = width > app.theme.px(860);
-    const ImVec2 start = ImGui::GetCursorPos();
-    table(app, "In the viewport", mouse, column);
-    table(app, "On sliders", sliders, wide ? column + app.theme.px(60) : column);
-    const float half = ImGui::GetCursorPosY();
-    if (wide) ImGui::SetCursorPos({start.x + (width - 2 * start.x) * 0.56f, start.y});
-    ImGui::BeginGroup();
-    table(app, "Keys", keys, column);
-    wrapped(app, "A slider or text field in use keeps its keys; Esc gives them back.", app.theme.colors.quiet);
-    ImGui::EndGroup();
-    ImGui::SetCursorPosY(std::max(half, ImGui::GetCursorPosY()));
+    tables(app, ImGui::GetContentRegionAvail().x);
     if (text_button(app, "Close", true)) app.ui.help = false;
     const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     cover_viewport(app, lo, {lo.x + size.x, lo.y + size.y});

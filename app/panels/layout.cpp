@@ -61,6 +61,7 @@ void draw_layout(App& app, ImVec2 window) {
   float left = panels && layout.left ? std::round(std::min(layout.left_width * app.theme.scale, most)) : 0;
   float right = panels && layout.right ? std::round(std::min(layout.right_width * app.theme.scale, most)) : 0;
   if (left + right > spare) right = 0;
+  if (left + app.theme.px(140) > window.x) left = 0;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = false;
 

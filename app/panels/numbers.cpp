@@ -53,6 +53,11 @@ std::string steady_number(double value) {
   return print("%.*e", 2, value);
 }
 
+std::string time_number(double t, double dt) {
+  const int decimals = dt > 0 ? std::clamp(int(std::ceil(-std::log10(dt) - 1e-9)), 3, 9) : 3;
+  return print("%.*f", decimals, t);
+}
+
 std::optional<double> typed_number(std::string_view text) {
   std::string plain(text);
   std::replace(plain.begin(), plain.end(), ',', '.');

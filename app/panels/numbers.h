@@ -11,6 +11,8 @@ namespace tyglab {
 std::string short_number(double value);
 /// A read-out that does not dance: always three significant digits, "3.41e-3", "12.0".
 std::string steady_number(double value);
+/// A simulated time, with as many decimals as show a single step of dt (three at least): "0.4213".
+std::string time_number(double t, double dt);
 /// What somebody typed: a comma counts as a decimal point, a unit after it is skipped. None if it is not a number.
 std::optional<double> typed_number(std::string_view text);
 /// Rounded to that many significant digits.

@@ -141,19 +141,34 @@ void pointer(App& app, ImDrawList& draw) {
     }
 }
 
+/// How to go on from a pause: the keys that reach the transport now.
+const char* ways_on(const App& app) {
+  if (app.ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter takes what is typed · Esc leaves it";
+  if (app.ui.slider.focused != 0) return "Space runs · O makes one step · → is the slider's until Esc";
+  return "Space runs · → makes one step";
+}
+
 void paused(App& app, ImDrawList& draw) {
   if (app.pacing.playing || app.simulation->divergence()) return;
-  const ImFont& font = *app.fonts.huge;
+  const Tokens& c = app.theme.colors;
   const char* word = "PAUSED";
-  const float width = text_width(font, word);
   const glm::vec2 lo = app.viewport.box.lo, hi = app.viewport.box.hi;
-  const ImVec2 at{std::round((lo.x + hi.x - width) / 2), lo.y + app.theme.px(52)};
-  draw_text(draw, font, at, faded(app.theme.colors.text, 0.75f), word);
-  const char* how = "Space runs · → makes one step";
-  const ImFont& small = *app.fonts.text;
-  draw_text(draw, small,
-            {std::round((lo.x + hi.x - text_width(small, how)) / 2), at.y + font.FontSize + app.theme.px(4)},
-            app.theme.colors.quiet, how);
+  const float room = hi.x - lo.x - app.theme.px(32);
+  const bool wide = text_width(*app.fonts.huge, word) <= room;
+  const ImFont &font = wide ? *app.fonts.huge : *app.fonts.title, &small = *app.fonts.text;
+  const auto centred = [&](const ImFont& of, const char* text) {
+    return std::round((lo.x + hi.x - text_width(of, text)) / 2);
+  };
+  const float y = lo.y + app.theme.px(52);
+  draw_text(draw, font, {centred(font, word), y}, faded(c.text, 0.75f), word);
+  const char* how = ways_on(app);
+  const float pad = app.theme.px(8), width = text_width(small, how);
+  if (width + 2 * pad > room) return;
+  // On a ground of its own, since a light cloth may hang behind it.
+  const ImVec2 at{centred(small, how), y + font.FontSize + app.theme.px(6)};
+  draw.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + width + pad, at.y + small.FontSize + pad / 2},
+                     faded(c.ground, 0.7f), app.theme.px(6));
+  draw_text(draw, small, at, c.text, how);
 }
 
 }  // namespace

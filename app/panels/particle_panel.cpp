@@ -34,7 +34,12 @@ std::string components(const glm::dvec3& v) {
   return "(" + steady_number(v.x) + ", " + steady_number(v.y) + ", " + steady_number(v.z) + ")";
 }
 
-void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dvec3& value) {
+/// Whether a body's contact, which no formula gives, is missing from what is shown.
+bool lacks_contact(const ParticleReadout* readout, std::string_view key) {
+  return readout != nullptr && readout->on_body && (key == "F" || key == "a");
+}
+
+void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dvec3& value, bool without_contact) {
   if (!tooltip_due(app, id)) return;
   const Tokens& c = app.theme.colors;
   begin_tooltip(app);
@@ -43,8 +48,14 @@ void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dve
   ImGui::PopFont();
   wrapped(app, what.help, c.text);
   wrapped(app, components(value) + " " + std::string(what.unit), c.text);
+  if (without_contact)
+    wrapped(
+        app,
+        "The particle lies on a body. Its contact corrects position and velocity after each step and is no force of "
+        "the model, so it is in neither F nor the acceleration.",
+        c.warning);
   wrapped(app, "equation (" + std::string(what.equation) + ")", c.quiet);
-  end_tooltip();
+  end_tooltip(app);
 }
 
 float line_height(const App& app) {
@@ -63,6 +74,20 @@ Grid grid(const App& app) {
   return {first, std::floor((first + last) / 2), last, first + newton + gap};
 }
 
+/// After the symbol of what lacks the contact: refers to the note beside F.
+void contact_mark(App& app, ImVec2 symbol_at, std::string_view symbol) {
+  const float x = symbol_at.x + symbol_width(app.fonts, symbol) + app.theme.px(3);
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.text, {x, symbol_at.y}, app.theme.colors.warning, "*");
+}
+
+void contact_note(App& app, ImVec2 at) {
+  const float baseline = baseline_at(app.fonts, std::round(at.y + line_height(app) / 2));
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_on_baseline(draw, *app.fonts.text, {at.x, baseline}, app.theme.colors.warning, "*");
+  draw_on_baseline(draw, *app.fonts.small, {at.x + app.theme.px(10), baseline}, app.theme.colors.quiet,
+                   "without the body's contact");
+}
+
 constexpr float sample_length = 20, symbol_at = 26;  // at scale 1
 
 /// Symbol with the sample of its curve, magnitude, unit. The number ends `end` after the cell's left edge.
@@ -75,12 +100,14 @@ void force_cell(App& app, std::string_view key, const ParticleReadout* readout, 
   ImGui::PushID(key.data(), key.data() + key.size());
   ImGui::InvisibleButton("variable", {width, height});
   const glm::dvec3 value = readout != nullptr ? value_of(*readout, key) : glm::dvec3(0);
-  variable_tooltip(app, gui::item_id(), what, value);
+  variable_tooltip(app, gui::item_id(), what, value, lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(sample_length), middle}};
   draw_styled_line(draw, sample, 2, curve_style(c, key), app.theme.scale);
-  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)}, what.symbol, c.text);
+  const ImVec2 symbol{lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)};
+  draw_symbol(draw, app.fonts, symbol, what.symbol, c.text);
+  if (lacks_contact(readout, key)) contact_mark(app, symbol, what.symbol);
   const std::string text = readout != nullptr ? steady_number(glm::length(value)) : "–";
   const ImFont& mono = *app.fonts.mono;
   const float baseline = baseline_at(app.fonts, middle);
@@ -97,10 +124,12 @@ void motion_line(App& app, std::string_view key, const ParticleReadout* readout)
   ImGui::PushID(key.data(), key.data() + key.size());
   ImGui::InvisibleButton("variable", {width, height});
   const glm::dvec3 value = readout != nullptr ? value_of(*readout, key) : glm::dvec3(0);
-  variable_tooltip(app, gui::item_id(), what, value);
+  variable_tooltip(app, gui::item_id(), what, value, lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_symbol(draw, app.fonts, {lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)}, what.symbol, c.text);
+  const ImVec2 symbol{lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)};
+  draw_symbol(draw, app.fonts, symbol, what.symbol, c.text);
+  if (lacks_contact(readout, key)) contact_mark(app, symbol, what.symbol);
   const ImFont& mono = *app.fonts.mono;
   const float baseline = baseline_at(app.fonts, middle);
   const Grid columns = grid(app);
@@ -151,6 +180,8 @@ void particle_panel(App& app) {
       ImGui::SameLine(0, 0), ImGui::SetCursorScreenPos({lo.x + columns.second_start, ImGui::GetCursorScreenPos().y});
     force_cell(app, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end);
   }
+  // F stands alone on the last line of the forces.
+  if (lacks_contact(shown, "F")) contact_note(app, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});
   for (std::string_view key : motion) motion_line(app, key, shown);
 }
 

@@ -72,11 +72,9 @@ void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const 
   for (const PlotCurve& curve : curves)
     if (axes.y.drawable(curve.y[n]))
       draw.AddCircleFilled({at, axes.py(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
-  begin_tooltip(app);
+  begin_tooltip_at_pointer(app);
   ImGui::PushFont(app.fonts.mono);
-  char time[48];
-  std::snprintf(time, sizeof time, "t = %.4g s", x[n]);
-  wrapped(app, time, c.quiet);
+  wrapped(app, "t = " + time_number(x[n], app.preset().dt) + " s", c.quiet);
   ImDrawList& tip = *ImGui::GetWindowDrawList();
   for (const PlotCurve& curve : curves) {
     const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -89,7 +87,7 @@ void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const 
     ImGui::Dummy({app.theme.px(84) + text_width(*app.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
   }
   ImGui::PopFont();
-  end_tooltip();
+  end_tooltip(app);
 }
 
 }  // namespace
@@ -107,7 +105,7 @@ PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) 
 float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + size.x, lo.y + size.y};
   ImGui::InvisibleButton(id, size);
-  const bool hovered = ImGui::IsItemHovered();
+  const bool hovered = ImGui::IsItemHovered() && !app.ui.help;
   const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
   const PlotRange range = plot_range(curves, frame);
   const std::vector<PlotTick> ticks = labelled(range.ticks);

@@ -170,9 +170,7 @@ void height_card(App& app, float height) {
   const char* note = "Its colour is the integrator's, as in figure 3.2.";
   draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {inner.at.x, inner.at.y + app.theme.px(3)},
             app.theme.colors.quiet, note);
-  const PlotCurve curve{"y",
-                        {integrator_color(app.theme.colors, app.preset().integrator), LineStyle::solid, 1.8f},
-                        plots.height.t(),
+  const PlotCurve curve{"y", integrator_style(app.theme.colors, app.preset().integrator), plots.height.t(),
                         plots.height.column(0)};
   const float head = side + app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});

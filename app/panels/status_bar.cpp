@@ -43,13 +43,15 @@ void status_bar(App& app, const Region& region) {
     if (app.view.every > 1)
       n += std::snprintf(facts + n, sizeof facts - std::size_t(n), ", one in %d × %d drawn", app.view.every,
                          app.view.every);
-    if (torn > 0) n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d springs torn", torn);
+    if (torn > 0)
+      n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d spring%s torn", torn, torn == 1 ? "" : "s");
     if (app.asleep()) std::snprintf(facts + n, sizeof facts - std::size_t(n), " · at rest: asleep until touched");
   } else {
     std::snprintf(facts, sizeof facts, "one weight");
   }
-  const float facts_x = region.at.x + region.size.x - margin - text_width(font, facts);
-  draw_text(draw, font, {facts_x, y}, c.quiet, facts);
+  const std::string shown = fitted(font, facts, region.size.x - 2 * margin);
+  const float facts_x = region.at.x + region.size.x - margin - text_width(font, shown);
+  draw_text(draw, font, {facts_x, y}, c.quiet, shown);
   const ImVec2 at{region.at.x + margin, y};
   const float end = facts_x - app.theme.px(16);
   if (app.preset().kind == Kind::cloth) {

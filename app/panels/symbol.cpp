@@ -61,4 +61,14 @@ void draw_symbol(ImDrawList& draw, const Fonts& fonts, ImVec2 at, std::string_vi
     draw.AddCircleFilled({middle + (float(k) - float(parts.dots - 1) / 2) * apart, height}, radius, color, 12);
 }
 
+std::string fitted(const ImFont& font, const std::string& text, float width) {
+  if (text_width(font, text) <= width) return text;
+  std::string part = text;
+  while (!part.empty() && text_width(font, part + "…") > width) {
+    while (part.size() > 1 && (part.back() & 0xC0) == 0x80) part.pop_back();  // a character is taken away whole
+    part.pop_back();
+  }
+  return part + "…";
+}
+
 }  // namespace tyglab

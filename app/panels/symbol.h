@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <string>
 #include <string_view>
 
 #include "app/panels/fonts.h"
@@ -30,5 +31,7 @@ void draw_text(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, std
 /// Text whose left end stands on the baseline at `at`, rounded to whole pixels: fonts of all kinds and sizes line up.
 void draw_on_baseline(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, std::string_view text);
 float text_width(const ImFont& font, std::string_view text);
+/// The text, or as much of its beginning as fits into the width with … after it.
+std::string fitted(const ImFont& font, const std::string& text, float width);
 
 }  // namespace tyglab

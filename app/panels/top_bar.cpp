@@ -30,8 +30,8 @@ void document_menu(App& app) {
   item("Redo", "Ctrl+Shift+Z", Command::redo, app.history.can_redo());
   ImGui::Separator();
   item("Restart the motion", "R", Command::restart);
-  item("Reset all constants to the preset", nullptr, Command::reset_constants, unsaved(app));
-  item("Reset everything", nullptr, Command::reset_everything);
+  item("Reset all constants to the preset", "Ctrl+R", Command::reset_constants, unsaved(app));
+  item("Reset everything", "Ctrl+Shift+R", Command::reset_everything);
   ImGui::Separator();
   item("Larger text", "Ctrl++", Command::larger_text);
   item("Smaller text", "Ctrl+-", Command::smaller_text);
@@ -54,9 +54,9 @@ void document_menu(App& app) {
 float document_name(App& app, float x, float width) {
   const Tokens& c = app.theme.colors;
   const float height = app.theme.px(32), y = bar_middle(app, height);
-  const std::string& name = app.preset().name;
   const float dot = unsaved(app) ? app.theme.px(18) : 0, padding = app.theme.px(10), arrow = app.theme.px(18);
-  const float text = std::min(text_width(*app.fonts.text, name), width - dot - 2 * padding - arrow);
+  const std::string name = fitted(*app.fonts.text, app.preset().name, width - dot - 2 * padding - arrow);
+  const float text = text_width(*app.fonts.text, name);
   ImGui::SetCursorScreenPos({x, y});
   const float whole = text + dot + 2 * padding + arrow;
   if (ImGui::InvisibleButton("name", {whole, height})) ImGui::OpenPopup("document");
@@ -67,9 +67,7 @@ float document_name(App& app, float x, float width) {
           app.preset().name + (unsaved(app) ? ": changes have not been saved" : "") + "\n" + app.preset().description,
           "Open Ctrl+O · save Ctrl+S");
   const ImVec2 at{x + padding, std::round(y + (height - app.fonts.text->FontSize) / 2)};
-  draw.PushClipRect({x, y}, {at.x + text + 1, y + height}, true);
   draw_text(draw, *app.fonts.text, at, c.text, name);
-  draw.PopClipRect();
   const float middle = y + height / 2;
   if (dot > 0) draw.AddCircleFilled({at.x + text + app.theme.px(10), middle}, app.theme.px(3.5f), c.warning, 16);
   const float tip = at.x + text + dot + app.theme.px(10), r = app.theme.px(3.5f);
@@ -89,17 +87,20 @@ float transport(App& app, float x) {
                   "Space", playing))
     app.command(Command::toggle_play);
   ImGui::SameLine(0, gap);
-  if (icon_button(app, "step", icon::step, "Step", "One step of dt, then pause", "→ or O")) app.command(Command::step);
+  if (icon_button(app, "step", icon::step, "Step", "One step of dt, then pause",
+                  app.ui.slider.focused != 0 ? "O (→ is the slider's until Esc)" : "→ or O"))
+    app.command(Command::step);
   return ImGui::GetItemRectMax().x;
 }
 
-/// A quiet label with a number after it; hidden where the bar has no room. Returns where it ends.
+/// A quiet label with a number after it. Returns where the next one begins; where the bar has no room for this one it
+/// is left out, and so are all after it: they stand in the order of their use.
 float reading(App& app, float x, float end, const char* label, const std::string& value, const char* widest,
               ImU32 color, const char* tip) {
   const ImFont &small = *app.fonts.small, &mono = *app.fonts.mono;
   const float label_width = *label != 0 ? text_width(small, label) + app.theme.px(8) : 0;
   const float width = label_width + std::max(text_width(mono, widest), text_width(mono, value));
-  if (x + width > end) return x;
+  if (x + width > end) return end;
   const float height = app.theme.px(32), y = bar_middle(app, height);
   ImGui::SetCursorScreenPos({x, y});
   ImGui::PushID(tip);
@@ -116,7 +117,7 @@ float reading(App& app, float x, float end, const char* label, const std::string
 float speed_combo(App& app, float x, float end) {
   static constexpr double speeds[] = {0.01, 0.03, 0.1, 0.25, 0.5, 1, 2};
   const float width = app.theme.px(72), height = app.theme.px(26);
-  if (x + width > end) return x;
+  if (x + width > end) return end;
   ImGui::SetCursorScreenPos({x, bar_middle(app, height)});
   char shown[32];
   std::snprintf(shown, sizeof shown, "%s ×", short_number(app.pacing.speed).c_str());
@@ -136,8 +137,8 @@ float speed_combo(App& app, float x, float end) {
 void readings(App& app, float x, float end) {
   const Tokens& c = app.theme.colors;
   char text[64];
-  std::snprintf(text, sizeof text, "t = %.3f s", app.simulation->time());
-  x = reading(app, x, end, "", text, "t = 00.000 s", c.text, "Simulated time");
+  const auto time = [&](double t) { return "t = " + time_number(t, app.preset().dt) + " s"; };
+  x = reading(app, x, end, "", time(app.simulation->time()), time(10).c_str(), c.text, "Simulated time");
   x = speed_combo(app, x, end);
   const double part = app.pacing.speed > 0 ? app.pacing.reached() / app.pacing.speed : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * app.pacing.reached());
@@ -179,6 +180,15 @@ void engine_combo(App& app, float width) {
   end_combo();
 }
 
+void window_buttons(App& app, float x) {
+  ImGui::SetCursorScreenPos({x, bar_middle(app, app.theme.px(32))});
+  if (icon_button(app, "screen", app.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"))
+    app.command(Command::full_screen);
+  ImGui::SameLine(0, app.theme.px(6));
+  if (icon_button(app, "help", icon::help, "Help", "Mouse and keys", "F1", app.ui.help))
+    app.command(Command::toggle_help);
+}
+
 }  // namespace
 
 void top_bar(App& app, const Region& region) {
@@ -187,13 +197,23 @@ void top_bar(App& app, const Region& region) {
   const float margin = app.theme.px(16), button = app.theme.px(32), gap = app.theme.px(6), combo = app.theme.px(124);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImFont& brand = *app.fonts.brand;
-  draw_text(draw, brand, {margin, bar_middle(app, brand.FontSize)}, c.text, "Tyglab");
-  float x = margin + text_width(brand, "Tyglab") + app.theme.px(14);
-  x = document_name(app, x, std::min(app.theme.px(240), region.size.x * 0.2f)) + app.theme.px(16);
+  // In a narrow window, or with large text, the transport keeps its place to the last.
+  float room = region.size.x - 2 * margin - 3 * button - 2 * gap - 2 * app.theme.px(18);
+  const float least_name = app.theme.px(72), buttons = 2 * button + gap;
+  const bool with_buttons = room > buttons + least_name, with_name = room > least_name;
+  if (with_buttons) room -= buttons;
+  const float title = text_width(brand, "Tyglab") + app.theme.px(14);
+  float x = margin;
+  if (room > title + least_name) {
+    draw_text(draw, brand, {x, bar_middle(app, brand.FontSize)}, c.text, "Tyglab");
+    x += title, room -= title;
+  }
+  const float name_width = std::min({app.theme.px(240), std::max(region.size.x * 0.2f, least_name), room});
+  if (with_name) x = document_name(app, x, name_width) + app.theme.px(16);
   // Over the viewport's left edge where there is room, as if it belonged to it.
   const float left = app.settings.layout.left && app.ui.panels ? app.ui.viewport_left + app.theme.px(12) : x;
   x = transport(app, left > x && left < region.size.x * 0.4f ? left : x) + app.theme.px(18);
-  const float right = region.size.x - margin - 2 * button - gap;
+  const float right = region.size.x - margin - (with_buttons ? buttons : 0);
   const float engine = right - app.theme.px(16) - combo;
   const bool room_for_engine = engine > x + app.theme.px(120);
   readings(app, x, (room_for_engine ? engine : right) - app.theme.px(12));
@@ -201,12 +221,7 @@ void top_bar(App& app, const Region& region) {
     ImGui::SetCursorScreenPos({engine, bar_middle(app, app.theme.px(26))});
     engine_combo(app, combo);
   }
-  ImGui::SetCursorScreenPos({right, bar_middle(app, button)});
-  if (icon_button(app, "screen", app.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"))
-    app.command(Command::full_screen);
-  ImGui::SameLine(0, gap);
-  if (icon_button(app, "help", icon::help, "Help", "Mouse and keys", "F1", app.ui.help))
-    app.command(Command::toggle_help);
+  if (with_buttons) window_buttons(app, right);
   end_region();
 }
 

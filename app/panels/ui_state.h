@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -92,9 +93,11 @@ struct Ui {
   unsigned hovered = 0;    ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
-  bool close_lists = false;  ///< Esc was pressed: open menus and combo boxes close in this frame
-  float viewport_left = 0;   ///< pixels
-  float row_width = 0;       ///< of the constants, pixels
+  glm::vec2 tooltip_size{0};      ///< of the last tooltip, pixels
+  bool close_lists = false;       ///< Esc was pressed: open menus and combo boxes close in this frame
+  bool constants_to_top = false;  ///< another preset was taken: its constants are shown from the first one on
+  float viewport_left = 0;        ///< pixels
+  float row_width = 0;            ///< of the constants, pixels
 };
 
 }  // namespace tyglab

@@ -26,10 +26,31 @@ bool list_opened(App& app) {
   return true;
 }
 
+/// Where the next tooltip goes, so that what it explains stays in sight: beside the panel or list of which the last
+/// item takes up the width, else under the item, or above it where there is no room.
+void place_tooltip(const App& app) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize, lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+  const ImGuiWindow& panel = *ImGui::GetCurrentWindowRead()->RootWindow;
+  const float gap = app.theme.px(8), left = panel.Pos.x, right = left + panel.Size.x;
+  const glm::vec2 size = app.ui.tooltip_size;
+  const bool row = hi.x - lo.x > 0.4f * panel.Size.x;
+  ImVec2 at{lo.x, hi.y + gap / 2};
+  if (row && right + gap + size.x <= window.x) {
+    at = {right + gap, lo.y};
+  } else if (row && left - gap - size.x >= 0) {
+    at = {left - gap - size.x, lo.y};
+  } else if (at.y + size.y > window.y) {
+    at.y = lo.y - gap / 2 - size.y;
+  }
+  const auto inside = [gap](float x, float most) { return std::max(std::min(x, most - gap), std::min(gap, x)); };
+  ImGui::SetNextWindowPos({inside(at.x, window.x - size.x), inside(at.y, window.y - size.y)});
+}
+
 }  // namespace
 
 bool tooltip_due(App& app, ImGuiID id) {
-  if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) || app.ui.slider.typing != 0) return false;
+  if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) || app.ui.slider.typing != 0 || app.ui.help)
+    return false;
   app.ui.hover_seen = true;
   if (app.ui.hovered != id) {
     app.ui.hovered = id;
@@ -41,14 +62,22 @@ bool tooltip_due(App& app, ImGuiID id) {
 }
 
 void begin_tooltip(App& app) {
+  place_tooltip(app);
+  begin_tooltip_at_pointer(app);
+}
+
+void begin_tooltip_at_pointer(App& app) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(12), app.theme.px(10)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(6), app.theme.px(4)));
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(app.theme.px(340));
+  // Dear ImGui hides it in the frame in which it measures it.
+  if (ImGui::IsWindowAppearing()) app.ui.draw_by = app.ui.now;
+  ImGui::PushTextWrapPos(std::min(app.theme.px(340), ImGui::GetIO().DisplaySize.x - app.theme.px(48)));
 }
 
-void end_tooltip() {
+void end_tooltip(App& app) {
   ImGui::PopTextWrapPos();
+  app.ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
   ImGui::EndTooltip();
   ImGui::PopStyleVar(2);
 }
@@ -68,7 +97,7 @@ void tooltip(App& app, ImGuiID id, std::string_view text, std::string_view keys)
     wrapped(app, keys, app.theme.colors.quiet);
     ImGui::PopFont();
   }
-  end_tooltip();
+  end_tooltip(app);
 }
 
 bool icon_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip,
@@ -123,10 +152,10 @@ bool text_button(App& app, const char* label, bool strong, bool enabled) {
   return pressed;
 }
 
-int segments(App& app, const char* id, const char* const* labels, int count, int chosen) {
+int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float padding_at_1) {
   const Tokens& c = app.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float height = app.theme.px(26), padding = app.theme.px(11), round = app.theme.px(5);
+  const float height = app.theme.px(26), padding = app.theme.px(padding_at_1), round = app.theme.px(5);
   int clicked = -1;
   ImGui::PushID(id);
   const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;

@@ -15,9 +15,11 @@ bool tooltip_due(App& app, ImGuiID id);
 /// A line of text as the tooltip of the last item; the keys that do the same stand after it, quietly.
 void tooltip(App& app, ImGuiID id, std::string_view text, std::string_view keys = {});
 
-/// Begins and ends a tooltip of the house's width and look.
+/// Begins and ends a tooltip of the house's width and look, beside the last item or, where one reads off values under
+/// the pointer, at the pointer.
 void begin_tooltip(App& app);
-void end_tooltip();
+void begin_tooltip_at_pointer(App& app);
+void end_tooltip(App& app);
 void wrapped(App& app, std::string_view text, ImU32 color);
 
 /// A square button with an icon (or a word where the icon font is missing).
@@ -28,8 +30,9 @@ bool text_button(App& app, const char* label, bool strong = false, bool enabled 
 /// A quiet button without a ground: an icon that shows itself under the pointer.
 bool quiet_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip);
 
-/// Choices in a row of which one is taken. Returns the index clicked, or -1.
-int segments(App& app, const char* id, const char* const* labels, int count, int chosen);
+/// Choices in a row of which one is taken, with so much room (at scale 1) on either side of each. Returns the index
+/// clicked, or -1.
+int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float padding = 11);
 /// A check box of the house's look. Returns whether it was clicked.
 bool check(App& app, const char* label, bool value);
 

@@ -34,6 +34,7 @@ void begin(App& app) {
   app.tool = Tool{};
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();
   app.ui.slider = SliderState{};
+  app.ui.constants_to_top = true;
   app.pacing.forget_cost(), app.pacing.restart_measure();
   app.wants_framing = true;
 }

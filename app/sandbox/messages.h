@@ -16,8 +16,11 @@ struct Message {
   double born;  ///< s, the window's clock; negative until first shown
 };
 
+/// At most three, so that they leave the cloth in sight: a further one takes the oldest's place.
 class Messages {
  public:
+  static constexpr std::size_t most = 3;
+
   void note(std::string text) { add(Message::Severity::note, std::move(text)); }
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }
@@ -43,7 +46,7 @@ class Messages {
     if (severity != Message::Severity::note) std::fprintf(stderr, "tyglab: %s\n", text.c_str());
     std::erase_if(list_, [&](const Message& m) { return m.text == text; });
     list_.push_back({severity, std::move(text), -1});
-    if (list_.size() > 4) list_.erase(list_.begin());
+    if (list_.size() > most) list_.erase(list_.begin());
   }
   std::vector<Message> list_;
 };

@@ -12,7 +12,8 @@
 namespace tyglab {
 namespace {
 
-constexpr float click_slack = 4;  // pixels at scale 1
+constexpr float click_slack = 4;         // pixels at scale 1
+constexpr float double_click_slack = 8;  // between the two presses of a double click
 
 using ToolKind = Tool::Kind;
 
@@ -58,6 +59,14 @@ void start_left(App& app, glm::vec2 at) {
   }
 }
 
+/// Whether a right press comes soon and near enough after a click on a particle to be the second half of a double
+/// click.
+bool follows_click(const App& app, const PointerEvent& event, glm::vec2 at) {
+  const Tool& tool = app.tool;
+  return tool.last_site && event.time - tool.last_click < app.input.double_click_s &&
+         glm::length(at - tool.last_press) <= app.theme.px(double_click_slack);
+}
+
 void start(App& app, const PointerEvent& event, glm::vec2 at) {
   Tool& tool = app.tool;
   tool.button = event.button;
@@ -70,7 +79,9 @@ void start(App& app, const PointerEvent& event, glm::vec2 at) {
     start_left(app, at);
   } else if (event.button == GLFW_MOUSE_BUTTON_RIGHT) {
     tool.kind = ToolKind::right;
-    tool.site = nearest_site(app, at, false);
+    tool.second_press = follows_click(app, event, at);
+    // A swinging cloth has carried the particle away by now: the one that was clicked first is meant.
+    tool.site = tool.second_press ? tool.last_site : nearest_site(app, at, false);
   }
 }
 
@@ -88,17 +99,16 @@ void start_grab(App& app) {
 
 void pick_or_pin(App& app, const PointerEvent& event) {
   Tool& tool = app.tool;
-  const bool twice =
-      tool.site && tool.last_site == tool.site && event.time - tool.last_click < app.input.double_click_s;
-  if (twice) {
+  if (tool.second_press && tool.site) {
     const auto [i, j] = *tool.site;
     apply_edit(app, edit::Pin{i, j, !app.simulation->pinned(i, j)});
-    tool.last_click = -1;
+    tool.last_site.reset();
     return;
   }
   if (app.picked != tool.site && app.ui.plots.source == Source::particle) app.ui.plots.forces.clear();
   app.picked = tool.site;
   tool.last_click = event.time;
+  tool.last_press = tool.press;
   tool.last_site = tool.site;
 }
 

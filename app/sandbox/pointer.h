@@ -44,9 +44,11 @@ struct Tool {
   glm::dvec3 body_plane{0}, body_offset{0};
   std::optional<Pins::Site> site;  ///< under the right press
   glm::dvec3 hand{0};              ///< where the hand should go, m
-  // For double clicks of the right button.
+  // For double clicks of the right button: the click before, as it was pressed and when it was let go.
   double last_click = -1;
+  glm::vec2 last_press{0};
   std::optional<Pins::Site> last_site;
+  bool second_press = false;  ///< this right press follows that click
 };
 
 /// Handles the frame's pointer events and what a held tool does every frame.

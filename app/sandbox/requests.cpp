@@ -9,6 +9,7 @@
 #include "app/panels/dialogs.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
+#include "core/cloth/start.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -25,6 +26,8 @@ double particles(const Preset& preset) {
 void follow_up(App& app, const Preset& before) {
   const Preset& now = app.preset();
   const Lattice& lattice = app.simulation->lattice();
+  // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
+  if (app.picked && before.L != now.L) app.picked = site_in_resolution(*app.picked, before, now);
   if (app.picked && !lattice.contains(app.picked->i, app.picked->j)) app.picked.reset();
   if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
     app.tool.site.reset(), app.tool.last_site.reset();
@@ -33,6 +36,16 @@ void follow_up(App& app, const Preset& before) {
   }
   if (before.bodies.size() != now.bodies.size() && app.tool.kind == Tool::Kind::body) app.tool.kind = Tool::Kind::none;
   app.pacing.forget_cost();
+}
+
+/// A particle that was pinned and freed again leaves a list of pins; where it says what the document says by a name, or
+/// by a list in another order, it is put as the document puts it.
+void spell_pins_as_saved(App& app) {
+  const Preset& saved = app.document.saved;
+  if (app.preset().pins == saved.pins || !same_pins(app.preset(), saved)) return;
+  Preset next = app.preset();
+  next.pins = saved.pins;
+  app.simulation->apply(edit::Change{next});
 }
 
 /// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
@@ -209,6 +222,14 @@ bool unsaved(const App& app) {
   return !(saved == app.preset());
 }
 
+bool changed_since_divergence(const App& app) {
+  if (!app.simulation->divergence()) return false;
+  Preset then = app.simulation->diverged_preset();
+  const Preset& now = app.preset();
+  then.mode = now.mode, then.texture = now.texture, then.name = now.name, then.description = now.description;
+  return then != now;
+}
+
 bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
   try {
     if (const auto* change = std::get_if<edit::Change>(&edit))
@@ -216,6 +237,7 @@ bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
     if (!take_texture(app, edit)) return false;
     const Preset before = app.preset();
     app.simulation->apply(edit);
+    if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
     if (before == app.preset()) return true;
     Preset same_view = before;
     same_view.mode = app.preset().mode;

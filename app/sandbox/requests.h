@@ -77,5 +77,7 @@ void apply_requests(App& app);
 bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
 /// Whether the present constants differ from those of the file (the view apart).
 bool unsaved(const App& app);
+/// Whether the motion has diverged, and constants of it (not its name or picture) have been changed since.
+bool changed_since_divergence(const App& app);
 
 }  // namespace tyglab

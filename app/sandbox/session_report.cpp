@@ -91,8 +91,9 @@ Json held(const App& app) {
 Json divergence(const App& app) {
   const auto& d = app.simulation->divergence();
   if (!d) return nullptr;
-  return {{"t", d->t},         {"step", d->step},   {"i", d->i},          {"j", d->j}, {"quantity", d->quantity},
-          {"value", d->value}, {"cause", d->cause}, {"remedy", d->remedy}};
+  return {{"t", d->t},         {"step", d->step},         {"i", d->i},
+          {"j", d->j},         {"quantity", d->quantity}, {"value", d->value},
+          {"cause", d->cause}, {"remedy", d->remedy},     {"constants_changed", changed_since_divergence(app)}};
 }
 
 int pinned_count(const App& app) {

@@ -86,6 +86,11 @@ std::vector<std::uint8_t> pinned_particles(const Preset& p) {
   return mask;
 }
 
+bool same_pins(const Preset& a, const Preset& b) {
+  if (a.kind != b.kind || lattice_of(a) != lattice_of(b)) return false;
+  return a.pins == b.pins || pinned_particles(a) == pinned_particles(b);
+}
+
 std::vector<int> particles_in(const std::vector<std::uint8_t>& mask) {
   std::vector<int> list;
   for (std::size_t p = 0; p < mask.size(); ++p)

@@ -16,6 +16,8 @@ Lattice lattice_of(const Preset& preset);
 State start_state(const Preset& preset);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);
+/// Whether both pin the same particles of the same lattice, by a name or by a list.
+bool same_pins(const Preset& a, const Preset& b);
 /// Numbers of the particles that are set in such a mask, rising.
 std::vector<int> particles_in(const std::vector<std::uint8_t>& mask);
 

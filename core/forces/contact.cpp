@@ -69,6 +69,15 @@ double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon) 
   return 8 * epsilon * largest;
 }
 
+bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
+                     const glm::dvec3& a) {
+  const glm::dvec3 free_x = x + dt * (v + dt * a);
+  return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    // What rounding leaves between a resting particle and the body is no distance.
+    return depth(body, free_x) > -contact_tolerance(body, free_x, epsilon);
+  });
+}
+
 bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& p) {
   for (int pass = 0; pass < passes; ++pass) {
     bool touched = false;

@@ -20,6 +20,11 @@ double depth(const Body& body, const glm::dvec3& x);
 /// 8 units in the last place of the largest of |x|, |c|, r: what rounding can leave. `epsilon` is the state's.
 double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
 
+/// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt: then the
+/// body bears on it, with a force that no formula gives, since collide() corrects positions and velocities.
+bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
+                     const glm::dvec3& a);
+
 /// Corrects x and v of a passage for all bodies, in list order and repeatedly. Returns whether x is outside all of them
 /// afterwards (overlapping bodies can leave it inside one).
 bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& passage);

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "core/notation/json_fault.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -67,9 +68,12 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     key_ = std::move(v);
     return true;
   }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
-    fail(error.what());
-    error_ = plain(error_);
+  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
+    const auto fault = find_json_fault(text_);
+    if (!fault) return fail("cannot be read as JSON");
+    const std::string_view before = text_.substr(0, fault->at);
+    error_line_ = 1 + int(std::count(before.begin(), before.end(), '\n'));
+    error_ = (fault->end ? "" : "column " + std::to_string(column_after(before)) + ": ") + fault->why;
     return false;
   }
   const std::string& error() const { return error_; }
@@ -89,16 +93,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     }
     return lines_;
   }
-  /// What a person can use of "[json.exception.parse_error.101] parse error at line 3, column 5: …". The line is told
-  /// already; the column counts only if it is one of that line, and not of the file's end further down.
-  std::string plain(std::string what) const {
-    if (const auto bracket = what.find("] "); bracket != std::string::npos) what.erase(0, bracket + 2);
-    constexpr std::string_view place = "parse error at line ";
-    const auto rest = what.find(": ");
-    if (!what.starts_with(place) || rest == std::string::npos) return what;
-    const std::string here = std::string(place) + std::to_string(error_line_) + ", column ";
-    const bool same_line = what.starts_with(here);
-    return what.substr(same_line ? here.size() - std::string_view("column ").size() : rest + 2);
+  /// Column of the character that follows, the first is 1; a character may take several bytes.
+  static int column_after(std::string_view before) {
+    before.remove_prefix(before.rfind('\n') + 1);  // npos + 1 is 0
+    return 1 + int(std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xC0) != 0x80; }));
   }
   bool fail(std::string why) {
     error_ = std::move(why);

@@ -54,6 +54,8 @@ std::string check_preset(const Preset& preset);
 
 /// Multiplies R-1 and C-1 by q and keeps size, mass and stretch behaviour of the cloth (docs/model.md, Resolution).
 Preset with_resolution(const Preset& preset, double q);
+/// Of two resolutions of one cloth: the particle in `to` nearest to where `site` lies in `from`.
+Pins::Site site_in_resolution(Pins::Site site, const Preset& from, const Preset& to);
 
 std::string_view name_of(Kind);
 std::string_view name_of(Pins::Mode);

@@ -19,14 +19,20 @@ Preset with_resolution(const Preset& preset, double q) {
   fine.W = preset.W / (taken * taken);
   fine.dt = preset.dt / taken;
   fine.m = preset.m * (double(preset.rows) * preset.columns) / (double(fine.rows) * fine.columns);
-  const double across = preset.columns > 1 ? double(fine.columns - 1) / (preset.columns - 1) : 1;
   fine.pins.list.clear();
-  for (const auto [i, j] : preset.pins.list) {
-    const Pins::Site site{int(std::llround(i * taken)), int(std::llround(j * across))};
+  for (const Pins::Site& pin : preset.pins.list) {
+    const Pins::Site site = site_in_resolution(pin, preset, fine);
     if (std::find(fine.pins.list.begin(), fine.pins.list.end(), site) == fine.pins.list.end())
       fine.pins.list.push_back(site);
   }
   return fine;
+}
+
+Pins::Site site_in_resolution(Pins::Site site, const Preset& from, const Preset& to) {
+  const auto moved = [](int index, int count, int new_count) {
+    return count > 1 ? int(std::llround(index * (double(new_count - 1) / (count - 1)))) : 0;
+  };
+  return {moved(site.i, from.rows, to.rows), moved(site.j, from.columns, to.columns)};
 }
 
 }  // namespace tyglab

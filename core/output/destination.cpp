@@ -1,5 +1,8 @@
 #include "core/output/destination.h"
 
+#include <poll.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +20,23 @@ std::string output_name(const std::filesystem::path& file) {
   return is_standard_output(file) ? "standard output" : file.string();
 }
 
+namespace {
+
+/// Whether the pipe that standard output is has lost its reader.
+bool reader_is_gone() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
+std::string lost_output(const std::filesystem::path& file, int error) {
+  if (error == EPIPE || (error == 0 && is_standard_output(file) && reader_is_gone()))
+    return output_name(file) + ": nobody reads it any longer, so what was still to come is lost";
+  const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : std::string();
+  return output_name(file) + ": cannot be written" + why + "; send it elsewhere, or make room";
+}
+
 void write_output(const std::filesystem::path& file, std::string_view bytes) {
   if (!is_standard_output(file)) return write_atomically(file, bytes);
   std::cout.write(bytes.data(), std::streamsize(bytes.size()));
@@ -29,8 +49,7 @@ void flush_standard_output() {
   std::fflush(stdout);
   if (std::cout.good() && std::ferror(stdout) == 0) return;
   // An earlier write may be the one that failed: then errno says nothing of it.
-  const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : std::string();
-  throw OutputError("standard output: cannot be written" + why + "; send it elsewhere, or make room");
+  throw OutputError(lost_output("-", errno));
 }
 
 }  // namespace tyglab

@@ -13,6 +13,9 @@ bool is_standard_output(const std::filesystem::path& file);
 /// What to call it in a sentence: "standard output", or the file.
 std::string output_name(const std::filesystem::path& file);
 
+/// What to say of an output that could not be written, errno being `error` (0: not known).
+std::string lost_output(const std::filesystem::path& file, int error);
+
 /// Writes a file whole or not at all (write_atomically), or sends the bytes to standard output. Throws OutputError.
 void write_output(const std::filesystem::path& file, std::string_view bytes);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <iostream>
 
 #include "core/notation/preset_io.h"
@@ -38,7 +37,7 @@ void SeriesCsv::add(double t, std::span<const double> values) {
 
 void SeriesCsv::check() {
   if (out_) return;
-  throw OutputError(output_name(file_) + ": cannot be written: " + std::strerror(errno));
+  throw OutputError(lost_output(file_, errno));
 }
 
 std::vector<SeriesColumn> series_columns(Kind kind) {

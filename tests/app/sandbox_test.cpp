@@ -3,15 +3,19 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <glm/geometric.hpp>
 #include <limits>
 
+#include "app/panels/curves.h"
 #include "app/panels/numbers.h"
 #include "app/panels/plot.h"
 #include "app/panels/symbol.h"
 #include "app/sandbox/clock.h"
 #include "app/sandbox/history.h"
+#include "app/sandbox/messages.h"
 #include "app/sandbox/series.h"
 #include "app/sandbox/settings.h"
+#include "core/integrators/names.h"
 #include "core/notation/preset_io.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
@@ -157,6 +161,53 @@ TEST_CASE("numbers are read as people type them and shown short") {
     CHECK(*typed_number(short_number(value)) == doctest::Approx(value).epsilon(1e-3));
     CHECK(*typed_number(steady_number(value)) == doctest::Approx(value).epsilon(1e-2));
   }
+}
+
+TEST_CASE("a time is shown with as many digits as a step needs to be seen") {
+  CHECK(time_number(0.325, 1e-3) == "0.325");
+  CHECK(time_number(12.0, 0.02) == "12.000");
+  for (const double dt : {1.0, 0.3, 2.5e-3, 1e-3, 4.5e-4, 1e-4, 3e-6, 1e-7})
+    for (const double t : {0.0, 0.123, 61.7}) CHECK(time_number(t, dt) != time_number(t + dt, dt));
+}
+
+TEST_CASE("three messages at most are kept, the latest") {
+  Messages messages;
+  for (const char* text : {"first", "second", "third", "fourth", "third"}) messages.note(text);
+  REQUIRE(messages.list().size() == 3);
+  CHECK(messages.list()[0].text == "second");
+  CHECK(messages.list()[2].text == "third");
+}
+
+/// Red, green and blue, linear, as seen by a person who lacks the long-wave or the middle-wave cones (Viénot, Brettel
+/// and Mollon 1999), or by one who lacks none; then as lightness and two opponent colours (Oklab, Ottosson 2020).
+glm::dvec3 seen(ImU32 color, int lacking) {
+  const auto linear = [](unsigned c) { return std::pow(double(c & 255) / 255, 2.2); };
+  glm::dvec3 rgb{linear(color), linear(color >> 8), linear(color >> 16)};
+  const double mix = lacking == 1 ? 0.11238 : 0.29275, blue = lacking == 1 ? 0.00401 : -0.02234;
+  if (lacking > 0) {
+    const double red_green = mix * rgb.r + (1 - mix) * rgb.g;
+    rgb = {red_green, red_green, blue * (rgb.r - rgb.g) + rgb.b};
+  }
+  const double l = std::cbrt(0.4122 * rgb.r + 0.5363 * rgb.g + 0.0514 * rgb.b);
+  const double m = std::cbrt(0.2119 * rgb.r + 0.6807 * rgb.g + 0.1074 * rgb.b);
+  const double s = std::cbrt(0.0883 * rgb.r + 0.2817 * rgb.g + 0.6300 * rgb.b);
+  return {0.2105 * l + 0.7936 * m - 0.0041 * s, 1.9780 * l - 2.4286 * m + 0.4506 * s,
+          0.0259 * l + 0.7828 * m - 0.8087 * s};
+}
+
+TEST_CASE("every integrator has a colour or a line of its own, which the colour-blind can tell apart") {
+  const Tokens colors = dark_tokens();
+  for (const std::string_view a : integrator_names())
+    for (const std::string_view b : integrator_names()) {
+      if (a == b) continue;
+      CAPTURE(std::string(a));
+      CAPTURE(std::string(b));
+      const CurveStyle one = integrator_style(colors, a), other = integrator_style(colors, b);
+      CHECK(one.color != colors.vermilion);  // the exact solution's
+      if (one.line != other.line) continue;
+      for (const int lacking : {0, 1, 2})
+        CHECK(glm::distance(seen(one.color, lacking), seen(other.color, lacking)) > 0.06);
+    }
 }
 
 TEST_CASE("symbols are taken apart into base, subscript and dots") {

@@ -46,32 +46,36 @@ TEST_CASE("0: help of the program and of every command, with an example; version
 
 TEST_CASE("2: the command line is wrong, --set included") {
   const test::TemporaryFolder folder;
-  check_calls({{{"run"}, 2, "PRESET"},
-               {{"run", "denim", "--nonsense"}, 2, "nonsense"},
-               {{"run", "denim", "--steps", "abc"}, 2, "steps"},
-               {{"run", "denim", "--steps", "-5"}, 2, "steps"},
-               {{"run", "denim", "--steps", "5", "--seconds", "1"}, 2, "steps"},
-               {{"run", "denim", "--steps", "1", "--set", "k_s"}, 2, "KEY=VALUE"},
-               {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e9"},
-               {{"run", "denim", "--steps", "1", "--set", "k_x=3"}, 2, "did you mean"},
-               {{"run", "denim", "--steps", "1", "--integrator", "eular"}, 2, "euler"},
-               {{"run", "denim", "--steps", "1", "--precision", "half"}, 2, "precision"},
-               {{"run", "denim", "--steps", "1", "--engine", "gpu"}, 2, "engine"},
-               {{"run", "denim", "--steps", "1", "--dt", "2"}, 2, "--dt 2: dt: 2 is not allowed; allowed: 1e-7 to 1 s"},
-               {{"run", "denim", "--seconds", "-1"}, 2, "0 to 1e9 s"},
-               {{"run", "denim", "--seconds", "nan"}, 2, "0 to 1e9 s"},
-               {{"run", "denim", "--steps", "1.5"}, 2, "not a whole number"},
-               {{"run", "denim", "--dt", ""}, 2, "empty"},
-               {{"run", "", "--steps", "1"}, 2, "empty"},
-               {{"run", "denim", "--steps", "1", "--state", ""}, 2, "empty"},
-               {{"run", "denim", "--steps", "1", "--set", "bodies[0]={}"}, 2, "bodies[0].r=0.3"},
-               {{"run", "denim", "--steps", "1", "--set", "pins=top"}, 2, "known. Allowed: none"},
-               {{"run", "denim", "--steps", "1", "--threads", "0"}, 2, "threads"},
-               {{"render", "denim"}, 2, "png"},
-               {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
-               {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
-               {{"presets", "shwo", "denim"}, 2, ""}},
-              folder.path());
+  check_calls(
+      {{{"run"}, 2, "PRESET"},
+       {{"run", "denim", "--nonsense"}, 2, "nonsense"},
+       {{"run", "denim", "--steps", "abc"}, 2, "steps"},
+       {{"run", "denim", "--steps", "-5"}, 2, "steps"},
+       {{"run", "denim", "--steps", "5", "--seconds", "1"}, 2, "steps"},
+       {{"run", "denim", "--steps", "1", "--set", "k_s"}, 2, "KEY=VALUE"},
+       {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e9"},
+       {{"run", "denim", "--steps", "1", "--set", "k_x=3"}, 2, "did you mean"},
+       {{"run", "denim", "--steps", "1", "--integrator", "eular"}, 2, "euler"},
+       {{"run", "denim", "--steps", "1", "--precision", "half"}, 2, "precision"},
+       {{"run", "denim", "--steps", "1", "--engine", "gpu"}, 2, "engine"},
+       {{"run", "denim", "--steps", "1", "--dt", "2"}, 2, "--dt 2: dt: 2 is not allowed; allowed: 1e-7 to 1 s"},
+       {{"run", "denim", "--seconds", "-1"}, 2, "0 to 1e9 s"},
+       {{"run", "denim", "--seconds", "nan"}, 2, "0 to 1e9 s"},
+       {{"run", "denim", "--steps", "1.5"}, 2, "not a whole number"},
+       {{"run", "denim", "--dt", ""}, 2, "empty"},
+       {{"run", "", "--steps", "1"}, 2, "empty"},
+       {{"run", "denim", "--steps", "1", "--state", ""}, 2, "empty"},
+       {{"run", "denim", "--steps", "1", "--set", "bodies[0]={}"}, 2, "bodies[0].r=0.3"},
+       {{"run", "denim", "--steps", "1", "--set", "pins=top"}, 2, "known. Allowed: none"},
+       {{"run", "denim", "--steps", "1", "--threads", "0"}, 2, "threads"},
+       {{"render", "denim"}, 2, "png"},
+       {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
+       {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
+       {{"presets", "shwo", "denim"}, 2, "'shwo' is none of its commands: show, notation, check. Did you mean 'show'?"},
+       {{"bench", "nonsense"}, 2, "tyglab: bench: 'nonsense' is none of its commands: throughput, skip"},
+       {{"bench"}, 2, "throughput, skip"},
+       {{"runn", "denim", "--steps", "1"}, 2, "Did you mean 'run'?"}},
+      folder.path());
   CHECK(fs::is_empty(folder.path()));
 }
 
@@ -99,16 +103,20 @@ TEST_CASE("3: a preset is wrong or missing") {
   test::write_file(folder / "comma.json", "{\n\"name\": \"a\"\n\"kind\": 5}");
   check_calls({{{"run", "wrong.json", "--steps", "1"}, 3, "wrong.json:3: forces.k_s"},
                {{"run", "not.json", "--steps", "1"}, 3, "not.json:1"},
-               {{"run", "comma.json", "--steps", "1"}, 3, "comma.json:3: column 6: syntax error"},
+               {{"run", "comma.json", "--steps", "1"}, 3, "comma.json:3: column 1: a comma is missing"},
                {{"run", "missing.json", "--steps", "1"}, 3, "missing.json"},
                {{"run", "demin", "--steps", "1"}, 3, "denim"},
                {{"render", "wrong.json", "--png", "a.png"}, 3, "forces.k_s"},
                {{"presets", "check", "wrong.json"}, 3, "forces.k_s"},
                {{"presets", "check", "missing.json"}, 3, "missing.json"},
-               {{"presets", "show", "demin"}, 3, "denim"}},
+               {{"presets", "show", "demin"}, 3, "denim"},
+               {{"presets", "check", "demin"}, 3, "denim"},
+               {{"runn"}, 3, "Did you mean 'run'?"}},
               folder.path());
   test::write_file(folder / "right.json", preset_to_json({}));
-  check_calls({{{"presets", "check", "right.json"}, 0, "right.json"}}, folder.path());
+  check_calls({{{"presets", "check", "right.json"}, 0, "right.json"},
+               {{"presets", "check", "denim"}, 0, "denim is a valid preset"}},
+              folder.path());
 }
 
 TEST_CASE("4: run and render diverge; what they had is written, and when, where and why is said") {
@@ -159,6 +167,22 @@ TEST_CASE("6: whatever goes to standard output and is lost") {
       CHECK(outcome.code == 6);
       CHECK(outcome.err.find("standard output") != std::string::npos);
     }
+  }
+}
+
+TEST_CASE("6: a reader of standard output that has had enough ends the run, which says so") {
+  const test::TemporaryFolder folder;
+  for (const char* words : {"run hanging --seconds 100000 --series - --series-every 1",
+                            "run hanging --set rows=200 --set columns=200 --steps 1 --state -", "presets notation"}) {
+    CAPTURE(std::string(words));
+    // The reader is gone before the first byte comes.
+    const auto outcome = test::run(folder.path(), {"/bin/sh", "-c",
+                                                   std::string("{ sleep 0.3; ") + TYGLAB_BINARY + " " + words +
+                                                       "; echo $? > code; } | true; "
+                                                       "while [ ! -s code ]; do sleep 0.1; done"});
+    CHECK(test::read_file(folder / "code") == "6\n");
+    CHECK(outcome.err.find("standard output: nobody reads it any longer") != std::string::npos);
+    fs::remove(folder / "code");
   }
 }
 

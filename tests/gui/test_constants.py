@@ -1,5 +1,7 @@
 """Constants are changed by slider, by typing and by keys, undone and reset; the integrator is switched while running."""
 
+import time
+
 from cases import case, check, main
 from sandbox import LEFT, centre, k_s
 
@@ -173,6 +175,44 @@ def integrator(stage):
         after = sandbox.wait(lambda r: r["steps"] > before["steps"] + 20, f"the motion to go on with {name}")
         check(after["t"] > before["t"] > 0 and after["divergence"] is None, f"the motion went on with {name}")
     stage.keep("switched")
+
+
+@case
+def tooltips(stage):
+    """a tooltip stands beside its row and hides no constant; while the help is open there is none"""
+    sandbox = stage.start("hanging")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["paused"], "the pause")
+    sandbox.rest()
+    before = stage.keep("without", still=True)
+    # The pointer's own picture hangs down into the slider below it.
+    boxes = [sandbox.control(f"constants.{name}")
+             for name in ("dt.slider", "dt.value", "k_b.value", "k_d.slider", "k_d.value", "g.slider", "g.value")]
+    x, y = centre(sandbox.control("constants.k_s.slider"))
+    sandbox.move(x, y)
+    viewport = sandbox.report()["viewport"]
+    beside = (viewport[0] + 8, y - 10, 200, 60)
+    until(stage, lambda now: now.crop(beside).differs_from(before.crop(beside)) > 0.5, "the tooltip to come")
+    now = stage.keep("tooltip", still=True)
+    for box in boxes:
+        check(now.crop(box) == before.crop(box), f"the tooltip hides a constant at {box}")
+    sandbox.rest()
+    sandbox.key("F1")
+    sandbox.later(4)
+    sandbox.move(40, y)
+    help_alone = stage.keep("help", still=True)
+    sandbox.move(44, y)
+    time.sleep(1)
+    sandbox.later(2)
+    check(stage.keep("help-after-a-second", still=True).crop(viewport) == help_alone.crop(viewport), "no tooltip over the help")
+
+
+def until(stage, condition, what, seconds=30):
+    """Waits for a condition on the screen's pixels."""
+    end = time.monotonic() + seconds
+    while not condition(stage.screen.picture()):
+        check(time.monotonic() < end, f"waited in vain for {what}")
+        time.sleep(0.2)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,23 @@ def own_doing(stage):
 
 
 @case
+def changed(stage):
+    """once constants have changed, the banner says so and offers to try them instead of advice that is out of date"""
+    sandbox = stage.start("explodes")
+    report = sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
+    check(not report["divergence"]["constants_changed"], "nothing has changed yet")
+    sandbox.type_value("k_s", "20")
+    sandbox.wait(lambda r: r["divergence"]["constants_changed"], "the change to be noticed")
+    report = sandbox.later(3)
+    check("viewport.Verlet_and_restart" not in report["controls"], "the advice for the old constants is gone")
+    stage.keep("banner", still=True)
+    sandbox.key("space")  # or the new constants may diverge too before anybody looks
+    sandbox.click_control("viewport.Restart")
+    report = sandbox.wait(lambda r: r["divergence"] is None, "the restart")
+    check(k_s(report) == 20, "with the new constants")
+
+
+@case
 def extremes(stage):
     """extreme but allowed values stop the cloth at worst; the window goes on drawing and answering"""
     sandbox = stage.start("hanging")

@@ -84,6 +84,25 @@ def shipped(stage):
 
 
 @case
+def by_name(stage):
+    """a shipped preset's name typed into the dialog opens it, as on the command line; its constants begin at the top"""
+    sandbox = stage.start("hanging")
+    top = sandbox.control("constants.integrator")
+    sandbox.scroll_to("constants.texture", "constants.k_s.slider")
+    check("constants.integrator" not in sandbox.later()["controls"], "the constants are scrolled down")
+    sandbox.key("ctrl+o")
+    sandbox.wait(lambda r: r["dialog"] == "open", "the open dialog")
+    fill(sandbox, "path", "denin")
+    sandbox.key("Return")
+    sandbox.wait(lambda r: "Did you mean 'denim'?" in r["problem"], "the nearest name to be offered")
+    fill(sandbox, "path", "denim")
+    sandbox.key("Return")
+    report = sandbox.wait(lambda r: r["label"] == "denim" and r["dialog"] == "none", "denim to be opened")
+    check(report["file"] == "" and not report["unsaved"], "it is the shipped preset")
+    check(sandbox.control("constants.integrator") == top, "its constants are shown from the first one on")
+
+
+@case
 def wrong_file(stage):
     """a wrong file is refused with the reason, where another can be chosen, and nothing changes"""
     sandbox = stage.start("hanging")

@@ -22,6 +22,15 @@ def check_controls(report):
               f"{name} at {x}, {y} ({w} x {h}) is not within {width} x {height}")
 
 
+def check_apart(report, region):
+    """No two controls of a region overlap."""
+    boxes = [(name, box) for name, box in report["controls"].items() if name.startswith(region + ".")]
+    for k, (name, (x, y, w, h)) in enumerate(boxes):
+        for other, (x2, y2, w2, h2) in boxes[:k]:
+            check(x + w <= x2 + 1 or x2 + w2 <= x + 1 or y + h <= y2 + 1 or y2 + h2 <= y + 1,
+                  f"{name} and {other} overlap at {report['window']}")
+
+
 def check_filled(picture, text):
     """No edge of the window is left black: all of it was drawn."""
     edges = picture.row(2) + picture.row(picture.height - 3)
@@ -38,6 +47,8 @@ def resizing(stage):
         report = sandbox.later(4)
         check(report["viewport"][2] >= 200 and report["viewport"][3] >= 200, f"the cloth keeps room: {report['viewport']}")
         check_controls(report)
+        check_apart(report, "top")
+        check("top.play" in report["controls"], "the transport is there at any size")
         check_filled(stage.keep(f"{width}x{height}"), f"a part of the window is black at {width} x {height}")
     steps = sandbox.report()["steps"]
     sandbox.wait(lambda r: r["steps"] > steps and r["divergence"] is None, "the cloth to move on")
@@ -69,6 +80,14 @@ def text_size(stage):
     report = sandbox.later(4)
     check_controls(report)
     stage.keep("larger")
+    for _ in range(5):
+        sandbox.key("ctrl+plus")
+    resize(sandbox, 640, 400)
+    report = sandbox.later(4)
+    check_apart(report, "top")
+    check("top.play" in report["controls"], "the transport is there with the largest text in a small window")
+    stage.keep("largest-in-a-small-window")
+    resize(sandbox, 1280, 720)
     sandbox.key("ctrl+0")
     sandbox.wait(lambda r: r["controls"].get("constants.k_s.slider", [0] * 4)[3] == height, "Ctrl+0 to bring it back")
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/notation/json_fault.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -162,12 +163,78 @@ TEST_CASE("text that is not JSON is refused with its line") {
   }
 }
 
-TEST_CASE("text that is not JSON is told its place once") {
-  const std::string what = error_of("{\n\"cloth\": {\n\"rows\" 5}}");
-  CHECK(what.starts_with("folder/wrong.json:3: column 8: syntax error"));
-  CHECK(what.find("at line") == std::string::npos);
+TEST_CASE("text that is not JSON is told in plain words, with its place and the cure") {
+  for (const auto& [text, says] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"{\n\"cloth\": {\n\"rows\" 5}}", ":3: column 8: a colon is missing after the key \"rows\""},
+           {"{\n\"name\": \"a\"\n\"kind\": 5}", ":3: column 1: a comma is missing before this"},
+           {"{\"name\": \"å\" \"kind\": 5}", ":1: column 14: a comma is missing"},
+           {"{\n\"cloth\": {\"rows\": 5,}\n}", ":2: column 20: nothing follows this comma; remove it"},
+           {"{\"cloth\": {\n\"x_0\": [0, 1, ]}}", ":2: column 13: nothing follows this comma; remove it"},
+           {"{\"cloth\": {,}}", "one comma is enough"},
+           {"{'name': 5}", ":1: column 2: keys stand in double quotes"},
+           {"{name: 5}", "keys stand in double quotes: \"name\""},
+           {"{\"name\" = 5}", "stands a colon, not ="},
+           {"{\"name\": denim}", "texts stand in double quotes: \"denim\""},
+           {"{\"name\": 'denim'}", "texts stand in double quotes"},
+           {"{\"name\": \"denim\n}", ":1: column 10: the text that begins here lacks its closing \""},
+           {"{\"name\": }", "a value was expected here"},
+           {"{\"name\": , \"kind\": 5}", "a value is missing before this comma"},
+           {"{\"bodies\": [1 2]}", "a comma is missing before this"},
+           {"{\"bodies\": [1, 2}}", "the [ before it is closed by ], not by }"},
+           {"{} // all", "the preset has ended before this"},
+           {"{ // all\n}", "JSON has no comments"},
+           {"{\"forces\": {\"k_s\": 5 # stiff\n}}", "JSON has no comments"},
+           {"{\"forces\": {\"k_s\": NaN}}", "must be finite"},
+           {"{\"forces\": {\"k_s\": 1e999}}", "too large"},
+           {"{\"forces\": {\"k_s\": +1}}", "no + in front"},
+           {"{\"forces\": {\"k_s\": .5}}", "begins with a digit"},
+           {"{\"forces\": {\"k_s\": 1.}}", "after the point"},
+           {"{\"forces\": {\"k_s\": 1e}}", "after the e"},
+           {"{\"forces\": {\"k_s\": 01}}", "further 0"},
+           {"{\"forces\": {\"k_s\": 0x10}}", "no number that JSON knows"},
+           {"{\"name\": \"C:\\denim\"}", "write \\\\ for a backslash"},
+           {"{\"name\": \"a\tb\"}", "write \\t for a tab"},
+           {"{\"name\": \"\\ud800\"}", "half a character"},
+           {"{\"name\": \"\\u12\"}", "four hexadecimal digits"},
+           {"{\"name\": \"\xff\"}", "not UTF-8"},
+           {"\xff\xfe{", "not UTF-8"},
+           {"k_s = 5", "begins with {"},
+           {"", "nothing in it"},
+           {"{\n\"cloth\": {\n\n", ":2: the { of line 2 is never closed; add its }"},
+           {"{\n\"cloth\":\n", ":2: it ends where a value should come"},
+           {"{\n\"cloth\"", "a colon and its value are missing"}}) {
+    CAPTURE(text);
+    const std::string what = error_of(text);
+    check_contains(what, {says});
+    for (const char* foreign : {"syntax error", "parse", "exception", "literal", "at line", "cannot be read"})
+      CHECK_MESSAGE(what.find(foreign) == std::string::npos, what);
+  }
   // The end of the file lies further down than what is unfinished, so its column says nothing.
   CHECK(error_of("{\n\"cloth\": {\n\n\n").find("column") == std::string::npos);
+}
+
+TEST_CASE("a fault is found wherever the reader finds one, and in no text that it reads") {
+  const std::string right = preset_to_json({});
+  CHECK_FALSE(find_json_fault(right).has_value());
+  for (const char* text :
+       {"[]", "5", "-0.5e-3", "\"\\u00e5 \\ud83d\\ude00\"", "true", "{\"a\": [null, {}, [false]]}", "\xEF\xBB\xBF{}"})
+    CHECK_MESSAGE(!find_json_fault(text).has_value(), text);
+  // Every beginning of a preset lacks something; every one with a character more or less may.
+  for (std::size_t length = 0; length + 2 < right.size(); ++length)
+    CHECK(find_json_fault(std::string_view(right).substr(0, length)).has_value());
+  for (std::size_t at = 0; at < right.size(); ++at) {
+    for (const std::string& changed :
+         {right.substr(0, at) + right.substr(at + 1), right.substr(0, at) + ',' + right.substr(at),
+          right.substr(0, at) + 'e' + right.substr(at)}) {
+      std::string what;
+      try {
+        parse_preset(changed, "changed.json");
+      } catch (const PresetError& error) {
+        what = error.what();
+      }
+      CHECK_MESSAGE(what.find("cannot be read as JSON") == std::string::npos, what << " in " << changed);
+    }
+  }
 }
 
 TEST_CASE("deep nesting and endless lists are refused, not followed") {

@@ -292,5 +292,36 @@ TEST_CASE("bodies do not touch pinned or held particles") {
   CHECK(glm::length(test::position(simulation.read(), 22) - preset.x_0) < 1e-12);
 }
 
+TEST_CASE("a particle on a body says so, one beside it, above it or held does not") {
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    for (const char* integrator : {"verlet", "velocity_verlet", "rk4"}) {
+      CAPTURE(std::string(integrator));
+      // Flat, falling on a small sphere under its middle.
+      Preset preset = test::cloth(9, 9, integrator);
+      preset.precision = precision;
+      preset.pins.mode = Pins::Mode::none;
+      preset.tilt_deg = 0;
+      preset.x_0 = {0, 0.3, -4 * preset.L};
+      preset.dt = 5e-4;
+      preset.bodies = {sphere({0, 0.24, 0}, 0.05), plane(-5)};
+      preset.bodies[0].friction = 1;
+      Simulation simulation(preset);
+      CHECK_FALSE(simulation.particle(4, 4).on_body);
+      simulation.advance(400);
+      // The cloth trembles: at times its springs lift a particle off.
+      int on = 0;
+      for (int step = 0; step < 40; ++step) simulation.advance(1), on += simulation.particle(4, 4).on_body;
+      REQUIRE_FALSE(simulation.divergence().has_value());
+      CHECK(on >= 30);
+      CHECK_FALSE(simulation.particle(0, 0).on_body);
+      simulation.apply(edit::Pin{4, 4, true});
+      CHECK_FALSE(simulation.particle(4, 4).on_body);
+      simulation.apply(edit::Pin{4, 4, false});
+      simulation.apply(edit::MoveBody{0, {0, -1, 0}});
+      CHECK_FALSE(simulation.particle(4, 4).on_body);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tyglab
