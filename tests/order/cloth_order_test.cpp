@@ -5,8 +5,10 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 #include <vector>
 
+#include "core/integrators/scheme.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
@@ -71,36 +73,21 @@ double error(Preset preset, int steps, const std::vector<glm::dvec3>& exact) {
 }
 
 TEST_CASE("on a taut cloth each method converges to odeint's motion with its order") {
-  struct Row {
-    const char* integrator;
-    double k_d, order;
-  };
-  for (const Row& row : {Row{"euler", 0, 1},
-                         {"euler", 0.002, 1},
-                         {"improved_euler", 0, 1},
-                         {"improved_euler", 0.002, 1},
-                         {"verlet", 0, 2},
-                         {"verlet", 0.002, 1},
-                         {"semi_implicit_euler", 0, 1},
-                         {"semi_implicit_euler", 0.002, 1},
-                         {"velocity_verlet", 0, 2},
-                         {"velocity_verlet", 0.002, 2},
-                         {"rk4", 0, 4},
-                         {"rk4", 0.002, 4},
-                         {"rkn4", 0, 4},
-                         {"rkn4", 0.002, 2}}) {
-    CAPTURE(std::string(row.integrator));
-    CAPTURE(row.k_d);
-    const Preset preset = taut_cloth(row.integrator, row.k_d);
-    const auto exact = reference(preset);
-    const int steps = row.order == 4 ? 100 : 2000;
-    const double coarse = error(preset, steps, exact), fine = error(preset, 2 * steps, exact);
-    const double measured = std::log2(coarse / fine);
-    CHECK(measured > row.order - 0.1);
-    CHECK(measured < row.order + 0.1);
-    CHECK(fine < (row.order == 1 ? 2e-4 : 1e-7));
-    CHECK(fine > 1e-11);
-  }
+  for (const Scheme& scheme : schemes())
+    for (const double k_d : {0.0, 0.002}) {
+      CAPTURE(std::string(scheme.name));
+      CAPTURE(k_d);
+      const Preset preset = taut_cloth(std::string(scheme.name), k_d);
+      const int order = k_d > 0 ? scheme.order_damped : scheme.order_undamped;
+      const auto exact = reference(preset);
+      const int steps = order == 4 ? 100 : 2000;
+      const double coarse = error(preset, steps, exact), fine = error(preset, 2 * steps, exact);
+      const double measured = std::log2(coarse / fine);
+      CHECK(measured > order - 0.1);
+      CHECK(measured < order + 0.1);
+      CHECK(fine < (order == 1 ? 2e-4 : 1e-7));
+      CHECK(fine > 1e-11);
+    }
 }
 
 }  // namespace
