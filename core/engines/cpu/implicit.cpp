@@ -10,8 +10,8 @@ namespace {
 constexpr double linear_tolerance = 1e-3;  // |r| of its start; Newton's method multiplies it from step to step
 template <class R>
 constexpr double newton_tolerance = sizeof(R) == 8 ? 1e-10 : 1e-5;  // |r| of its start
-constexpr double too_steep = 0.9;  // of the slope along a step at its beginning: more than that at its end overshoots
-constexpr int most_shorter_steps = 6;
+constexpr double flat_enough = 0.2;  // slope along a step where it ends, of that at its beginning
+constexpr int most_tries = 20;
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
       solved = true;
       break;
     }
-    norm = take_step(cloth, position, velocity, dt, norm, accelerations);
+    norm = take_step(cloth, position, velocity, dt, accelerations);
     solved = norm <= newton_tolerance<R> * first || dt * std::sqrt(inner(step_, step_)) <= last_digits;
   }
   if (!solved) ++counts_.unconverged;
@@ -89,21 +89,30 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
 
 /// Goes along the step, or less far where that overshoots; leaves the residual there and returns its norm.
 template <class R>
-double ImplicitSolver<R>::take_step(Cloth<R>& cloth, int position, int velocity, double dt, double norm,
+double ImplicitSolver<R>::take_step(Cloth<R>& cloth, int position, int velocity, double dt,
                                     const Accelerations& accelerations) {
   Array<R>& v = cloth.vector(velocity).all();
   before_ = cloth.vector(velocity);
   // The residual is minus the slope of the potential that a solution makes least; the system is positive, so this is >
   // 0.
   const double slope = inner(residual_, step_);
-  double part = 1, now = norm;
-  for (int tries = 0; tries <= most_shorter_steps; ++tries) {
+  // Along the step the potential is convex, its slope thus rises: where the step overshoots, the least value lies
+  // between 0 and its end. False position, in the form that halves the slope of an end that stays (Illinois).
+  double part = 1, now = 0, lower = 0, lower_slope = slope, upper = 0, upper_slope = 0;
+  for (int tries = 0; tries <= most_tries; ++tries) {
     for (std::size_t n = 0; n < v.size(); ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
     now = evaluate(cloth, position, velocity, dt, accelerations);
     const double there = inner(residual_, step_);
-    if (now < norm || std::abs(there) <= too_steep * slope) break;
-    const double secant = std::isfinite(there) ? part * slope / (slope - there) : 0;
-    part = std::clamp(secant, 0.1 * part, 0.9 * part);
+    if (std::abs(there) <= flat_enough * slope || (there > 0 && part == 1)) break;
+    if (!(there > 0)) {  // beyond it, or not finite
+      if (upper != 0) lower_slope /= 2;
+      upper = part, upper_slope = std::isfinite(there) ? there : -std::numeric_limits<double>::max();
+    } else {
+      if (lower != 0) upper_slope /= 2;
+      lower = part, lower_slope = there;
+    }
+    const double secant = lower + (upper - lower) * lower_slope / (lower_slope - upper_slope);
+    part = std::clamp(secant, lower + 0.01 * (upper - lower), lower + 0.9 * (upper - lower));
   }
   return now;
 }

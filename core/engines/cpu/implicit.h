@@ -31,8 +31,7 @@ class ImplicitSolver {
  private:
   void resize(const Cloth<R>& cloth);
   double evaluate(Cloth<R>& cloth, int position, int velocity, double dt, const Accelerations& accelerations);
-  double take_step(Cloth<R>& cloth, int position, int velocity, double dt, double norm,
-                   const Accelerations& accelerations);
+  double take_step(Cloth<R>& cloth, int position, int velocity, double dt, const Accelerations& accelerations);
   void linearise(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears);
   void linearise_row(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears, int direction, int i);
   void invert_blocks(const Cloth<R>& cloth);
