@@ -122,6 +122,8 @@ void add_simulation(Json& json, const App& app) {
   json["asleep"] = app.asleep();
   json["speed"] = app.pacing.speed;
   json["divergence"] = divergence(app);
+  const auto next = app.building.lattice();
+  json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
   json["label"] = app.document.label;
   json["file"] = app.document.file.string();
   json["unsaved"] = unsaved(app);
