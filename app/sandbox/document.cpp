@@ -13,9 +13,10 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
-void load_texture(App& app) {
+void take_picture(App& app, const FoundPicture& picture) {
   app.redraw_cloth = true;
-  if (const auto problem = app.renderer->set_texture(texture_file(app.preset().texture))) app.messages.error(*problem);
+  if (const auto* why = std::get_if<std::string>(&picture)) return app.messages.error(*why);
+  if (const auto problem = app.renderer->set_texture(std::get<ClothPicture>(picture))) app.messages.error(*problem);
 }
 
 /// The middle of the cloth, so that there is something to read at once.
@@ -26,9 +27,17 @@ std::optional<Pins::Site> first_pick(const App& app) {
 
 }  // namespace
 
-void begin_document(App& app, const Document& document) {
+FoundPicture find_picture(const Preset& preset) {
+  try {
+    return read_picture(texture_file(preset.texture));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+void begin_document(App& app, const Document& document, const FoundPicture& picture) {
   app.document = document;
-  load_texture(app);
+  take_picture(app, picture);
   app.history.clear();
   app.picked = first_pick(app);
   app.tool = Tool{};
@@ -51,7 +60,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
 void take_built(App& app, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
   const Preset before = app.preset();
   swap_in(app, std::move(simulation));
-  if (order.document) return begin_document(app, *order.document);
+  if (order.document) return begin_document(app, *order.document, find_picture(app.preset()));
   follow_up(app, before);
   if (!order.fresh) return;
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();

@@ -4,8 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "app/sandbox/building.h"
+#include "app/viewport/cloth_texture.h"
 
 namespace tyglab {
 
@@ -21,7 +23,10 @@ void save_document(App& app);
 bool save_document_as(App& app, const std::filesystem::path& file, const std::string& name);
 /// A preset's simulation. Where its engine is not there, the CPU runs it, and `fallback` says why.
 std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, std::string& fallback);
+/// The picture that a preset's cloth shows, or a sentence about what is wrong with it.
+using FoundPicture = std::variant<ClothPicture, std::string>;
+FoundPicture find_picture(const Preset& preset);
 /// Puts the sandbox at the beginning of a preset: nothing to undo, a particle picked, its picture, its view.
-void begin_document(App& app, const Document& document);
+void begin_document(App& app, const Document& document, const FoundPicture& picture);
 
 }  // namespace tyglab

@@ -34,6 +34,7 @@ constexpr float text_scale_least = 0.5f, text_scale_most = 6;
 struct First {
   std::unique_ptr<Simulation> simulation;
   std::string fallback;  ///< why it runs on another engine than it asks for; empty: it does not
+  FoundPicture picture;
 };
 
 class Sandbox {
@@ -87,6 +88,7 @@ Sandbox::Sandbox(const SandboxOptions& options)
                         [preset = restores() ? app_.settings.session->preset : options.preset, options] {
                           First first;
                           first.simulation = make_simulation(preset, options.threads, first.fallback);
+                          first.picture = find_picture(preset);
                           return first;
                         })),
       window_(options.width, options.height, app_.settings, app_.input),
@@ -104,7 +106,7 @@ void Sandbox::start_preset() {
   First first = first_.get();
   if (!first.fallback.empty()) app_.messages.warning(first.fallback);
   app_.simulation = std::move(first.simulation);
-  begin_document(app_, first_document());
+  begin_document(app_, first_document(), first.picture);
 }
 
 Document Sandbox::first_document() {
