@@ -294,6 +294,11 @@ void Simulation::diverge(const Advance& part) {
   divergence_ = d;
 }
 
+std::size_t Simulation::bytes() const {
+  return tears_.bytes() + pinned_mask_.capacity() + pinned_.capacity() * sizeof(int) + state_.x.bytes() +
+         state_.v.bytes();
+}
+
 const State& Simulation::read() {
   if (state_revision_ != revision_) engine_->read(state_, tears_), state_revision_ = revision_;
   return state_;

@@ -60,6 +60,9 @@ class Simulation {
   /// Makes up to `steps` steps; fewer when the run diverges. Does nothing once diverged.
   Advance advance(int steps);
 
+  /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.
+  std::size_t bytes() const;
+
   /// Full-step positions and velocities, dense.
   const State& read();
   /// As the method holds them: what a state file shows.

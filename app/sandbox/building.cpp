@@ -73,7 +73,9 @@ void Building::rename(const std::string& name) {
 }
 
 void Building::poll(App& app) {
-  if (!in_work() || work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!in_work()) return;
+  ++frames_beside_;
+  if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
   try {
     finish(app);
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 // goes on meanwhile.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -35,6 +36,8 @@ class Building {
   bool in_work() const { return making_.has_value(); }
   /// Whether the present cloth is being read, so that it may neither step nor change.
   bool holds_present() const { return making_ && !making_->fresh; }
+  /// Frames that were drawn while something was in work.
+  std::int64_t frames_beside() const { return frames_beside_; }
   /// The constants that have been asked for, while they are in work; otherwise null, and where a preset is opened.
   const Preset* wished() const { return wish() != nullptr && !opens() ? &wish()->target : nullptr; }
   /// The lattice of the cloth that will be shown next; none where it is the present one.
@@ -53,7 +56,7 @@ class Building {
   void defer(Edit edit) { deferred_.push_back(std::move(edit)); }
   /// The cloth in work gets another name.
   void rename(const std::string& name);
-  /// Takes the cloth that is ready, if one is.
+  /// Called in every frame: takes the cloth that is ready, if one is.
   void poll(App& app);
   /// Frees a cloth beside the frame: that takes a while too.
   void dispose(std::unique_ptr<Simulation> simulation);
@@ -70,6 +73,7 @@ class Building {
   bool dropped_ = false;  ///< what is being made is not wanted
   std::vector<Edit> deferred_;
   History before_;
+  std::int64_t frames_beside_ = 0;
   std::future<std::unique_ptr<Simulation>> work_;
   std::future<void> disposal_;
 };

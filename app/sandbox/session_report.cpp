@@ -124,6 +124,7 @@ void add_simulation(Json& json, const App& app) {
   json["divergence"] = divergence(app);
   const auto next = app.building.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
+  json["frames_while_building"] = app.building.frames_beside();
   json["label"] = app.document.label;
   json["file"] = app.document.file.string();
   json["unsaved"] = unsaved(app);
