@@ -33,12 +33,41 @@ double rounding_unit(Precision precision) {
                                         : std::numeric_limits<double>::epsilon();
 }
 
+/// Whether two presets of one lattice differ, but begin with the same state: what differs is seen, named or met later.
+bool begin_alike(const Preset& a, const Preset& b) {
+  if (a == b) return false;  // who asks for the same again asks for a fresh start
+  Preset as = a;
+  as.name = b.name, as.description = b.description;
+  as.mode = b.mode, as.texture = b.texture;
+  as.bodies = b.bodies, as.F_max = b.F_max, as.F_release = b.F_release;
+  as.tolerance = b.tolerance, as.iterations = b.iterations;
+  return as == b;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) {
   build();
 }
 Simulation::~Simulation() = default;
+
+Simulation::Simulation(const Simulation& from)
+    : preset_(from.preset_),
+      threads_(from.threads_),
+      lattice_(from.lattice_),
+      tears_(from.tears_),
+      pinned_mask_(from.pinned_mask_),
+      pinned_(from.pinned_),
+      held_(from.held_),
+      hand_steps_left_(from.hand_steps_left_),
+      hand_force_(from.hand_force_),
+      left_inside_(from.left_inside_),
+      steps_(from.steps_),
+      steps_at_dt_(from.steps_at_dt_),
+      time_at_dt_(from.time_at_dt_),
+      divergence_(from.divergence_),
+      revision_(from.revision_),
+      tear_revision_(from.tear_revision_) {}
 
 void Simulation::build() {
   const Lattice lattice = lattice_of(preset_);
@@ -52,7 +81,7 @@ void Simulation::build() {
   hand_force_ = {};
   left_inside_ = 0;
   update_fixed();
-  engine_->load(start_state(preset_), tears_);
+  engine_->load(start_rows(preset_), tears_);
   steps_ = steps_at_dt_ = 0;
   time_at_dt_ = 0;
   divergence_.reset();
@@ -100,26 +129,65 @@ void Simulation::change(const Preset& next) {
     }
     return;
   }
-  if (steps_ == 0) {
+  if (steps_ == 0 && !begin_alike(next, old)) {
     restart_untouched(next);
-  } else if (next.precision != old.precision || next.engine != old.engine) {
-    auto engine = make_engine(next, lattice_, threads_);
-    const State state = read();
-    rebase_time();
-    engine_ = std::move(engine);
-    preset_ = next;
-    engine_->set_fixed(pinned_, held_);
-    engine_->load(state, tears_);
+  } else if (converts(next)) {
+    take_engine(next, read());
   } else {
     rebase_time();
     engine_->set_preset(next, tears_);
     preset_ = next;
   }
-  if (next.pins != old.pins) {
-    pinned_mask_ = pinned_particles(next);
-    if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
-    update_fixed();
+  take_pins(old);
+}
+
+/// Whether the state must be read and loaded anew: another engine or another method's vectors.
+bool Simulation::converts(const Preset& next) const {
+  return next.precision != preset_.precision || next.engine != preset_.engine || next.integrator != preset_.integrator;
+}
+
+void Simulation::take_engine(const Preset& next, const State& state) {
+  auto engine = make_engine(next, lattice_, threads_);
+  rebase_time();
+  engine_ = std::move(engine);
+  preset_ = next;
+  engine_->set_fixed(pinned_, held_);
+  engine_->load(state, tears_);
+}
+
+void Simulation::take_pins(const Preset& old) {
+  if (preset_.pins == old.pins) return;
+  pinned_mask_ = pinned_particles(preset_);
+  if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
+  update_fixed();
+}
+
+bool Simulation::rebuilds(const Edit& edit) const {
+  if (std::holds_alternative<edit::Restart>(edit)) return true;
+  const auto* change = std::get_if<edit::Change>(&edit);
+  if (change == nullptr) return false;
+  const Preset& next = change->preset;
+  if (lattice_of(next) != lattice_ || next.kind != preset_.kind) return true;
+  return steps_ == 0 ? !begin_alike(next, preset_) : converts(next);
+}
+
+std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
+  const auto* change = std::get_if<edit::Change>(&edit);
+  const Preset& next = change != nullptr ? change->preset : preset_;
+  if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
+  if (change == nullptr || lattice_of(next) != lattice_ || next.kind != preset_.kind)
+    return std::make_unique<Simulation>(next, threads_);
+  std::unique_ptr<Simulation> other(new Simulation(*this));
+  if (steps_ == 0) {
+    other->restart_untouched(next);
+  } else {
+    State state;
+    engine_->read(state, tears_);
+    other->take_engine(next, state);
+    other->take_pins(preset_);
   }
+  ++other->revision_;
+  return other;
 }
 
 /// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
@@ -131,7 +199,7 @@ void Simulation::restart_untouched(const Preset& next) {
   pinned_mask_ = pinned_particles(preset_);
   if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
   update_fixed();
-  engine_->load(start_state(preset_), tears_);
+  engine_->load(start_rows(preset_), tears_);
 }
 
 void Simulation::grab(const edit::Grab& e) {
@@ -234,6 +302,11 @@ void Simulation::diverge(const Advance& part) {
   diverged_preset_ = preset_;
 }
 
+std::size_t Simulation::bytes() const {
+  return tears_.bytes() + pinned_mask_.capacity() + pinned_.capacity() * sizeof(int) + state_.x.bytes() +
+         state_.v.bytes();
+}
+
 const State& Simulation::read() {
   if (state_revision_ != revision_) engine_->read(state_, tears_), state_revision_ = revision_;
   return state_;
@@ -245,9 +318,29 @@ State Simulation::read_raw() {
   return state;
 }
 
-ParticleReadout Simulation::particle(int i, int j) {
-  const State& state = read();
-  const ParticleForces forces = forces_on_particle(preset_, tears_, state, i, j);
+/// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
+glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const {
+  const bool fixed = pinned(i, j) || held_.particle == i * lattice_.columns + j;
+  if (stored.lag == 0 || fixed) return stored.v;
+  const ParticleForces forces = forces_on_particle(preset_, tears_, near, i, j);
+  return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
+}
+
+ParticleReadout Simulation::particle(int i, int j) const {
+  // Only what stands round it: to read a whole cloth takes longer than all the rest of a frame.
+  constexpr int reach = Neighbourhood::reach;
+  Neighbourhood near(i, j);
+  const auto visit = [&](int far, const auto& what) {
+    for (int ni = std::max(i - far, 0); ni <= std::min(i + far, lattice_.rows - 1); ++ni)
+      for (int nj = std::max(j - far, 0); nj <= std::min(j + far, lattice_.columns - 1); ++nj) what(ni, nj);
+  };
+  visit(reach, [&](int ni, int nj) {
+    const StoredParticle stored = engine_->stored(ni, nj);
+    near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
+  });
+  Neighbourhood now = near;
+  visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
+  const ParticleForces forces = forces_on_particle(preset_, tears_, now, i, j);
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
   ParticleReadout out;
   out.F_s = forces.F_s, out.F_b = forces.F_b, out.F_d = forces.F_d, out.F_g = forces.F_g, out.F_wind = forces.F_wind;
@@ -258,8 +351,7 @@ ParticleReadout Simulation::particle(int i, int j) {
   // What holds a particle (pin or hand) bears the rest of its force; the hand's belongs to F_ext.
   if (out.held) out.F_ext -= out.F_int + out.F_ext;
   out.F = out.F_int + out.F_ext;
-  out.x = {state.x.x[p], state.x.y[p], state.x.z[p]};
-  out.v = {state.v.x[p], state.v.y[p], state.v.z[p]};
+  out.x = now.x(i, j), out.v = now.v(i, j);
   out.a = out.pinned ? glm::dvec3(0) : out.F / preset_.m;
   out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
                 held_by_contact(preset_.bodies, preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);

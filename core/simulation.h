@@ -1,4 +1,4 @@
-// One cloth (or one weight) in motion: ties presets, engines and edits together. No threads, no window, no clock.
+// One cloth (or one weight) in motion: ties presets, engines and edits together. No window, no clock.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "core/cloth/tears.h"
 #include "core/edit.h"
 #include "core/engines/engine.h"
+#include "core/forces/readout.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -43,6 +44,7 @@ class Simulation {
   /// The constants with which it diverged; of use only while divergence() holds one.
   const Preset& diverged_preset() const { return diverged_preset_; }
   Engine& engine() { return *engine_; }
+  const Engine& engine() const { return *engine_; }
   PositionView positions() const { return engine_->positions(); }
 
   bool pinned(int i, int j) const { return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0; }
@@ -51,23 +53,37 @@ class Simulation {
   /// Free particles that overlapping bodies left inside one of them in the last step.
   int left_inside() const { return left_inside_; }
 
+  /// Whether an edit asks for new arrays: of a large cloth that takes longer than a frame.
+  bool rebuilds(const Edit& edit) const;
+  /// A simulation as that edit (a Change or a Restart) would leave this one, which stays as it is. May run beside
+  /// other threads that only look at this one: positions(), particle() and whatever else is const. Throws as apply().
+  std::unique_ptr<Simulation> rebuilt(const Edit& edit) const;
   /// Applies an edit. Throws PresetError or EngineError and leaves everything as it was if it cannot be done.
   void apply(const Edit& edit);
   /// Makes up to `steps` steps; fewer when the run diverges. Does nothing once diverged.
   Advance advance(int steps);
 
+  /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.
+  std::size_t bytes() const;
+
   /// Full-step positions and velocities, dense.
   const State& read();
   /// As the method holds them: what a state file shows.
   State read_raw();
-  ParticleReadout particle(int i, int j);
+  ParticleReadout particle(int i, int j) const;
   ForceSummary forces(Reduction reduction);
   /// Counts up whenever positions, tears or bodies changed: views compare it to know whether to upload.
   std::uint64_t revision() const { return revision_; }
   std::uint64_t tear_revision() const { return tear_revision_; }
 
  private:
+  /// A copy of all but the engine and what is read of it.
+  Simulation(const Simulation& from);
   void build();
+  bool converts(const Preset& next) const;
+  void take_engine(const Preset& next, const State& state);
+  void take_pins(const Preset& old);
+  glm::dvec3 velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const;
   void change(const Preset& preset);
   void restart_untouched(const Preset& preset);
   void grab(const edit::Grab& edit);

@@ -24,7 +24,7 @@ bool belongs(const BodyRow& row, Body::Shape shape) {
 }
 
 void add_body(App& app, Body::Shape shape) {
-  Preset next = app.preset();
+  Preset next = app.wished();
   Body body;
   body.shape = shape;
   // Below the middle of the cloth, where it will be met.
@@ -37,13 +37,13 @@ void add_body(App& app, Body::Shape shape) {
 }
 
 void remove_body(App& app, int index) {
-  Preset next = app.preset();
+  Preset next = app.wished();
   next.bodies.erase(next.bodies.begin() + index);
   app.propose(std::move(next));
 }
 
 void body_block(App& app, int index) {
-  const Body& body = app.preset().bodies[index];
+  const Body& body = app.wished().bodies[index];
   const float side = app.theme.px(22);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = app.ui.row_width;
@@ -69,10 +69,10 @@ std::vector<std::string> shipped_textures() {
 
 void texture_row(App& app) {
   labelled_row(app, "texture", [&](float width) {
-    const std::string now = std::filesystem::path(app.preset().texture).filename().string();
+    const std::string now = std::filesystem::path(app.wished().texture).filename().string();
     if (!begin_combo(app, "##texture", now.c_str(), width)) return;
     for (const std::string& name : shipped_textures())
-      if (ImGui::Selectable(name.c_str(), name == app.preset().texture) && name != app.preset().texture)
+      if (ImGui::Selectable(name.c_str(), name == app.wished().texture) && name != app.wished().texture)
         app.request(request::LoadTexture{name});
     ImGui::Separator();
     if (ImGui::Selectable("Other file…")) app.command(Command::load_texture_dialog);
@@ -84,7 +84,7 @@ void texture_row(App& app) {
 
 void view_section(App& app) {
   if (!section(app, "View")) return;
-  const bool cloth = app.preset().kind == Kind::cloth;
+  const bool cloth = app.wished().kind == Kind::cloth;
   if (cloth) texture_row(app);
   labelled_row(app, "show", [&](float) {
     if (!cloth) {
@@ -100,12 +100,12 @@ void view_section(App& app) {
 
 void body_sections(App& app) {
   if (!section(app, "Bodies")) return;
-  for (int k = 0; k < int(app.preset().bodies.size()); ++k) {
+  for (int k = 0; k < int(app.wished().bodies.size()); ++k) {
     ImGui::PushID(k);
     body_block(app, k);
     ImGui::PopID();
   }
-  const bool room = app.preset().bodies.size() < most_bodies;
+  const bool room = app.wished().bodies.size() < most_bodies;
   if (text_button(app, "Add sphere", false, room)) add_body(app, Body::Shape::sphere);
   ImGui::SameLine();
   if (text_button(app, "Add plane", false, room)) add_body(app, Body::Shape::plane);

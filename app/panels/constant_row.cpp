@@ -217,11 +217,11 @@ RowColumns row_columns(const App& app) {
 void constant_row(App& app, const PresetRow& row) {
   Line line = describe(row);
   classify(row.field, line);
-  read(row.field, app.preset(), line.value);
+  read(row.field, app.wished(), line.value);
   read(row.field, app.document.saved, line.saved);
   read(row.field, Preset{}, line.standard);
   line.set = [&app, &row](const double* value, unsigned gesture) {
-    Preset next = app.preset();
+    Preset next = app.wished();
     write(row.field, next, value);
     app.propose(std::move(next), gesture);
   };
@@ -234,13 +234,13 @@ void body_row(App& app, const BodyRow& row, int index) {
   Line line = describe(row);
   line.key = "bodies[" + std::to_string(index) + "]." + line.key;
   classify(row.field, line);
-  read(row.field, app.preset().bodies[index], line.value);
+  read(row.field, app.wished().bodies[index], line.value);
   if (std::size_t(index) < app.document.saved.bodies.size() &&
-      app.document.saved.bodies[index].shape == app.preset().bodies[index].shape)
+      app.document.saved.bodies[index].shape == app.wished().bodies[index].shape)
     read(row.field, app.document.saved.bodies[index], line.saved);
   read(row.field, Body{}, line.standard);
   line.set = [&app, &row, index](const double* value, unsigned gesture) {
-    Preset next = app.preset();
+    Preset next = app.wished();
     write(row.field, next.bodies[index], value);
     app.propose(std::move(next), gesture);
   };

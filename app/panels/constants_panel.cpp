@@ -85,7 +85,7 @@ void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle,
 
 void integrator_row(App& app) {
   const Tokens& c = app.theme.colors;
-  const Scheme& now = scheme(app.preset().integrator);
+  const Scheme& now = scheme(app.wished().integrator);
   const float width = app.ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const std::string room = "         ", label = room + label_of(now);
@@ -108,7 +108,7 @@ void integrator_row(App& app) {
     draw_sample(app.theme, *ImGui::GetWindowDrawList(), at.x + app.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
                 choice);
     if (chosen && choice.name != now.name) {
-      Preset next = app.preset();
+      Preset next = app.wished();
       next.integrator = choice.name;
       app.propose(std::move(next));
     }
@@ -119,7 +119,7 @@ void integrator_row(App& app) {
 }
 
 void scale_resolution(App& app, double q) {
-  app.propose(with_resolution(app.preset(), q));
+  app.propose(with_resolution(app.wished(), q));
 }
 
 void resolution_row(App& app) {
@@ -128,7 +128,7 @@ void resolution_row(App& app) {
       "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
       "Tears are mended.";
   labelled_row(app, "divide", [&](float) {
-    const Preset& preset = app.preset();
+    const Preset& preset = app.wished();
     const float gap = app.theme.px(6);
     const bool coarser = preset.rows >= 3 && (preset.columns >= 3 || preset.columns == 1);
     if (text_button(app, "÷ 2", false, coarser)) scale_resolution(app, 0.5);
@@ -160,7 +160,7 @@ std::string pins_text(const Pins& pins) {
 
 void pins_row(App& app) {
   labelled_row(app, "pins", [&](float width) {
-    const Pins& pins = app.preset().pins;
+    const Pins& pins = app.wished().pins;
     const bool open = begin_combo(app, "##pins", pins_text(pins).c_str(), width);
     if (!open) {
       tooltip(app, gui::item_id(), "Particles that never move.", "Right double-click a particle to pin or unpin it");
@@ -169,7 +169,7 @@ void pins_row(App& app) {
     for (Pins::Mode mode : {Pins::Mode::none, Pins::Mode::top_row, Pins::Mode::top_corners, Pins::Mode::four_corners,
                             Pins::Mode::left_column, Pins::Mode::boundary}) {
       if (!ImGui::Selectable(pins_text({mode, {}}).c_str(), pins.mode == mode) || pins.mode == mode) continue;
-      Preset next = app.preset();
+      Preset next = app.wished();
       next.pins = {mode, {}};
       app.propose(std::move(next));
     }
@@ -179,7 +179,7 @@ void pins_row(App& app) {
 
 void rows(App& app, const Section& wanted) {
   for (const PresetRow* row : rows_of(wanted))
-    if (applies(*row, app.preset())) constant_row(app, *row);
+    if (applies(*row, app.wished())) constant_row(app, *row);
 }
 
 bool empty(const Section& wanted, const Preset& preset) {
@@ -191,9 +191,9 @@ bool empty(const Section& wanted, const Preset& preset) {
 }  // namespace
 
 void constants_sections(App& app) {
-  const bool cloth = app.preset().kind == Kind::cloth;
+  const bool cloth = app.wished().kind == Kind::cloth;
   for (const Section& wanted : sections()) {
-    if (empty(wanted, app.preset())) continue;
+    if (empty(wanted, app.wished())) continue;
     const std::string_view name = wanted.name;
     if (name == "Cloth" && cloth) body_sections(app);
     if (!section(app, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;

@@ -37,11 +37,28 @@ Files find_fonts() {
   return found;
 }
 
-// Latin with Swedish letters, Greek, punctuation, superscripts, arrows, a few signs of mathematics and geometry.
-constexpr std::array<ImWchar, 21> text_glyphs{0x20,   0x17F,  0x370,  0x3FF,  0x1E8A, 0x1E8D, 0x2010,
-                                              0x2044, 0x2070, 0x209F, 0x2190, 0x2195, 0x21BA, 0x21BB,
-                                              0x2200, 0x2265, 0x25A0, 0x25CF, 0,      0,      0};
-constexpr std::array<ImWchar, 3> icon_glyphs{0xF000, 0xF2FF, 0};
+// What each font may be asked for; every glyph costs time at the start and room in the atlas.
+// Text: Latin with Swedish letters, Greek, punctuation, superscripts, arrows, a few signs of mathematics and geometry.
+constexpr ImWchar text_glyphs[] = {0x20,   0x17F,  0x370,  0x3FF,  0x1E8A, 0x1E8D, 0x2010, 0x2044, 0x2070, 0x209F,
+                                   0x2190, 0x2195, 0x21BA, 0x21BB, 0x2200, 0x2265, 0x25A0, 0x25CF, 0};
+/// Numbers, their signs and units, and what may be typed into a field.
+constexpr ImWchar number_glyphs[] = {0x20, 0xFF, 0x370, 0x3FF, 0x2010, 0x2044, 0x2070, 0x209F, 0x221E, 0x221E, 0};
+constexpr ImWchar symbol_glyphs[] = {0x20, 0x7E, 0x370, 0x3FF, 0x1E8A, 0x1E8D, 0};
+/// The program's own words.
+constexpr ImWchar plain_glyphs[] = {0x20, 0xFF, 0x2010, 0x2044, 0};
+
+/// The icons, each a range of its own.
+const ImWchar* icon_glyphs() {
+  static const auto ranges = [] {
+    std::array<ImWchar, 2 * std::size(icon::all) + 1> list{};
+    for (std::size_t k = 0; k < std::size(icon::all); ++k) {
+      const auto* utf8 = reinterpret_cast<const unsigned char*>(icon::all[k]);  // three bytes each
+      list[2 * k] = list[2 * k + 1] = ImWchar((utf8[0] & 0x0F) << 12 | (utf8[1] & 0x3F) << 6 | (utf8[2] & 0x3F));
+    }
+    return list;
+  }();
+  return ranges.data();
+}
 
 class Builder {
  public:
@@ -49,7 +66,7 @@ class Builder {
     ImGui::GetIO().Fonts->Clear();
   }
 
-  ImFont* load(const char* name, const char* fallback, float size, bool with_icons = false) {
+  ImFont* load(const char* name, const char* fallback, float size, const ImWchar* glyphs, bool with_icons = false) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     const float pixels = std::round(size * scale_);
     ImFontConfig config;
@@ -57,8 +74,7 @@ class Builder {
     config.OversampleV = 1;
     config.PixelSnapH = false;
     const fs::path* file = choose(name, fallback);
-    ImFont* font =
-        file != nullptr ? atlas.AddFontFromFileTTF(file->c_str(), pixels, &config, text_glyphs.data()) : nullptr;
+    ImFont* font = file != nullptr ? atlas.AddFontFromFileTTF(file->c_str(), pixels, &config, glyphs) : nullptr;
     if (font == nullptr) {
       ImFontConfig own;
       own.SizePixels = pixels;
@@ -84,7 +100,7 @@ class Builder {
     config.MergeMode = true;
     config.GlyphMinAdvanceX = pixels * 1.15f;
     config.GlyphOffset.y = std::round(pixels * 0.04f);
-    ImGui::GetIO().Fonts->AddFontFromFileTTF(it->second.c_str(), pixels, &config, icon_glyphs.data());
+    ImGui::GetIO().Fonts->AddFontFromFileTTF(it->second.c_str(), pixels, &config, icon_glyphs());
     fonts_.icons = true;
   }
   void note(std::string text) {
@@ -103,15 +119,15 @@ class Builder {
 Fonts build_fonts(float scale) {
   Fonts fonts;
   Builder builder(scale, fonts);
-  fonts.text = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 14, true);
-  fonts.small = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 12);
-  fonts.title = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 14, true);
-  fonts.brand = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 17);
-  fonts.large_icons = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 18, true);
-  fonts.huge = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 40);
-  fonts.symbol = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 19);
-  fonts.subscript = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 13);
-  fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13);
+  fonts.text = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 14, text_glyphs, true);
+  fonts.small = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 12, text_glyphs);
+  fonts.title = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 14, text_glyphs, true);
+  fonts.brand = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 17, plain_glyphs);
+  fonts.large_icons = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 18, plain_glyphs, true);
+  fonts.huge = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 40, plain_glyphs);
+  fonts.symbol = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 19, symbol_glyphs);
+  fonts.subscript = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 13, symbol_glyphs);
+  fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13, number_glyphs);
   if (!builder.has("forkawesome-webfont.ttf"))
     fonts.notes.push_back(
         "font forkawesome-webfont.ttf not found; buttons carry words in place of icons "

@@ -51,6 +51,10 @@ inline constexpr const char* trash = "\xEF\x87\xB8";
 inline constexpr const char* close = "\xEF\x80\x8D";
 inline constexpr const char* hand = "\xEF\x89\x95";
 inline constexpr const char* move = "\xEF\x82\xB2";
+/// Every icon above: only these are drawn into the atlas.
+inline constexpr const char* all[] = {play,     pause, step, restart, undo,     redo,    scissors, expand,
+                                      compress, help,  open, save,    download, warning, error,    info,
+                                      down,     right, plus, trash,   close,    hand,    move};
 }  // namespace icon
 
 /// The icon, or the word where the icon font is missing.

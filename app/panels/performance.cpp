@@ -150,8 +150,10 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
+  facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});
   facts.push_back({"plots' history", megabytes(plots)});
+  facts.push_back({"undo", megabytes(double(app.history.bytes()))});
   return facts;
 }
 

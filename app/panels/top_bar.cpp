@@ -163,7 +163,7 @@ void engine_combo(App& app, float width) {
   };
   static constexpr Choice choices[] = {{"CPU · float", EngineKind::cpu, Precision::float_},
                                        {"CPU · double", EngineKind::cpu, Precision::double_}};
-  const Preset& preset = app.preset();
+  const Preset& preset = app.wished();
   const char* shown = choices[0].label;
   for (const Choice& choice : choices)
     if (choice.engine == preset.engine && choice.precision == preset.precision) shown = choice.label;

@@ -11,7 +11,7 @@ namespace tyglab {
 namespace {
 
 void set_mode(App& app, int mode) {
-  Preset next = app.preset();
+  Preset next = app.wished();
   next.mode = mode;
   app.propose(std::move(next));
 }
@@ -30,7 +30,7 @@ void view_buttons(App& app, const Region& region) {
   const float padding = roomy || width(numbers) < room ? 11.f : 4.f;
   const ImVec2 lo{region.at.x + margin, region.at.y + app.theme.px(12)};
   ImGui::SetCursorScreenPos(lo);
-  const int mode = app.preset().mode;
+  const int mode = app.wished().mode;
   if (const int k = segments(app, "views", roomy ? words : numbers, 5, mode - 1, padding); k >= 0 && k + 1 != mode)
     set_mode(app, k + 1);
   tooltip(app, gui::item_id(), "How the cloth is drawn (2.4)", "Keys 1 to 5");
@@ -59,7 +59,7 @@ void viewport_panel(App& app, const Region& region) {
   // What is left of a diverged cloth steps back, so that the banner is what one sees.
   if (app.simulation->divergence()) draw.AddRectFilled(region.at, hi, faded(app.theme.colors.ground, 0.55f));
   viewport_overlay(app);
-  if (app.preset().kind == Kind::cloth) view_buttons(app, region);
+  if (app.wished().kind == Kind::cloth) view_buttons(app, region);
   message_list(app);
   banner(app);
   end_region();

@@ -10,6 +10,7 @@
 #include "app/panels/fonts.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui_state.h"
+#include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
@@ -26,18 +27,12 @@
 
 namespace tyglab {
 
-/// The preset that was opened or saved last: what "unsaved" and every reset compare with.
-struct Document {
-  Preset saved;
-  std::string label;
-  std::filesystem::path file;  ///< the user's file, empty for a shipped preset
-};
-
 struct App {
   std::unique_ptr<Simulation> simulation;
   int threads = 1;  ///< of the CPU engine, at most
   Document document;
   History history;
+  Building building;
   Pacing pacing;
   Sleep sleep;
   std::int64_t steps_made = 0;    ///< in the last frame
@@ -70,6 +65,8 @@ struct App {
 
   bool asleep() const { return pacing.playing && sleep.asleep(*simulation); }
   const Preset& preset() const { return simulation->preset(); }
+  /// The constants as they have been asked for: those of the cloth in work, or else the present one's.
+  const Preset& wished() const { return building.wished() != nullptr ? *building.wished() : preset(); }
   void request(Request request) { requests.push_back(std::move(request)); }
   void command(Command command) { requests.emplace_back(request::Do{command}); }
   /// Asks for the constants to become these.

@@ -13,13 +13,10 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
-void say_fallback(App& app, const char* reason) {
-  app.messages.warning(std::string(reason) + " The CPU runs it instead.");
-}
-
-void load_texture(App& app) {
+void take_picture(App& app, const FoundPicture& picture) {
   app.redraw_cloth = true;
-  if (const auto problem = app.renderer->set_texture(texture_file(app.preset().texture))) app.messages.error(*problem);
+  if (const auto* why = std::get_if<std::string>(&picture)) return app.messages.error(*why);
+  if (const auto problem = app.renderer->set_texture(std::get<ClothPicture>(picture))) app.messages.error(*problem);
 }
 
 /// The middle of the cloth, so that there is something to read at once.
@@ -28,7 +25,19 @@ std::optional<Pins::Site> first_pick(const App& app) {
   return Pins::Site{lattice.rows / 2, lattice.columns / 2};
 }
 
-void begin(App& app) {
+}  // namespace
+
+FoundPicture find_picture(const Preset& preset) {
+  try {
+    return read_picture(texture_file(preset.texture));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+void begin_document(App& app, const Document& document, const FoundPicture& picture) {
+  app.document = document;
+  take_picture(app, picture);
   app.history.clear();
   app.picked = first_pick(app);
   app.tool = Tool{};
@@ -39,41 +48,37 @@ void begin(App& app) {
   app.wants_framing = true;
 }
 
-}  // namespace
-
-void make_simulation(App& app, const Preset& preset) {
+std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, std::string& fallback) {
   try {
-    app.simulation = std::make_unique<Simulation>(preset, app.threads);
+    return std::make_unique<Simulation>(preset, threads);
   } catch (const EngineError& error) {
     if (preset.engine == EngineKind::cpu) throw;
-    say_fallback(app, error.what());
-    app.simulation = std::make_unique<Simulation>(on_cpu(preset), app.threads);
+    fallback = std::string(error.what()) + " The CPU runs it instead.";
+    return std::make_unique<Simulation>(on_cpu(preset), threads);
   }
 }
 
-void take_document(App& app, const Preset& preset) {
-  const auto take = [&](const Preset& which) {
-    app.simulation->apply(edit::Change{which});
-    app.simulation->apply(edit::Restart{});
-  };
-  try {
-    take(preset);
-  } catch (const EngineError& error) {
-    if (preset.engine == EngineKind::cpu) throw;
-    take(on_cpu(preset));
-    say_fallback(app, error.what());
-  }
-  app.document.saved = preset;
-  load_texture(app);
-  begin(app);
+void take_built(App& app, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
+  const Preset before = app.preset();
+  swap_in(app, std::move(simulation));
+  if (order.document) return begin_document(app, *order.document, find_picture(app.preset()));
+  follow_up(app, before);
+  if (!order.fresh) return;
+  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
+  app.pacing.restart_measure();
 }
 
 void open_document(App& app, const std::filesystem::path& file, bool shipped) {
   try {
     const Preset preset = load_preset(file);
-    take_document(app, preset);
-    app.document.label = file.stem().string();
-    app.document.file = shipped ? std::filesystem::path() : file;
+    const Document document{preset, file.stem().string(), shipped ? std::filesystem::path() : file};
+    if (takes_long(app, preset) && preset.engine == EngineKind::cpu)
+      return app.building.order(app, {preset, true, false, document}, app.history);
+    std::string fallback;
+    auto simulation = make_simulation(preset, app.threads, fallback);
+    if (!fallback.empty()) app.messages.warning(fallback);
+    app.building.drop();
+    take_built(app, std::move(simulation), {preset, true, false, document});
   } catch (const std::bad_alloc&) {
     app.messages.error("There is not enough memory for " + file.string() + ". The old cloth stays.");
   } catch (const std::exception& error) {
@@ -98,7 +103,8 @@ bool save_document_as(App& app, const std::filesystem::path& file, const std::st
     show_save_problem(app, file, name, error.what());
     return false;
   }
-  app.simulation->apply(edit::Change{preset});
+  app.building.rename(name);
+  if (!app.building.holds_present()) app.simulation->apply(edit::Change{preset});
   app.document = {preset, file.stem().string(), file};
   app.messages.note("Saved " + file.string());
   return true;

@@ -14,8 +14,16 @@ enum class Part { simulate, sample, normals, upload, shadow, draw_cloth, panels,
 inline constexpr std::array<std::string_view, 10> part_names{"simulate",   "sample", "normals", "upload", "shadow",
                                                              "draw_cloth", "panels", "ui_draw", "swap",   "frame"};
 
+/// What lies between the start of the program and its first picture, in order.
+enum class StartPart { program, settings, window, shaders, cloth, first_frame };
+inline constexpr std::array<std::string_view, 6> start_names{"program", "settings", "window",
+                                                             "shaders", "cloth",    "first_frame"};
+
 class FrameCosts {
  public:
+  /// Starts to watch with what went before: loading the program, and reading what it was called with.
+  FrameCosts() { started(StartPart::program); }
+
   /// Counts the time from its making to its end towards a part.
   class Timer {
    public:
@@ -29,13 +37,15 @@ class FrameCosts {
   void add(Part part, const Duration& time) {
     now_[std::size_t(part)].wall_s += time.wall_s, now_[std::size_t(part)].cpu_s += time.cpu_s;
   }
+  /// That part of the start is over.
+  void started(StartPart part);
   void add_steps(std::int64_t steps) { steps_ += steps; }
   /// Closes the frame: what its parts took joins the means.
   void end_frame();
   /// Milliseconds a frame, over about the last second; 0 once a part has not run for a while.
   double recent_ms(Part part) const { return recent_ms_[std::size_t(part)]; }
-  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, frames,
-  /// steps, size of the window.
+  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, what the
+  /// start took by part, frames, steps, size of the window.
   std::string json(int width, int height, const std::string& engine, const std::string& preset) const;
 
  private:
@@ -44,6 +54,7 @@ class FrameCosts {
   std::array<double, part_names.size()> recent_ms_{};
   std::array<std::int64_t, part_names.size()> counts_{};
   std::int64_t frames_ = 0, steps_ = 0;
+  std::array<double, start_names.size()> started_s_{};  ///< since the program began
 };
 
 }  // namespace tyglab

@@ -24,6 +24,15 @@ class History {
   bool can_redo() const { return !redo_.empty(); }
   std::optional<Preset> undo(const Preset& present) { return move(undo_, redo_, present); }
   std::optional<Preset> redo(const Preset& present) { return move(redo_, undo_, present); }
+  /// Of all presets that it keeps.
+  std::size_t bytes() const {
+    std::size_t total = 0;
+    for (const auto* list : {&undo_, &redo_})
+      for (const Preset& p : *list)
+        total += sizeof p + p.name.size() + p.description.size() + p.bodies.size() * sizeof(Body) +
+                 p.pins.list.size() * sizeof(Pins::Site);
+    return total;
+  }
   void clear() { undo_.clear(), redo_.clear(), gesture_ = 0; }
 
  private:

@@ -109,7 +109,7 @@ bool list_takes(App& app, const KeyEvent& event) {
 
 void command_for(App& app, const KeyEvent& event) {
   if (const auto mode = digit(event)) {
-    Preset next = app.preset();
+    Preset next = app.wished();
     next.mode = *mode;
     app.propose(std::move(next));
     return;

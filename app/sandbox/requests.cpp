@@ -22,22 +22,6 @@ double particles(const Preset& preset) {
   return double(preset.rows) * preset.columns;
 }
 
-/// What follows from an edit that was taken.
-void follow_up(App& app, const Preset& before) {
-  const Preset& now = app.preset();
-  const Lattice& lattice = app.simulation->lattice();
-  // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
-  if (app.picked && before.L != now.L) app.picked = site_in_resolution(*app.picked, before, now);
-  if (app.picked && !lattice.contains(app.picked->i, app.picked->j)) app.picked.reset();
-  if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
-    app.tool.site.reset(), app.tool.last_site.reset();
-    if (app.tool.kind == Tool::Kind::grab) app.tool.kind = Tool::Kind::none;
-    app.ui.plots.forces.clear(), app.ui.plots.height.clear();
-  }
-  if (before.bodies.size() != now.bodies.size() && app.tool.kind == Tool::Kind::body) app.tool.kind = Tool::Kind::none;
-  app.pacing.forget_cost();
-}
-
 /// A particle that was pinned and freed again leaves a list of pins; where it says what the document says by a name, or
 /// by a list in another order, it is put as the document puts it.
 void spell_pins_as_saved(App& app) {
@@ -51,12 +35,69 @@ void spell_pins_as_saved(App& app) {
 /// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
 bool take_texture(App& app, const Edit& edit) {
   const auto* change = std::get_if<edit::Change>(&edit);
-  if (change == nullptr || change->preset.texture == app.preset().texture) return true;
+  if (change == nullptr || change->preset.texture == app.wished().texture) return true;
   if (const auto problem = app.renderer->set_texture(texture_file(change->preset.texture))) {
     app.messages.error(*problem);
     return false;
   }
   app.redraw_cloth = true;
+  return true;
+}
+
+void record(App& app, const Preset& before, const Preset& now, unsigned gesture) {
+  Preset same_view = before;
+  same_view.mode = now.mode;
+  if (!(same_view == now)) app.history.record(before, gesture);
+}
+
+/// What changes while another cloth is in work is felt at once where that is quick.
+void change_present(App& app, const Preset& before, const Preset& next) {
+  const edit::Change change{rebased(before, next, app.preset())};
+  if (app.building.holds_present() || change.preset == app.preset() || app.simulation->rebuilds(change)) return;
+  const Preset old = app.preset();
+  app.simulation->apply(change);
+  follow_up(app, old);
+}
+
+/// What becomes of an edit of the cloth itself while its state is being read for another one: whether it is taken.
+bool defer(App& app, const Edit& edit) {
+  // Who would grab must see it at once.
+  if (std::holds_alternative<edit::Grab>(edit) || std::holds_alternative<edit::MoveHand>(edit)) return false;
+  app.building.defer(edit);
+  return true;
+}
+
+/// Whether an edit of all constants is to be made beside the frames, together with what is in work there.
+bool goes_beside(const App& app, const Edit& edit) {
+  const Building& building = app.building;
+  if (building.holds_present()) return true;
+  if (building.wished() == nullptr) return takes_long(app, edit);
+  return building.restarts() || app.simulation->rebuilds(edit);
+}
+
+/// Sees to an edit that takes long, or that comes while another cloth is in work: says whether it was taken. Nothing:
+/// it is to be made here and now.
+std::optional<bool> build_beside(App& app, const Edit& edit, unsigned gesture) {
+  Building& building = app.building;
+  const bool restarts = std::holds_alternative<edit::Restart>(edit);
+  const auto* change = std::get_if<edit::Change>(&edit);
+  if (change == nullptr && !restarts) {
+    if (!building.holds_present()) return std::nullopt;
+    return defer(app, edit);
+  }
+  if (!goes_beside(app, edit)) {
+    if (building.wished() != nullptr) building.drop();
+    return std::nullopt;
+  }
+  const Preset before = app.wished(), next = change != nullptr ? change->preset : before;
+  const History history = app.history;
+  record(app, before, next, gesture);
+  if (building.wished() != nullptr) change_present(app, before, next);
+  BuildOrder order;
+  order.target = next;
+  order.restarts = restarts || building.restarts();
+  order.fresh = order.restarts || lattice_of(next) != app.simulation->lattice() || next.kind != app.preset().kind;
+  building.order(app, std::move(order), history);
   return true;
 }
 
@@ -67,14 +108,14 @@ void restart(App& app) {
 }
 
 void take_from_history(App& app, bool backwards) {
-  const auto preset = backwards ? app.history.undo(app.preset()) : app.history.redo(app.preset());
+  const auto preset = backwards ? app.history.undo(app.wished()) : app.history.redo(app.wished());
   if (!preset) {
     app.messages.note(backwards ? "There is nothing to undo." : "There is nothing to redo.");
     return;
   }
   History kept = app.history;
   Preset next = *preset;
-  next.mode = app.preset().mode;  // the view is not a change to undo
+  next.mode = app.wished().mode;  // the view is not a change to undo
   apply_edit(app, edit::Change{next});
   app.history = std::move(kept);
 }
@@ -88,6 +129,7 @@ void reset_everything(App& app) {
 
 void single_step(App& app) {
   app.pacing.playing = false;
+  if (app.building.holds_present()) return;
   move_hand(app, 1);
   app.steps_made += app.simulation->advance(1).steps;
 }
@@ -159,7 +201,7 @@ void apply(App& app, const request::Do& what) {
 void apply(App& app, const request::Apply& what) {
   if (const auto* change = std::get_if<edit::Change>(&what.edit); change != nullptr && !what.confirmed) {
     const double count = particles(change->preset);
-    if (count > large_cloth && count > 1.001 * particles(app.preset())) {
+    if (count > large_cloth && count > 1.001 * particles(app.wished())) {
       request::Apply agreed = what;
       agreed.confirmed = true;
       char text[160];
@@ -200,7 +242,7 @@ void apply(App& app, const request::WriteCsv& what) {
 }
 
 void apply(App& app, const request::LoadTexture& what) {
-  Preset next = app.preset();
+  Preset next = app.wished();
   next.texture = what.name;
   apply_edit(app, edit::Change{next});
 }
@@ -230,18 +272,32 @@ bool changed_since_divergence(const App& app) {
   return then != now;
 }
 
+void follow_up(App& app, const Preset& before) {
+  const Preset& now = app.preset();
+  const Lattice& lattice = app.simulation->lattice();
+  // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
+  if (app.picked && before.L != now.L) app.picked = site_in_resolution(*app.picked, before, now);
+  if (app.picked && !lattice.contains(app.picked->i, app.picked->j)) app.picked.reset();
+  if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
+    app.tool.site.reset(), app.tool.last_site.reset();
+    if (app.tool.kind == Tool::Kind::grab) app.tool.kind = Tool::Kind::none;
+    app.ui.plots.forces.clear(), app.ui.plots.height.clear();
+  }
+  if (before.bodies.size() != now.bodies.size() && app.tool.kind == Tool::Kind::body) app.tool.kind = Tool::Kind::none;
+  app.pacing.forget_cost();
+}
+
 bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
   try {
     if (const auto* change = std::get_if<edit::Change>(&edit))
       if (const std::string wrong = check_preset(change->preset); !wrong.empty()) throw PresetError(wrong);
     if (!take_texture(app, edit)) return false;
+    if (const auto taken = build_beside(app, edit, gesture)) return *taken;
     const Preset before = app.preset();
     app.simulation->apply(edit);
     if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
     if (before == app.preset()) return true;
-    Preset same_view = before;
-    same_view.mode = app.preset().mode;
-    if (!(same_view == app.preset())) app.history.record(before, gesture);
+    record(app, before, app.preset(), gesture);
     follow_up(app, before);
     return true;
   } catch (const std::bad_alloc&) {

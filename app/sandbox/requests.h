@@ -75,6 +75,8 @@ struct App;
 void apply_requests(App& app);
 /// Applies one edit at once (the pointer's tools). Returns whether it was taken.
 bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
+/// What follows where the cloth of these constants has given way to the present one.
+void follow_up(App& app, const Preset& before);
 /// Whether the present constants differ from those of the file (the view apart).
 bool unsaved(const App& app);
 /// Whether the motion has diverged, and constants of it (not its name or picture) have been changed since.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <future>
 #include <limits>
 
 #include "app/commands/interrupt.h"
@@ -29,6 +30,13 @@ constexpr double gesture_end = 0.6;          // s without a change
 constexpr double calm_stretch = 5;           // rest lengths; what is longer is not drawn of a diverged cloth
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
 
+/// The cloth that is shown first.
+struct First {
+  std::unique_ptr<Simulation> simulation;
+  std::string fallback;  ///< why it runs on another engine than it asks for; empty: it does not
+  FoundPicture picture;
+};
+
 class Sandbox {
  public:
   explicit Sandbox(const SandboxOptions& options);
@@ -38,7 +46,9 @@ class Sandbox {
   int run();
 
  private:
+  bool restores() const { return !options_.explicit_preset && !app_.scripted && app_.settings.session.has_value(); }
   void start_preset();
+  Document first_document();
   void frame();
   void frame_parts();
   void wait_for_events();
@@ -57,6 +67,7 @@ class Sandbox {
 
   SandboxOptions options_;
   App app_;
+  std::future<First> first_;  ///< the first cloth, built while the window opens
   Window window_;
   Gui gui_;
   int frames_ = 0;
@@ -73,41 +84,47 @@ class Sandbox {
 Sandbox::Sandbox(const SandboxOptions& options)
     : options_(options),
       app_(start_app(options)),
+      first_(std::async(std::launch::async,
+                        [preset = restores() ? app_.settings.session->preset : options.preset, options] {
+                          First first;
+                          first.simulation = make_simulation(preset, options.threads, first.fallback);
+                          first.picture = find_picture(preset);
+                          return first;
+                        })),
       window_(options.width, options.height, app_.settings, app_.input),
       gui_(window_.handle()) {
+  app_.costs.started(StartPart::window);
   glfwSwapInterval(app_.scripted ? 0 : 1);
   app_.renderer = std::make_unique<ClothRenderer>();
+  app_.costs.started(StartPart::shaders);
   start_preset();
+  app_.costs.started(StartPart::cloth);
   last_time_ = glfwGetTime();
 }
 
 void Sandbox::start_preset() {
-  const auto& session = app_.settings.session;
-  const bool restore = !options_.explicit_preset && !app_.scripted && session.has_value();
-  Preset present = restore ? session->preset : options_.preset;
-  make_simulation(app_, present);
-  take_document(app_, app_.preset());
-  app_.document.label = options_.preset_label;
-  app_.document.file = options_.preset_path;
-  if (!restore) {
-    app_.document.saved = options_.preset;
-    return;
-  }
-  app_.document.label = session->label;
-  app_.document.file = session->file;
+  First first = first_.get();
+  if (!first.fallback.empty()) app_.messages.warning(first.fallback);
+  app_.simulation = std::move(first.simulation);
+  begin_document(app_, first_document(), first.picture);
+}
+
+Document Sandbox::first_document() {
+  if (!restores()) return {options_.preset, options_.preset_label, options_.preset_path};
+  const Session& session = *app_.settings.session;
   // What was saved is on disk; where it is gone, the session itself is all there is.
   try {
-    app_.document.saved = session->file.empty() ? session->saved : load_preset(session->file);
+    return {session.file.empty() ? session.saved : load_preset(session.file), session.label, session.file};
   } catch (const std::exception& error) {
     app_.messages.warning(std::string(error.what()) + " The last session's state is shown; save it under a name.");
-    app_.document.file.clear();
+    return {app_.preset(), session.label, {}};
   }
 }
 
 bool Sandbox::idle() const {
   const bool still = !app_.pacing.playing || app_.simulation->divergence().has_value() || app_.asleep();
-  return still && !app_.scripted && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ && app_.requests.empty() &&
-         app_.tool.kind == Tool::Kind::none;
+  return still && !app_.scripted && !app_.building.in_work() && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ &&
+         app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
@@ -166,7 +183,7 @@ void Sandbox::simulate(double real_seconds) {
   const FrameCosts::Timer timer(app_.costs, Part::simulate);
   Simulation& simulation = *app_.simulation;
   app_.sleep.begin(simulation);
-  if (!app_.pacing.playing || simulation.divergence() || app_.asleep()) return;
+  if (!app_.pacing.playing || simulation.divergence() || app_.asleep() || app_.building.holds_present()) return;
   const double dt = app_.preset().dt;
   const int due = app_.pacing.due(real_seconds, dt);
   move_hand(app_, due);
@@ -280,6 +297,7 @@ void Sandbox::frame() {
     frame_parts();
   }
   app_.costs.end_frame();
+  if (frames_ == 1) app_.costs.started(StartPart::first_frame);
 }
 
 void Sandbox::frame_parts() {
@@ -295,6 +313,7 @@ void Sandbox::frame_parts() {
   if (window_.wants_close()) window_.forget_close(), app_.request(request::Quit{});
   rescale();
   take_dropped_files();
+  app_.building.poll(app_);
   handle_keys(app_);
   apply_requests(app_);
   handle_pointer(app_);

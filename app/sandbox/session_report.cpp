@@ -123,6 +123,9 @@ void add_simulation(Json& json, const App& app) {
   json["asleep"] = app.asleep();
   json["speed"] = app.pacing.speed;
   json["divergence"] = divergence(app);
+  const auto next = app.building.lattice();
+  json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
+  json["frames_while_building"] = app.building.frames_beside();
   json["label"] = app.document.label;
   json["file"] = app.document.file.string();
   json["unsaved"] = unsaved(app);

@@ -28,6 +28,9 @@ class Sleep {
   /// After a frame's steps. `touched`: a tool acts on the cloth.
   void look(Simulation& simulation, bool touched);
 
+  /// Of the places that it remembers.
+  std::size_t bytes() const { return anchor_.capacity() * sizeof(glm::dvec3); }
+
  private:
   void take_anchor(const Simulation& simulation);
   bool near_anchor(const Simulation& simulation, double radius) const;

@@ -90,7 +90,15 @@ ClothRenderer::~ClothRenderer() = default;
 
 std::optional<std::string> ClothRenderer::set_texture(const std::filesystem::path& file) {
   try {
-    parts_->texture.load(file);
+    return set_texture(read_picture(file));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+std::optional<std::string> ClothRenderer::set_texture(const ClothPicture& picture) {
+  try {
+    parts_->texture.take(picture);
   } catch (const std::runtime_error& error) {
     return error.what();
   }

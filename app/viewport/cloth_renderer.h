@@ -10,6 +10,7 @@
 
 #include "app/stopwatch.h"
 #include "app/viewport/camera.h"
+#include "app/viewport/cloth_texture.h"
 #include "app/viewport/image.h"
 #include "core/simulation.h"
 
@@ -74,6 +75,8 @@ class ClothRenderer {
 
   /// Takes a picture as the cloth's texture. A bad file gives a sentence about it, and the old texture stays.
   std::optional<std::string> set_texture(const std::filesystem::path& file);
+  /// The same of a picture that has been read already.
+  std::optional<std::string> set_texture(const ClothPicture& picture);
 
   /// Uploads what changed since the last call and what this view needs: nothing where nothing moved, normals only in
   /// lit views, index lists only after tears or a change of view.

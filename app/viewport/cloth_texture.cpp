@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/viewport/image.h"
-
 namespace tyglab {
 namespace {
 
@@ -40,13 +38,14 @@ void filter() {
   glTexParameterf(GL_TEXTURE_2D, texture_max_anisotropy, std::min(most, wanted_anisotropy));
 }
 
-gl::Texture upload(const Image& image) {
+gl::Texture upload(const std::vector<Image>& sizes) {
   gl::Texture texture;
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
+  for (std::size_t level = 0; level < sizes.size(); ++level)
+    glTexImage2D(GL_TEXTURE_2D, GLint(level), GL_RGBA8, sizes[level].width, sizes[level].height, 0, GL_RGB,
+                 GL_UNSIGNED_BYTE, sizes[level].rgb.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glGenerateMipmap(GL_TEXTURE_2D);
   filter();
   glBindTexture(GL_TEXTURE_2D, 0);
   return texture;
@@ -54,17 +53,21 @@ gl::Texture upload(const Image& image) {
 
 }  // namespace
 
-ClothTexture::ClothTexture() : texture_(upload({1, 1, {200, 204, 212}})) {}
+ClothPicture read_picture(const std::filesystem::path& file) {
+  return {file, halvings(read_image(file))};
+}
 
-void ClothTexture::load(const std::filesystem::path& file) {
-  const Image image = read_image(file);
+ClothTexture::ClothTexture() : texture_(upload({{1, 1, {200, 204, 212}}})) {}
+
+void ClothTexture::take(const ClothPicture& picture) {
+  const Image& image = picture.sizes.front();
   GLint largest = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (image.width > largest || image.height > largest) {
-    throw std::runtime_error(file.string() + " has more than the " + std::to_string(largest) +
+    throw std::runtime_error(picture.file.string() + " has more than the " + std::to_string(largest) +
                              " pixels a side that this graphics driver takes. Make it smaller.");
   }
-  texture_ = upload(image);
+  texture_ = upload(picture.sizes);
 }
 
 void ClothTexture::bind(int unit) const {

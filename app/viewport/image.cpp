@@ -1,5 +1,6 @@
 #include "app/viewport/image.h"
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -103,6 +104,26 @@ Image read_image(const std::filesystem::path& file) {
   Image image{width, height, without_alpha(pixels, std::size_t(width) * height)};
   stbi_image_free(pixels);
   return image;
+}
+
+std::vector<Image> halvings(Image image) {
+  std::vector<Image> list;
+  list.push_back(std::move(image));
+  while (list.back().width > 1 || list.back().height > 1) {
+    const Image& whole = list.back();
+    Image half{std::max(whole.width / 2, 1), std::max(whole.height / 2, 1), {}};
+    half.rgb.resize(std::size_t(half.width) * half.height * 3);
+    const std::size_t right = whole.width > 1 ? 3 : 0, below = whole.height > 1 ? std::size_t(whole.width) * 3 : 0;
+    std::uint8_t* to = half.rgb.data();
+    for (int y = 0; y < half.height; ++y) {
+      const std::uint8_t* from = whole.rgb.data() + 2 * y * below;
+      for (int x = 0; x < half.width; ++x, from += 2 * right)
+        for (std::size_t c = 0; c < 3; ++c)
+          *to++ = std::uint8_t((from[c] + from[c + right] + from[c + below] + from[c + right + below] + 2) / 4);
+    }
+    list.push_back(std::move(half));
+  }
+  return list;
 }
 
 }  // namespace tyglab

@@ -21,4 +21,8 @@ void write_png(const std::filesystem::path& file, const Image& image);
 /// Throws std::runtime_error with a sentence that names the file and the cure.
 Image read_image(const std::filesystem::path& file);
 
+/// A picture, then its halves down to one pixel, each pixel the mean of four: against shimmering where it is drawn
+/// small.
+std::vector<Image> halvings(Image image);
+
 }  // namespace tyglab

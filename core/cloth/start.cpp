@@ -1,5 +1,6 @@
 #include "core/cloth/start.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,24 +24,10 @@ Angle angle(double degrees) {
   return {std::sin(radians), std::cos(radians)};
 }
 
-bool pinned_by_name(const Preset& p, int i, int j) {
-  const bool top = i == 0, bottom = i == p.rows - 1, left = j == 0, right = j == p.columns - 1;
-  switch (p.pins.mode) {
-    case Pins::Mode::top_row:
-      return top;
-    case Pins::Mode::top_corners:
-      return top && (left || right);
-    case Pins::Mode::four_corners:
-      return (top || bottom) && (left || right);
-    case Pins::Mode::left_column:
-      return left;
-    case Pins::Mode::boundary:
-      return top || bottom || left || right;
-    case Pins::Mode::none:
-    case Pins::Mode::list:
-      return false;
-  }
-  return false;
+StateRows weight_row(const Preset& p) {
+  return [x = p.x_0 + glm::dvec3(0, p.offset, 0), v = p.v_0.y](int, const StateRow& row) {
+    for (int c = 0; c < 3; ++c) row.x[c][0] = x[c], row.v[c][0] = c == 1 ? v : 0;
+  };
 }
 
 }  // namespace
@@ -49,28 +36,38 @@ Lattice lattice_of(const Preset& preset) {
   return preset.kind == Kind::one_weight ? Lattice{1, 1} : Lattice{preset.rows, preset.columns};
 }
 
+StateRows start_rows(const Preset& p) {
+  if (p.kind == Kind::one_weight) return weight_row(p);
+  const auto [sine, cosine] = angle(p.tilt_deg);
+  const double spacing = p.initial_stretch * p.L;
+  std::vector<double> along(std::size_t(p.columns));
+  for (int j = 0; j < p.columns; ++j) along[j] = p.x_0.x + (j - (p.columns - 1) / 2.0) * spacing;
+  const bool moves = p.v_0 != glm::dvec3(0);  // otherwise it does not matter who is pinned
+  return [=, x_0 = p.x_0, v_0 = p.v_0, along = std::move(along),
+          pinned = moves ? pinned_particles(p) : std::vector<std::uint8_t>()](int i, const StateRow& row) {
+    const std::size_t columns = along.size();
+    std::copy(along.begin(), along.end(), row.x[0]);
+    std::fill_n(row.x[1], columns, x_0.y - i * spacing * sine);
+    std::fill_n(row.x[2], columns, x_0.z + i * spacing * cosine);
+    for (int c = 0; c < 3; ++c) {
+      std::fill_n(row.v[c], columns, v_0[c]);
+      if (pinned.empty()) continue;
+      for (std::size_t j = 0; j < columns; ++j)
+        if (pinned[i * columns + j] != 0) row.v[c][j] = 0;
+    }
+  };
+}
+
 State start_state(const Preset& p) {
   const Lattice lattice = lattice_of(p);
   State state;
   state.x.resize(std::size_t(lattice.size()));
   state.v.resize(std::size_t(lattice.size()));
-  if (p.kind == Kind::one_weight) {
-    state.x.x[0] = p.x_0.x, state.x.y[0] = p.x_0.y + p.offset, state.x.z[0] = p.x_0.z;
-    state.v.y[0] = p.v_0.y;
-    return state;
+  const StateRows rows = start_rows(p);
+  for (int i = 0; i < lattice.rows; ++i) {
+    const std::size_t at = std::size_t(i) * lattice.columns;
+    rows(i, {{&state.x.x[at], &state.x.y[at], &state.x.z[at]}, {&state.v.x[at], &state.v.y[at], &state.v.z[at]}});
   }
-  const auto [sine, cosine] = angle(p.tilt_deg);
-  const auto pinned = pinned_particles(p);
-  const double spacing = p.initial_stretch * p.L;
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) {
-      const std::size_t n = std::size_t(i) * lattice.columns + j;
-      state.x.x[n] = p.x_0.x + (j - (lattice.columns - 1) / 2.0) * spacing;
-      state.x.y[n] = p.x_0.y - i * spacing * sine;
-      state.x.z[n] = p.x_0.z + i * spacing * cosine;
-      if (pinned[n]) continue;
-      state.v.x[n] = p.v_0.x, state.v.y[n] = p.v_0.y, state.v.z[n] = p.v_0.z;
-    }
   return state;
 }
 
@@ -78,11 +75,37 @@ std::vector<std::uint8_t> pinned_particles(const Preset& p) {
   const Lattice lattice = lattice_of(p);
   std::vector<std::uint8_t> mask(std::size_t(lattice.size()), 0);
   if (p.kind == Kind::one_weight) return mask;
-  for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) mask[std::size_t(i) * lattice.columns + j] = pinned_by_name(p, i, j);
-  if (p.pins.mode == Pins::Mode::list)
-    for (const auto [i, j] : p.pins.list)
-      if (lattice.contains(i, j)) mask[std::size_t(i) * lattice.columns + j] = 1;
+  const int bottom = lattice.rows - 1, right = lattice.columns - 1;
+  const auto pin = [&](int i, int j) { mask[std::size_t(i) * lattice.columns + j] = 1; };
+  const auto pin_row = [&](int i) {
+    for (int j = 0; j <= right; ++j) pin(i, j);
+  };
+  const auto pin_column = [&](int j) {
+    for (int i = 0; i <= bottom; ++i) pin(i, j);
+  };
+  switch (p.pins.mode) {
+    case Pins::Mode::none:
+      break;
+    case Pins::Mode::top_row:
+      pin_row(0);
+      break;
+    case Pins::Mode::top_corners:
+      pin(0, 0), pin(0, right);
+      break;
+    case Pins::Mode::four_corners:
+      pin(0, 0), pin(0, right), pin(bottom, 0), pin(bottom, right);
+      break;
+    case Pins::Mode::left_column:
+      pin_column(0);
+      break;
+    case Pins::Mode::boundary:
+      pin_row(0), pin_row(bottom), pin_column(0), pin_column(right);
+      break;
+    case Pins::Mode::list:
+      for (const auto [i, j] : p.pins.list)
+        if (lattice.contains(i, j)) pin(i, j);
+      break;
+  }
   return mask;
 }
 

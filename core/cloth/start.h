@@ -13,6 +13,7 @@ namespace tyglab {
 /// R x C of the preset's cloth, 1 x 1 for the one weight.
 Lattice lattice_of(const Preset& preset);
 /// Positions and velocities at the start; pinned particles have v = 0.
+StateRows start_rows(const Preset& preset);
 State start_state(const Preset& preset);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <new>
 #include <vector>
 
@@ -35,5 +36,16 @@ struct VectorField {
 struct State {
   VectorField<double> x, v;
 };
+
+/// One row of a state: three components of x (m) and of v (m/s), each a value a column.
+struct StateRow {
+  double* x[3];
+  double* v[3];
+};
+/// Writes row i. So a large state can be handed over without standing in memory as a whole; called for different rows
+/// at the same time.
+using StateRows = std::function<void(int i, const StateRow& row)>;
+/// The rows of a state; it must outlive them.
+StateRows rows_of(const State& state, int columns);
 
 }  // namespace tyglab

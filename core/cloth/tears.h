@@ -27,6 +27,7 @@ class Tears {
   /// Whether triangle `which` (0, 1) of quad (i, j) has its three edge springs.
   bool triangle_whole(int i, int j, int which) const;
   int torn_count() const { return torn_; }
+  std::size_t bytes() const { return masks_.capacity(); }
   void mend() { masks_.clear(), torn_ = 0; }
 
  private:

@@ -66,6 +66,13 @@ struct SolveCounts {
   std::int64_t unconverged = 0;  ///< solves, linear or not, that did not reach their tolerance
 };
 
+/// A particle as its method holds it, m and m/s.
+struct StoredParticle {
+  glm::dvec3 x{0}, v{0};
+  glm::dvec3 v_seen{0};  ///< what damping sees where a step begins
+  double lag = 0;        ///< s; v + lag · a belongs to x
+};
+
 /// Something that a step does only for scenes that need it.
 struct StepFeature {
   std::string_view name;
@@ -77,7 +84,8 @@ class Engine {
   virtual ~Engine() = default;
 
   /// Takes positions and (full-step) velocities; the method's own start is applied.
-  virtual void load(const State& state, const Tears& tears) = 0;
+  virtual void load(const StateRows& rows, const Tears& tears) = 0;
+  void load(const State& state, const Tears& tears) { load(rows_of(state, positions().columns), tears); }
   /// Takes new constants, integrator, dt, bodies. The lattice and the precision are the same. Velocities are kept.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
@@ -88,6 +96,9 @@ class Engine {
   /// What state files show: as read(), but for Verlet the backward velocity d/dt.
   virtual void read_raw(State& state, const Tears& tears) = 0;
   virtual PositionView positions() const = 0;
+  /// One particle as the method holds it. Nothing but the particles' own arrays is looked at, so it may be called
+  /// while another thread reads.
+  virtual StoredParticle stored(int i, int j) const = 0;
   /// Bytes of all arrays that grow with the cloth.
   virtual std::size_t bytes() const = 0;
   /// Threads that it uses.

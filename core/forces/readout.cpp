@@ -11,7 +11,7 @@ namespace tyglab {
 namespace {
 using namespace HWY_NAMESPACE;  // the formulas for one double
 
-struct Look {
+struct StateLook {
   const State& state;
   int columns;
   glm::dvec3 x(int i, int j) const { return at(state.x, i, j); }
@@ -22,6 +22,7 @@ struct Look {
   }
 };
 
+template <class Look>
 void add_spring(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj,
                 ParticleForces& sum) {
   const glm::dvec3 x_ij = look.x(oi, oj) - look.x(i, j);
@@ -34,6 +35,7 @@ void add_spring(const Preset& p, const Look& look, const Direction& d, int i, in
   sum.F_d -= p.k_d * (look.v(i, j) - look.v(oi, oj));
 }
 
+template <class Look>
 void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int j, ParticleForces& sum) {
   const Lattice& lattice = tears.lattice();
   for (int qi = i - 1; qi <= i; ++qi)
@@ -52,11 +54,9 @@ void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int 
       }
 }
 
-}  // namespace
-
-ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const State& state, int i, int j) {
+template <class Look>
+ParticleForces forces_at(const Preset& p, const Tears& tears, const Look& look, int i, int j) {
   const Lattice& lattice = tears.lattice();
-  const Look look{state, lattice.columns};
   ParticleForces sum;
   sum.F_g = {0, -p.m * p.g, 0};
   if (p.kind == Kind::one_weight) {
@@ -73,6 +73,16 @@ ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Sta
   }
   if (p.W != glm::dvec3(0)) add_wind(p, tears, look, i, j, sum);
   return sum;
+}
+
+}  // namespace
+
+ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const State& state, int i, int j) {
+  return forces_at(p, tears, StateLook{state, tears.lattice().columns}, i, j);
+}
+
+ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Neighbourhood& near, int i, int j) {
+  return forces_at(p, tears, near, i, j);
 }
 
 }  // namespace tyglab

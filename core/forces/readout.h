@@ -2,6 +2,7 @@
 // compute the same formulas (spring.h, wind.h), spring by spring.
 #pragma once
 
+#include <array>
 #include <glm/vec3.hpp>
 
 #include "core/cloth/state.h"
@@ -20,5 +21,24 @@ struct ParticleForces {
 
 /// `state`: dense, velocities that belong to the positions.
 ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const State& state, int i, int j);
+
+/// What stands round one particle, three rows and columns each way: enough for the forces on it and on those beside it.
+class Neighbourhood {
+ public:
+  static constexpr int reach = 3;
+  Neighbourhood(int i, int j) : i_(i), j_(j) {}
+  glm::dvec3& x(int i, int j) { return x_[index(i, j)]; }
+  glm::dvec3& v(int i, int j) { return v_[index(i, j)]; }
+  const glm::dvec3& x(int i, int j) const { return x_[index(i, j)]; }
+  const glm::dvec3& v(int i, int j) const { return v_[index(i, j)]; }
+
+ private:
+  static constexpr int side = 2 * reach + 1;
+  std::size_t index(int i, int j) const { return std::size_t((i - i_ + reach) * side + j - j_ + reach); }
+  int i_, j_;
+  std::array<glm::dvec3, std::size_t(side) * side> x_{}, v_{};
+};
+/// The same from what stands round it: (i, j) is the particle in the middle or one beside it.
+ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i, int j);
 
 }  // namespace tyglab

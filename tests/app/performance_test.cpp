@@ -46,6 +46,17 @@ TEST_CASE("the facts name the engine and the memory of the solver's arrays") {
   CHECK(facts[0].value.find("CPU") != std::string::npos);
   CHECK(std::any_of(facts.begin(), facts.end(),
                     [](const auto& fact) { return fact.value.find("B/particle") != std::string::npos; }));
+  const auto value = [&](std::string_view name) {
+    for (const PerformanceFact& fact : performance_facts(app))
+      if (fact.name == name) return fact.value;
+    return std::string();
+  };
+  CHECK(value("masks and read-outs") == "1 kB");
+  app.simulation->forces(Reduction::sum);  // reads the whole state: six doubles a particle
+  CHECK(value("masks and read-outs") == "50 kB");
+  CHECK(value("undo") == "0 kB");
+  for (int n = 0; n < 10; ++n) app.history.record(app.preset(), 0);
+  CHECK(value("undo") != "0 kB");
 }
 
 TEST_CASE("the time report gives every part, by the wall and by the processor") {

@@ -1,5 +1,6 @@
 // The mouse in the viewport, without a window: what it does to the cloth, and what "unsaved" and the picked particle
 // make of it.
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 

@@ -58,6 +58,7 @@ struct Cloth {
   Held held;
 
   Field& vector(int number) { return vectors[std::size_t(number)]; }
+  const Field& vector(int number) const { return vectors[std::size_t(number)]; }
   R* row(int vector, int i, int component) { return vectors[std::size_t(vector)].row(i, component); }
   const R* row(int vector, int i, int component) const { return vectors[std::size_t(vector)].row(i, component); }
   double velocity_scale() const { return keeps_displacement ? preset.dt : 1; }

@@ -47,12 +47,15 @@ CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, i
   cloth_.sweeps = pair_sweeps<R>();
   cloth_.fixed_begin.assign(std::size_t(lattice.rows) + 1, 0);
   team_ = std::make_unique<Team>(useful_threads(lattice, threads));
-  const auto begin = [&](int n) {
-    return n == team_->size() ? lattice.rows : int(std::int64_t(lattice.rows) * n / team_->size()) / 2 * 2;
-  };
   for (int n = 0; n < team_->size(); ++n)
-    bands_.push_back(std::make_unique<Band<R, Present>>(cloth_, begin(n), begin(n + 1)));
+    bands_.push_back(std::make_unique<Band<R, Present>>(cloth_, band_begin(n), band_begin(n + 1)));
   resolve();
+}
+
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::band_begin(int number) const {
+  const int rows = cloth_.lattice.rows, bands = team_->size();
+  return number == bands ? rows : int(std::int64_t(rows) * number / bands) / 2 * 2;
 }
 
 template <class R, unsigned Present>
@@ -94,20 +97,28 @@ void CpuEngine<R, Present>::resolve() {
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::load(const State& state, const Tears& tears) {
-  const auto copy = [&](const VectorField<double>& from, int vector) {
-    const Array<double>* components[] = {&from.x, &from.y, &from.z};
-    for (int c = 0; c < 3; ++c)
-      for (int i = 0; i < cloth_.lattice.rows; ++i)
-        for (int j = 0; j < cloth_.lattice.columns; ++j)
-          cloth_.row(vector, i, c)[j] = R((*components[c])[std::size_t(i) * cloth_.lattice.columns + j]);
-  };
-  copy(state.x, vector_x), copy(state.v, vector_v);
+void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
+  const int columns = cloth_.lattice.columns;
+  team_->run([&](int number) {
+    Array<double> buffer(6 * std::size_t(columns));
+    const auto part = [&](int n) { return buffer.data() + std::ptrdiff_t(n) * columns; };
+    const StateRow row{{part(0), part(1), part(2)}, {part(3), part(4), part(5)}};
+    for (int i = band_begin(number); i < band_begin(number + 1); ++i) {
+      rows(i, row);
+      for (int c = 0; c < 3; ++c) {
+        std::transform(row.x[c], row.x[c] + columns, cloth_.row(vector_x, i, c), [](double x) { return R(x); });
+        std::transform(row.v[c], row.v[c] + columns, cloth_.row(vector_v, i, c), [](double v) { return R(v); });
+      }
+    }
+  });
   if (!scheme_->start.empty()) {
     // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
     const ResolvedSweep start = resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
-    for (const auto& band : bands_) band->copy_halo(start);
-    for (const auto& band : bands_) band->sweep(start, tears, false);
+    team_->run([&](int number) {
+      bands_[std::size_t(number)]->copy_halo(start);
+      team_->barrier();
+      bands_[std::size_t(number)]->sweep(start, tears, false);
+    });
   }
   set_fixed(std::vector<int>(pinned_), cloth_.held);
   measure_again();
@@ -232,6 +243,16 @@ PositionView CpuEngine<R, Present>::positions() const {
       view.d[c] = cloth_.row(vector_x, 0, c);
   }
   return view;
+}
+
+template <class R, unsigned Present>
+StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
+  const auto at = [&](int vector) {
+    return glm::dvec3(cloth_.row(vector, i, 0)[j], cloth_.row(vector, i, 1)[j], cloth_.row(vector, i, 2)[j]);
+  };
+  const double scale = cloth_.velocity_scale();
+  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale,
+          scheme_->lags ? cloth_.preset.dt / 2 : 0};
 }
 
 template <class R, unsigned Present>

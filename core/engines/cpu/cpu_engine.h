@@ -17,13 +17,15 @@ class CpuEngine final : public Engine {
  public:
   CpuEngine(const Preset& preset, const Lattice& lattice, int threads);
 
-  void load(const State& state, const Tears& tears) override;
+  using Engine::load;
+  void load(const StateRows& rows, const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
+  StoredParticle stored(int i, int j) const override;
   std::size_t bytes() const override;
   int threads() const override { return team_->size(); }
   SolveCounts solves() const override { return solver_.counts(); }
@@ -42,6 +44,8 @@ class CpuEngine final : public Engine {
   static constexpr bool has(unsigned which) { return (Present & which) != 0; }
   /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
   int array_rows() const { return cloth_.lattice.rows + 3; }
+  /// The first row of a thread's band; of the number after the last, where the cloth ends.
+  int band_begin(int number) const;
   void resolve();
   ResolvedSweep resolve(const Sweep& sweep) const;
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
@@ -63,6 +67,8 @@ class CpuEngine final : public Engine {
   bool find_fault(const Tears& tears, Fault& fault);
   bool finite(Fault& fault) const;
   bool within_bounds(const Tears& tears, Fault& fault);
+  /// By how much any spring of a row in one direction may still grow, m; less than 0: `fault` is too long.
+  double growth_left(const Tears& tears, int direction, int i, Fault& fault) const;
   /// Forgets how far particles may still move: something else than their motion has changed.
   void measure_again() { free_motion_ = tear_motion_ = 0; }
   End finish_step(Tears& tears, Fault& fault);

@@ -17,6 +17,17 @@ template <class R>
 constexpr double rounding = 16 * double(std::numeric_limits<R>::epsilon());  // of a length computed in R, generously
 constexpr double longest_factor = 1000;  // a spring longer than that many rest lengths has diverged
 
+/// Whether all of a row's values are numbers. Without a way out of the loop, so that the compiler can use SIMD.
+template <class R>
+bool finite_row(const RowField<R>& field, int i, int columns) {
+  int bad = 0;
+  for (int c = 0; c < 3; ++c) {
+    const R* row = field.row(i, c);
+    for (int j = 0; j < columns; ++j) bad |= int(!(std::abs(row[j]) <= std::numeric_limits<R>::max()));
+  }
+  return bad == 0;
+}
+
 }  // namespace
 
 template <class R, unsigned Present>
@@ -66,7 +77,10 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::finite(Fault& fault) const {
-  for (int i = 0; i < cloth_.lattice.rows; ++i)
+  for (int i = 0; i < cloth_.lattice.rows; ++i) {
+    if (finite_row(cloth_.vector(vector_x), i, cloth_.lattice.columns) &&
+        finite_row(cloth_.vector(vector_v), i, cloth_.lattice.columns))
+      continue;
     for (int j = 0; j < cloth_.lattice.columns; ++j)
       for (int which : {vector_x, vector_v})
         for (int c = 0; c < 3; ++c) {
@@ -75,7 +89,33 @@ bool CpuEngine<R, Present>::finite(Fault& fault) const {
           fault = {i, j, which == vector_x ? "position" : "velocity", value};
           return false;
         }
+  }
   return true;
+}
+
+template <class R, unsigned Present>
+double CpuEngine<R, Present>::growth_left(const Tears& tears, int d, int i, Fault& fault) const {
+  const Direction& dir = directions[d];
+  const double bound = longest_factor * dir.rest * cloth_.preset.L;
+  const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
+  if (begin >= end) return bound;
+  // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be too long or torn.
+  const std::uint8_t* masks = tears.row(i);
+  if (masks == nullptr || std::all_of(masks + begin, masks + end, [&](auto mask) { return (mask >> d & 1) != 0; })) {
+    const R longest = longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
+                                      dir.di * cloth_.vector(vector_x).pitch() + dir.dj, begin, end);
+    const double left = bound - std::sqrt(double(longest)) * (1 + rounding<R>);
+    if (left >= 0) return left;
+  }
+  double slack = bound;
+  for (int j = begin; j < end; ++j) {
+    if (!tears.whole(d, i, j)) continue;
+    const double length = std::sqrt(distance2(i, j, dir));
+    if (bound - length < 0) fault = {i, j, "spring length", length};
+    if (bound - length < 0) return bound - length;
+    slack = std::min(slack, bound - length);
+  }
+  return slack;
 }
 
 template <class R, unsigned Present>
@@ -89,17 +129,10 @@ bool CpuEngine<R, Present>::within_bounds(const Tears& tears, Fault& fault) {
     return free_motion_ >= 0;
   }
   for (int d = 0; d < int(directions.size()); ++d)
-    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i)
-      for (int j = 0; j < cloth_.lattice.columns; ++j) {
-        if (!cloth_.lattice.has_spring(d, i, j) || !tears.whole(d, i, j)) continue;
-        const double length = std::sqrt(distance2(i, j, directions[d]));
-        const double left = longest_factor * directions[d].rest * cloth_.preset.L - length;
-        if (left < 0) {
-          fault = {i, j, "spring length", length};
-          return false;
-        }
-        slack = std::min(slack, left);
-      }
+    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i) {
+      slack = std::min(slack, growth_left(tears, d, i, fault));
+      if (slack < 0) return false;
+    }
   free_motion_ = slack;
   return true;
 }

@@ -1,0 +1,138 @@
+#include "app/sandbox/building.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "app/sandbox/app.h"
+#include "app/sandbox/document.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double many_particles = 1e5;  // built in about a frame's time
+
+double particles(const Preset& preset) {
+  return double(lattice_of(preset).size());
+}
+
+using Json = nlohmann::json;
+
+Json rebased(const Json& before, const Json& after, const Json& present) {
+  if (!before.is_object() || !after.is_object() || !present.is_object()) return before == after ? present : after;
+  Json out = present;
+  for (const auto& [key, value] : after.items())
+    out[key] = rebased(before.value(key, Json()), value, present.value(key, Json()));
+  return out;
+}
+
+}  // namespace
+
+Preset rebased(const Preset& before, const Preset& after, const Preset& present) {
+  const auto tree = [](const Preset& preset) { return Json::parse(preset_to_json(preset)); };
+  return parse_preset(rebased(tree(before), tree(after), tree(present)).dump(), "the constants");
+}
+
+bool takes_long(const App& app, const Preset& preset) {
+  return !app.scripted && particles(preset) >= many_particles;
+}
+
+bool takes_long(const App& app, const Edit& edit) {
+  const auto* change = std::get_if<edit::Change>(&edit);
+  return takes_long(app, change != nullptr ? change->preset : app.preset()) && app.simulation->rebuilds(edit);
+}
+
+void swap_in(App& app, std::unique_ptr<Simulation> simulation) {
+  app.simulation.swap(simulation);
+  if (simulation != nullptr) app.building.dispose(std::move(simulation));
+  app.sleep = Sleep{};
+  app.redraw_cloth = true;  // its count of changes may be that of the last one
+}
+
+void Building::order(const App& app, BuildOrder order, History before) {
+  next_ = std::move(order);
+  if (in_work()) return;  // a cloth cannot be left half built: the next one follows it
+  before_ = std::move(before);
+  start(app);
+}
+
+void Building::start(const App& app) {
+  making_ = std::move(*next_);
+  next_.reset();
+  dropped_ = false;
+  work_ = std::async(std::launch::async, [order = *making_, present = app.simulation.get(), threads = app.threads] {
+    if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
+    return present->rebuilt(edit::Change{order.target});
+  });
+}
+
+void Building::rename(const std::string& name) {
+  for (auto* order : {&making_, &next_})
+    if (*order) (*order)->target.name = name;
+}
+
+void Building::poll(App& app) {
+  if (!in_work()) return;
+  ++frames_beside_;
+  if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  try {
+    finish(app);
+  } catch (const std::bad_alloc&) {
+    give_up(app, "There is not enough memory for that. Nothing was changed; try fewer rows and columns.");
+  } catch (const std::exception& error) {
+    give_up(app, error.what());
+  }
+  if (in_work()) return;
+  const std::vector<Edit> deferred = std::move(deferred_);
+  deferred_.clear();
+  for (const Edit& edit : deferred) apply_edit(app, edit);
+}
+
+void Building::give_up(App& app, const std::string& why) {
+  making_.reset(), next_.reset();
+  app.history = std::move(before_);
+  app.messages.error(why);
+}
+
+/// Whether what has been made is what is wanted, or on the way to it.
+bool Building::of_use(const BuildOrder& made) const {
+  if (dropped_) return false;
+  if (!next_) return true;
+  const bool alike = lattice_of(made.target) == lattice_of(next_->target) && made.target.kind == next_->target.kind;
+  return alike && !made.document && !next_->document && (made.fresh || !next_->fresh);
+}
+
+void Building::finish(App& app) {
+  std::unique_ptr<Simulation> made = work_.get();
+  const BuildOrder order = *std::exchange(making_, std::nullopt);
+  const bool use = of_use(order);
+  dropped_ = false;
+  if (!use) {
+    dispose(std::move(made));
+    if (next_) start(app);
+    return;
+  }
+  if (!(order.target == made->preset())) made->apply(edit::Change{order.target});  // it has been renamed
+  take_built(app, std::move(made), order);
+  if (next_) go_on(app);
+}
+
+/// From what has just been taken to what has been asked for since.
+void Building::go_on(App& app) {
+  const edit::Change change{next_->target};
+  next_->fresh = false;
+  if (change.preset == app.preset()) return next_.reset();
+  if (app.simulation->rebuilds(change)) return start(app);
+  next_.reset();
+  const Preset before = app.preset();
+  app.simulation->apply(change);
+  follow_up(app, before);
+}
+
+void Building::dispose(std::unique_ptr<Simulation> simulation) {
+  if (simulation->lattice().size() < many_particles) return;
+  disposal_ = std::async(std::launch::async, [gone = std::move(simulation)]() mutable { gone.reset(); });
+}
+
+}  // namespace tyglab

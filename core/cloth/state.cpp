@@ -1,0 +1,17 @@
+#include "core/cloth/state.h"
+
+#include <algorithm>
+
+namespace tyglab {
+
+StateRows rows_of(const State& state, int columns) {
+  return [&state, columns](int i, const StateRow& row) {
+    const auto copy = [&](const VectorField<double>& from, double* const* to) {
+      const Array<double>* components[] = {&from.x, &from.y, &from.z};
+      for (int c = 0; c < 3; ++c) std::copy_n(components[c]->data() + std::size_t(i) * columns, columns, to[c]);
+    };
+    copy(state.x, row.x), copy(state.v, row.v);
+  };
+}
+
+}  // namespace tyglab

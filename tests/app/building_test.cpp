@@ -1,0 +1,136 @@
+// Large cloths are built beside the frames: the present one goes on, and what is asked for meanwhile is not lost.
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "app/sandbox/app.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int large = 400;  // rows and columns: above what is built within a frame
+
+App app_with(const Preset& preset) {
+  App app;
+  app.simulation = std::make_unique<Simulation>(preset);
+  app.document.saved = preset;
+  return app;
+}
+
+Preset changed(Preset preset, int rows) {
+  preset.rows = rows;
+  return preset;
+}
+
+/// Frames pass until nothing is in work.
+void wait(App& app) {
+  for (int n = 0; n < 20000 && app.building.in_work(); ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    app.building.poll(app);
+  }
+  REQUIRE_FALSE(app.building.in_work());
+}
+
+TEST_CASE("a small cloth is changed at once, a large one beside the frames") {
+  App app = app_with(test::cloth(20, large));
+  CHECK(apply_edit(app, edit::Change{changed(app.preset(), 30)}));
+  CHECK_FALSE(app.building.in_work());
+  CHECK(app.preset().rows == 30);
+  app.simulation->advance(3);
+  CHECK(apply_edit(app, edit::Change{changed(app.preset(), large)}));
+  CHECK(app.building.in_work());
+  CHECK_FALSE(app.building.holds_present());
+  CHECK(app.preset().rows == 30);
+  CHECK(app.wished().rows == large);
+  CHECK(app.building.lattice() == Lattice{large, large});
+  app.simulation->advance(1);  // the present one goes on
+  CHECK(app.simulation->steps() == 4);
+  wait(app);
+  CHECK(app.preset().rows == large);
+  CHECK(app.simulation->steps() == 0);
+  CHECK(app.history.undo(app.preset())->rows == 30);
+}
+
+TEST_CASE("what is changed meanwhile is felt at once and by the cloth in work") {
+  App app = app_with(test::cloth(20, large));
+  app.simulation->advance(3);
+  apply_edit(app, edit::Change{changed(app.preset(), large)});
+  Preset stiff = app.wished();
+  stiff.k_s = 77;
+  apply_edit(app, edit::Change{stiff});
+  CHECK(app.preset().k_s == 77);
+  CHECK(app.preset().rows == 20);
+  CHECK(app.wished() == stiff);
+  wait(app);
+  CHECK(app.preset() == stiff);
+  CHECK(app.history.undo(app.preset())->rows == large);
+  CHECK(app.history.undo(app.preset())->rows == 20);
+}
+
+TEST_CASE("a newer wish replaces one in work, and going back to the present cloth drops it") {
+  App app = app_with(test::cloth(20, large));
+  const Preset small = app.preset();
+  apply_edit(app, edit::Change{changed(small, large)});
+  apply_edit(app, edit::Change{changed(small, large + 10)});
+  wait(app);
+  CHECK(app.preset().rows == large + 10);
+  app.simulation = std::make_unique<Simulation>(small);
+  apply_edit(app, edit::Change{changed(small, large)});
+  apply_edit(app, edit::Change{small});
+  CHECK(app.wished() == small);
+  wait(app);
+  CHECK(app.preset() == small);
+}
+
+TEST_CASE("a switch of precision keeps state and time, and lets no edit be lost") {
+  Preset quick = test::cloth(large, large);
+  quick.precision = Precision::float_;
+  App app = app_with(quick);
+  app.simulation->advance(5);
+  apply_edit(app, edit::Cut{{{200, 200}}});
+  const glm::dvec3 x = app.simulation->positions().at(300, 300);
+  Preset exact = quick;
+  exact.precision = Precision::double_;
+  apply_edit(app, edit::Change{exact});
+  CHECK(app.building.holds_present());
+  CHECK(apply_edit(app, edit::Cut{{{100, 100}}}));
+  CHECK_FALSE(apply_edit(app, edit::Grab{300, 300}));
+  CHECK(app.simulation->tears().torn_count() == 3);
+  wait(app);
+  CHECK(app.preset().precision == Precision::double_);
+  CHECK(app.simulation->steps() == 5);
+  CHECK(app.simulation->tears().torn_count() == 6);
+  CHECK(glm::length(app.simulation->positions().at(300, 300) - x) == 0);
+}
+
+TEST_CASE("a restart is built beside the frames too, and an engine that is not there leaves everything as it was") {
+  App app = app_with(test::cloth(large, large));
+  app.simulation->advance(4);
+  apply_edit(app, edit::Restart{});
+  CHECK(app.simulation->steps() == 4);
+  wait(app);
+  CHECK(app.simulation->steps() == 0);
+  const Preset before = app.preset();
+  Preset other = before;
+  other.engine = EngineKind::opencl;
+  apply_edit(app, edit::Change{other});
+  wait(app);
+  CHECK(app.preset() == before);
+  CHECK_FALSE(app.history.can_undo());
+  CHECK(app.messages.list().size() == 1);
+}
+
+TEST_CASE("a change is carried over to other constants alone") {
+  const Preset before = test::cloth(8, 8);
+  Preset after = before, present = before;
+  after.k_s = 9, after.bodies.resize(2);
+  present.rows = 5, present.k_s = 1;
+  Preset expected = present;
+  expected.k_s = 9, expected.bodies.resize(2);
+  CHECK(rebased(before, after, present) == expected);
+}
+
+}  // namespace
+}  // namespace tyglab

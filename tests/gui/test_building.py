@@ -1,0 +1,41 @@
+"""A large cloth is built beside the frames: the window goes on meanwhile."""
+
+import json
+import os
+
+from cases import case, check, main
+
+LARGE = 2048
+
+
+def large_preset(sandbox):
+    file = os.path.join(sandbox.own.name, "large.json")
+    with open(file, "w") as out:
+        json.dump({"tyglab_preset": 1, "name": "Large cloth", "cloth": {"rows": LARGE, "columns": LARGE, "L": 0.0005}}, out)
+    return file
+
+
+@case
+def frames_go_on(stage):
+    """while a cloth of 2048 x 2048 is built, frames of the present one go on"""
+    sandbox = stage.start("hanging")
+    file = large_preset(sandbox)
+    sandbox.key("ctrl+o")
+    sandbox.wait(lambda r: r["dialog"] == "open", "the open dialog")
+    sandbox.click_control("dialog.path")
+    sandbox.key("ctrl+a")
+    sandbox.later(2)
+    sandbox.type(file)
+    sandbox.later(4)
+    before = sandbox.report()
+    sandbox.click_control("dialog.Open")
+    report = sandbox.wait(lambda r: r["label"] == "large", "the large cloth")
+    beside = report["frames_while_building"] - before["frames_while_building"]
+    check(beside >= 3, f"{beside} frames were drawn while it was built")
+    check(report["preset"]["cloth"]["rows"] == LARGE and report["building"] is None, "it is the one that was asked for")
+    check(not report["unsaved"], "as it stands in its file")
+    stage.keep("large")
+
+
+if __name__ == "__main__":
+    main()
