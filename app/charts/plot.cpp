@@ -96,7 +96,7 @@ void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const 
 
 void draw_curve(const PlotPaint& paint, const PlotAxes& axes, const PlotCurve& curve, std::size_t first,
                 std::size_t last) {
-  CurveDrawer(paint, axes, curve).draw(first, last);
+  CurveDrawer(paint, axes, curve).draw(std::max(first, curve.from), std::min(last, curve.to));
 }
 
 }  // namespace tyglab

@@ -49,7 +49,8 @@ struct PlotCurve {
   CurveStyle style;
   std::span<const double> x, y;
   bool line = true;
-  float marks = 0;  ///< radius of a disc at each point, at scale 1; 0: none
+  float marks = 0;                             ///< radius of a disc at each point, at scale 1; 0: none
+  std::size_t from = 0, to = std::size_t(-1);  ///< only the samples [from, to) are drawn
 };
 
 struct PlotTick {

@@ -232,6 +232,10 @@ int run(const RunOptions& options) {
                             << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+  if (const SolveCounts solves = simulation.engine().solves(); solves.unconverged > 0)
+    std::cerr << "tyglab: " << counted(solves.unconverged, "solve")
+              << " did not reach the tolerance, so the result is not quite the method's: take a smaller dt or more "
+                 "--set iterations=N.\n";
   if (simulation.left_inside() > 0)
     std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
               << " left inside a body, since bodies overlap; move them apart.\n";

@@ -187,7 +187,11 @@ bool may_write(App& app, const char* verb) {
     dialog.problem = file.string() + " is a folder; add a file name to it.";
     return false;
   }
-  if (!dialog.overwrite && fs::exists(file, ignored) && file != app.document.file) {
+  if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+    dialog.problem = file.string() + " is no file that can be replaced; take another name.";
+    return false;
+  }
+  if (!dialog.overwrite && fs::exists(file, ignored)) {
     dialog.overwrite = true;
     return false;
   }
@@ -330,7 +334,7 @@ void open_dialog(App& app, DialogKind kind) {
     set(dialog.name, app.preset().name);
     const fs::path file = !app.document.file.empty() ? app.document.file : own / file_name_for(app.preset().name);
     set(dialog.path, file.string());
-    dialog.path_follows = app.document.file.empty();
+    dialog.path_follows = true;
   } else if (kind == DialogKind::export_csv) {
     std::error_code ignored;
     set(dialog.path, (fs::current_path(ignored) / (dialog.height ? "height.csv" : "forces.csv")).string());

@@ -147,6 +147,12 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   std::vector<PerformanceFact> facts;
   facts.push_back({"engine", engine.name()});
   facts.push_back({"per particle and step", text("%.2f ns", 1e9 * app.pacing.step_cost_s() / particles)});
+  if (const SolveCounts solves = engine.solves(); solves.newton > 0) {
+    const auto steps = double(std::max<std::int64_t>(1, app.simulation->steps()));
+    facts.push_back({"Newton, CG a step",
+                     text("%.1f, ", double(solves.newton) / steps) + text("%.0f", double(solves.linear) / steps)});
+    facts.push_back({"solves unconverged", std::to_string(solves.unconverged)});
+  }
   facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});

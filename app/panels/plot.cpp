@@ -69,14 +69,16 @@ void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const 
   const Tokens& c = app.theme.colors;
   const float at = std::round(axes.px(x[n]));
   draw.AddLine({at, axes.lo.y}, {at, axes.hi.y}, faded(c.text, 0.4f));
+  const auto has = [&](const PlotCurve& curve) { return n >= curve.from && n < curve.to; };
   for (const PlotCurve& curve : curves)
-    if (axes.y.drawable(curve.y[n]))
+    if (has(curve) && axes.y.drawable(curve.y[n]))
       draw.AddCircleFilled({at, axes.py(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
   begin_tooltip_at_pointer(app);
   ImGui::PushFont(app.fonts.mono);
   wrapped(app, "t = " + time_number(x[n], app.preset().dt) + " s", c.quiet);
   ImDrawList& tip = *ImGui::GetWindowDrawList();
   for (const PlotCurve& curve : curves) {
+    if (!has(curve)) continue;
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float line = app.theme.px(20), middle = std::round(lo.y + line / 2);
     const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(24), middle}};

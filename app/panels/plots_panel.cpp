@@ -167,16 +167,22 @@ void height_card(App& app, float height) {
   ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});
   if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
     app.command(Command::export_height);
-  const char* note = "Its colour is the integrator's, as in figure 3.2.";
+  const char* note = "Its line is the integrator's, as in figure 3.2.";
   draw_text(*ImGui::GetWindowDrawList(), *app.fonts.small, {inner.at.x, inner.at.y + app.theme.px(3)},
             app.theme.colors.quiet, note);
-  const PlotCurve curve{"y", integrator_style(app.theme.colors, app.preset().integrator), plots.height.t(),
-                        plots.height.column(0)};
+  const std::span<const double> t = plots.height.t();
+  std::vector<PlotCurve> curves;
+  for (const auto& [since, method] : plots.height_methods) {
+    const auto from = std::size_t(std::lower_bound(t.begin(), t.end(), since) - t.begin());
+    if (!curves.empty()) curves.back().to = from + 1;  // up to where the next one begins
+    curves.push_back({"y", integrator_style(app.theme.colors, method), t, plots.height.column(0)});
+    curves.back().from = from;
+  }
   const float head = side + app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   PlotFrame frame = frame_of(app, plots.height, false, "m", why_empty(app));
   frame.from_zero = false;
-  zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, {&curve, 1}, frame));
+  zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, curves, frame));
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ struct Plots {
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
   Series height{1};
+  /// From which simulated time on (s) which method moved the weight.
+  std::vector<std::pair<double, std::string>> height_methods;
   bool forces_shown = false, height_shown = false;  ///< in the last frame: only then is data collected
 };
 

@@ -37,6 +37,7 @@ struct App {
   Sleep sleep;
   std::int64_t steps_made = 0;    ///< in the last frame
   bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
+  bool told_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
 
   std::unique_ptr<ClothRenderer> renderer;
   Camera camera;

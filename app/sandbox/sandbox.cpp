@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "app/commands/interrupt.h"
-#include "app/panels/curves.h"
 #include "app/panels/panels.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
+#include "app/sandbox/sampling.h"
 #include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
 #include "app/viewport/drawn_cloth.h"
@@ -57,7 +57,6 @@ class Sandbox {
   void take_dropped_files();
   void rescale();
   void simulate(double real_seconds);
-  void sample();
   void draw_cloth();
   void draw_panels();
   void present();
@@ -190,6 +189,9 @@ void Sandbox::simulate(double real_seconds) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   int made = 0;
+  // What a frame costs beside the steps, they may cost too: a slow picture does not slow the cloth down twice.
+  const double beside_s = 1e-3 * (app_.costs.recent_ms(Part::frame) - app_.costs.recent_ms(Part::simulate));
+  app_.pacing.budget_s = std::clamp(beside_s, 0.012, 0.2);
   // In pieces, so that a wrong guess of a step's cost cannot hold the window up.
   while (made < due && !simulation.divergence() && (made == 0 || spent() < app_.pacing.budget_s)) {
     const double cost = app_.pacing.step_cost_s();
@@ -202,30 +204,19 @@ void Sandbox::simulate(double real_seconds) {
       app_.messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
       app_.told_left_inside = true;
     }
+    if (simulation.engine().solves().unconverged > 0 && !app_.told_unconverged) {
+      app_.messages.warning(
+          "Newton's method does not reach its tolerance, so this is not quite the method's motion. Take a smaller dt "
+          "or "
+          "k_s.");
+      app_.told_unconverged = true;
+    }
     if (advance.released) app_.messages.note("The hand let go: its force exceeded F_release.");
     if (advance.steps < piece) break;
   }
   app_.pacing.made(made, dt, spent());
   app_.steps_made += made;
   if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none);
-}
-
-/// Data is collected only while a plot shows it, and only when the simulation moved.
-void Sandbox::sample() {
-  Plots& plots = app_.ui.plots;
-  if (app_.steps_made == 0 || plots.paused) return;
-  const FrameCosts::Timer timer(app_.costs, Part::sample);
-  const double t = app_.simulation->time();
-  if (plots.forces_shown && plots.source == Source::particle && app_.picked) {
-    plots.forces.add(t, force_values(app_.simulation->particle(app_.picked->i, app_.picked->j)));
-  } else if (plots.forces_shown && plots.source != Source::particle) {
-    const auto reduction = plots.source == Source::sum ? Reduction::sum : Reduction::maximum;
-    plots.forces.add(t, force_values(app_.simulation->forces(reduction)));
-  }
-  if (plots.height_shown) {
-    const double y = app_.simulation->positions().at(0, 0).y;
-    plots.height.add(t, {&y, 1});
-  }
 }
 
 void Sandbox::draw_cloth() {
@@ -320,7 +311,7 @@ void Sandbox::frame_parts() {
   if (app_.toggle_full_screen) window_.toggle_full_screen(), app_.toggle_full_screen = false;
   simulate(elapsed);
   app_.costs.add_steps(app_.steps_made);
-  sample();
+  sample(app_);
   draw_cloth();
   draw_panels();
   present();

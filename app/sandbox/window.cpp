@@ -63,9 +63,6 @@ void on_button(GLFWwindow* window, int button, int action, int mods) {
   InputQueue& queue = queue_of(window);
   queue.anything = true;
   queue.mods = mods;
-  double x = 0, y = 0;
-  glfwGetCursorPos(window, &x, &y);
-  queue.at = {x, y};
   if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) queue.note_left_press(glfwGetTime());
   const auto type = action == GLFW_PRESS ? PointerEvent::Type::press : PointerEvent::Type::release;
   queue.pointer.push_back({type, button, mods, queue.at, {0, 0}, glfwGetTime()});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyglab {
 namespace {
@@ -80,6 +81,7 @@ double stability_limit(const Scheme& scheme, double zeta) {
   }
   double bad = good * grid;
   while (bad < longest && stable(scheme, bad, zeta)) good = bad, bad *= grid;
+  if (bad >= longest) return std::numeric_limits<double>::infinity();
   while (bad - good > 1e-9 * good) {
     const double middle = (good + bad) / 2;
     (stable(scheme, middle, zeta) ? good : bad) = middle;

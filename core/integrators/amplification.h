@@ -22,7 +22,7 @@ Matrix amplification(const Scheme& scheme, double h, double zeta);
 double spectral_radius(const Matrix& matrix);
 
 /// The largest h = ω·dt up to which no step is unstable (spectral radius at most 1 up to rounding), within 1e-4 of
-/// itself; 0 where even h = 1e-5 is.
+/// itself; 0 where even h = 1e-5 is, infinity where h = 20 is not.
 double stability_limit(const Scheme& scheme, double zeta);
 
 }  // namespace tyglab

@@ -43,6 +43,10 @@ std::string remedy(const Preset& p) {
     return "Take dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
   }
   const std::string step = p.dt <= verlet_dt ? "" : " with dt = " + seconds(verlet_dt) + " or less";
+  if (is_implicit(scheme(p.integrator)))
+    return "Take a smaller dt and restart: linear theory gives this method no limit, but bodies, wind and springs that "
+           "switch do; or take the integrator verlet" +
+           step + ".";
   const double own_dt = margin * stable_dt(p, p.integrator);
   const std::string own = own_dt > 0 ? "this method itself needs dt below about " + seconds(own_dt)
                                      : "without damping no dt makes this method stable";

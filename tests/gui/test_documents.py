@@ -59,6 +59,25 @@ def save_and_load(stage):
 
 
 @case
+def save_as_again(stage):
+    """the file follows a new name every time; a file that exists is replaced only after a question"""
+    sandbox = stage.start("hanging")
+    for name in ("First", "Second"):
+        sandbox.key("ctrl+shift+s")
+        sandbox.wait(lambda r: r["dialog"] == "save", "the save dialog")
+        fill(sandbox, "name", name)
+        sandbox.click_control("dialog.Save")
+        report = sandbox.wait(lambda r: r["dialog"] == "none", "the preset to be saved")
+        check(os.path.basename(report["file"]) == name.lower() + ".json", f"{name} has a file of its own")
+    sandbox.key("ctrl+shift+s")
+    sandbox.wait(lambda r: r["dialog"] == "save", "the save dialog")
+    sandbox.click_control("dialog.Save")
+    sandbox.wait(lambda r: "dialog.Replace" in r["controls"], "the question")
+    sandbox.key("Escape")
+    sandbox.wait(lambda r: r["dialog"] == "none", "Escape to close the dialog")
+
+
+@case
 def shipped(stage):
     """a shipped preset is opened from the list; saving over it is refused"""
     sandbox = stage.start("hanging")

@@ -156,6 +156,24 @@ def body(stage):
 
 
 @case
+def release_place(stage):
+    """a body stays where the button was released, however far the pointer goes in the same frame"""
+    sandbox = stage.start("sphere")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["paused"], "the pause")
+    sandbox.key("BackSpace")
+    sandbox.wait(lambda r: r["steps"] == 0, "the restart, where no cloth lies before the ball")
+    report = sandbox.later()
+    x, y = report["bodies"][0]["at"]
+    sandbox.move(x, y)
+    sandbox.press(LEFT)
+    sandbox.move(x + 30, y)
+    sandbox.acted("the release", "mouseup", LEFT, "mousemove", round(x + 30), round(y - 200))
+    report = sandbox.later()
+    check(apart(report["bodies"][0]["at"], [x + 30, y]) < 3, f"the body is at {report['bodies'][0]['at']}, not at {[x + 30, y]}")
+
+
+@case
 def camera(stage):
     """the middle button orbits, with Shift it pans, the wheel zooms, F frames; the cloth stays as it is"""
     sandbox = stage.start("hanging")

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support/scenes.h"
 
@@ -20,6 +21,8 @@ TEST_CASE("spectral radii have their closed forms") {
     CHECK(radius("improved_euler", h, 0) == doctest::Approx(std::sqrt(1 + h * h / 2)).epsilon(1e-12));
     CHECK(radius("verlet", h, 0) == doctest::Approx(1).epsilon(1e-12));
     // |1 + z + z²/2 + z³/6 + z⁴/24| at z = ih: 1 - h⁶/72 + h⁸/576 squared.
+    CHECK(radius("implicit_euler", h, 0) == doctest::Approx(1 / std::sqrt(1 + h * h)).epsilon(1e-12));
+    CHECK(radius("implicit_midpoint", h, 0) == doctest::Approx(1).epsilon(1e-12));
     CHECK(radius("rk4", h, 0) ==
           doctest::Approx(std::sqrt(1 - std::pow(h, 6) / 72 + std::pow(h, 8) / 576)).epsilon(1e-12));
   }
@@ -35,6 +38,15 @@ TEST_CASE("stability limits have their closed forms") {
   }
   CHECK(stability_limit(scheme("velocity_verlet"), 0) == doctest::Approx(2).epsilon(1e-4));
   CHECK(stability_limit(scheme("rk4"), 0) == doctest::Approx(2 * std::sqrt(2.0)).epsilon(1e-6));
+}
+
+TEST_CASE("implicit methods are stable at every dt; fast oscillations stay, or go") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const char* name : {"implicit_euler", "implicit_midpoint", "tr_bdf2"})
+    for (const double zeta : {0.0, 0.3}) CHECK(stability_limit(scheme(name), zeta) == infinity);
+  CHECK(radius("implicit_midpoint", 1e4, 0) == doctest::Approx(1).epsilon(1e-9));
+  CHECK(radius("implicit_euler", 1e4, 0) < 1e-3);
+  CHECK(radius("tr_bdf2", 1e4, 0) < 1e-3);  // L-stable
 }
 
 TEST_CASE("positions change in a method's last sweep alone, as bodies need it") {

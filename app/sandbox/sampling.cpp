@@ -1,0 +1,29 @@
+#include "app/sandbox/sampling.h"
+
+#include "app/panels/curves.h"
+#include "app/sandbox/app.h"
+
+namespace tyglab {
+
+void sample(App& app) {
+  Plots& plots = app.ui.plots;
+  if (app.steps_made == 0 || plots.paused) return;
+  const FrameCosts::Timer timer(app.costs, Part::sample);
+  const double t = app.simulation->time();
+  if (plots.forces_shown && plots.source == Source::particle && app.picked) {
+    plots.forces.add(t, force_values(app.simulation->particle(app.picked->i, app.picked->j)));
+  } else if (plots.forces_shown && plots.source != Source::particle) {
+    const auto reduction = plots.source == Source::sum ? Reduction::sum : Reduction::maximum;
+    plots.forces.add(t, force_values(app.simulation->forces(reduction)));
+  }
+  if (plots.height_shown) {
+    const double y = app.simulation->positions().at(0, 0).y;
+    const bool fresh = plots.height.empty() || t <= plots.height.t().back();
+    if (fresh) plots.height_methods.clear();
+    if (fresh || plots.height_methods.back().second != app.preset().integrator)
+      plots.height_methods.emplace_back(t, app.preset().integrator);
+    plots.height.add(t, {&y, 1});
+  }
+}
+
+}  // namespace tyglab
