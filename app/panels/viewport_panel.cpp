@@ -57,7 +57,7 @@ void viewport_panel(App& app, const Region& region) {
   const ImVec2 hi{region.at.x + region.size.x, region.at.y + region.size.y};
   draw.AddImage(gui::texture(app.renderer->texture_id()), region.at, hi, {0, 1}, {1, 0});
   // What is left of a diverged cloth steps back, so that the banner is what one sees.
-  if (app.simulation->divergence()) draw.AddRectFilled(region.at, hi, faded(app.theme.colors.ground, 0.55f));
+  if (app.simulation->divergence()) draw.AddRectFilled(region.at, hi, faded(app.theme.colors.ground, 0.35f));
   viewport_overlay(app);
   if (app.wished().kind == Kind::cloth) view_buttons(app, region);
   message_list(app);

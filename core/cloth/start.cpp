@@ -38,7 +38,7 @@ Lattice lattice_of(const Preset& preset) {
 
 StateRows start_rows(const Preset& p) {
   if (p.kind == Kind::one_weight) return weight_row(p);
-  const auto [sine, cosine] = angle(p.tilt_deg);
+  const Angle tilt = angle(p.tilt_deg);
   const double spacing = p.initial_stretch * p.L;
   std::vector<double> along(std::size_t(p.columns));
   for (int j = 0; j < p.columns; ++j) along[j] = p.x_0.x + (j - (p.columns - 1) / 2.0) * spacing;
@@ -47,8 +47,8 @@ StateRows start_rows(const Preset& p) {
           pinned = moves ? pinned_particles(p) : std::vector<std::uint8_t>()](int i, const StateRow& row) {
     const std::size_t columns = along.size();
     std::copy(along.begin(), along.end(), row.x[0]);
-    std::fill_n(row.x[1], columns, x_0.y - i * spacing * sine);
-    std::fill_n(row.x[2], columns, x_0.z + i * spacing * cosine);
+    std::fill_n(row.x[1], columns, x_0.y - i * spacing * tilt.sine);
+    std::fill_n(row.x[2], columns, x_0.z + i * spacing * tilt.cosine);
     for (int c = 0; c < 3; ++c) {
       std::fill_n(row.v[c], columns, v_0[c]);
       if (pinned.empty()) continue;

@@ -6,6 +6,16 @@
 #include "core/engines/cpu/simd-inl.h"
 #include "core/engines/cpu/stiffness.h"
 
+#ifndef TYGLAB_STIFFNESS_TYPES_
+#define TYGLAB_STIFFNESS_TYPES_
+namespace tyglab::cpu {
+template <class R>
+using Input = const R*;
+template <class R>
+using Output = R*;
+}  // namespace tyglab::cpu
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
 
@@ -95,18 +105,18 @@ double inner(const R* a, const R* b, int count) {
   return double(hn::GetLane(hn::SumOfLanes(D(), sum.v)));
 }
 
-#define TYGLAB_DEFINE(R, name)                                \
-  double multiply_##name(const ProductTask<R>& t) {           \
-    return multiply(t);                                       \
-  }                                                           \
-  Residual update_##name(const UpdateTask<R>& t) {            \
-    return update(t);                                         \
-  }                                                           \
-  void add_##name(const R* x, double beta, R* y, int count) { \
-    add_scaled(x, beta, y, count);                            \
-  }                                                           \
-  double dot_##name(const R* a, const R* b, int count) {      \
-    return inner(a, b, count);                                \
+#define TYGLAB_DEFINE(R, name)                                       \
+  double multiply_##name(const ProductTask<R>& t) {                  \
+    return multiply(t);                                              \
+  }                                                                  \
+  Residual update_##name(const UpdateTask<R>& t) {                   \
+    return update(t);                                                \
+  }                                                                  \
+  void add_##name(Input<R> x, double beta, Output<R> y, int count) { \
+    add_scaled(x, beta, y, count);                                   \
+  }                                                                  \
+  double dot_##name(Input<R> a, Input<R> b, int count) {             \
+    return inner(a, b, count);                                       \
   }
 TYGLAB_DEFINE(float, float)
 TYGLAB_DEFINE(double, double)
@@ -118,26 +128,26 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tyglab::cpu {
 
-#define TYGLAB_DISPATCH(R, name)                                  \
-  HWY_EXPORT(multiply_##name);                                    \
-  HWY_EXPORT(update_##name);                                      \
-  HWY_EXPORT(add_##name);                                         \
-  HWY_EXPORT(dot_##name);                                         \
-  template <>                                                     \
-  double multiply_row(const ProductTask<R>& t) {                  \
-    return HWY_DYNAMIC_DISPATCH(multiply_##name)(t);              \
-  }                                                               \
-  template <>                                                     \
-  Residual update_row(const UpdateTask<R>& t) {                   \
-    return HWY_DYNAMIC_DISPATCH(update_##name)(t);                \
-  }                                                               \
-  template <>                                                     \
-  void add_scaled_row(const R* x, double beta, R* y, int count) { \
-    HWY_DYNAMIC_DISPATCH(add_##name)(x, beta, y, count);          \
-  }                                                               \
-  template <>                                                     \
-  double dot_row(const R* a, const R* b, int count) {             \
-    return HWY_DYNAMIC_DISPATCH(dot_##name)(a, b, count);         \
+#define TYGLAB_DISPATCH(R, name)                                         \
+  HWY_EXPORT(multiply_##name);                                           \
+  HWY_EXPORT(update_##name);                                             \
+  HWY_EXPORT(add_##name);                                                \
+  HWY_EXPORT(dot_##name);                                                \
+  template <>                                                            \
+  double multiply_row(const ProductTask<R>& t) {                         \
+    return HWY_DYNAMIC_DISPATCH(multiply_##name)(t);                     \
+  }                                                                      \
+  template <>                                                            \
+  Residual update_row(const UpdateTask<R>& t) {                          \
+    return HWY_DYNAMIC_DISPATCH(update_##name)(t);                       \
+  }                                                                      \
+  template <>                                                            \
+  void add_scaled_row(Input<R> x, double beta, Output<R> y, int count) { \
+    HWY_DYNAMIC_DISPATCH(add_##name)(x, beta, y, count);                 \
+  }                                                                      \
+  template <>                                                            \
+  double dot_row(Input<R> a, Input<R> b, int count) {                    \
+    return HWY_DYNAMIC_DISPATCH(dot_##name)(a, b, count);                \
   }
 TYGLAB_DISPATCH(float, float)
 TYGLAB_DISPATCH(double, double)
