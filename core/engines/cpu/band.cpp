@@ -8,10 +8,15 @@
 #include "core/forces/spring-inl.h"
 
 namespace tyglab::cpu {
+namespace {
+
+constexpr int ring_lead = 43;  // cache lines: away from where the vectors lie in their pages (row_field.h)
+
+}  // namespace
 
 template <class R, unsigned Present>
 Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
-  ring_.resize(4, cloth.stride);
+  ring_.resize(4, cloth.stride, ring_lead);
   old_rows_.resize(2, cloth.stride);
   sum_row_.resize(1, cloth.stride);
   // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.

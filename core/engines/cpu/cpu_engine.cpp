@@ -37,6 +37,8 @@ int useful_threads(const Lattice& lattice, int asked) {
   return std::clamp(std::min(lattice.size() / least_particles, lattice.rows / Band<float>::least_rows), 1, asked);
 }
 
+constexpr int lines_apart = 23;  // between vectors' places in their pages, of 64 cache lines
+
 }  // namespace
 
 template <class R, unsigned Present>
@@ -88,9 +90,13 @@ void CpuEngine<R, Present>::resolve() {
   for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
   cloth_.vectors.resize(std::size_t(scheme_->vectors));
   backup_.resize(cloth_.vectors.size());
-  for (auto* fields : {&cloth_.vectors, &backup_})
-    for (auto& field : *fields)
-      if (field.empty()) field.resize(array_rows(), cloth_.stride);
+  for (auto* fields : {&cloth_.vectors, &backup_}) {
+    int lead = 0;
+    for (auto& field : *fields) {
+      if (field.empty()) field.resize(array_rows(), cloth_.stride, lead);
+      lead += lines_apart;
+    }
+  }
   cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
                                (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
   measure_again();

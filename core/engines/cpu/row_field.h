@@ -24,14 +24,17 @@ template <class R>
 class RowField {
  public:
   /// `rows` rows of zeros, and a vector more than that, since the sweep loads right neighbours before it masks them.
-  void resize(int rows, int stride) {
+  /// `lead`: cache lines before the first row, so that fields that are swept together do not lie alike in their pages:
+  /// a load would have to wait for stores to the same place of another page.
+  void resize(int rows, int stride, int lead = 0) {
     stride_ = stride;
-    data_.assign(std::size_t(rows) * pitch() + widest_vector / sizeof(R), R(0));
+    lead_ = std::size_t(lead) * widest_vector / sizeof(R);
+    data_.assign(lead_ + std::size_t(rows) * pitch() + widest_vector / sizeof(R), R(0));
   }
   bool empty() const { return data_.empty(); }
   std::ptrdiff_t pitch() const { return 3 * std::ptrdiff_t(stride_); }  ///< from a row to the next
-  R* row(int i) { return data_.data() + i * pitch(); }
-  const R* row(int i) const { return data_.data() + i * pitch(); }
+  R* row(int i) { return data_.data() + lead_ + i * pitch(); }
+  const R* row(int i) const { return data_.data() + lead_ + i * pitch(); }
   R* row(int i, int component) { return row(i) + component * std::ptrdiff_t(stride_); }
   const R* row(int i, int component) const { return row(i) + component * std::ptrdiff_t(stride_); }
   Array<R>& all() { return data_; }
@@ -40,6 +43,7 @@ class RowField {
 
  private:
   int stride_ = 0;
+  std::size_t lead_ = 0;
   Array<R> data_;
 };
 
