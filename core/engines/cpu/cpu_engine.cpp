@@ -147,7 +147,7 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
     accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
     const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
-    Array<R>& d = cloth_.vector(vector_v).all();
+    const std::span<R> d = cloth_.vector(vector_v).all();
     for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
   }
   cloth_.preset = preset;

@@ -46,12 +46,12 @@ double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
 template <class R>
 double ImplicitSolver<R>::evaluate(Cloth<R>& cloth, int position, int velocity, double dt,
                                    const Accelerations& accelerations) {
-  Array<R>&x = cloth.vector(position).all(), &v = cloth.vector(velocity).all();
+  const std::span<R> x = cloth.vector(position).all(), v = cloth.vector(velocity).all();
   const R h = R(dt);
   for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + h * v[n];
   accelerations(acceleration_);
   ++counts_.force_evaluations;
-  Array<R>& r = residual_.all();
+  const std::span<R> r = residual_.all();
   for (std::size_t n = 0; n < r.size(); ++n) r[n] = h * acceleration_.all()[n] - (v[n] - start_v_.all()[n]);
   return std::sqrt(inner(residual_, residual_));
 }
@@ -83,7 +83,7 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
     solved = norm <= newton_tolerance<R> * first || dt * std::sqrt(inner(step_, step_)) <= last_digits;
   }
   if (!solved) ++counts_.unconverged;
-  Array<R>&x = cloth.vector(position).all(), &v = cloth.vector(velocity).all();
+  const std::span<R> x = cloth.vector(position).all(), v = cloth.vector(velocity).all();
   for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + R(dt) * v[n];
 }
 
@@ -91,7 +91,7 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
 template <class R>
 double ImplicitSolver<R>::take_step(Cloth<R>& cloth, int position, int velocity, double dt,
                                     const Accelerations& accelerations) {
-  Array<R>& v = cloth.vector(velocity).all();
+  const std::span<R> v = cloth.vector(velocity).all();
   before_ = cloth.vector(velocity);
   // The residual is minus the slope of the potential that a solution makes least; the system is positive, so this is >
   // 0.

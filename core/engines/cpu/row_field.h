@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "core/cloth/state.h"
 
@@ -37,8 +38,9 @@ class RowField {
   const R* row(int i) const { return data_.data() + lead_ + i * pitch(); }
   R* row(int i, int component) { return row(i) + component * std::ptrdiff_t(stride_); }
   const R* row(int i, int component) const { return row(i) + component * std::ptrdiff_t(stride_); }
-  Array<R>& all() { return data_; }
-  const Array<R>& all() const { return data_; }
+  /// All rows: what stands at one index belongs to one number of every field of that size.
+  std::span<R> all() { return std::span(data_).subspan(lead_); }
+  std::span<const R> all() const { return std::span(data_).subspan(lead_); }
   std::size_t bytes() const { return data_.size() * sizeof(R); }
 
  private:
