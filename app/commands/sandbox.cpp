@@ -1,8 +1,5 @@
 #include "app/commands/sandbox.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -11,6 +8,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/sandbox/sandbox.h"
+#include "app/sandbox/window.h"
 #include "core/output/destination.h"
 
 namespace tyglab {
@@ -31,7 +29,7 @@ struct Options {
 /// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
 bool has_display() {
   const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  return named && glfwInit() == GLFW_TRUE;
+  return named && start_glfw();
 }
 
 int open_sandbox(const Options& options, const std::vector<std::string>& commands) {

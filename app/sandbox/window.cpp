@@ -110,13 +110,17 @@ glm::ivec2 fit_to_screen(int width, int height) {
 
 }  // namespace
 
-Window::Window(int width, int height, const Settings& settings, InputQueue& queue) {
+bool start_glfw() {
 #ifdef GLFW_PLATFORM
   // GLFW 3.4 looks for a Wayland compositor first, and where there is none libwayland complains on stderr.
   if (std::getenv("WAYLAND_DISPLAY") == nullptr && std::getenv("WAYLAND_SOCKET") == nullptr)
     glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
-  if (glfwInit() != GLFW_TRUE)
+  return glfwInit() == GLFW_TRUE;
+}
+
+Window::Window(int width, int height, const Settings& settings, InputQueue& queue) {
+  if (!start_glfw())
     throw GraphicsError("There is no display to open a window on (" + glfw_problem() +
                         "). Start it in a desktop session or under xvfb-run, or use tyglab render, which needs none.");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);

@@ -14,6 +14,9 @@
 
 namespace tyglab {
 
+/// Starts GLFW, which does nothing the second time. False where there is no display.
+bool start_glfw();
+
 /// One window with a current OpenGL 3.3 core context. Its callbacks fill `queue`, which must outlive it.
 class Window {
  public:
