@@ -74,7 +74,7 @@ Chart throughput_chart(const std::vector<ThroughputRow>& rows, int repeats) {
   const auto add = [&](const std::string& name, const ThroughputRow& row, double y) {
     auto series = std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == name; });
     if (series == chart.series.end()) {
-      const auto style = series_style(Tokens(dark_tokens()), int(chart.series.size()));
+      const auto style = series_style(dark_tokens(), int(chart.series.size()));
       series = chart.series.insert(series, {name, style, true, 3, {}, {}});
     }
     const double side = row.of.preset.rows;

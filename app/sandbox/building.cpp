@@ -13,10 +13,6 @@ namespace {
 
 constexpr double many_particles = 1e5;  // built in about a frame's time
 
-double particles(const Preset& preset) {
-  return double(lattice_of(preset).size());
-}
-
 using Json = nlohmann::json;
 
 Json rebased(const Json& before, const Json& after, const Json& present) {
@@ -28,6 +24,10 @@ Json rebased(const Json& before, const Json& after, const Json& present) {
 }
 
 }  // namespace
+
+double particles(const Preset& preset) {
+  return double(lattice_of(preset).size());
+}
 
 Preset rebased(const Preset& before, const Preset& after, const Preset& present) {
   const auto tree = [](const Preset& preset) { return Json::parse(preset_to_json(preset)); };

@@ -78,6 +78,8 @@ class Building {
   std::future<void> disposal_;
 };
 
+/// Of the preset's cloth.
+double particles(const Preset& preset);
 /// Whether an edit takes so long that it is to be built beside the frames.
 bool takes_long(const App& app, const Edit& edit);
 /// The same of a preset that is opened.

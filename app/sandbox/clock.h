@@ -10,7 +10,8 @@ class Pacing {
  public:
   bool playing = true;
   double speed = 1;         ///< simulated seconds per real second wished
-  double budget_s = 0.012;  ///< wall time that a frame may spend on steps
+  static constexpr double usual_budget_s = 0.012;
+  double budget_s = usual_budget_s;  ///< wall time that a frame may spend on steps
 
   /// Whole steps due after `real_seconds` more of real time (a pause in drawing counts as a tenth of a second at most),
   /// not more than the budget is likely to allow.

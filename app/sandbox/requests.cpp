@@ -18,10 +18,6 @@ namespace {
 /// Above this many particles a frame may take seconds, so the user is asked first.
 constexpr double large_cloth = 1e6;
 
-double particles(const Preset& preset) {
-  return double(preset.rows) * preset.columns;
-}
-
 /// A particle that was pinned and freed again leaves a list of pins; where it says what the document says by a name, or
 /// by a list in another order, it is put as the document puts it.
 void spell_pins_as_saved(App& app) {
@@ -200,8 +196,8 @@ void apply(App& app, const request::Do& what) {
 
 void apply(App& app, const request::Apply& what) {
   if (const auto* change = std::get_if<edit::Change>(&what.edit); change != nullptr && !what.confirmed) {
-    const double count = particles(change->preset);
-    if (count > large_cloth && count > 1.001 * particles(app.wished())) {
+    const double count = particles(change->preset), now = particles(app.wished());
+    if (count > large_cloth && count > 1.001 * now) {
       request::Apply agreed = what;
       agreed.confirmed = true;
       char text[160];
@@ -260,8 +256,8 @@ void apply(App& app, const request::Quit& what) {
 
 bool unsaved(const App& app) {
   Preset saved = app.document.saved;
-  saved.mode = app.preset().mode;
-  return !(saved == app.preset());
+  saved.mode = app.wished().mode;
+  return !(saved == app.wished());  // what is still being built would be lost as well
 }
 
 bool changed_since_divergence(const App& app) {

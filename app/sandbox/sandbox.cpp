@@ -189,9 +189,12 @@ void Sandbox::simulate(double real_seconds) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   int made = 0;
-  // What a frame costs beside the steps, they may cost too: a slow picture does not slow the cloth down twice.
-  const double beside_s = 1e-3 * (app_.costs.recent_ms(Part::frame) - app_.costs.recent_ms(Part::simulate));
-  app_.pacing.budget_s = std::clamp(beside_s, 0.012, 0.2);
+  // Where drawing alone takes longer than the display's frame (waiting for the display is none of it), steps may cost
+  // as much again: they no longer decide whether the window keeps up.
+  double beside_ms = app_.costs.recent_ms(Part::frame);
+  for (const Part part : {Part::simulate, Part::swap}) beside_ms -= app_.costs.recent_ms(part);
+  const bool slow = beside_ms > 1e3 * window_.frame_time();
+  app_.pacing.budget_s = slow ? std::min(1e-3 * beside_ms, 0.2) : Pacing::usual_budget_s;
   // In pieces, so that a wrong guess of a step's cost cannot hold the window up.
   while (made < due && !simulation.divergence() && (made == 0 || spent() < app_.pacing.budget_s)) {
     const double cost = app_.pacing.step_cost_s();

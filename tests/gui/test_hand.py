@@ -125,15 +125,20 @@ def pick_and_pin(stage):
     check(report["steps"] == sandbox.report()["steps"] and report["torn_springs"] == 0, "the mouse did nothing else")
 
 
-@case
-def body(stage):
-    """a left press on a body drags the body and never cuts"""
+def sphere_at_start(stage):
+    """The scene `sphere`, paused at its start, where no cloth lies before the ball; and its report."""
     sandbox = stage.start("sphere")
     sandbox.key("space")
     sandbox.wait(lambda r: r["paused"], "the pause")
     sandbox.key("BackSpace")
-    report = sandbox.wait(lambda r: r["steps"] == 0, "the restart")
-    report = sandbox.later()
+    sandbox.wait(lambda r: r["steps"] == 0, "the restart")
+    return sandbox, sandbox.later()
+
+
+@case
+def body(stage):
+    """a left press on a body drags the body and never cuts"""
+    sandbox, report = sphere_at_start(stage)
     x, y = report["bodies"][0]["at"]
     before = report["bodies"][0]["c"]
     sandbox.move(x, y)
@@ -158,12 +163,7 @@ def body(stage):
 @case
 def release_place(stage):
     """a body stays where the button was released, however far the pointer goes in the same frame"""
-    sandbox = stage.start("sphere")
-    sandbox.key("space")
-    sandbox.wait(lambda r: r["paused"], "the pause")
-    sandbox.key("BackSpace")
-    sandbox.wait(lambda r: r["steps"] == 0, "the restart, where no cloth lies before the ball")
-    report = sandbox.later()
+    sandbox, report = sphere_at_start(stage)
     x, y = report["bodies"][0]["at"]
     sandbox.move(x, y)
     sandbox.press(LEFT)

@@ -75,16 +75,14 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
     if (!linear) ++counts_.unconverged;
     std::swap(residual_, before_);
     if (most == 1) {  // a linearly implicit step, taken as it is
-      for (std::size_t k = 0; k < step_.all().size(); ++k) cloth.vector(velocity).all()[k] += step_.all()[k];
-      solved = true;
-      break;
+      const std::span<R> x = cloth.vector(position).all(), v = cloth.vector(velocity).all();
+      for (std::size_t k = 0; k < v.size(); ++k) v[k] += step_.all()[k], x[k] = start_x_.all()[k] + R(dt) * v[k];
+      return;
     }
     norm = take_step(cloth, position, velocity, dt, accelerations);
     solved = norm <= newton_tolerance<R> * first || dt * std::sqrt(inner(step_, step_)) <= last_digits;
   }
   if (!solved) ++counts_.unconverged;
-  const std::span<R> x = cloth.vector(position).all(), v = cloth.vector(velocity).all();
-  for (std::size_t n = 0; n < x.size(); ++n) x[n] = start_x_.all()[n] + R(dt) * v[n];
 }
 
 /// Goes along the step, or less far where that overshoots; leaves the residual there and returns its norm.
