@@ -87,14 +87,30 @@ void label(App& app, const char* text) {
 
 /// Returns whether the text changed.
 template <std::size_t N>
-bool text_field(App& app, const char* id, char (&field)[N], bool focus) {
+bool text_field(App& app, const char* id, char (&field)[N], bool focus, bool select = false) {
   if (focus) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(7)));
-  const bool changed = ImGui::InputText(id, field, N);
+  const bool changed = ImGui::InputText(id, field, N, select ? ImGuiInputTextFlags_AutoSelectAll : 0);
   ImGui::PopStyleVar();
   report_control(app, id);
   return changed;
+}
+
+/// The field of the file's path. After a refusal it takes keys again, all of its text selected. Returns whether the
+/// text changed.
+bool path_field(App& app, bool focus = false) {
+  Dialog& dialog = app.ui.dialog;
+  const bool select = dialog.selecting || dialog.refused;
+  const bool changed = text_field(app, "##path", dialog.path, focus || dialog.refused, select);
+  dialog.selecting = select && !ImGui::IsItemActive();  // it gets the focus in the frame after the one that asks
+  dialog.refused = false;
+  return changed;
+}
+
+void refuse(Dialog& dialog, std::string reason) {
+  dialog.problem = std::move(reason);
+  dialog.refused = true;
 }
 
 void problem(App& app) {
@@ -150,7 +166,7 @@ void open_presets(App& app) {
   }
   ImGui::EndChild();
   label(app, "File");
-  if (text_field(app, "##path", dialog.path, false)) dialog.problem.clear();
+  if (path_field(app)) dialog.problem.clear();
   problem(app);
   open |= dialog.enter;
   open |= text_button(app, "Open", true, dialog.path[0] != 0);
@@ -162,8 +178,7 @@ void open_presets(App& app) {
     file = find_preset(path_of(dialog.path).string()).file;  // shipped ones by name, as on the command line
     load_preset(file);                                       // a wrong file is said here, where another can be chosen
   } catch (const std::exception& error) {
-    dialog.problem = error.what();
-    return;
+    return refuse(dialog, error.what());
   }
   close(app);
   app.request(request::Open{.file = file, .shipped = is_shipped(file)});
@@ -206,14 +221,14 @@ void save_preset_dialog(App& app) {
   if (renamed && dialog.path_follows)
     set(dialog.path, (path_of(dialog.path).parent_path() / file_name_for(dialog.name)).string());
   label(app, "File");
-  const bool moved = text_field(app, "##path", dialog.path, false);
+  const bool moved = path_field(app);
   if (moved) dialog.path_follows = false;
   if (moved || renamed) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Save")) return;
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".json";
   if (is_shipped(file)) {
-    dialog.problem = "That is a preset of the program itself; save under another name or in another folder.";
+    refuse(dialog, "That is a preset of the program itself; save under another name or in another folder.");
     dialog.overwrite = false;
     return;
   }
@@ -231,8 +246,7 @@ void csv_dialog(App& app) {
           "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
           app.theme.colors.quiet);
   label(app, "File");
-  if (text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing()))
-    dialog.overwrite = false, dialog.problem.clear();
+  if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Write")) return;
   const request::WriteCsv write{path_of(dialog.path), dialog.height};
   close(app);
@@ -243,7 +257,7 @@ void texture_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, "Take a picture as texture");
   label(app, "PNG, JPEG, BMP or TGA file");
-  text_field(app, "##path", dialog.path, ImGui::IsWindowAppearing());
+  path_field(app, ImGui::IsWindowAppearing());
   problem(app);
   const bool go = text_button(app, "Load", true, dialog.path[0] != 0) || dialog.enter;
   ImGui::SameLine();
@@ -320,7 +334,7 @@ void open_dialog(App& app, DialogKind kind) {
   Dialog& dialog = app.ui.dialog;
   dialog.kind = kind;
   dialog.opening = true;
-  dialog.overwrite = dialog.enter = dialog.path_follows = false;
+  dialog.overwrite = dialog.enter = dialog.path_follows = dialog.refused = dialog.selecting = false;
   dialog.problem.clear();
   dialog.then.reset();
   dialog.entries.clear();

@@ -58,6 +58,8 @@ struct Dialog {
   char path[1024] = "";
   char name[128] = "";
   std::string problem;          ///< shown in it
+  bool refused = false;         ///< what was given: the path's field is to take keys again
+  bool selecting = false;       ///< all of its text, once it takes them
   bool enter = false;           ///< Enter was pressed in this frame
   bool path_follows = false;    ///< the path is made from the name until it is edited
   bool overwrite = false;       ///< the file exists, and the user is asked

@@ -9,7 +9,7 @@ namespace tyglab {
 class Pacing {
  public:
   bool playing = true;
-  double speed = 1;         ///< simulated seconds per real second wished
+  double speed = 1;  ///< simulated seconds per real second wished
   static constexpr double usual_budget_s = 0.012;
   double budget_s = usual_budget_s;  ///< wall time that a frame may spend on steps
 

@@ -144,8 +144,9 @@ void add_window(Json& json, const App& app) {
   json["viewport"] = {at.x, at.y, size.x, size.y};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
-  const SliderState& slider = app.ui.slider;  // its field takes no keys in the frame in which it appears
-  json["typing"] = (slider.typing != 0 && !slider.typing_starts) || ImGui::GetIO().WantTextInput;
+  const SliderState& slider = app.ui.slider;
+  const bool starts = slider.typing_starts || app.ui.dialog.refused || app.ui.dialog.selecting;  // takes no keys yet
+  json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);
   json["dialog"] = name_of(app.ui.dialog.kind);
   json["problem"] = app.ui.dialog.problem;
   Json messages = Json::array();

@@ -80,10 +80,10 @@ class Sandbox:
         return self.wait(lambda r: r["frames"] >= begun + frames, f"{frames} more frames")
 
     def control(self, name):
-        """Place of a control, once it stands still."""
+        """Place of a control, once it stands still: a dialog follows its text some frames later."""
         last = None
         while True:
-            report = self.wait(lambda r: name in r["controls"] and (last is None or r["frames"] > last["frames"]),
+            report = self.wait(lambda r: name in r["controls"] and (last is None or r["frames"] > last["frames"] + 2),
                                f"the control {name} to be seen")
             if last is not None and last["controls"][name] == report["controls"][name]:
                 return report["controls"][name]

@@ -114,7 +114,9 @@ def by_name(stage):
     fill(sandbox, "path", "denin")
     sandbox.key("Return")
     sandbox.wait(lambda r: "Did you mean 'denim'?" in r["problem"], "the nearest name to be offered")
-    fill(sandbox, "path", "denim")
+    sandbox.wait(lambda r: r["typing"], "the field to take keys again")
+    sandbox.type("denim")  # over the wrong name, which is selected
+    sandbox.later(4)
     sandbox.key("Return")
     report = sandbox.wait(lambda r: r["label"] == "denim" and r["dialog"] == "none", "denim to be opened")
     check(report["file"] == "" and not report["unsaved"], "it is the shipped preset")
