@@ -50,7 +50,7 @@ void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int 
           mine |= qi + corners[n].di == i && qj + corners[n].dj == j;
         }
         if (!mine || !tears.triangle_whole(qi, qj, which)) continue;
-        sum.F_wind += wind_on_corner(x[1] - x[0], x[2] - x[0], p.W, 1.0 / 3, std::numeric_limits<double>::min());
+        sum.F_wind += wind_on_corner(cross(x[1] - x[0], x[2] - x[0]), p.W / 3.0, std::numeric_limits<double>::min());
       }
 }
 

@@ -11,14 +11,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::HWY_NAMESPACE {
 
-/// A third of F = N (N·W), what each corner takes, for the triangle with edges e1, e2 from one corner; 0 for a triangle
-/// of no area, which is one for which the square of twice its area is under `smallest`, the least normal number.
-/// V3 is three components of V with cross, dot and V·V3.
+HWY_INLINE double divided(double a, double b) {
+  return a / b;
+}
+
+/// A third of F = N (N·W), what each corner takes, for the triangle with normal n, which is twice its area long; 0 for
+/// a triangle of no area, which is one for which |n|² is under `smallest`, the least normal number. V3 is three
+/// components of V with dot and V·V3; V brings divided(a, b).
 template <class V3, class V>
-HWY_INLINE V3 wind_on_corner(V3 e1, V3 e2, V3 W, V third, V smallest) {
-  const V3 n = cross(e1, e2);
+HWY_INLINE V3 wind_on_corner(V3 n, V3 third_of_W, V smallest) {
   const V n2 = dot(n, n);
-  return if_greater(n2, smallest, third * dot(n, W) / n2) * n;
+  return if_greater(n2, smallest, divided(dot(n, third_of_W), n2)) * n;
 }
 
 }  // namespace tyglab::HWY_NAMESPACE

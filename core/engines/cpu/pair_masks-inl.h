@@ -55,12 +55,13 @@ struct Masks {
 };
 
 /// Lanes whose quad has an odd number i + j, so that its diagonal runs the other way (figure 2.7). Rows 0 and 1 of a
-/// pair.
+/// pair; the same for every block of a row, unless that is one lane.
 template <class D>
 HWY_INLINE hn::Mask<D> odd_quads(int row, int j) {
   constexpr hn::RebindToUnsigned<D> du;
   using U = hn::TFromD<decltype(du)>;
-  return hn::RebindMask(D(), hn::TestBit(hn::Iota(du, U(j + row)), hn::Set(du, U(1))));
+  const U first = U(hn::MaxLanes(D()) == 1 ? row + j : row);
+  return hn::RebindMask(D(), hn::TestBit(hn::Iota(du, first), hn::Set(du, U(1))));
 }
 
 /// A triangle is whole while its three edge springs are.

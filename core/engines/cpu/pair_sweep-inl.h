@@ -60,7 +60,7 @@ class PairSweep {
         force_to_x_(L::all(task.force_to_x)),
         force_to_v_(L::all(task.force_to_v)),
         dt_v_(L::all(task.dt_v)),
-        W_(L::all(task.W[0]), L::all(task.W[1]), L::all(task.W[2])),
+        third_of_W_(L::all(task.W[0] / 3), L::all(task.W[1] / 3), L::all(task.W[2] / 3)),
         largest_(L::load(task.largest_way)) {}
 
   HWY_INLINE void run() {
@@ -121,21 +121,18 @@ class PairSweep {
             hn::IfThenElse(mask, yes.z.v, no.z.v)};
   }
 
-  /// Wind on the two triangles of each quad A B C E, as forces on its corners. Even quads are split from A to E, odd
-  /// ones from C to B (figure 2.7).
-  struct OnCorners {
-    V a, b, c, e;
+  /// Wind on the two triangles of each quad A B C E, as forces on their corners. Even quads are split from A to E, odd
+  /// ones from C to B (figure 2.7); the first triangle always has A and C, the second B and E.
+  struct OnTriangles {
+    V first, second;
   };
   template <bool masked>
-  HWY_INLINE OnCorners blow(M odd, const Four<D>& x_ij, const Masks<D>& m) const {
-    const V right_below = x_ij.diagonal - x_ij.down;
-    const V first = kept<masked>(
-        m.triangle[0], wind_on_corner(x_ij.down, pick(odd, x_ij.right, x_ij.diagonal), W_, third_, smallest_));
-    const V second =
-        kept<masked>(m.triangle[1], wind_on_corner(pick(odd, x_ij.crossing, x_ij.diagonal),
-                                                   pick(odd, right_below, x_ij.right), W_, third_, smallest_));
-    const V first_odd = where<D>(odd, first), second_odd = where<D>(odd, second);
-    return {first + (second - second_odd), second + first_odd, first + second_odd, second + (first - first_odd)};
+  HWY_INLINE OnTriangles blow(M odd, const Four<D>& x_ij, const Masks<D>& m) const {
+    const V below = x_ij.diagonal - x_ij.down, beside = x_ij.diagonal - x_ij.right;  // C-E, B-E
+    return {kept<masked>(m.triangle[0],
+                         wind_on_corner(cross(x_ij.down, pick(odd, x_ij.right, below)), third_of_W_, smallest_)),
+            kept<masked>(m.triangle[1],
+                         wind_on_corner(cross(beside, pick(odd, below, x_ij.right)), third_of_W_, smallest_))};
   }
 
   /// What a row takes from the particles below it, as forces to subtract: from C below, its right neighbour E, and G
@@ -155,8 +152,10 @@ class PairSweep {
     V c = f.down + f.crossing, e = f.diagonal, g;
     if constexpr (row == 1) on_A = on_A - above.c, on_B = on_B - above.e;
     if constexpr ((F & wind) != 0) {
-      const OnCorners w = blow<masked>(odd_quads<D>(row, j), x_ij, m);
-      on_A = on_A + w.a, on_B = on_B + w.b, c = c - w.c, e = e - w.e;
+      const M odd = odd_quads<D>(row, j), even = hn::Not(odd);
+      const OnTriangles w = blow<masked>(odd, x_ij, m);
+      on_A = add_where<D>(even, on_A + w.first, w.second), on_B = add_where<D>(odd, on_B + w.second, w.first);
+      c = c - add_where<D>(odd, w.first, w.second), e = e - add_where<D>(even, w.second, w.first);
     }
     if constexpr ((F & bending) != 0) {
       const V A = load(x);
@@ -218,8 +217,8 @@ class PairSweep {
   R *const x_, *const v_, *const f_[4];
   const Spring<L> straight_, diagonal_, bending_;
   const L k_d_, weight_, v_to_x_, force_to_x_, force_to_v_, dt_v_;
-  const V W_;
-  const L third_ = L::all(1.0 / 3), smallest_ = L::all(double(std::numeric_limits<R>::min()));
+  const V third_of_W_;
+  const L smallest_ = L::all(double(std::numeric_limits<R>::min()));
   L largest_;
   Carry<1, D> right_[3];      ///< forces on the right neighbours, rows i and i+1; reactions, row i+2
   Carry<2, D> two_right_[2];  ///< reactions on those two to the right, rows i and i+1

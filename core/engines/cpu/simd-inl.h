@@ -48,19 +48,19 @@ struct Lanes {
     return hn::IfThenElseZero(hn::Lt(a.v, hn::Zero(D())), a.v);
 #endif
   }
-  /// 2h/√r2 + c. In float the hardware's approximation y of 1/√r2 and one Newton step, 2/√r2 = y (3 - r2 y²), within
-  /// 2 ulp. In double exact roots and quotients, or with AVX-512, where those are slow, its 14-bit approximation and
-  /// the series of 2/√(1 - e), e = 1 - r2 y², to the power e⁴: what is left out is under e⁵/2 < 2^-66.
+  /// 2h/√r2 + c. In float the approximation y of 1/√r2 that x86 has, good to 11 bits, and one Newton step,
+  /// 2/√r2 = y (3 - r2 y²), within 2 ulp. In double, and elsewhere, exact roots and quotients; with AVX-512, where
+  /// those are slow, its 14-bit approximation and the series of 2/√(1 - e), e = 1 - r2 y², |e| < 2^-13, to the power
+  /// e³: what is left out is under e⁴/3 < 2^-53, half of a rounding.
   friend HWY_INLINE Lanes over_root(Lanes h, Lanes r2, Lanes c) {
-    if constexpr (sizeof(T) == 4) {
+    if constexpr (sizeof(T) == 4 && HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR) {
       const V y = hn::ApproximateReciprocalSqrt(r2.v);
       return hn::MulAdd(hn::Mul(y, h.v), hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(3))), c.v);
     } else {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
       const V y{_mm512_rsqrt14_pd(r2.v.raw)};
       const V e = hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(1)));
-      V sum = hn::MulAdd(hn::Set(D(), T(35.0 / 64)), e, hn::Set(D(), T(5.0 / 8)));
-      sum = hn::MulAdd(sum, e, hn::Set(D(), T(3.0 / 4)));
+      V sum = hn::MulAdd(hn::Set(D(), T(5.0 / 8)), e, hn::Set(D(), T(3.0 / 4)));
       sum = hn::MulAdd(sum, e, hn::Set(D(), T(1)));
       return hn::MulAdd(h.v, hn::MulAdd(y, hn::Mul(sum, e), hn::Add(y, y)), c.v);
 #else
@@ -69,6 +69,17 @@ struct Lanes {
     }
   }
 };
+
+/// a/b; in float on x86 by the approximation of 1/b and a Newton step, within 2 ulp.
+template <class D>
+HWY_INLINE Lanes<D> divided(Lanes<D> a, Lanes<D> b) {
+  if constexpr (sizeof(hn::TFromD<D>) == 4 && HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR) {
+    const auto y = hn::ApproximateReciprocal(b.v);
+    return hn::Mul(a.v, hn::Mul(y, hn::NegMulAdd(b.v, y, hn::Set(D(), hn::TFromD<D>(2)))));
+  } else {
+    return a / b;
+  }
+}
 
 /// Lanes moved up by n (1 or 2); the lowest come from the top of `before`: what lane j-n held, for each j.
 template <int n, class D>
@@ -125,8 +136,9 @@ struct Vec3 {
     return {multiply_add(a, b.x, c.x), multiply_add(a, b.y, c.y), multiply_add(a, b.z, c.z)};
   }
   friend HWY_INLINE Vec3 cross(Vec3 a, Vec3 b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
   }
+  static HWY_INLINE L minor(L a, L b, L c, L d) { return hn::MulSub(a.v, b.v, (c * d).v); }
   friend HWY_INLINE L dot(Vec3 a, Vec3 b) { return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z)); }
 };
 
@@ -134,6 +146,23 @@ struct Vec3 {
 template <class D>
 HWY_INLINE Vec3<D> where(hn::Mask<D> mask, Vec3<D> v) {
   return {hn::IfThenElseZero(mask, v.x.v), hn::IfThenElseZero(mask, v.y.v), hn::IfThenElseZero(mask, v.z.v)};
+}
+
+/// a + b where the mask is set, else a.
+template <class D>
+HWY_INLINE Vec3<D> add_where(hn::Mask<D> mask, Vec3<D> a, Vec3<D> b) {
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+  const auto add = [mask](Lanes<D> p, Lanes<D> q) HWY_ATTR {
+    using V = typename Lanes<D>::V;
+    if constexpr (sizeof(hn::TFromD<D>) == 4)
+      return Lanes<D>(V{_mm512_mask_add_ps(p.v.raw, mask.raw, p.v.raw, q.v.raw)});
+    else
+      return Lanes<D>(V{_mm512_mask_add_pd(p.v.raw, mask.raw, p.v.raw, q.v.raw)});
+  };
+  return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
+#else
+  return a + where<D>(mask, b);
+#endif
 }
 
 /// Carries forces on the right ends of springs over to the lanes of those ends, block after block along a row.
