@@ -21,6 +21,8 @@ Preset square(int side) {
   return preset;
 }
 
+constexpr int shortest_run = 16;  // steps: as many as follow each other through the rows at a time
+
 double seconds_of(Simulation& simulation, int steps) {
   const auto start = std::chrono::steady_clock::now();
   simulation.advance(steps);
@@ -65,7 +67,7 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   int steps = 4;
   double seconds = seconds_of(simulation, steps);
   while (seconds < 2e-3) steps *= 2, seconds = seconds_of(simulation, steps);
-  steps = std::max(1, int(steps * 1e-2 / seconds));
+  steps = std::max(shortest_run, int(steps * 1e-2 / seconds));
 
   ThroughputRow row;
   row.of = which;

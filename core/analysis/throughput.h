@@ -30,7 +30,8 @@ struct ThroughputRow {
 /// The cases, smallest first. `quick`: fewer sizes.
 std::vector<ThroughputCase> throughput_cases(bool quick, int threads);
 
-/// Measures one case: a warm-up, then `repeats` runs of some 10 ms. The preset must not diverge.
+/// Measures one case: a warm-up, then `repeats` runs of some 10 ms, and of 16 steps at least. The preset must not
+/// diverge.
 ThroughputRow measure_throughput(const ThroughputCase& which, int repeats);
 
 }  // namespace tyglab

@@ -17,11 +17,15 @@ constexpr int ring_lead = 43;  // cache lines: away from where the vectors lie i
 template <class R, unsigned Present>
 Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
   ring_.resize(4, cloth.stride, ring_lead);
-  old_rows_.resize(2, cloth.stride);
   sum_row_.resize(1, cloth.stride);
   // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.
   if (begin > 0) head_.x.resize(6, cloth.stride), head_.v.resize(6, cloth.stride);
   if (end < cloth.lattice.rows) tail_.x.resize(6, cloth.stride), tail_.v.resize(6, cloth.stride);
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::make_room(bool old_rows) {
+  if (old_rows && old_rows_.empty()) old_rows_.resize(2, cloth_.stride);
 }
 
 template <class R, unsigned Present>
@@ -237,27 +241,36 @@ double Band<R, Present>::largest_way() const {
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
-  PairTask<R> t = task(s);
+void Band<R, Present>::begin_sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
   const bool weight = cloth_.preset.kind == Kind::one_weight;
   const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && !weight;
-  const bool assigns = weight || s.update == Update::force;
+  pass_ = {&s, &tears, task(s), last, bodies, weight || s.update == Update::force};
   has_hand_ = false;
-  begin_forces(t, tears);
-  for (int i = begin_; i < end_; i += 2) {
-    point_at_pair(t, s, tears, i);
-    if (bodies || (last && assigns)) keep_pair(i);
-    forces_on_pair(t, assigns ? Update::force : s.update);
-    if (!assigns && in_tail(i)) give_back_pair(t, s, i);
-    for (int row = i; row < std::min(i + 2, end_); ++row) {
-      if (assigns)
-        fix_row(row), assign_row(s.assignments, row);
-      else if constexpr (has(part::hand))
-        read_hand(row);
-      if (bodies && touches(row)) collide_row(row);
-      if (last && assigns) watch_row(row);
-    }
+  begin_forces(pass_.task, tears);
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::sweep_pair(int i) {
+  const ResolvedSweep& s = *pass_.sweep;
+  const bool last = pass_.last, bodies = pass_.bodies, assigns = pass_.assigns;
+  point_at_pair(pass_.task, s, *pass_.tears, i);
+  if (bodies || (last && assigns)) keep_pair(i);
+  forces_on_pair(pass_.task, assigns ? Update::force : s.update);
+  if (!assigns && in_tail(i)) give_back_pair(pass_.task, s, i);
+  for (int row = i; row < std::min(i + 2, end_); ++row) {
+    if (assigns)
+      fix_row(row), assign_row(s.assignments, row);
+    else if constexpr (has(part::hand))
+      read_hand(row);
+    if (bodies && touches(row)) collide_row(row);
+    if (last && assigns) watch_row(row);
   }
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
+  begin_sweep(s, tears, last);
+  for (int i = begin_; i < end_; i += 2) sweep_pair(i);
 }
 
 template <class R, unsigned Present>

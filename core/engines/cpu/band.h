@@ -75,11 +75,17 @@ class Band {
   /// where there are several bands.
   Band(Cloth<R>& cloth, int begin, int end);
   static constexpr int least_rows = 8;
+  /// For the positions before a pair is overwritten, where bodies or the watch over a method with more vectors need
+  /// them. Before the first sweep.
+  void make_room(bool old_rows);
 
   /// Before a sweep, while nobody writes: copies the neighbours' rows that this band reads.
   void copy_halo(const ResolvedSweep& sweep);
   /// One pass over the band's rows. `last`: the last sweep of a step, in which bodies act and motion is watched.
   void sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
+  /// The same pair by pair: i and i + 1 of the band's rows, from its first row on. The arguments must outlive the pass.
+  void begin_sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
+  void sweep_pair(int i);
   /// Makes assignments, none of which names a. `last` as above.
   void assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last);
   /// F/m of the present state into `out`; nothing else changes.
@@ -118,8 +124,17 @@ class Band {
   R* old_row(int i, int c) { return old_rows_.row(i % 2, c); }
   R* force_row(int i, int c) { return ring_.row(i % 4, c); }
 
+  /// The sweep being made.
+  struct Pass {
+    const ResolvedSweep* sweep = nullptr;
+    const Tears* tears = nullptr;
+    PairTask<R> task{};
+    bool last = false, bodies = false, assigns = false;
+  };
+
   Cloth<R>& cloth_;
   int begin_, end_;
+  Pass pass_;
   Field ring_;        ///< force rows i … i+3
   Field old_rows_;    ///< positions of a pair before it is overwritten
   Field sum_row_;     ///< a row's linear combination while it is made

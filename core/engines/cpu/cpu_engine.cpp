@@ -51,6 +51,7 @@ CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, i
   team_ = std::make_unique<Team>(useful_threads(lattice, threads));
   for (int n = 0; n < team_->size(); ++n)
     bands_.push_back(std::make_unique<Band<R, Present>>(cloth_, band_begin(n), band_begin(n + 1)));
+  progress_ = std::vector<Progress>(std::size_t(team_->size()));
   resolve();
 }
 
@@ -99,7 +100,36 @@ void CpuEngine<R, Present>::resolve() {
   }
   cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
                                (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
+  make_waves();
   measure_again();
+}
+
+/// Several steps follow each other through the rows where the state does not stay in a core's own cache, and where
+/// threads would otherwise have to wait for each other in every step.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::make_waves() {
+  constexpr int most = 8;             // sweeps a thread: their rows must lie in its cache
+  constexpr int rows_per_sweep = 16;  // the more sweeps, the longer the last thread waits for the first row
+  constexpr std::size_t own_cache = 1 << 20;
+  const int rows = cloth_.lattice.rows, threads = team_->size();
+  int sweeps = std::min(rows / rows_per_sweep, most * threads);
+  const std::size_t state = cloth_.vectors.size() * rows * cloth_.vector(vector_x).pitch() * sizeof(R);
+  if (is_implicit(*scheme_) || cloth_.preset.kind == Kind::one_weight || sweeps < threads ||
+      (threads == 1 && state <= own_cache))
+    sweeps = 0;
+  const std::size_t steps = std::size_t(sweeps) / sweeps_.size();
+  waves_.resize(steps < 2 ? 0 : steps * sweeps_.size());
+  for (auto& wave : waves_)
+    if (!wave) wave = std::make_unique<Band<R, Present>>(cloth_, 0, rows);
+  for (auto* list : {&bands_, &waves_})
+    for (auto& band : *list) band->make_room(keeps_old_rows());
+}
+
+template <class R, unsigned Present>
+bool CpuEngine<R, Present>::keeps_old_rows() const {
+  return !cloth_.preset.bodies.empty() || std::any_of(sweeps_.begin(), sweeps_.end(), [](const ResolvedSweep& s) {
+    return s.update == Update::force;
+  }) || cloth_.preset.kind == Kind::one_weight;
 }
 
 template <class R, unsigned Present>
@@ -265,7 +295,8 @@ template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
   std::size_t total = acceleration_.bytes() + solver_.bytes() + cloth_.fixed.size() + guards_.size() +
                       (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
-  for (const auto& band : bands_) total += band->bytes();
+  for (const auto* list : {&bands_, &waves_})
+    for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
   return total;

@@ -1,7 +1,9 @@
 // The CPU engine: runs every explicit scheme in place over rows, in SIMD.
 #pragma once
 
+#include <limits>
 #include <memory>
+#include <span>
 
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/implicit.h"
@@ -39,7 +41,7 @@ class CpuEngine final : public Engine {
     const char* quantity;
     double value;
   };
-  enum class End { none, fault, released };
+  enum class End { none, fault, released, overtaken };
 
   static constexpr bool has(unsigned which) { return (Present & which) != 0; }
   /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
@@ -47,6 +49,8 @@ class CpuEngine final : public Engine {
   /// The first row of a thread's band; of the number after the last, where the cloth ends.
   int band_begin(int number) const;
   void resolve();
+  void make_waves();
+  bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
   /// F/m at two of the vectors.
@@ -69,23 +73,46 @@ class CpuEngine final : public Engine {
   bool within_bounds(const Tears& tears, Fault& fault);
   /// By how much any spring of a row in one direction may still grow, m; less than 0: `fault` is too long.
   double growth_left(const Tears& tears, int direction, int i, Fault& fault) const;
-  /// Forgets how far particles may still move: something else than their motion has changed.
-  void measure_again() { free_motion_ = tear_motion_ = 0; }
-  End finish_step(Tears& tears, Fault& fault);
-  /// Steps until done, the hand lets go, or a fault is found (end_ says which); returns the steps without fault.
-  int run(int steps, Tears& tears, Fault& fault);
+  /// Forgets how far particles may still move, and the backup: something else than their motion has changed.
+  void measure_again() {
+    free_motion_ = tear_motion_ = 0;
+    since_backup_ = -1;
+    growth_ = std::numeric_limits<double>::infinity();
+  }
+  End finish_step(std::span<const std::unique_ptr<Band<R, Present>>> bands, Tears& tears, Fault& fault);
+  /// Steps until done, the hand lets go, a fault is found, or a step of a wave had to be looked at (end_ says which);
+  /// returns the steps without fault. `waves`: several steps at a time where that pays.
+  int run(int steps, Tears& tears, Fault& fault, bool waves);
+  void step_in_bands(int number, const Tears& tears);
+  /// How many of the `left` steps can follow each other through the rows before one must be looked at: 1 or more.
+  int steps_in_wave(int left) const;
+  /// That many steps in one pass over the rows: each sweep two rows behind the one before it, so that rows are worked
+  /// on while they lie in the cache. Threads share the sweeps out and follow each other, without a barrier.
+  void step_in_waves(int number, int steps, const Tears& tears);
+  void keep_backup(const Tears& tears);
+  void repeat(int steps, Tears& tears);
+  bool tears_watched() const {
+    return has(part::tearing) && cloth_.preset.F_max > 0 && cloth_.preset.k_s > 0 && cloth_.preset.kind == Kind::cloth;
+  }
+  int finish_wave(int steps, Tears& tears, Fault& fault);
 
   Cloth<R> cloth_;
   const Scheme* scheme_ = nullptr;
   std::vector<ResolvedSweep> sweeps_;
   std::vector<Field> backup_;
   Tears tears_backup_;
+  int since_backup_ = -1;             ///< steps; under 0: there is none
+  int torn_ = 0;                      ///< springs, when a step was last made: cuts come from outside
   Field acceleration_;                ///< used between steps alone (readouts, starts)
   std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
   std::vector<int> pinned_;
   ImplicitSolver<R> solver_;
   std::unique_ptr<Team> team_;
   std::vector<std::unique_ptr<Band<R, Present>>> bands_;
+  std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< all rows each, a sweep each
+  std::vector<Progress> progress_;                        ///< of each thread's last sweep of a wave
+  double growth_ = 0;                                     ///< of a spring in the last step, at most, m; ∞: not known
+  int left_inside_ = 0;
   End end_ = End::none;
   glm::dvec3 hand_force_{0};
   double tear_motion_ = 0;  ///< m that particles may still move before a spring can be overloaded

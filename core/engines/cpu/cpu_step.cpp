@@ -144,20 +144,23 @@ bool CpuEngine<R, Present>::find_fault(const Tears& tears, Fault& fault) {
 
 /// Ends a step on one thread: says whether to go on.
 template <class R, unsigned Present>
-typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(Tears& tears, Fault& fault) {
+typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(
+    std::span<const std::unique_ptr<Band<R, Present>>> bands, Tears& tears, Fault& fault) {
   const Preset& preset = cloth_.preset;
   double largest = 0;
-  for (const auto& band : bands_) {
+  left_inside_ = 0;
+  for (const auto& band : bands) {
     largest = std::max(largest, band->largest_way());
+    left_inside_ += band->left_inside();
     if (has(part::hand) && band->has_hand()) hand_force_ = band->hand_force();
   }
   // Two ends, each by at most √3 of its largest component.
-  const double growth = 2 * std::numbers::sqrt3 * largest;
-  if (has(part::tearing) && preset.F_max > 0 && preset.k_s > 0 && preset.kind == Kind::cloth) {
-    tear_motion_ -= growth;
+  growth_ = 2 * std::numbers::sqrt3 * largest;
+  if (tears_watched()) {
+    tear_motion_ -= growth_;
     if (!(tear_motion_ > 0)) tear_motion_ = tear_overloaded(tears);
   }
-  free_motion_ -= growth;
+  free_motion_ -= growth_;
   if (!(free_motion_ > 0) && find_fault(tears, fault)) return End::fault;
   if (has(part::hand) && cloth_.held.particle >= 0 && preset.F_release > 0 &&
       glm::length(hand_force_) > preset.F_release)
@@ -166,35 +169,118 @@ typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(Tears& te
 }
 
 template <class R, unsigned Present>
-int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault) {
-  int done = 0;
+void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
+  Band<R, Present>& band = *bands_[std::size_t(number)];
+  band.begin_watch();
+  for (const ResolvedSweep& sweep : sweeps_) {
+    const bool last = &sweep == &sweeps_.back();
+    if (sweep.solve_dt != 0) {
+      if (number == 0) solve(sweep, tears);
+      team_->barrier();
+      band.assign(sweep.assignments, last);
+      team_->barrier();
+      continue;
+    }
+    band.copy_halo(sweep);
+    team_->barrier();
+    band.sweep(sweep, tears, last);
+    team_->barrier();
+  }
+}
+
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::steps_in_wave(int left) const {
+  const int most = std::min(left, int(waves_.size() / sweeps_.size()));
+  const bool hand = has(part::hand) && cloth_.held.particle >= 0 && cloth_.preset.F_release > 0;
+  const double motion = tears_watched() ? std::min(free_motion_, tear_motion_) : free_motion_;
+  if (most <= 1 || hand || !(motion > 0)) return 1;
+  constexpr double margin = 2;  // motion does not double within a wave, unless something is going wrong
+  return int(std::clamp(motion / (margin * growth_), 1.0, double(most)));
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& tears) {
+  constexpr int behind = 2;  // rows: a pair reads the two rows below it, which the sweep before has left
+  const int rows = cloth_.lattice.rows, sweeps = int(sweeps_.size()), all = steps * sweeps, threads = team_->size();
+  const int first = all * number / threads, end = all * (number + 1) / threads;
+  for (int n = first; n < end; ++n) {
+    const ResolvedSweep& sweep = sweeps_[std::size_t(n % sweeps)];
+    waves_[std::size_t(n)]->begin_watch();
+    waves_[std::size_t(n)]->begin_sweep(sweep, tears, n % sweeps == sweeps - 1);
+  }
+  Progress& mine = progress_[std::size_t(number)];
+  for (int i = 0; i < rows + behind * (end - first - 1); i += 2) {
+    if (number > 0) progress_[std::size_t(number) - 1].wait_for(std::min(i + 2 + behind, rows));
+    for (int n = first; n < end; ++n)
+      if (const int row = i - behind * (n - first); row >= 0 && row < rows) waves_[std::size_t(n)]->sweep_pair(row);
+    if (threads > 1) mine.finished(std::clamp(i - behind * (end - first - 1) + 2, 0, rows));
+  }
+}
+
+/// Returns the steps without fault.
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::finish_wave(int steps, Tears& tears, Fault& fault) {
+  const std::size_t sweeps = sweeps_.size();
+  for (int n = 0; n < steps; ++n) {
+    const std::span last(&waves_[std::size_t(n + 1) * sweeps - 1], 1);
+    const double growth = 2 * std::numbers::sqrt3 * last[0]->largest_way();
+    const bool look = !(free_motion_ - growth > 0) || (tears_watched() && !(tear_motion_ - growth > 0));
+    if (look && n < steps - 1) {
+      end_ = End::overtaken;  // its positions are gone
+      return n;
+    }
+    end_ = finish_step(last, tears, fault);
+  }
+  return end_ == End::fault ? steps - 1 : steps;
+}
+
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+  int done = 0, together = 1;
   end_ = End::none;
+  const auto plan = [&] {
+    together = end_ != End::none || done == steps ? 0 : waves ? steps_in_wave(steps - done) : 1;
+    for (Progress& progress : progress_) progress.restart();
+  };
+  plan();
   team_->run([&](int number) {
-    Band<R, Present>& band = *bands_[std::size_t(number)];
-    for (int n = 0; n < steps && end_ == End::none; ++n) {
-      band.begin_watch();
-      for (const ResolvedSweep& sweep : sweeps_) {
-        const bool last = &sweep == &sweeps_.back();
-        if (sweep.solve_dt != 0) {
-          if (number == 0) solve(sweep, tears);
-          team_->barrier();
-          band.assign(sweep.assignments, last);
-          team_->barrier();
-          continue;
+    while (together > 0) {
+      if (together > 1) {
+        step_in_waves(number, together, tears);
+        team_->barrier();
+        if (number == 0) done += finish_wave(together, tears, fault);
+      } else {
+        step_in_bands(number, tears);
+        if (number == 0) {
+          end_ = finish_step(bands_, tears, fault);
+          if (end_ != End::fault) ++done;
         }
-        band.copy_halo(sweep);
-        team_->barrier();
-        band.sweep(sweep, tears, last);
-        team_->barrier();
       }
-      if (number == 0) {
-        end_ = finish_step(tears, fault);
-        if (end_ != End::fault) ++done;
-      }
+      if (number == 0) plan();
       team_->barrier();
     }
   });
   return done;
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::keep_backup(const Tears& tears) {
+  for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) backup_[n] = cloth_.vectors[n];
+  if (tears_watched()) tears_backup_ = tears;
+  since_backup_ = 0;
+}
+
+/// The sweep works in place: return to the backup and repeat that many good steps, which gives the same bits.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
+  for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
+  if (tears_watched()) tears = tears_backup_;
+  measure_again();
+  Fault none{};
+  const End end = end_;
+  run(steps, tears, none, false);
+  measure_again();
+  end_ = end;
 }
 
 template <class R, unsigned Present>
@@ -203,27 +289,24 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   const int torn_before = tears.torn_count();
   Fault fault{};
   while (result.steps < steps && !result.diverged && !result.released) {
-    const int batch = std::min(steps - result.steps, steps_between_backups);
-    for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) backup_[n] = cloth_.vectors[n];
-    if (has(part::tearing) && cloth_.preset.F_max > 0) tears_backup_ = tears;
-    const int done = run(batch, tears, fault);
+    if (since_backup_ < 0 || since_backup_ >= steps_between_backups || torn_ != tears.torn_count()) keep_backup(tears);
+    const int before = since_backup_, batch = std::min(steps - result.steps, steps_between_backups - before);
+    int done = run(batch, tears, fault, true);
+    if (end_ == End::overtaken) {
+      repeat(before, tears);
+      done = run(batch, tears, fault, false);
+    }
     result.diverged = end_ == End::fault;
     result.released = end_ == End::released;
-    if (result.diverged) {
-      // The sweep works in place: return to the backup and repeat the good steps, which gives the same bits.
-      for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
-      if (has(part::tearing) && cloth_.preset.F_max > 0) tears = tears_backup_;
-      measure_again();
-      Fault none{};
-      run(done, tears, none);
-      measure_again();
-    }
+    if (result.diverged) repeat(before + done, tears);
     result.steps += done;
+    since_backup_ = is_implicit(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
+    torn_ = tears.torn_count();
   }
   result.i = fault.i, result.j = fault.j, result.value = fault.value;
   if (result.diverged) result.quantity = fault.quantity;
   result.torn = tears.torn_count() - torn_before;
-  for (const auto& band : bands_) result.left_inside += band->left_inside();
+  result.left_inside = left_inside_;
   result.hand_force = has(part::hand) && cloth_.held.particle >= 0 ? hand_force_ : glm::dvec3(0);
   return result;
 }

@@ -31,6 +31,16 @@ void wait_for_change(const std::atomic<T>& value, T old) {
 
 }  // namespace
 
+void Progress::finished(int rows) {
+  rows_.store(rows, std::memory_order_release);
+  rows_.notify_one();
+}
+
+void Progress::wait_for(int rows) const {
+  for (int now = rows_.load(std::memory_order_acquire); now < rows; now = rows_.load(std::memory_order_acquire))
+    wait_for_change(rows_, now);
+}
+
 Team::Team(int size) : size_(std::max(1, size)) {
   for (int n = 1; n < size_; ++n) threads_.emplace_back([this, n] { serve(n); });
 }

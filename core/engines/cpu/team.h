@@ -9,6 +9,18 @@
 
 namespace tyglab::cpu {
 
+/// How many rows a thread has finished, for the one that follows it through the rows.
+class Progress {
+ public:
+  void restart() { rows_ = 0; }
+  void finished(int rows);
+  /// Returns once so many rows are finished.
+  void wait_for(int rows) const;
+
+ private:
+  alignas(64) std::atomic<int> rows_{0};  // a line of its own
+};
+
 class Team {
  public:
   /// `size` threads, the caller among them; at least 1.
