@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/engines/cpu/row_distances.h"
+#include "core/engines/cpu/row_update.h"
 #include "core/forces/contact.h"
 #include "core/forces/spring-inl.h"
 
@@ -17,7 +18,6 @@ constexpr int ring_lead = 43;  // cache lines: away from where the vectors lie i
 template <class R, unsigned Present>
 Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
   ring_.resize(4, cloth.stride, ring_lead);
-  sum_row_.resize(1, cloth.stride);
   // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.
   if (begin > 0) head_.x.resize(6, cloth.stride), head_.v.resize(6, cloth.stride);
   if (end < cloth.lattice.rows) tail_.x.resize(6, cloth.stride), tail_.v.resize(6, cloth.stride);
@@ -30,7 +30,7 @@ void Band<R, Present>::make_room(bool old_rows) {
 
 template <class R, unsigned Present>
 std::size_t Band<R, Present>::bytes() const {
-  std::size_t total = ring_.bytes() + old_rows_.bytes() + sum_row_.bytes();
+  std::size_t total = ring_.bytes() + old_rows_.bytes();
   for (const Halo* halo : {&head_, &tail_}) total += halo->x.bytes() + halo->v.bytes();
   return total;
 }
@@ -128,21 +128,14 @@ void Band<R, Present>::fix_row(int i) {
 
 template <class R, unsigned Present>
 void Band<R, Present>::assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i) {
-  for (const auto& assignment : assignments)
-    for (int c = 0; c < 3; ++c) {
-      const auto source = [&](int vector) -> const R* {
-        return vector == acceleration ? force_row(i, c) : cloth_.row(vector, i, c);
-      };
-      R* target = cloth_.row(assignment.target, i, c);
-      R* sum = sum_row_.row(0, c);
-      std::fill_n(sum, cloth_.lattice.columns, R(0));
-      for (const auto [vector, factor] : assignment.terms) {
-        const R* from = source(vector);
-        const R by = R(factor);
-        for (int j = 0; j < cloth_.lattice.columns; ++j) sum[j] += by * from[j];
-      }
-      std::copy_n(sum, cloth_.lattice.columns, target);
+  for (const auto& assignment : assignments) {
+    RowSum<R> sum{.target = cloth_.row(assignment.target, i, 0)};
+    for (const auto [vector, factor] : assignment.terms) {
+      sum.source[sum.terms] = vector == acceleration ? force_row(i, 0) : cloth_.row(vector, i, 0);
+      sum.factor[sum.terms++] = R(factor);
     }
+    make_sum(sum, cloth_.stride, cloth_.lattice.columns);
+  }
 }
 
 template <class R, unsigned Present>
@@ -207,32 +200,20 @@ void Band<R, Present>::collide_row(int i) {
 /// What the pair sweep does itself where it makes the update: keeps the largest way.
 template <class R, unsigned Present>
 void Band<R, Present>::watch_row(int i) {
-  const R dt = R(cloth_.preset.dt / cloth_.velocity_scale());
-  R largest = 0;
-  int finite = 1;
-  for (int c = 0; c < 3; ++c) {
-    const R *x = cloth_.row(vector_x, i, c), *v = cloth_.row(vector_v, i, c), *old = old_row(i, c);
-    for (int j = 0; j < cloth_.lattice.columns; ++j) {
-      const R way = std::max(std::abs(x[j] - old[j]), std::abs(dt * v[j]));
-      largest = way > largest ? way : largest;
-      finite &= std::abs(x[j]) + std::abs(v[j]) <= std::numeric_limits<R>::max();  // false for NaN too
-    }
-  }
-  largest_way_[0] = std::max(largest_way_[0], largest);
-  finite_ &= finite != 0;
+  watch_ways(cloth_.row(vector_x, i, 0), old_row(i, 0), cloth_.row(vector_v, i, 0),
+             R(cloth_.preset.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns, largest_way_.data());
 }
 
 template <class R, unsigned Present>
 void Band<R, Present>::begin_watch() {
   largest_way_.fill(R(0));
-  finite_ = true;
   left_inside_ = 0;
 }
 
 template <class R, unsigned Present>
 double Band<R, Present>::largest_way() const {
   double largest = 0;
-  bool finite = finite_;
+  bool finite = true;
   for (const R way : largest_way_) {
     finite &= std::isfinite(way);
     largest = std::max(largest, double(way));

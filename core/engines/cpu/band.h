@@ -137,12 +137,10 @@ class Band {
   Pass pass_;
   Field ring_;        ///< force rows i … i+3
   Field old_rows_;    ///< positions of a pair before it is overwritten
-  Field sum_row_;     ///< a row's linear combination while it is made
   Halo head_, tail_;  ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
   alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> largest_way_{};  ///< by lane
-  bool finite_ = true;
   int left_inside_ = 0;
 };
 

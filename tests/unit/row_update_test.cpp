@@ -1,0 +1,85 @@
+// Row updates in SIMD against plain loops.
+#include "core/engines/cpu/row_update.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "core/engines/cpu/row_field.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+template <class R>
+cpu::RowField<R> random_row(int columns, unsigned seed) {
+  cpu::RowField<R> row;
+  row.resize(1, cpu::row_stride<R>(columns));
+  std::mt19937 random(seed);
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < columns; ++j) row.row(0, c)[j] = R(std::uniform_real_distribution(-1.0, 1.0)(random));
+  return row;
+}
+
+TEST_CASE_TEMPLATE("a sum is that of plain loops, and ends with the row", R, float, double) {
+  for (const int columns : {1, 5, 16, 17, 40})
+    for (int terms = 1; terms <= cpu::RowSum<R>::most_terms; ++terms) {
+      CAPTURE(columns);
+      CAPTURE(terms);
+      const int stride = cpu::row_stride<R>(columns);
+      cpu::RowField<R> rows[cpu::RowSum<R>::most_terms];
+      for (unsigned n = 0; n < std::size(rows); ++n) rows[n] = random_row<R>(columns, n + 1);
+      cpu::RowSum<R> sum{.target = rows[0].row(0)};
+      for (int n = 0; n < terms; ++n) sum.source[n] = rows[n].row(0), sum.factor[n] = R(0.3 + n);
+      sum.terms = terms;
+      std::vector<double> expected;
+      for (int c = 0; c < 3; ++c)
+        for (int j = 0; j < columns; ++j) {
+          double value = 0;
+          for (int n = 0; n < terms; ++n) value += double(sum.factor[n]) * double(rows[n].row(0, c)[j]);
+          expected.push_back(value);
+        }
+      cpu::make_sum(sum, stride, columns);
+      for (int c = 0; c < 3; ++c)
+        for (int j = 0; j < stride; ++j) {
+          const double wanted = j < columns ? expected[std::size_t(c * columns + j)] : 0;
+          CHECK(std::abs(double(rows[0].row(0, c)[j]) - wanted) <= 8 * double(std::numeric_limits<R>::epsilon()));
+        }
+    }
+}
+
+TEST_CASE_TEMPLATE("the largest way of a row is found, and what is not finite", R, float, double) {
+  for (const int columns : {1, 7, 16, 33}) {
+    CAPTURE(columns);
+    const int stride = cpu::row_stride<R>(columns), last = columns - 1;
+    const auto largest = [&](auto change) {
+      cpu::RowField<R> x = random_row<R>(columns, 1), old = x, v = random_row<R>(columns, 2);
+      change(x, v);
+      alignas(cpu::widest_vector) R most[cpu::widest_vector / sizeof(R)] = {};
+      cpu::watch_ways(x.row(0), old.row(0), v.row(0), R(1e-3), stride, columns, most);
+      R found = 0;
+      for (const R m : most) found = std::isfinite(m) ? std::max(found, m) : std::numeric_limits<R>::infinity();
+      return double(found);
+    };
+    const double far = largest([&](auto& x, auto&) { x.row(0, 2)[last] -= R(5); });
+    CHECK(far == doctest::Approx(5).epsilon(1e-6));
+    const double fast = largest([&](auto&, auto& v) { v.row(0, 1)[0] = R(-3000); });
+    CHECK(fast == doctest::Approx(3).epsilon(1e-6));
+    CHECK(largest([&](auto&, auto& v) { v.row(0, 0)[last] = std::numeric_limits<R>::quiet_NaN(); }) > 1e30);
+    CHECK(largest([&](auto& x, auto&) { x.row(0, 1)[last] = -std::numeric_limits<R>::infinity(); }) > 1e30);
+  }
+}
+
+TEST_CASE("no method adds more terms than a row's sum can take") {
+  for (const Scheme& scheme : schemes())
+    for (const Sweep& sweep : scheme.sweeps)
+      for (const auto* list : {&sweep.before, &sweep.assignments})
+        for (const Assignment& assignment : *list)
+          CHECK(int(assignment.terms.size()) <= cpu::RowSum<float>::most_terms);
+}
+
+}  // namespace
+}  // namespace tyglab
