@@ -7,6 +7,7 @@ void add_bench_command(CLI::App& program, Action& action) {
   bench->require_subcommand(1);
   bench->footer("Example: tyglab bench throughput --quick");
   add_bench_throughput(*bench, action);
+  add_bench_accuracy(*bench, action);
   add_bench_skip(*bench, action);
   add_bench_one_weight(*bench, action);
 }
