@@ -122,7 +122,7 @@ Chart chart_of(const AccuracyResult& result) {
   chart.note =
       printed("%g s; the references agree to %.1g m; ", result.scene.seconds, result.reference.agreement_rms_m) +
       machine_line();
-  chart.x = {"run time (s), one thread", true, false, {}};
+  chart.x = {"run time (s of processor time, one thread)", true, false, {}};
   chart.y = {"rms error of all positions (m)", true, false, {}};
   const Tokens colors = dark_tokens();
   for (const auto method : by_method(result.rows)) {
@@ -206,6 +206,7 @@ Json accuracy_json(const std::vector<AccuracyResult>& results) {
 
 std::vector<Chart> accuracy_charts(const std::vector<AccuracyResult>& results) {
   std::vector<Chart> charts;
+  charts.reserve(results.size());
   for (const AccuracyResult& result : results) charts.push_back(chart_of(result));
   return charts;
 }

@@ -85,7 +85,8 @@ int accuracy(const AccuracyOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
-      << "\nTime in ms, on one thread, until the rms error of all positions falls under so many metres; * is the "
+      << "\nProcessor time in ms, on one thread, until the rms error of all positions falls under so many metres; * is "
+         "the "
          "method's largest stable dt\n"
       << std::flush;
   std::vector<AccuracyResult> results;

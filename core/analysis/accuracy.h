@@ -20,7 +20,7 @@ struct AccuracyRow {
   Precision precision = Precision::double_;
   double dt = 0;  ///< s; the mean step where the method chooses its own
   std::int64_t steps = 0, force_evaluations = 0;
-  double seconds = 0;  ///< on one thread, the least of a few runs where they are short
+  double seconds = 0;  ///< thread_seconds() of the steps, the least of a few runs where they are short
   double error_rms_m = 0;
   AccuracyStatus status = AccuracyStatus::ok;
   std::optional<double> tolerance = {};  ///< m and m/s, for those methods
@@ -33,6 +33,9 @@ struct AccuracyEffort {
   bool fine = true;        ///< two dt for each halving; otherwise one
   int repeats = 6;         ///< of a run that is short, beside the first
 };
+
+/// Processor time of this thread so far, s: what another process takes meanwhile is not in it.
+double thread_seconds();
 
 /// The status of a finished run: an error under ten times what the references differ by cannot be told.
 AccuracyStatus judged(const Reference& reference, double error_rms_m);

@@ -2,7 +2,6 @@
 // forces.
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +14,7 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double worth_repeating = 0.02;  // s
+constexpr double worth_repeating = 0.04;  // s
 
 template <class R>
 using Vector = typename EngineForces<R>::Vector;
@@ -103,13 +102,13 @@ bool advance_all(EngineForces<R>& forces, const AccuracyScene& scene, const Adva
   Vector<R> state = forces.start();
   const int particles = lattice_of(scene.preset).size();
   for (int n = 0; n < accuracy_samples; ++n) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = thread_seconds();
     try {
       row.steps += advance(state, scene.seconds * n / accuracy_samples, scene.seconds * (n + 1) / accuracy_samples);
     } catch (const odeint::odeint_error&) {
       return false;
     }
-    row.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    row.seconds += thread_seconds() - start;
     if (stop()) throw Stopped();
     auto& positions = track.emplace_back();
     for (int p = 0; p < particles; ++p) positions.push_back(forces.position(state, p));
