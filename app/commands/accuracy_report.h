@@ -18,8 +18,8 @@ struct AccuracyResult {
 
 /// The scene, its references and the table's head.
 void print_scene(std::ostream& out, const AccuracyResult& result);
-/// A line: when the method reaches each decade of error.
-void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows);
+/// A line: when the method reaches each decade of error that the reference can tell.
+void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows, const Reference& reference);
 void print_winners(std::ostream& out, const std::vector<AccuracyWinner>& winners);
 
 nlohmann::ordered_json accuracy_json(const std::vector<AccuracyResult>& results);

@@ -71,7 +71,7 @@ AccuracyResult measure(const AccuracyScene& scene, bool quick, std::ostream& out
                           ? measure_odeint(scene, result.reference, name, precision, effort, stop)
                           : measure_integrator(scene, result.reference, name, precision, effort, stop);
     progress.clear();
-    print_method(out, rows);
+    print_method(out, rows, result.reference);
     result.rows.insert(result.rows.end(), rows.begin(), rows.end());
     progress.update((double(number) + double(n + 1) / double(list.size())) / double(of));
   }
@@ -85,9 +85,8 @@ int accuracy(const AccuracyOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
-      << "\nProcessor time in ms, on one thread, until the rms error of all positions falls under so many metres; * is "
-         "the "
-         "method's largest stable dt\n"
+      << "\nProcessor time in ms, on one thread, until the rms error of all positions falls under so many metres;\n"
+         "* is the method's largest stable dt, - an error that it does not reach or that the reference cannot tell\n"
       << std::flush;
   std::vector<AccuracyResult> results;
   InterruptGuard guard;
@@ -101,7 +100,7 @@ int accuracy(const AccuracyOptions& options) {
   }
   progress.clear();
   if (!options.json.empty()) write_output(options.json, accuracy_json(results).dump(2) + "\n");
-  if (!options.png.empty()) write_charts(options.png, accuracy_charts(results), 2, 2, accuracy_chart_height);
+  if (!options.png.empty()) write_charts(options.png, accuracy_charts(results), 2, 1.5f, accuracy_chart_height);
   return bench_exit();
 }
 

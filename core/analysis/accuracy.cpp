@@ -56,9 +56,13 @@ double thread_seconds() {
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
+bool can_tell(const Reference& reference, double error_rms_m) {
+  return error_rms_m >= 10 * reference.agreement_rms_m;
+}
+
 AccuracyStatus judged(const Reference& reference, double error_rms_m) {
   if (!std::isfinite(error_rms_m)) return AccuracyStatus::diverged;
-  return error_rms_m < 10 * reference.agreement_rms_m ? AccuracyStatus::below_floor : AccuracyStatus::ok;
+  return can_tell(reference, error_rms_m) ? AccuracyStatus::ok : AccuracyStatus::below_floor;
 }
 
 std::vector<int> accuracy_ladder(const AccuracyScene& scene, double largest_dt, const AccuracyEffort& effort) {

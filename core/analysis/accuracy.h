@@ -37,15 +37,17 @@ struct AccuracyEffort {
 /// Processor time of this thread so far, s: what another process takes meanwhile is not in it.
 double thread_seconds();
 
+/// Whether the reference can tell an error of that size.
+bool can_tell(const Reference& reference, double error_rms_m);
 /// The status of a finished run: an error under ten times what the references differ by cannot be told.
 AccuracyStatus judged(const Reference& reference, double error_rms_m);
-/// The numbers of steps from one sample to the next that are tried one after the other, largest dt first, as long as it
-/// is worth while (`effort`; the floor; an error that grows again).
+/// Numbers of steps from one sample to the next, largest dt first, down to the least dt of presets.
 std::vector<int> accuracy_ladder(const AccuracyScene& scene, double largest_dt, const AccuracyEffort& effort);
-/// Whether a finer row of the same method is worth measuring after these.
+/// Whether a finer row of the same method is worth measuring after these: not under the floor, beyond the time allowed,
+/// or where rounding makes the error grow.
 bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& effort);
 
-/// All rows of one integrator of this project. Empty rows never; the last are missing if `stop` says so.
+/// All rows of one integrator of this project, largest dt first; the last are missing if `stop` says so.
 std::vector<AccuracyRow> measure_integrator(const AccuracyScene& scene, const Reference& reference,
                                             const std::string& integrator, Precision precision,
                                             const AccuracyEffort& effort, const Stop& stop);

@@ -46,7 +46,7 @@ std::vector<AccuracyWinner> accuracy_winners(std::span<const AccuracyRow> rows, 
   for (int decade = -2; decade >= -6; --decade) {
     AccuracyWinner winner;
     winner.error_rms_m = std::pow(10, decade);
-    if (winner.error_rms_m < 10 * reference.agreement_rms_m) break;
+    if (!can_tell(reference, winner.error_rms_m)) break;
     for (const auto method : by_method(rows)) {
       const auto at = reached(method, winner.error_rms_m);
       if (!at) continue;
