@@ -39,9 +39,11 @@ CurveStyle series_style(const Tokens& colors, int k);
 /// Draws a chart into the rectangle: title, the plot, and as many lines of legend as it needs.
 void draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& chart);
 
-/// Draws charts side by side in rows of `columns`, each 640 x 400 points at that scale, and writes a PNG ("-" is
-/// standard output). Needs no display (EGL's surfaceless platform). Throws GraphicsError, OutputError.
-void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns = 2,
-                  float scale = 2);
+inline constexpr float chart_width = 640, chart_height = 400;  ///< points at scale 1
+
+/// Draws charts side by side in rows of `columns`, each chart_width x `height` points at that scale, and writes a PNG
+/// ("-" is standard output). Needs no display (EGL's surfaceless platform). Throws GraphicsError, OutputError.
+void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns = 2, float scale = 2,
+                  float height = chart_height);
 
 }  // namespace tyglab

@@ -7,8 +7,6 @@
 namespace tyglab {
 namespace {
 
-constexpr float chart_width = 640, chart_height = 400;
-
 /// Dear ImGui without a window, in the OpenGL context that is current.
 class PictureGui {
  public:
@@ -38,12 +36,13 @@ class PictureGui {
 
 }  // namespace
 
-void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns, float scale) {
+void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns, float scale,
+                  float height) {
   Theme theme;
   theme.scale = scale;
   const int across = std::min(columns, std::max(1, int(charts.size())));
   const int down = (int(charts.size()) + across - 1) / across;
-  const ImVec2 one{theme.px(chart_width), theme.px(chart_height)};
+  const ImVec2 one{theme.px(chart_width), theme.px(height)};
   const ImVec2 size{one.x * float(across), one.y * float(down)};
   const HeadlessContext context;
   RenderTarget target;

@@ -72,8 +72,13 @@ TEST_CASE("2: the command line is wrong, --set included") {
        {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
        {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
        {{"presets", "shwo", "denim"}, 2, "'shwo' is none of its commands: show, notation, check. Did you mean 'show'?"},
-       {{"bench", "nonsense"}, 2, "tyglab: bench: 'nonsense' is none of its commands: throughput, skip"},
-       {{"bench"}, 2, "throughput, skip"},
+       {{"bench", "nonsense"},
+        2,
+        "tyglab: bench: 'nonsense' is none of its commands: throughput, accuracy, skip, one-weight"},
+       {{"bench", "accuracy", "--scene", "tsunami"}, 2, "no such scene; there are one_weight, hanging"},
+       {{"bench", "one-weight", "--set", "kind=cloth"}, 2, "one weight"},
+       {{"bench", "one-weight", "--set", "dt=1e-6", "--seconds", "100"}, 2, "--seconds"},
+       {{"bench"}, 2, "throughput, accuracy, skip, one-weight"},
        {{"runn", "denim", "--steps", "1"}, 2, "Did you mean 'run'?"}},
       folder.path());
   CHECK(fs::is_empty(folder.path()));

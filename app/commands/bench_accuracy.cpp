@@ -1,0 +1,127 @@
+// `tyglab bench accuracy`: error against run time, scene by scene.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "app/commands/accuracy_report.h"
+#include "app/commands/bench.h"
+#include "app/commands/bench_output.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/outputs.h"
+#include "app/commands/progress.h"
+#include "core/integrators/names.h"
+#include "core/output/destination.h"
+
+namespace tyglab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct AccuracyOptions {
+  bool quick = false;
+  std::string scene;
+  std::string json, png;
+
+  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
+};
+
+/// The scenes asked for. Throws UsageError for a name that is none.
+std::vector<AccuracyScene> chosen_scenes(const std::string& name) {
+  std::vector<AccuracyScene> all = accuracy_scenes();
+  if (name.empty()) return all;
+  std::string names;
+  for (AccuracyScene& scene : all) {
+    if (scene.name == name) return {std::move(scene)};
+    names += (names.empty() ? "" : ", ") + scene.name;
+  }
+  throw UsageError("--scene " + name + ": there is no such scene; there are " + names);
+}
+
+/// One method to be measured in one precision.
+struct Contestant {
+  std::string name;
+  Precision precision;
+};
+
+std::vector<Contestant> contestants(const AccuracyScene& scene) {
+  std::vector<Contestant> list;
+  for (const Precision precision : {Precision::float_, Precision::double_})
+    for (const std::string_view name : integrator_names()) list.push_back({std::string(name), precision});
+  if (odeint_can(scene))
+    for (const Precision precision : {Precision::float_, Precision::double_})
+      for (const std::string& name : odeint_methods()) list.push_back({name, precision});
+  return list;
+}
+
+/// Measures one scene, the `number`-th of `of`; what is measured when Ctrl-C comes is kept.
+AccuracyResult measure(const AccuracyScene& scene, bool quick, std::ostream& out, Progress& progress,
+                       std::size_t number, std::size_t of) {
+  const Stop stop = InterruptGuard::interrupted;
+  const AccuracyEffort effort = quick ? AccuracyEffort{0.03, false, 1} : AccuracyEffort{};
+  AccuracyResult result{scene, make_reference(scene, quick, stop), {}};
+  progress.clear();
+  print_scene(out, result);
+  const auto list = contestants(scene);
+  for (std::size_t n = 0; n < list.size() && !stop(); ++n) {
+    const auto& [name, precision] = list[n];
+    const auto rows = name.starts_with("odeint_")
+                          ? measure_odeint(scene, result.reference, name, precision, effort, stop)
+                          : measure_integrator(scene, result.reference, name, precision, effort, stop);
+    progress.clear();
+    print_method(out, rows, result.reference);
+    result.rows.insert(result.rows.end(), rows.begin(), rows.end());
+    progress.update((double(number) + double(n + 1) / double(list.size())) / double(of));
+  }
+  progress.clear();
+  print_winners(out, accuracy_winners(result.rows, result.reference));
+  return result;
+}
+
+int accuracy(const AccuracyOptions& options) {
+  const std::vector<AccuracyScene> scenes = chosen_scenes(options.scene);
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
+  out << machine_line()
+      << "\nProcessor time in ms, on one thread, until the rms error of all positions falls under so many metres;\n"
+         "* is the method's largest stable dt, - an error that it does not reach or that the reference cannot tell\n"
+      << std::flush;
+  std::vector<AccuracyResult> results;
+  InterruptGuard guard;
+  Progress progress("bench accuracy");
+  for (std::size_t n = 0; n < scenes.size() && !InterruptGuard::interrupted(); ++n) {
+    try {
+      results.push_back(measure(scenes[n], options.quick, out, progress, n, scenes.size()));
+    } catch (const Stopped&) {
+      break;  // without a reference there is nothing to keep of this scene
+    }
+  }
+  progress.clear();
+  if (!options.json.empty()) write_output(options.json, accuracy_json(results).dump(2) + "\n");
+  if (!options.png.empty()) write_charts(options.png, accuracy_charts(results), 2, 1.5f, accuracy_chart_height);
+  return bench_exit();
+}
+
+}  // namespace
+
+void add_bench_accuracy(CLI::App& bench, Action& action) {
+  CLI::App* command = bench.add_subcommand(
+      "accuracy", "Error against run time: every integrator, in float and double, and Boost.Odeint's");
+  const auto options = std::make_shared<AccuracyOptions>();
+  command->add_flag("--quick", options->quick, "Fewer dt, shorter runs, coarser references; under a minute");
+  std::string names;
+  for (const AccuracyScene& scene : accuracy_scenes()) names += (names.empty() ? "" : ", ") + scene.name;
+  command->add_option("--scene", options->scene, "One scene alone: " + names)
+      ->type_name("NAME")
+      ->transform(not_empty());
+  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
+      ->type_name("F.json");
+  add_output(*command, "--png", options->png, "Draw error over run time, a chart a scene; - is standard output")
+      ->type_name("F.png");
+  command->footer("Example: tyglab bench accuracy --json accuracy.json --png accuracy.png");
+  command->callback([&action, options] { action = [options] { return accuracy(*options); }; });
+}
+
+}  // namespace tyglab

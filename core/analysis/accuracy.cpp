@@ -1,0 +1,115 @@
+#include "core/analysis/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "core/integrators/remedy.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double least_dt = 1e-7;         // s, of presets
+constexpr double worth_repeating = 0.04;  // s
+
+std::int64_t evaluations(const Scheme& scheme, const Simulation& simulation) {
+  if (is_implicit(scheme)) return simulation.engine().solves().force_evaluations;
+  return simulation.steps() * std::int64_t(scheme.sweeps.size()) + (scheme.start.empty() ? 0 : 1);
+}
+
+/// One run; its time is that of the steps alone.
+AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, const Preset& preset, int steps,
+                     const Stop& stop) {
+  AccuracyRow row{scene.name, preset.integrator, preset.precision, preset.dt};
+  Simulation simulation(preset);
+  Track track;
+  for (int n = 0; n < accuracy_samples && !simulation.divergence(); ++n) {
+    const double start = thread_seconds();
+    simulation.advance(steps);
+    row.seconds += thread_seconds() - start;
+    if (stop()) throw Stopped();
+    track.push_back(positions_of(simulation));
+  }
+  row.steps = simulation.steps();
+  row.force_evaluations = evaluations(scheme(preset.integrator), simulation);
+  row.unconverged = simulation.engine().solves().unconverged;
+  if (simulation.divergence()) {
+    row.status = AccuracyStatus::diverged, row.error_rms_m = std::numeric_limits<double>::infinity();
+  } else {
+    row.error_rms_m = rms_distance(track, reference.track);
+    row.status = judged(reference, row.error_rms_m);
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string_view name_of(AccuracyStatus status) {
+  return status == AccuracyStatus::ok ? "ok" : status == AccuracyStatus::below_floor ? "below_floor" : "diverged";
+}
+
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+bool can_tell(const Reference& reference, double error_rms_m) {
+  return error_rms_m >= 10 * reference.agreement_rms_m;
+}
+
+AccuracyStatus judged(const Reference& reference, double error_rms_m) {
+  if (!std::isfinite(error_rms_m)) return AccuracyStatus::diverged;
+  return can_tell(reference, error_rms_m) ? AccuracyStatus::ok : AccuracyStatus::below_floor;
+}
+
+std::vector<int> accuracy_ladder(const AccuracyScene& scene, double largest_dt, const AccuracyEffort& effort) {
+  std::vector<int> ladder;
+  const double part = scene.seconds / accuracy_samples;
+  for (int power = 1; part / power >= least_dt && power <= 1 << 28; power *= 2)
+    for (const int n : {power, 3 * power / 2}) {
+      if (n != power && (!effort.fine || power < 2)) continue;
+      if (part / n <= largest_dt && part / n >= least_dt) ladder.push_back(n);
+    }
+  return ladder;
+}
+
+bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& effort) {
+  if (rows.empty()) return true;
+  const AccuracyRow& last = rows.back();
+  if (last.status == AccuracyStatus::below_floor) return false;
+  if (last.status == AccuracyStatus::ok && last.seconds * (effort.fine ? 1.5 : 2) > effort.longest_s) return false;
+  // Rounding: the error has grown for three rows.
+  if (rows.size() < 4 || last.status != AccuracyStatus::ok) return true;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t n = 0; n + 3 < rows.size(); ++n) best = std::min(best, rows[n].error_rms_m);
+  return std::any_of(rows.end() - 3, rows.end(), [&](const AccuracyRow& row) { return row.error_rms_m < best; });
+}
+
+std::vector<AccuracyRow> measure_integrator(const AccuracyScene& scene, const Reference& reference,
+                                            const std::string& integrator, Precision precision,
+                                            const AccuracyEffort& effort, const Stop& stop) {
+  Preset preset = scene.preset;
+  preset.integrator = integrator, preset.precision = precision;
+  // Twice the least limit of any configuration, since the cloth may be far from that one.
+  const double largest_dt = stable_dt(preset, "verlet") * (is_implicit(scheme(integrator)) ? 16 : 2);
+  std::vector<AccuracyRow> rows;
+  for (const int steps : accuracy_ladder(scene, largest_dt, effort)) {
+    if (!worth_going_on(rows, effort)) break;
+    preset.dt = scene.seconds / accuracy_samples / steps;
+    try {
+      AccuracyRow row = run_once(scene, reference, preset, steps, stop);
+      for (int n = 0; n < effort.repeats && row.seconds < worth_repeating && row.status != AccuracyStatus::diverged;
+           ++n)
+        row.seconds = std::min(row.seconds, run_once(scene, reference, preset, steps, stop).seconds);
+      rows.push_back(row);
+    } catch (const Stopped&) {
+      break;
+    }
+  }
+  return rows;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,50 @@
+// The motion that integrators' errors are measured against, and how far it can be trusted.
+#pragma once
+
+#include <functional>
+#include <glm/vec3.hpp>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/analysis/accuracy_scene.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// Positions of all particles at the times of comparison, m.
+using Track = std::vector<std::vector<glm::dvec3>>;
+
+/// The same at one time, from a simulation.
+std::vector<glm::dvec3> positions_of(const Simulation& simulation);
+/// Root of the mean over times and particles of the squared distance, m; infinite where a value is not finite.
+double rms_distance(const Track& a, const Track& b);
+
+struct Reference {
+  Track track;
+  std::vector<std::string> made_by;  ///< one sentence for each of two independent ones; the first is `track`
+  double agreement_rms_m = 0;        ///< how far they differ; 0 for a closed form
+  double predictable_s = 0;          ///< until then a perturbation of 1e-12 m stays below 1e-9 m (rms)
+  bool predictable_longer = false;   ///< it did so as long as was tried
+};
+
+/// The work was asked to stop.
+class Stopped : public std::runtime_error {
+ public:
+  Stopped() : std::runtime_error("stopped") {}
+};
+using Stop = std::function<bool()>;
+
+/// Makes both references of a scene and measures how long it can be predicted. `quick`: a hundredfold less exact, in
+/// seconds. Throws Stopped soon after `stop` says so.
+Reference make_reference(const AccuracyScene& scene, bool quick, const Stop& stop);
+
+/// The scene's motion by Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with that tolerance (m and m/s), on PlainForces: a
+/// cloth without bodies.
+Track odeint_track(const AccuracyScene& scene, double tolerance, const Stop& stop);
+/// The scene's motion by an integrator of this project in double, with so many steps from a sample to the next. Throws
+/// std::runtime_error if it diverges.
+Track own_track(const AccuracyScene& scene, const std::string& integrator, int steps, const Stop& stop);
+
+}  // namespace tyglab
