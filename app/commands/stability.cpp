@@ -9,6 +9,7 @@ void add_stability_command(CLI::App& program, Action& action) {
   stability->footer("Example: tyglab stability boundary --quick");
   add_stability_boundary(*stability, action);
   add_stability_drift(*stability, action);
+  add_stability_stress(*stability, action);
 }
 
 }  // namespace tyglab

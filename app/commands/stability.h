@@ -7,8 +7,9 @@ namespace tyglab {
 
 void add_stability_command(CLI::App& program, Action& action);
 
-/// Its own commands, a file each: stability_boundary.cpp, stability_drift.cpp.
+/// Its own commands, a file each: stability_boundary.cpp, stability_drift.cpp, stability_stress.cpp.
 void add_stability_boundary(CLI::App& stability, Action& action);
 void add_stability_drift(CLI::App& stability, Action& action);
+void add_stability_stress(CLI::App& stability, Action& action);
 
 }  // namespace tyglab
