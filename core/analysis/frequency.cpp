@@ -99,9 +99,19 @@ Linearisation::Linearisation(const Simulation& simulation)
   if (!lattice_) return;
   coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), 0);
   damping_.assign(std::size_t(rows_) * springs_of_a_particle * stride_, 0);
-  const PositionView x = simulation.positions();
+  const PositionView view = simulation.positions();
+  Field x;
+  x.resize(rows_, stride_);
   for (int i = 0; i < rows_; ++i)
-    for (int d = 0; d < springs_of_a_particle; ++d) linearise(simulation, x, d, i);
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t row = std::size_t(i) * view.stride;
+      if (view.f[c] != nullptr)
+        std::copy_n(view.f[c] + row, columns_, x.row(i, c));
+      else
+        std::copy_n(view.d[c] + row, columns_, x.row(i, c));
+    }
+  for (int i = 0; i < rows_; ++i)
+    for (int d = 0; d < springs_of_a_particle; ++d) linearise(p, simulation.tears(), x, d, i);
   const auto held = simulation.held();
   for (int i = 0; i < rows_; ++i)
     for (int j = 0; j < columns_; ++j)
@@ -110,22 +120,26 @@ Linearisation::Linearisation(const Simulation& simulation)
 
 /// The springs of a row in one direction. Along a spring k, across it k (1 - rest/length): less than 0 for one that
 /// pushes, which is why it buckles.
-void Linearisation::linearise(const Simulation& simulation, const PositionView& x, int d, int i) {
+void Linearisation::linearise(const Preset& p, const Tears& tears, const Field& x, int d, int i) {
   const Direction& to = directions[std::size_t(d)];
-  const Preset& p = simulation.preset();
-  const double rest = to.rest * p.L, k = (to.bending ? p.k_b : p.k_s) / p.m;
-  double* part = coefficients_.data() + i * coefficient_pitch(stride_) + std::ptrdiff_t(d) * spring_parts * stride_;
-  double* damped = damping_.data() + (std::ptrdiff_t(i) * springs_of_a_particle + d) * stride_;
-  for (int j = 0; j < columns_; ++j) {
-    if (!simulation.lattice().has_spring(d, i, j) || !simulation.tears().whole(d, i, j)) continue;
-    const int n = j + std::min(to.dj, 0);
-    if (!to.bending) damped[n] = p.k_d / p.m;
-    const glm::dvec3 apart = x.at(i + to.di, j + to.dj) - x.at(i, j);
-    const double length = std::sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z);
+  if (i + to.di >= rows_) return;
+  const double rest = to.rest * p.L, k = (to.bending ? p.k_b : p.k_s) / p.m, per_mass = p.k_d / p.m;
+  // Stored at the lower end of a spring to the lower left, at the owner otherwise.
+  const int shift = to.dj == -1 ? 1 : 0, count = columns_ - std::abs(to.dj);
+  const std::ptrdiff_t stride = stride_;
+  double* part = coefficients_.data() + i * coefficient_pitch(stride) + d * spring_parts * stride;
+  double* damped = damping_.data() + (std::ptrdiff_t(i) * springs_of_a_particle + d) * stride;
+  const double *here = x.row(i) + shift, *there = x.row(i + to.di) + (shift ? 0 : to.dj);
+  for (int j = 0; j < count; ++j) {
+    if (!tears.whole(d, i, j + shift)) continue;
+    if (!to.bending) damped[j] = per_mass;
+    const double dx = there[j] - here[j], dy = there[j + stride] - here[j + stride],
+                 dz = there[j + 2 * stride] - here[j + 2 * stride];
+    const double length = std::sqrt(dx * dx + dy * dy + dz * dz);
     if (to.bending ? length >= rest || length < 1e-9 * rest : length <= rest) continue;
     const double across = k * (1 - rest / length), along = std::sqrt(k - across) / length;
-    for (int c = 0; c < 3; ++c) part[n + std::ptrdiff_t(c) * stride_] = along * apart[c];
-    part[n + 3 * std::ptrdiff_t(stride_)] = across;
+    part[j] = along * dx, part[j + stride] = along * dy, part[j + 2 * stride] = along * dz;
+    part[j + 3 * stride] = across;
   }
 }
 

@@ -38,7 +38,7 @@ class Linearisation {
  private:
   using Field = cpu::RowField<double>;
   struct Tridiagonal;
-  void linearise(const Simulation& simulation, const PositionView& x, int direction, int i);
+  void linearise(const Preset& preset, const Tears& tears, const Field& x, int direction, int i);
   Array<double> combined(double stiffness, double damping) const;
   Field beginning() const;
   bool all_fixed() const { return int(fixed_.size()) == rows_ * columns_; }
