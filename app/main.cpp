@@ -6,6 +6,7 @@
 #include "app/commands/render.h"
 #include "app/commands/run.h"
 #include "app/commands/sandbox.h"
+#include "app/commands/stability.h"
 
 int main(int argc, char** argv) {
   tyglab::prepare_process();
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   tyglab::add_render_command(program, action);
   tyglab::add_presets_command(program, action);
   tyglab::add_bench_command(program, action);
+  tyglab::add_stability_command(program, action);
   tyglab::add_devices_command(program, action);
   try {
     program.parse(argc, argv);

@@ -1,0 +1,77 @@
+// How fast the cloth can oscillate as it is now, and hence at which dt a method breaks: the linearised force
+// F = -K δx - C δv of the springs that act at the present positions, with exact derivatives, pinned and held particles
+// fixed. Its extreme modes are found by Lanczos' method, which needs products with K and C alone (stiffness.h).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/engines/cpu/row_field.h"
+#include "core/integrators/scheme.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// One mode u of the cloth, |u| = 1: what it feels of stiffness and damping.
+struct Mode {
+  double stiffness = 0;  ///< ω² = uᵀM⁻¹K u, 1/s²; negative where the cloth would buckle
+  double damping = 0;    ///< 2ζω = uᵀM⁻¹C u, 1/s
+  double omega() const;  ///< √stiffness, 1/s; 0 where it is negative
+};
+
+/// How well a mode must be known: |A u - λ u| over the largest λ. λ itself is then better by about as much again.
+inline constexpr double live_tolerance = 2e-2;
+inline constexpr double exact_tolerance = 1e-5;
+
+/// The cloth's K and C as it stands, over its mass.
+class Linearisation {
+ public:
+  explicit Linearisation(const Simulation& simulation);
+
+  /// The mode in which `stiffness`·K + `damping`·C is largest; stiffness >= 0.
+  Mode extreme(double stiffness, double damping, double tolerance) const;
+  /// Its value alone for K or for C, which takes half the time.
+  double largest_stiffness(double tolerance) const;
+  double largest_damping(double tolerance) const;
+  bool damped() const { return damped_; }
+
+ private:
+  using Field = cpu::RowField<double>;
+  struct Tridiagonal;
+  void linearise(const Preset& preset, const Tears& tears, const Field& x, int direction, int i);
+  Array<double> combined(double stiffness, double damping) const;
+  Field beginning() const;
+  bool all_fixed() const { return int(fixed_.size()) == rows_ * columns_; }
+  double iterate(const Array<double>& a, double tolerance, std::vector<double>& s) const;
+  /// q = A p, 0 where particles are fixed; returns p·q.
+  double multiply(const Array<double>& a, const Field& p, Field& q) const;
+  bool next(const Array<double>& a, Field& before, Field& now, Field& product, Tridiagonal& t) const;
+  double inner(const Field& a, const Field& b) const;
+
+  int rows_, columns_, stride_;
+  bool damped_;
+  Mode weight_;  ///< the one weight's, which is no lattice
+  bool lattice_;
+  std::vector<int> fixed_;      ///< i·columns + j
+  Array<double> coefficients_;  ///< of K/m, as in stiffness.h
+  Array<double> damping_;       ///< k_d/m of every whole stretch spring; laid out as the coefficients' t
+};
+
+/// The extreme modes: the fastest first, and in a damped cloth those in which K and C weigh differently, down to the
+/// most damped and the least. A method's worst mode is one of them or between two.
+std::vector<Mode> extreme_modes(const Linearisation& cloth, double tolerance);
+/// The fastest mode, with the largest damping of any mode: quicker, and safe for methods that damping makes less
+/// stable.
+Mode fastest_mode(const Linearisation& cloth, double tolerance);
+/// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (one weight: k/m, k_d/m).
+Mode any_configuration(const Preset& preset);
+
+/// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large.
+double dt_crit(const Scheme& scheme, std::span<const Mode> modes);
+/// Factor by which all stiffness could grow before the method breaks at dt; 0 where it is broken at any, infinity where
+/// at none. With k_b = 0 that times k_s is the k_s at which it breaks.
+double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, double dt);
+/// Growth per step in the long run, as a natural logarithm, of the mode that grows most; below 0 all die out.
+double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double dt);
+
+}  // namespace tyglab
