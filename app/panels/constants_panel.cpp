@@ -12,6 +12,7 @@
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
+#include "app/panels/stability_row.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
 #include "core/integrators/scheme.h"
@@ -42,7 +43,7 @@ const std::array<Section, 6>& sections() {
 bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
   if (row.key == "tolerance") return preset.integrator == "dopri5";
-  if (row.key == "iterations") return preset.integrator == "xpbd";
+  if (row.key == "iterations") return is_implicit(scheme(preset.integrator));
   return !row.only_one_kind || row.only == preset.kind;
 }
 
@@ -199,6 +200,7 @@ void constants_sections(App& app) {
     if (!section(app, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
     if (name == "Integrator") integrator_row(app);
     rows(app, wanted);
+    if (name == "Integrator") stability_row(app);
     if (name == "Cloth" && cloth) resolution_row(app), pins_row(app);
   }
 }

@@ -21,6 +21,7 @@
 #include "app/sandbox/session_report.h"
 #include "app/sandbox/settings.h"
 #include "app/sandbox/sleep.h"
+#include "app/sandbox/stability_watch.h"
 #include "app/viewport/camera.h"
 #include "app/viewport/cloth_renderer.h"
 #include "core/simulation.h"
@@ -35,6 +36,7 @@ struct App {
   Building building;
   Pacing pacing;
   Sleep sleep;
+  StabilityWatch stability;
   std::int64_t steps_made = 0;    ///< in the last frame
   bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
   bool told_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise

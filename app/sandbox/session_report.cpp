@@ -4,6 +4,7 @@
 #include <imgui_internal.h>  // the window that an item stands in
 
 #include <cctype>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -96,6 +97,12 @@ Json divergence(const App& app) {
           {"cause", d->cause}, {"remedy", d->remedy},     {"constants_changed", changed_since_divergence(app)}};
 }
 
+/// What the gauge under dt shows; infinity cannot be said in JSON.
+Json dt_over_limit(const App& app) {
+  const auto& limits = app.stability.limits();
+  return limits && limits->any > 0 && std::isfinite(limits->any) ? Json(app.preset().dt / limits->any) : Json(nullptr);
+}
+
 int pinned_count(const App& app) {
   const Lattice& lattice = app.simulation->lattice();
   int count = 0;
@@ -123,6 +130,7 @@ void add_simulation(Json& json, const App& app) {
   json["asleep"] = app.asleep();
   json["speed"] = app.pacing.speed;
   json["divergence"] = divergence(app);
+  json["dt_over_limit"] = dt_over_limit(app);
   const auto next = app.building.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
   json["frames_while_building"] = app.building.frames_beside();

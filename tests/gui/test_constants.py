@@ -58,6 +58,7 @@ def typed(stage):
     sandbox.key("space")
     report = sandbox.type_value("k_s", "310")
     check(k_s(report) == 310, f"310 was typed, k_s is {k_s(report)}")
+    sandbox.wait(lambda r: r["dt_over_limit"] and r["dt_over_limit"] > 1, "the gauge to say that dt is too long for it")
     report = sandbox.type_value("k_s", "7", end="Escape")
     check(k_s(report) == 310, "Escape left the value as it was")
     for text, message in (("abc", "not a number"), ("1e12", "goes from"), ("-3", "goes from"), ("nan", "not a number")):

@@ -1,0 +1,52 @@
+#include "app/sandbox/stability_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "app/sandbox/app.h"
+#include "core/analysis/frequency.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double period = 0.5;                // s between two looks at a cloth in motion
+constexpr int largest_looked_at = 128 * 128;  // particles: to linearise more of them would be felt in the frame
+
+StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
+  const Scheme& method = scheme(preset.integrator);
+  StabilityLimits limits{.of = preset, .now = {}};
+  const std::array any{any_configuration(preset)};
+  limits.any = dt_crit(method, any);
+  limits.stiffness = stiffness_margin(method, any, preset.dt);
+  if (cloth) {
+    const std::array fastest{fastest_mode(*cloth, live_tolerance)};
+    limits.now = dt_crit(method, fastest), limits.omega = fastest[0].omega();
+  }
+  return limits;
+}
+
+}  // namespace
+
+void StabilityWatch::poll(App& app) {
+  if (work_.valid()) {
+    if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + 0.03);  // what is ready soon is to be seen
+      return;
+    }
+    limits_ = work_.get();
+  }
+  const Simulation& simulation = *app.simulation;
+  const bool new_constants = looked_for_ != simulation.preset(), moved = looked_at_ != simulation.time();
+  if (!new_constants && (!moved || app.ui.now < begun_ + period)) return;
+  begun_ = app.ui.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
+  std::optional<Linearisation> cloth;
+  if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);
+  work_ = std::async(std::launch::async,
+                     [preset = simulation.preset(), cloth = std::move(cloth)] { return work_out(preset, cloth); });
+  app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + 0.03);
+}
+
+}  // namespace tyglab
