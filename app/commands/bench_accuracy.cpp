@@ -20,12 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct AccuracyOptions {
-  bool quick = false;
+struct AccuracyOptions : BenchOptions {
   std::string scene;
-  std::string json, png;
-
-  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
 };
 
 /// The scenes asked for. Throws UsageError for a name that is none.
@@ -110,16 +106,14 @@ void add_bench_accuracy(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
       "accuracy", "Error against run time: every integrator, in float and double, and Boost.Odeint's");
   const auto options = std::make_shared<AccuracyOptions>();
-  command->add_flag("--quick", options->quick, "Fewer dt, shorter runs, coarser references; under a minute");
+  add_quick(*command, *options, "Fewer dt, shorter runs, coarser references");
   std::string names;
   for (const AccuracyScene& scene : accuracy_scenes()) names += (names.empty() ? "" : ", ") + scene.name;
   command->add_option("--scene", options->scene, "One scene alone: " + names)
       ->type_name("NAME")
       ->transform(not_empty());
-  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
-      ->type_name("F.json");
-  add_output(*command, "--png", options->png, "Draw error over run time, a chart a scene; - is standard output")
-      ->type_name("F.png");
+  add_json(*command, *options);
+  add_png(*command, *options, "Draw error over run time, a chart a scene");
   command->footer("Example: tyglab bench accuracy --json accuracy.json --png accuracy.png");
   command->callback([&action, options] { action = [options] { return accuracy(*options); }; });
 }

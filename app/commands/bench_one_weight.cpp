@@ -25,12 +25,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int most_steps = 1'000'000;
 
-struct WeightOptions {
+struct WeightOptions : BenchOptions {
   double seconds = 3;
   std::vector<std::string> settings;
-  std::string json, png;
-
-  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
 };
 
 /// The shipped preset with the settings. Throws UsageError where that is no longer one weight, or too long a run.
@@ -134,10 +131,8 @@ void add_bench_one_weight(CLI::App& bench, Action& action) {
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  add_output(*command, "--json", options->json, "Write the errors for programs; - is standard output")
-      ->type_name("F.json");
-  add_output(*command, "--png", options->png, "Draw the report's four curves; - is standard output")
-      ->type_name("F.png");
+  add_json(*command, *options, "Write the errors for programs");
+  add_png(*command, *options, "Draw the report's four curves");
   command->footer("Example: tyglab bench one-weight --set k_d=0.1 --png figure_3_2.png");
   command->callback([&action, options] { action = [options] { return one_weight(*options); }; });
 }

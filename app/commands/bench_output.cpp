@@ -23,6 +23,24 @@ std::string today() {
 
 }  // namespace
 
+CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::string& does) {
+  return command.add_flag("--quick", options.quick, does + "; under a minute");
+}
+
+void add_threads(CLI::App& command, BenchOptions& options, const std::string& does) {
+  command.add_option("--threads", options.threads, does + "; otherwise one a processor")
+      ->type_name("N")
+      ->transform(whole_number_between(1, 256));
+}
+
+void add_json(CLI::App& command, BenchOptions& options, const std::string& does) {
+  add_output(command, "--json", options.json, does + "; - is standard output")->type_name("F.json");
+}
+
+CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does) {
+  return add_output(command, "--png", options.png, does + "; - is standard output")->type_name("F.png");
+}
+
 std::string machine_line() {
   const Machine machine = this_machine();
   return machine.processor + ", " + counted(machine.cores, "core") + ", " + machine.instruction_set +

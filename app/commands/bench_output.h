@@ -3,8 +3,27 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
+
+#include "app/commands/command_line.h"
+#include "app/commands/outputs.h"
 
 namespace tyglab {
+
+/// What every benchmark and experiment is asked.
+struct BenchOptions {
+  bool quick = false;
+  int threads = 0;  ///< 0: as many as there are processors
+  std::string json, png;
+
+  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
+};
+
+/// --quick, --threads, --json and --png, each with what it does in this command.
+CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::string& does);
+void add_threads(CLI::App& command, BenchOptions& options, const std::string& does);
+void add_json(CLI::App& command, BenchOptions& options, const std::string& does = "Write the figures for programs");
+CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does);
 
 /// "AMD EPYC, 2 cores, AVX-512; tyglab 0.1.0, Release, GCC 12.2.0"
 std::string machine_line();

@@ -27,15 +27,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array all_states{SkipState::absent, SkipState::off, SkipState::on};
 
-struct SkipOptions {
-  bool quick = false;
-  std::string json, png;
+struct SkipOptions : BenchOptions {
   std::string only;  ///< "wind:off"; empty: everything
   int side = 128;
   int steps = 1000;  ///< with `only`
   Precision precision = Precision::float_;
-
-  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
 };
 
 /// Instructions per particle and step of one feature; empty where they could not be counted. As all_states.
@@ -194,7 +190,7 @@ void add_bench_skip(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
       "skip", "What every feature costs when it is on, when it is off, and in an engine compiled without it");
   const auto options = std::make_shared<SkipOptions>();
-  command->add_flag("--quick", options->quick, "Fewer rounds; under a minute");
+  add_quick(*command, *options, "Fewer rounds");
   command->add_option("--side", options->side, "Particles a side of the cloth (128 if it is not given)")
       ->type_name("N")
       ->transform(whole_number_between(2, 4096));
@@ -216,11 +212,8 @@ void add_bench_skip(CLI::App& bench, Action& action) {
       ->check(CLI::IsMember({"float", "double"}))
       ->type_name("float|double")
       ->needs(one);
-  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
-      ->type_name("F.json");
-  add_output(*command, "--png", options->png, "Draw the cost of each feature; - is standard output")
-      ->type_name("F.png")
-      ->excludes(one);
+  add_json(*command, *options);
+  add_png(*command, *options, "Draw the cost of each feature")->excludes(one);
   command->footer(
       "Examples: tyglab bench skip --json skip.json\n"
       "          valgrind --tool=callgrind tyglab bench skip --only wind:off --steps 200");

@@ -21,13 +21,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct ThroughputOptions {
-  bool quick = false;
+struct ThroughputOptions : BenchOptions {
   int repeats = 9;
-  int threads = 0;  ///< 0: as many as there are processors
-  std::string json, png;
-
-  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
 };
 
 Json row_json(const ThroughputRow& row) {
@@ -130,18 +125,15 @@ void add_bench_throughput(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
       "throughput", "Time for one particle and step, for sizes, integrators, precisions, threads and features");
   const auto options = std::make_shared<ThroughputOptions>();
-  command->add_flag("--quick", options->quick, "Fewer sizes; under a minute");
+  add_quick(*command, *options, "Fewer sizes");
   command
       ->add_option("--repeats", options->repeats,
                    "Runs of which the median is taken (9 if it is not given; fewer should not be quoted)")
       ->type_name("N")
       ->transform(whole_number_between(1, 1000));
-  command->add_option("--threads", options->threads, "Threads beside one; otherwise all processors")
-      ->type_name("N")
-      ->transform(whole_number_between(1, 256));
-  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
-      ->type_name("F.json");
-  add_output(*command, "--png", options->png, "Draw time over size; - is standard output")->type_name("F.png");
+  add_threads(*command, *options, "Threads beside one");
+  add_json(*command, *options);
+  add_png(*command, *options, "Draw time over size");
   command->footer("Example: tyglab bench throughput --json throughput.json --png throughput.png");
   command->callback([&action, options] { action = [options] { return throughput(*options); }; });
 }

@@ -22,14 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct BoundaryOptions {
-  bool quick = false;
-  int threads = 0;  ///< 0: as many as there are processors
-  std::string json, png;
-
-  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
-};
-
 enum class What { dt, k_s, growth, slack };
 
 /// One kind of measurement: its rows and what they are called.
@@ -143,7 +135,7 @@ bool measure_part(const Part& part, const BoundaryCases& cases, int threads, std
   return kept;
 }
 
-int boundary(const BoundaryOptions& options) {
+int boundary(const BenchOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   const BoundaryCases cases = boundary_cases(options.quick);
@@ -191,14 +183,11 @@ int boundary(const BoundaryOptions& options) {
 void add_stability_boundary(CLI::App& stability, Action& action) {
   CLI::App* command = stability.add_subcommand(
       "boundary", "The dt and the k_s at which every explicit method breaks, predicted and measured");
-  const auto options = std::make_shared<BoundaryOptions>();
-  command->add_flag("--quick", options->quick, "Fewer sizes and stiffnesses; under a minute");
-  command->add_option("--threads", options->threads, "Measurements at a time; otherwise one a processor")
-      ->type_name("N")
-      ->transform(whole_number_between(1, 256));
-  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
-      ->type_name("F.json");
-  add_output(*command, "--png", options->png, "Draw the boundaries over k_s; - is standard output")->type_name("F.png");
+  const auto options = std::make_shared<BenchOptions>();
+  add_quick(*command, *options, "Fewer sizes and stiffnesses");
+  add_threads(*command, *options, "Measurements at a time");
+  add_json(*command, *options);
+  add_png(*command, *options, "Draw the boundaries over k_s");
   command->footer("Example: tyglab stability boundary --json boundary.json --png boundary.png");
   command->callback([&action, options] { action = [options] { return boundary(*options); }; });
 }

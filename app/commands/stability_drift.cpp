@@ -22,14 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct DriftOptions {
-  bool quick = false;
-  int threads = 0;  ///< 0: as many as there are processors
-  std::string json, png;
-
-  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
-};
-
 Json row_json(const DriftRow& row) {
   const Preset& p = row.of.preset;
   return {{"scene", row.of.scene},
@@ -97,7 +89,7 @@ Chart drift_chart(const std::vector<DriftRow>& rows, const std::string& scene, b
   return chart;
 }
 
-int drift(const DriftOptions& options) {
+int drift(const BenchOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   const std::vector<DriftCase> cases = drift_cases(options.quick);
@@ -140,14 +132,11 @@ int drift(const DriftOptions& options) {
 void add_stability_drift(CLI::App& stability, Action& action) {
   CLI::App* command =
       stability.add_subcommand("drift", "How every method keeps energy over a million steps without damping");
-  const auto options = std::make_shared<DriftOptions>();
-  command->add_flag("--quick", options->quick, "20,000 steps; under a minute");
-  command->add_option("--threads", options->threads, "Runs at a time; otherwise one a processor")
-      ->type_name("N")
-      ->transform(whole_number_between(1, 256));
-  add_output(*command, "--json", options->json, "Write the figures for programs; - is standard output")
-      ->type_name("F.json");
-  add_output(*command, "--png", options->png, "Draw energy over time; - is standard output")->type_name("F.png");
+  const auto options = std::make_shared<BenchOptions>();
+  add_quick(*command, *options, "20,000 steps");
+  add_threads(*command, *options, "Runs at a time");
+  add_json(*command, *options);
+  add_png(*command, *options, "Draw energy over time");
   command->footer("Example: tyglab stability drift --json drift.json --png drift.png");
   command->callback([&action, options] { action = [options] { return drift(*options); }; });
 }

@@ -23,15 +23,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct StressOptions {
-  bool quick = false;
+struct StressOptions : BenchOptions {
   std::int64_t cases = 0;  ///< 0: 1,000, or fewer where quick
   std::int64_t seed = 1, from = 1;
   std::int64_t only = 0;  ///< 0: all
-  int threads = 0;        ///< 0: as many as there are processors
-  std::string json;
-
-  std::vector<Output> outputs() const { return {{"--json", json}}; }
 };
 
 Json case_json(std::int64_t number, const StressResult& result) {
@@ -175,7 +170,7 @@ void add_stability_stress(CLI::App& stability, Action& action) {
       "stress", "Random scenes, edited while they move: each ends bounded, or is reported as diverged");
   const auto options = std::make_shared<StressOptions>();
   constexpr std::int64_t most = 1000000000;
-  CLI::Option* quick = command->add_flag("--quick", options->quick, "200 cases; under a minute");
+  CLI::Option* quick = add_quick(*command, *options, "200 cases");
   command->add_option("--cases", options->cases, "How many cases (1000 if it is not given)")
       ->type_name("N")
       ->transform(whole_number_between(1, most))
@@ -195,11 +190,8 @@ void add_stability_stress(CLI::App& stability, Action& action) {
       ->excludes(quick)
       ->excludes("--cases")
       ->excludes(from);
-  command->add_option("--threads", options->threads, "Cases at a time; otherwise one a processor")
-      ->type_name("N")
-      ->transform(whole_number_between(1, 256));
-  add_output(*command, "--json", options->json, "Write every case for programs; - is standard output")
-      ->type_name("F.json");
+  add_threads(*command, *options, "Cases at a time");
+  add_json(*command, *options, "Write every case for programs");
   command->footer(
       "Examples: tyglab stability stress --cases 1000 --seed 1\n"
       "          tyglab stability stress --seed 1 --only 17");
