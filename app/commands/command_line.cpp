@@ -10,6 +10,7 @@
 #include <iostream>
 #include <new>
 #include <optional>
+#include <sstream>
 
 #include "app/commands/interrupt.h"
 #include "app/commands/preset_argument.h"
@@ -72,6 +73,16 @@ std::string command_problem(const CLI::App& program, std::span<const char* const
   return typed + ": one of its commands must follow: " + listed(command_names(*at)) + ".";
 }
 
+/// What CLI11 lists from the last to the first, in the order in which it was typed.
+std::string unexpected(const CLI::ExtrasError& error) {
+  const std::string text = error.what();
+  std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
+  std::string list;
+  for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
+  return "Not expected here: " + list +
+         ". Options stand behind the command that they belong to, as in `tyglab run denim --steps 4`.";
+}
+
 }  // namespace
 
 void prepare_process() {
@@ -99,6 +110,10 @@ int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::
       std::cerr << "tyglab: " << problem << '\n';
       return exit_command_line;
     }
+  }
+  if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    std::cerr << "tyglab: " << unexpected(*extras) << '\n';
+    return exit_command_line;
   }
   if (program.exit(error) != 0) return exit_command_line;
   return run_action([] { return int(exit_done); });  // which sees that the help has arrived

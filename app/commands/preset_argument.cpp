@@ -7,6 +7,7 @@
 #include "app/data_files.h"
 #include "core/analysis/machine.h"
 #include "core/integrators/names.h"
+#include "core/notation/json_tree.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 
@@ -45,8 +46,8 @@ PresetSource find_preset(const std::string& name_or_file, const std::vector<std:
 void warn_of_missing_texture(const Preset& preset) {
   const fs::path picture = texture_file(preset.texture);
   std::error_code error;
-  if (!fs::exists(picture, error))
-    std::cerr << "tyglab: view.texture: there is no picture '" << preset.texture
+  if (!fs::is_regular_file(picture, error))
+    std::cerr << "tyglab: view.texture: there is no picture '" << printable(preset.texture)
               << "', so the cloth would be drawn without one; check the name and the folder.\n";
 }
 

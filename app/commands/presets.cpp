@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "app/commands/preset_argument.h"
+#include "core/notation/json_tree.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 
@@ -31,7 +32,7 @@ int show(const std::string& name) {
 int check(const std::string& name_or_file) {
   const Preset preset = load_preset(find_preset(name_or_file).file);
   warn_of_missing_texture(preset);
-  std::cout << name_or_file << " is a valid preset: " << preset.name << ", "
+  std::cout << name_or_file << " is a valid preset: " << printable(preset.name) << ", "
             << (preset.kind == Kind::one_weight
                     ? std::string("one weight")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")

@@ -166,7 +166,7 @@ void open_presets(App& app) {
   }
   ImGui::EndChild();
   label(app, "File");
-  if (path_field(app)) dialog.problem.clear();
+  if (path_field(app, ImGui::IsWindowAppearing())) dialog.problem.clear();
   problem(app);
   open |= dialog.enter;
   open |= text_button(app, "Open", true, dialog.path[0] != 0);

@@ -80,6 +80,7 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   row.ns_per_particle_step = times[times.size() / 2];
   row.ns_lowest = times.front(), row.ns_highest = times.back();
   row.threads_used = simulation.engine().threads();
+  if (row.threads_used < which.threads) row.of.variant = "too small for " + std::to_string(which.threads) + " threads";
   row.bytes_per_particle = double(simulation.engine().bytes()) / particles;
   row.register_limit_ns = cpu::register_limit_ns(which.preset.precision, 15) / row.threads_used;
   const std::size_t moved = std::size_t(particles) * 6 * (which.preset.precision == Precision::float_ ? 4 : 8);

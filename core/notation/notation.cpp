@@ -97,14 +97,16 @@ const std::array<Variable, 10> variable_rows{{
     {"a", "x''", "Acceleration", "Acceleration", "m/s²", "2.1", "F/m; 0 for a pinned particle."},
 }};
 
+/// Capitals count as small letters.
 int edit_distance(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
   std::vector<int> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     int diagonal = row[0];
     row[0] = int(i);
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const int next = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+      const int next = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (small(a[i - 1]) != small(b[j - 1]))});
       diagonal = row[j];
       row[j] = next;
     }
