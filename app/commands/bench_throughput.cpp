@@ -105,6 +105,7 @@ int throughput(const ThroughputOptions& options) {
   const auto cases = throughput_cases(options.quick, threads);
   InterruptGuard guard;
   Progress progress("bench throughput");
+  wake_processor();
   for (const ThroughputCase& which : cases) {
     if (InterruptGuard::interrupted()) break;
     rows.push_back(measure_throughput(which, options.repeats));

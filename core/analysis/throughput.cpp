@@ -31,6 +31,11 @@ double seconds_of(Simulation& simulation, int steps) {
 
 }  // namespace
 
+void wake_processor() {
+  Simulation simulation(square(128));
+  for (double seconds = 0; seconds < 0.5;) seconds += seconds_of(simulation, shortest_run);
+}
+
 std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
   std::vector<ThroughputCase> cases;
   const auto add = [&](std::string variant, int side, int with, auto change) {

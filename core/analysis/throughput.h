@@ -27,6 +27,9 @@ struct ThroughputRow {
   double bytes_per_particle = 0;               ///< of all the solver's arrays
 };
 
+/// Steps a cloth for half a second: a processor that was idle takes a while to reach its speed.
+void wake_processor();
+
 /// The cases, smallest first. `quick`: fewer sizes.
 std::vector<ThroughputCase> throughput_cases(bool quick, int threads);
 
