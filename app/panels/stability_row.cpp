@@ -35,7 +35,7 @@ void draw_gauge(App& app, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
   draw.AddRectFilled(lo, {std::max(at(part), lo.x + 2 * rounding), hi.y}, color_of(c, part), rounding);
   const float reach = app.theme.px(3), line = app.theme.px(2);
   draw.AddLine({at(1), lo.y - reach}, {at(1), hi.y + reach}, c.text, line);
-  if (limits.now && *limits.now > 0 && std::isfinite(*limits.now))
+  if (limits.now && *limits.now > 0 && *limits.now < full * limits.any)
     draw.AddCircleFilled({at(*limits.now / limits.any), (lo.y + hi.y) / 2}, app.theme.px(3), c.text, 16);
 }
 
@@ -67,13 +67,14 @@ void stability_row(App& app) {
   labelled_row(app, "limit", [&](float width) {
     const RowColumns columns = row_columns(app);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
-    ImGui::Dummy({width, columns.height});
+    const float height = app.theme.px(30);  // as the labels of such rows are placed
+    ImGui::Dummy({width, height});
     report_control(app, "stability");
     if (!limits) return;
     const Tokens& c = app.theme.colors;
     const double dt = app.wished().dt;
     const bool bounded = limits->any > 0 && std::isfinite(limits->any);
-    const float bar = width - columns.value - columns.unit - 2 * columns.gap, middle = lo.y + columns.height / 2;
+    const float bar = width - columns.value - columns.unit - 2 * columns.gap, middle = lo.y + height / 2;
     const float half = app.theme.px(4);
     const std::string text = stability_text(*limits, dt);
     const float right = lo.x + bar + columns.gap + columns.value;
@@ -85,7 +86,8 @@ void stability_row(App& app) {
                      : limits->any == 0 ? c.danger
                                         : c.quiet,
                      text);
-    tooltip(app, ImGui::GetID("stability"), stability_words(*limits, dt));
+    if (const ImGuiID id = ImGui::GetID("stability"); tooltip_due(app, id))
+      tooltip(app, id, stability_words(*limits, dt));
   });
 }
 

@@ -98,6 +98,18 @@ std::vector<Mode> modes_of(const Preset& preset) {
   return extreme_modes(Linearisation(Simulation(preset)), exact_tolerance);
 }
 
+/// Looks for the value of a constant from which on the sheet is unstable.
+BoundaryRow bisected(const Preset& sheet, double Preset::*constant, double predicted) {
+  BoundaryRow row{sheet, predicted};
+  row.measured = bisect(predicted, linear_motion, [&](double value) {
+    Preset p = sheet;
+    p.*constant = value;
+    return unstable(p);
+  });
+  row.preset.*constant = row.measured;
+  return row;
+}
+
 }  // namespace
 
 Preset taut_sheet(int side, double k_s, double k_d, const std::string& integrator) {
@@ -128,25 +140,12 @@ bool unstable(const Preset& sheet) {
 }
 
 BoundaryRow measure_dt(const Preset& sheet) {
-  BoundaryRow row{sheet, dt_crit(scheme(sheet.integrator), modes_of(sheet))};
-  row.measured = bisect(row.predicted, linear_motion, [&](double dt) {
-    Preset p = sheet;
-    p.dt = dt;
-    return unstable(p);
-  });
-  row.preset.dt = row.measured;
-  return row;
+  return bisected(sheet, &Preset::dt, dt_crit(scheme(sheet.integrator), modes_of(sheet)));
 }
 
 BoundaryRow measure_k_s(const Preset& sheet) {
-  BoundaryRow row{sheet, sheet.k_s * stiffness_margin(scheme(sheet.integrator), modes_of(sheet), sheet.dt)};
-  row.measured = bisect(row.predicted, linear_motion, [&](double k_s) {
-    Preset p = sheet;
-    p.k_s = k_s;
-    return unstable(p);
-  });
-  row.preset.k_s = row.measured;
-  return row;
+  return bisected(sheet, &Preset::k_s,
+                  sheet.k_s * stiffness_margin(scheme(sheet.integrator), modes_of(sheet), sheet.dt));
 }
 
 BoundaryRow measure_growth(const Preset& sheet) {

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 
 #include "core/engines/cpu/stiffness.h"
-#include "core/integrators/amplification.h"
 
 namespace tyglab {
 namespace {
@@ -16,26 +14,10 @@ using cpu::coefficient_pitch;
 using cpu::spring_parts;
 using cpu::springs_of_a_particle;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_products = 2000;
 constexpr int between_looks = 4;  // products from one look at the residual to the next
 
-/// (ω, ζ) of a mode. One without stiffness decays alone; ω so small that its decay does not depend on it any more
-/// stands for it.
-struct Oscillator {
-  double omega, zeta;
-};
-Oscillator oscillator_of(const Mode& mode) {
-  constexpr double overdamped = 1000;
-  const double omega = std::max(mode.omega(), mode.damping / (2 * overdamped));
-  return {omega, omega > 0 ? mode.damping / (2 * omega) : 0};
-}
-
 }  // namespace
-
-double Mode::omega() const {
-  return stiffness > 0 ? std::sqrt(stiffness) : 0;
-}
 
 /// Lanczos' matrix: the cloth's, seen in the vectors that have been made so far.
 struct Linearisation::Tridiagonal {
@@ -266,45 +248,6 @@ std::vector<Mode> extreme_modes(const Linearisation& cloth, double tolerance) {
 
 Mode fastest_mode(const Linearisation& cloth, double tolerance) {
   return {cloth.largest_stiffness(tolerance), cloth.largest_damping(tolerance)};
-}
-
-Mode any_configuration(const Preset& p) {
-  if (p.kind == Kind::one_weight) return {p.k / p.m, p.k_d / p.m};
-  return {(12 * p.k_s + 8 * p.k_b) / p.m, 12 * p.k_d / p.m};
-}
-
-double dt_crit(const Scheme& scheme, std::span<const Mode> modes) {
-  double least = infinity;
-  for (const Mode& mode : modes)
-    if (const auto [omega, zeta] = oscillator_of(mode); omega > 0)
-      least = std::min(least, stability_limit(scheme, zeta) / omega);
-  return least;
-}
-
-double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, double dt) {
-  const auto holds = [&](double factor) {
-    return std::all_of(modes.begin(), modes.end(), [&](Mode mode) {
-      mode.stiffness *= factor;
-      const auto [omega, zeta] = oscillator_of(mode);
-      return spectral_radius(amplification(scheme, omega * dt, zeta)) <= 1 + 1e-9;
-    });
-  };
-  double low = 1e-12, high = 1e12;
-  if (!holds(low)) return 0;
-  if (holds(high)) return infinity;
-  while (high / low > 1 + 1e-7) {
-    const double middle = std::sqrt(low * high);
-    (holds(middle) ? low : high) = middle;
-  }
-  return low;
-}
-
-double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double dt) {
-  double most = -infinity;
-  for (const Mode& mode : modes)
-    if (const auto [omega, zeta] = oscillator_of(mode); omega > 0)
-      most = std::max(most, std::log(spectral_radius(amplification(scheme, omega * dt, zeta))));
-  return most;
 }
 
 }  // namespace tyglab

@@ -7,6 +7,7 @@
 
 #include "core/analysis/machine.h"
 #include "core/engines/cpu/register_limit.h"
+#include "core/integrators/scheme.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -51,8 +52,9 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
     if (threads > 1) add("", side, threads, plain);
     if (!quick || side == 128) add("", side, 1, [](Preset& p) { p.precision = Precision::double_; });
   }
-  for (const char* integrator : {"euler", "improved_euler"})
-    add("", 128, 1, [&](Preset& p) { p.integrator = integrator; });
+  for (const Scheme& method : schemes())
+    if (method.name != Preset{}.integrator && !is_implicit(method))
+      add("", 128, 1, [&](Preset& p) { p.integrator = method.name; });
   add("without bending", 128, 1, [](Preset& p) { p.k_b = 0; });
   add("without damping", 128, 1, [](Preset& p) { p.k_d = 0; });
   add("wind", 128, 1, [](Preset& p) { p.W = {0, 0, 1e-3}; });

@@ -1,11 +1,12 @@
 #include "core/integrators/remedy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/integrators/amplification.h"
+#include "core/integrators/modes.h"
 #include "core/notation/words.h"
 
 namespace tyglab {
@@ -27,12 +28,8 @@ double advised_verlet_dt(const Preset& p) {
 }  // namespace
 
 double stable_dt(const Preset& p, const std::string& integrator) {
-  const bool weight = p.kind == Kind::one_weight;
-  const double stiffness = weight ? p.k : 12 * p.k_s + 8 * p.k_b;
-  const double damping = (weight ? 1 : 12) * p.k_d;
-  if (stiffness == 0) return 1;
-  const double omega = std::sqrt(stiffness / p.m), zeta = damping / p.m / (2 * omega);
-  return stability_limit(scheme(integrator), zeta) / omega;
+  const std::array any{any_configuration(p)};
+  return any[0].stiffness == 0 ? 1 : dt_crit(scheme(integrator), any);
 }
 
 std::string remedy(const Preset& p) {

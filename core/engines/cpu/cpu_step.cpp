@@ -17,6 +17,11 @@ template <class R>
 constexpr double rounding = 16 * double(std::numeric_limits<R>::epsilon());  // of a length computed in R, generously
 constexpr double longest_factor = 1000;  // a spring longer than that many rest lengths has diverged
 
+/// By how much a spring can grow where no component of a particle's way is larger: by both of its ends.
+double growth_of(double largest_way) {
+  return 2 * std::numbers::sqrt3 * largest_way;
+}
+
 /// Whether all of a row's values are numbers. Without a way out of the loop, so that the compiler can use SIMD.
 template <class R>
 bool finite_row(const RowField<R>& field, int i, int columns) {
@@ -154,8 +159,7 @@ typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(
     left_inside_ += band->left_inside();
     if (has(part::hand) && band->has_hand()) hand_force_ = band->hand_force();
   }
-  // Two ends, each by at most √3 of its largest component.
-  growth_ = 2 * std::numbers::sqrt3 * largest;
+  growth_ = growth_of(largest);
   if (tears_watched()) {
     tear_motion_ -= growth_;
     if (!(tear_motion_ > 0)) tear_motion_ = tear_overloaded(tears);
@@ -223,7 +227,7 @@ int CpuEngine<R, Present>::finish_wave(int steps, Tears& tears, Fault& fault) {
   const std::size_t sweeps = sweeps_.size();
   for (int n = 0; n < steps; ++n) {
     const std::span last(&waves_[std::size_t(n + 1) * sweeps - 1], 1);
-    const double growth = 2 * std::numbers::sqrt3 * last[0]->largest_way();
+    const double growth = growth_of(last[0]->largest_way());
     const bool look = !(free_motion_ - growth > 0) || (tears_watched() && !(tear_motion_ - growth > 0));
     if (look && n < steps - 1) {
       end_ = End::overtaken;  // its positions are gone
