@@ -310,6 +310,9 @@ void Gui::show_typing(InputQueue& input) {
     shown_.push_back(event.key);
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(done));
+  // The backend has noted them as down already: seen now, they would act before their turn, and not in it.
+  for (const auto& [event, character] : waiting_)
+    if (event.key != GLFW_KEY_UNKNOWN) io.KeysDown[event.key] = false;
   input.unread = !waiting_.empty();
   io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) || (mods.value_or(0) & GLFW_MOD_CONTROL) != 0;
   io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) || (mods.value_or(0) & GLFW_MOD_SHIFT) != 0;

@@ -72,6 +72,8 @@ def main():
     parser.add_argument("--tyglab", required=True, help="the program")
     parser.add_argument("--shots", required=True, help="folder for screenshots")
     parser.add_argument("--only", default="", help="cases whose names contain this alone")
+    parser.add_argument("--tries", type=int, default=1,
+                        help="how often a case may be tried until it holds; one that fails first is told as UNSTEADY")
     options = parser.parse_args()
     prefix = os.path.splitext(os.path.basename(sys.argv[0]))[0].removeprefix("test_")
     os.makedirs(options.shots, exist_ok=True)
@@ -83,12 +85,17 @@ def main():
     try:
         for function in chosen:
             begun = time.monotonic()
-            problem = run(function, options.tyglab, screen, options.shots, prefix)
-            print(f"{'FAILED' if problem else 'passed'}  {prefix}: {function.__doc__.splitlines()[0]}"
-                  f"  ({time.monotonic() - begun:.1f} s)", flush=True)
+            title = f"{prefix}: {function.__doc__.splitlines()[0]}"
+            for attempt in range(options.tries):
+                problem = run(function, options.tyglab, screen, options.shots, prefix)
+                said = problem and "        " + problem.rstrip().replace("\n", "\n        ")
+                if problem is None or attempt + 1 == options.tries:
+                    break
+                print(f"UNSTEADY  {title}\n{said}", flush=True)
+            print(f"{'FAILED' if problem else 'passed'}  {title}  ({time.monotonic() - begun:.1f} s)", flush=True)
             if problem:
                 failed += 1
-                print("        " + problem.rstrip().replace("\n", "\n        "), flush=True)
+                print(said, flush=True)
     finally:
         screen.close()
     print(f"[gui] test cases: {len(chosen)} | {len(chosen) - failed} passed | {failed} failed")

@@ -103,8 +103,22 @@ def typed_fast(stage):
         sandbox.double_click(*centre(sandbox.control("constants.k_s.value")), LEFT, lambda r: r["typing"],
                              "a text field")
         sandbox.xdotool("key", "--delay", "4", *keys)
-        sandbox.wait(lambda r: k_s(r) == value, f"{value} to be taken")
         sandbox.wait(lambda r: not r["typing"], "the text field to close")
+        check(k_s(sandbox.report()) == value, f"{value} is taken, not {k_s(sandbox.report())}")
+
+
+@case
+def typed_held(stage):
+    """a key still down at the end of a long frame acts in its turn, and once"""
+    sandbox = stage.start("hanging")
+    for value in (51, 62, 73):
+        sandbox.double_click(*centre(sandbox.control("constants.k_s.value")), LEFT, lambda r: r["typing"],
+                             "a text field")
+        first, second = str(value)
+        sandbox.xdotool("key", "--delay", "4", "ctrl+a", "8", "keydown", "BackSpace", "sleep", "0.1",
+                        "keyup", "BackSpace", "key", "--delay", "4", first, second, "Return")
+        sandbox.wait(lambda r: not r["typing"], "the text field to close")
+        check(k_s(sandbox.report()) == value, f"{value} is taken, not {k_s(sandbox.report())}")
 
 
 @case
