@@ -44,6 +44,13 @@ bool begin_alike(const Preset& a, const Preset& b) {
   return as == b;
 }
 
+Ledger::Source source_of(const Edit& edit) {
+  if (std::holds_alternative<edit::Cut>(edit)) return Ledger::Source::tearing;
+  const bool hand = std::holds_alternative<edit::Grab>(edit) || std::holds_alternative<edit::MoveHand>(edit) ||
+                    std::holds_alternative<edit::Release>(edit);
+  return hand ? Ledger::Source::hand : Ledger::Source::edits;
+}
+
 }  // namespace
 
 Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) {
@@ -67,7 +74,8 @@ Simulation::Simulation(const Simulation& from)
       time_at_dt_(from.time_at_dt_),
       divergence_(from.divergence_),
       revision_(from.revision_),
-      tear_revision_(from.tear_revision_) {}
+      tear_revision_(from.tear_revision_),
+      watch_(from.watch_) {}
 
 void Simulation::build() {
   const Lattice lattice = lattice_of(preset_);
@@ -86,6 +94,7 @@ void Simulation::build() {
   time_at_dt_ = 0;
   divergence_.reset();
   ++revision_, ++tear_revision_;
+  if (watch_) keep_ledger(true);
 }
 
 double Simulation::time() const {
@@ -114,6 +123,7 @@ void Simulation::apply(const Edit& edit) {
                         [&](const edit::Pin& e) { pin(e); }, [&](const edit::MoveBody& e) { move_body(e); }},
              edit);
   ++revision_;
+  watch_edit(source_of(edit));
 }
 
 void Simulation::change(const Preset& next) {
@@ -152,6 +162,7 @@ void Simulation::take_engine(const Preset& next, const State& state) {
   engine_ = std::move(engine);
   preset_ = next;
   engine_->set_fixed(pinned_, held_);
+  engine_->note_contacts(watch_.has_value());
   engine_->load(state, tears_);
 }
 
@@ -175,8 +186,11 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   const auto* change = std::get_if<edit::Change>(&edit);
   const Preset& next = change != nullptr ? change->preset : preset_;
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
-  if (change == nullptr || lattice_of(next) != lattice_ || next.kind != preset_.kind)
-    return std::make_unique<Simulation>(next, threads_);
+  if (change == nullptr || lattice_of(next) != lattice_ || next.kind != preset_.kind) {
+    auto fresh = std::make_unique<Simulation>(next, threads_);
+    fresh->keep_ledger(watch_.has_value());
+    return fresh;
+  }
   std::unique_ptr<Simulation> other(new Simulation(*this));
   if (steps_ == 0) {
     other->restart_untouched(next);
@@ -187,6 +201,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
     other->take_pins(preset_);
   }
   ++other->revision_;
+  other->watch_edit(Ledger::Source::edits);
   return other;
 }
 
@@ -263,26 +278,35 @@ void Simulation::move_body(const edit::MoveBody& e) {
 Advance Simulation::advance(int steps) {
   Advance total;
   while (!divergence_ && total.steps < steps) {
-    int now = steps - total.steps;
-    if (held_.particle >= 0 && hand_steps_left_ > 0) now = std::min(now, hand_steps_left_);
-    const Advance part = engine_->advance(now, tears_);
-    steps_ += part.steps;
+    const Advance part = advance_part(watch_ ? 1 : steps - total.steps);
     const int before = total.steps, torn = total.torn;
     const bool released = total.released;
     total = part;
     total.steps += before, total.torn += torn, total.released |= released;
-    left_inside_ = part.left_inside;
-    if (part.torn > 0) ++tear_revision_;
-    if (held_.particle >= 0) hand_force_ = part.hand_force;
-    if (part.diverged) diverge(part);
-    if (part.released) release();
-    if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {
-      held_.velocity = {0, 0, 0};
-      update_fixed();
-    }
   }
   if (total.steps > 0) ++revision_;
   return total;
+}
+
+/// As far as the engine goes by itself: what follows from the steps is done.
+Advance Simulation::advance_part(int steps) {
+  if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
+  if (watch_) watch_->before_step(preset_, tears_);
+  Advance part = engine_->advance(steps, tears_);
+  steps_ += part.steps;
+  left_inside_ = part.left_inside;
+  if (part.torn > 0) ++tear_revision_;
+  if (held_.particle >= 0) hand_force_ = part.hand_force;
+  if (part.diverged) diverge(part);
+  if (watch_ && part.steps > 0) watch_step();
+  part.diverged = divergence_.has_value();
+  if (part.released) release(), watch_edit(Ledger::Source::hand);
+  if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {
+    held_.velocity = {0, 0, 0};
+    update_fixed();
+    watch_edit(Ledger::Source::hand);
+  }
+  return part;
 }
 
 void Simulation::diverge(const Advance& part) {
@@ -299,6 +323,37 @@ void Simulation::diverge(const Advance& part) {
   d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
   d.remedy = remedy(preset_);
   divergence_ = d;
+  diverged_preset_ = preset_;
+}
+
+EnergyReading Simulation::energy() {
+  return read_energy(preset_, tears_, read(), held_);
+}
+
+void Simulation::keep_ledger(bool on) {
+  if (on) watch_.emplace().begin(preset_, energy());
+  if (!on) watch_.reset();
+  engine_->note_contacts(on);
+}
+
+std::optional<LedgerReading> Simulation::ledger() const {
+  if (!watch_) return std::nullopt;
+  return watch_->ledger().reading();
+}
+
+void Simulation::watch_edit(Ledger::Source source) {
+  if (!watch_) return;
+  ++revision_;
+  watch_->edited(energy(), source);
+}
+
+void Simulation::watch_step() {
+  ++revision_;
+  watch_->after_step(preset_, tears_, read(), held_, engine_->contacts());
+  if (divergence_) return;
+  divergence_ = watch_->divergence(preset_, state_, lattice_.columns);
+  if (!divergence_) return;
+  divergence_->step = steps_, divergence_->t = time();
   diverged_preset_ = preset_;
 }
 

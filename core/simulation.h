@@ -8,6 +8,7 @@
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
 #include "core/edit.h"
+#include "core/energy/energy_watch.h"
 #include "core/engines/engine.h"
 #include "core/forces/readout.h"
 #include "core/notation/preset.h"
@@ -63,6 +64,13 @@ class Simulation {
   /// Makes up to `steps` steps; fewer when the run diverges. Does nothing once diverged.
   Advance advance(int steps);
 
+  EnergyReading energy();
+  /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
+  /// itself; and a run in which the integrator has made more than Ledger::diverges_at counts as diverged.
+  void keep_ledger(bool on);
+  /// What the ledger says; none where none is kept.
+  std::optional<LedgerReading> ledger() const;
+
   /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.
   std::size_t bytes() const;
 
@@ -95,7 +103,9 @@ class Simulation {
   void rebase_time();
   void update_fixed();
   void diverge(const Advance& part);
-
+  Advance advance_part(int steps);
+  void watch_step();
+  void watch_edit(Ledger::Source source);
   Preset preset_;
   int threads_;
   Lattice lattice_;
@@ -115,6 +125,7 @@ class Simulation {
   State state_;
   std::uint64_t state_revision_ = ~0ull;
   std::uint64_t revision_ = 0, tear_revision_ = 0;
+  std::optional<EnergyWatch> watch_;
 };
 
 }  // namespace tyglab

@@ -10,16 +10,12 @@ namespace {
 
 constexpr int samples = 400;
 
-double squared(const glm::dvec3& a) {
-  return a.x * a.x + a.y * a.y + a.z * a.z;
-}
-
 /// The largest kinetic energy in the first steps, by Verlet: the same measure for every method.
 double energy_of_motion(Preset preset) {
   preset.integrator = "verlet";
   Simulation simulation(preset);
   double most = 0;
-  for (int n = 0; n <= 100; ++n, simulation.advance(20)) most = std::max(most, energy(simulation).kinetic);
+  for (int n = 0; n <= 100; ++n, simulation.advance(20)) most = std::max(most, simulation.energy().energy.kinetic);
   return most;
 }
 
@@ -43,28 +39,6 @@ void fit(DriftRow& row) {
 }
 
 }  // namespace
-
-Energy energy(Simulation& simulation) {
-  const Preset& p = simulation.preset();
-  const State& state = simulation.read();
-  const int columns = simulation.lattice().columns;
-  const auto x = [&](std::size_t n) { return glm::dvec3(state.x.x[n], state.x.y[n], state.x.z[n]); };
-  Energy sum;
-  for (int i = 0; i < simulation.lattice().rows; ++i)
-    for (int j = 0; j < columns; ++j) {
-      const std::size_t n = std::size_t(i) * columns + j;
-      sum.kinetic += p.m / 2 * squared({state.v.x[n], state.v.y[n], state.v.z[n]});
-      sum.gravity += p.m * p.g * state.x.y[n];
-      for (int d = 0; d < int(directions.size()); ++d) {
-        if (!simulation.lattice().has_spring(d, i, j) || !simulation.tears().whole(d, i, j)) continue;
-        const Direction& to = directions[std::size_t(d)];
-        const double longer = std::sqrt(squared(x(n + std::size_t(to.di * columns + to.dj)) - x(n))) - to.rest * p.L;
-        if (to.bending && longer < 0) sum.bending += p.k_b / 2 * longer * longer;
-        if (!to.bending && longer > 0) sum.stretch += p.k_s / 2 * longer * longer;
-      }
-    }
-  return sum;
-}
 
 std::vector<DriftCase> drift_cases(bool quick) {
   constexpr int side = 10;
@@ -91,14 +65,14 @@ DriftRow measure_drift(const DriftCase& which, const std::function<bool()>& stop
   row.of = which;
   row.motion = energy_of_motion(which.preset);
   Simulation simulation(which.preset);
-  const double start = energy(simulation).total();
+  const double start = simulation.energy().energy.total();
   for (int n = 0; n <= samples && !stop(); ++n) {
     const std::int64_t until = which.steps * n / samples;
     if (simulation.advance(int(until - simulation.steps())).diverged) {
       row.diverged_at = simulation.divergence()->step;
       break;
     }
-    row.t.push_back(simulation.time()), row.energy.push_back(energy(simulation).total() - start);
+    row.t.push_back(simulation.time()), row.energy.push_back(simulation.energy().energy.total() - start);
   }
   if (!row.energy.empty()) {
     const auto [lowest, highest] = std::minmax_element(row.energy.begin(), row.energy.end());

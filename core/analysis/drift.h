@@ -12,14 +12,6 @@
 
 namespace tyglab {
 
-/// Energy of the particles' motion, of the springs (½ k (|x_ij| - rest)² while they act) and of height, J. Zero height
-/// is y = 0.
-struct Energy {
-  double kinetic = 0, stretch = 0, bending = 0, gravity = 0;
-  double total() const { return kinetic + stretch + bending + gravity; }
-};
-Energy energy(Simulation& simulation);
-
 struct DriftCase {
   std::string scene;  ///< "taut_sheet" or "slack_sheet"
   Preset preset;

@@ -46,6 +46,13 @@ struct Advance {
   glm::dvec3 hand_force{0, 0, 0};  ///< force on the held particle at the last step, N, before it was set to 0
 };
 
+/// A particle that a body stopped: by how much the step would have taken it further, m, and how much faster it would
+/// be, m/s.
+struct Contact {
+  int particle;  ///< i·columns + j
+  glm::dvec3 x, v;
+};
+
 /// Read-only view of the engine's own positions: particle (i, j) at index i·stride + j of each component's pointer. One
 /// of f or d is set. Rows lie one after the other, each as its x, its y and its z of stride/3 values (RowField).
 struct PositionView {
@@ -91,6 +98,10 @@ class Engine {
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
   /// Up to `steps` steps; ends early on divergence or release of the hand. `tears` is updated by tearing.
   virtual Advance advance(int steps, Tears& tears) = 0;
+  /// Whether steps note what bodies stop, which only the energy ledger asks for.
+  virtual void note_contacts(bool on) = 0;
+  /// What bodies stopped in the last step, once note_contacts(true) has been called.
+  virtual std::vector<Contact> contacts() const = 0;
   /// Positions and the velocities that belong to them (v + dt/2 a for Verlet).
   virtual void read(State& state, const Tears& tears) = 0;
   /// What state files show: as read(), but for Verlet the backward velocity d/dt.

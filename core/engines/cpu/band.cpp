@@ -187,6 +187,7 @@ void Band<R, Present>::collide_row(int i) {
                      [&](const Body& b) { return depth(b, p.x) > 0; }))
       continue;
     p.v /= scale;
+    const Passage freely = p;
     if (!collide(cloth_.preset.bodies, cloth_.preset.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
@@ -194,6 +195,9 @@ void Band<R, Present>::collide_row(int i) {
       // A body that was moved into the cloth may push a particle further than it would have gone.
       largest_way_[0] = std::max(largest_way_[0], std::abs(*x[c] - old_row(i, c)[j]));
     }
+    if (cloth_.notes_contacts)
+      contacts_.push_back({i * cloth_.lattice.columns + j, freely.x - glm::dvec3(*x[0], *x[1], *x[2]),
+                           freely.v - glm::dvec3(*v[0], *v[1], *v[2]) / scale});
   }
 }
 
@@ -207,6 +211,7 @@ void Band<R, Present>::watch_row(int i) {
 template <class R, unsigned Present>
 void Band<R, Present>::begin_watch() {
   largest_way_.fill(R(0));
+  contacts_.clear();
   left_inside_ = 0;
 }
 

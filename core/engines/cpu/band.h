@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/cloth/lattice.h"
@@ -50,6 +51,7 @@ struct Cloth {
   PairSweeps<R> sweeps;
   unsigned features = 0;
   bool keeps_displacement = false;
+  bool notes_contacts = false;   ///< whether bands note what bodies stop
   int seen_velocity = vector_v;  ///< vector that damping sees where a step begins
   std::vector<Field> vectors;
   std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row after row
@@ -98,6 +100,8 @@ class Band {
   /// The force on the hand's particle as the last sweep found it; only the band that has its row sets it.
   bool has_hand() const { return has_hand_; }
   glm::dvec3 hand_force() const { return hand_force_; }
+  /// What bodies stopped since begin_watch, where the cloth notes it.
+  std::span<const Contact> contacts() const { return contacts_; }
   std::size_t bytes() const;
 
  private:
@@ -142,6 +146,7 @@ class Band {
   bool has_hand_ = false;
   alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> largest_way_{};  ///< by lane
   int left_inside_ = 0;
+  std::vector<Contact> contacts_;
 };
 
 }  // namespace tyglab::cpu

@@ -232,6 +232,13 @@ void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
 }
 
 template <class R, unsigned Present>
+std::vector<Contact> CpuEngine<R, Present>::contacts() const {
+  std::vector<Contact> all;
+  for (const auto& band : bands_) all.insert(all.end(), band->contacts().begin(), band->contacts().end());
+  return all;
+}
+
+template <class R, unsigned Present>
 void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_stored(state);
   if (!scheme_->lags) return;

@@ -24,6 +24,8 @@ class CpuEngine final : public Engine {
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
+  void note_contacts(bool on) override { cloth_.notes_contacts = on; }
+  std::vector<Contact> contacts() const override;
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;

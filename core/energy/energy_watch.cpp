@@ -1,0 +1,69 @@
+#include "core/energy/energy_watch.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "core/integrators/remedy.h"
+
+namespace tyglab {
+namespace {
+
+/// J: what gravity gives a cloth that falls its own diagonal (a weight: as far as it starts from its rest).
+double gravity_scale(const Preset& p) {
+  if (p.kind == Kind::one_weight) return p.m * std::abs(p.g) * std::max(p.L, std::abs(p.offset));
+  return p.m * p.rows * p.columns * std::abs(p.g) * p.L * std::hypot(p.rows - 1, p.columns - 1);
+}
+
+}  // namespace
+
+void EnergyWatch::begin(const Preset& preset, const EnergyReading& now) {
+  ledger_.begin(now, gravity_scale(preset));
+  whole_ = {};
+}
+
+void EnergyWatch::before_step(const Preset& preset, const Tears& tears) {
+  const bool may_break = preset.kind == Kind::cloth && preset.F_max > 0;
+  if (may_break && (whole_.lattice() != tears.lattice() || whole_.torn_count() != tears.torn_count())) whole_ = tears;
+}
+
+void EnergyWatch::after_step(const Preset& preset, const Tears& tears, const State& state, const Held& held,
+                             std::span<const Contact> contacts) {
+  const EnergyReading now = read_energy(preset, tears, state, held);
+  double tearing = 0, contact = 0, before_tearing = now.energy.total();
+  const bool broken = preset.F_max > 0 && whole_.torn_count() != tears.torn_count();
+  if (broken) {
+    before_tearing = read_energy(preset, whole_, state, held).energy.total();
+    tearing = now.energy.total() - before_tearing;
+  }
+  if (!contacts.empty()) {
+    freely_ = state;
+    for (const Contact& s : contacts) {
+      const std::size_t n = std::size_t(s.particle);
+      freely_.x.x[n] += s.x.x, freely_.x.y[n] += s.x.y, freely_.x.z[n] += s.x.z;
+      freely_.v.x[n] += s.v.x, freely_.v.y[n] += s.v.y, freely_.v.z[n] += s.v.z;
+    }
+    contact = before_tearing - read_energy(preset, broken ? whole_ : tears, freely_, held).energy.total();
+  }
+  ledger_.step(now, preset.dt, contact, tearing);
+}
+
+std::optional<Divergence> EnergyWatch::divergence(const Preset& preset, const State& state, int columns) const {
+  const LedgerReading reading = ledger_.reading();
+  if (!(reading.share() > Ledger::diverges_at)) return std::nullopt;
+  Divergence d;
+  double fastest = -1;
+  for (std::size_t n = 0; n < state.v.x.size(); ++n) {
+    const double speed = std::hypot(state.v.x[n], state.v.y[n], state.v.z[n]);
+    if (speed > fastest) fastest = speed, d.i = int(n) / columns, d.j = int(n) % columns;
+  }
+  d.quantity = "unexplained energy", d.value = reading.unexplained();
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%s has made %.3g J that nothing explains, %.0f times what the scene can hold, at dt = %g s",
+                preset.integrator.c_str(), reading.unexplained(), reading.share(), preset.dt);
+  d.cause = text;
+  d.remedy = remedy(preset);
+  return d;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,89 @@
+#include "core/energy/ledger.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyglab {
+namespace {
+
+/// Weights of the last value, the one before it, … for the integral over the last step (Adams and Moulton).
+constexpr std::array<double, 5> last_step{251.0 / 720, 646.0 / 720, -264.0 / 720, 106.0 / 720, -19.0 / 720};
+
+}  // namespace
+
+void RunningIntegral::restart(double value) {
+  closed_ += open();
+  last_[0] = value;
+  count_ = 1;
+}
+
+void RunningIntegral::add(double value, double h) {
+  if (count_ == int(last_.size())) {
+    // Five values are there: what they span stands fixed, and each further step is added by itself.
+    closed_ += open();
+    count_ = int(last_.size()) + 1;
+  }
+  std::copy_backward(last_.begin(), last_.end() - 1, last_.end());
+  last_[0] = value;
+  h_ = h;
+  if (count_ < int(last_.size())) {
+    ++count_;
+    return;
+  }
+  for (std::size_t n = 0; n < last_.size(); ++n) closed_ += h * last_step[n] * last_[n];
+}
+
+/// Of the first values, while there are no more than five: Newton and Cotes.
+double RunningIntegral::open() const {
+  const auto& y = last_;
+  switch (count_) {
+    case 2:
+      return h_ / 2 * (y[0] + y[1]);
+    case 3:
+      return h_ / 3 * (y[0] + 4 * y[1] + y[2]);
+    case 4:
+      return h_ * 3 / 8 * (y[0] + 3 * y[1] + 3 * y[2] + y[3]);
+    case 5:
+      return h_ * 2 / 45 * (7 * y[0] + 32 * y[1] + 12 * y[2] + 32 * y[3] + 7 * y[4]);
+    default:
+      return 0;
+  }
+}
+
+void Ledger::begin(const EnergyReading& now, double gravity_scale) {
+  *this = {};
+  now_ = now.energy;
+  start_ = now.energy.total();
+  own_scale_ = now.energy.kinetic + now.energy.stretch + now.energy.bending + gravity_scale;
+  restart(now.power);
+}
+
+void Ledger::restart(const Power& power) {
+  damping_.restart(power.damping), wind_.restart(power.wind), hand_.restart(power.hand);
+}
+
+void Ledger::step(const EnergyReading& now, double h, double contact, double tearing) {
+  now_ = now.energy;
+  contact_ += contact, tearing_ += tearing;
+  damping_.add(now.power.damping, h), wind_.add(now.power.wind, h), hand_.add(now.power.hand, h);
+  // Impacts and tears make what forces do jump: no polynomial reaches over them.
+  if (contact != 0 || tearing != 0) restart(now.power);
+}
+
+void Ledger::edited(const EnergyReading& now, Source source) {
+  const double jump = now.energy.total() - now_.total();
+  (source == Source::hand ? grabbed_ : source == Source::tearing ? tearing_ : edits_) += jump;
+  now_ = now.energy;
+  restart(now.power);
+}
+
+LedgerReading Ledger::reading() const {
+  LedgerReading out;
+  out.energy = now_;
+  out.start = start_;
+  out.works = {damping_.total(), contact_, tearing_, wind_.total(), hand_.total() + grabbed_, edits_};
+  out.scale = own_scale_ + std::abs(out.works.wind) + std::abs(out.works.hand) + std::abs(out.works.edits);
+  return out;
+}
+
+}  // namespace tyglab
