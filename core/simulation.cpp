@@ -53,6 +53,13 @@ Ledger::Source source_of(const Edit& edit) {
 
 }  // namespace
 
+std::string Divergence::where() const {
+  const auto site = [](int row, int column) {
+    return "(" + std::to_string(row) + ", " + std::to_string(column) + ")";
+  };
+  return di == 0 && dj == 0 ? "particle " + site(i, j) : "spring " + site(i, j) + "–" + site(i + di, j + dj);
+}
+
 Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) {
   build();
 }
@@ -313,7 +320,7 @@ void Simulation::diverge(const Advance& part) {
   Divergence d;
   d.step = steps_ + 1;
   d.t = time() + preset_.dt;
-  d.i = part.i, d.j = part.j;
+  d.i = part.i, d.j = part.j, d.di = part.di, d.dj = part.dj;
   d.quantity = part.quantity;
   d.value = part.value;
   d.cause = part.quantity == "spring length" ? "a spring grew past 1000 times its rest length"
@@ -355,6 +362,25 @@ void Simulation::watch_step() {
   if (!divergence_) return;
   divergence_->step = steps_, divergence_->t = time();
   diverged_preset_ = preset_;
+}
+
+Snapshot Simulation::snapshot() {
+  return {lattice_, preset_.kind, read(), tears_, time(), steps_};
+}
+
+void Simulation::restore(const Snapshot& then) {
+  tears_ = then.tears;
+  held_ = {};
+  hand_steps_left_ = 0;
+  hand_force_ = {};
+  left_inside_ = 0;
+  divergence_.reset();
+  update_fixed();
+  engine_->load(then.state, tears_);
+  steps_ = steps_at_dt_ = then.steps;
+  time_at_dt_ = then.t;
+  ++revision_, ++tear_revision_;
+  if (watch_) keep_ledger(true);
 }
 
 std::size_t Simulation::bytes() const {

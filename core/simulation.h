@@ -29,6 +29,17 @@ struct ForceSummary {
 };
 enum class Reduction { sum, maximum };
 
+/// The cloth as it was at a moment: what it takes to go back there.
+struct Snapshot {
+  Lattice lattice;
+  Kind kind = Kind::cloth;
+  State state;
+  Tears tears;
+  double t = 0;  ///< s
+  std::int64_t steps = 0;
+  std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes(); }
+};
+
 class Simulation {
  public:
   /// Builds the cloth at its start; `threads`: at most so many. Throws EngineError; the preset must be valid
@@ -70,6 +81,12 @@ class Simulation {
   void keep_ledger(bool on);
   /// What the ledger says; none where none is kept.
   std::optional<LedgerReading> ledger() const;
+
+  Snapshot snapshot();
+  /// Whether the cloth still has the particles that the snapshot holds.
+  bool fits(const Snapshot& then) const { return then.lattice == lattice_ && then.kind == preset_.kind; }
+  /// Goes back to a snapshot that fits, with the present constants and pins; the hand lets go, a divergence is forgotten.
+  void restore(const Snapshot& then);
 
   /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.
   std::size_t bytes() const;

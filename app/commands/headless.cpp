@@ -49,7 +49,7 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
             << options.preset_label << "' into the new folder " << folder.string() << ".\n";
   const InterruptGuard guard;
-  Stepper stepper(simulation, steps, options.preset_label);
+  Stepper stepper(simulation, steps, options.preset_label, options.auto_dt);
   FrameCosts costs;
 
   bool going = true;
@@ -58,7 +58,9 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
     {
       const FrameCosts::Timer simulate(costs, Part::simulate);
       const std::int64_t before = simulation.steps();
-      going = stepper.advance_to(steps * k / (pictures - 1));
+      do {
+        going = stepper.advance_to(stepper.timeline().step_at(seconds * k / (pictures - 1)));
+      } while (stepper.changed());
       costs.add_steps(simulation.steps() - before);
     }
     const FrameCosts::Timer draw(costs, Part::draw_cloth);

@@ -6,6 +6,7 @@
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
 #include "core/analysis/machine.h"
+#include "core/energy/auto_step.h"
 #include "core/integrators/names.h"
 #include "core/notation/json_tree.h"
 #include "core/notation/notation.h"
@@ -53,6 +54,8 @@ void warn_of_missing_texture(const Preset& preset) {
 
 namespace {
 
+constexpr std::string_view automatic = "auto";
+
 std::string known_integrators() {
   std::string list;
   for (const std::string_view name : integrator_names()) list += (list.empty() ? "" : ", ") + std::string(name);
@@ -76,7 +79,12 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
   command.add_option("--integrator", integrator, "Numerical method: " + known_integrators())
       ->type_name("NAME")
       ->check(not_empty());
-  command.add_option("--dt", dt, "Time step, s")->type_name("S")->check(not_empty());
+  command
+      .add_option("--dt", dt,
+                  "Time step, s; or auto: the largest that linear theory allows for these constants, with a margin,\n"
+                  "halved while the energy ledger finds the integrator making energy")
+      ->type_name("S|auto")
+      ->check(not_empty());
   command
       .add_option("--engine", engine,
                   "Where it runs: cpu, or opencl (this version finds OpenCL devices but does not step on them yet)")
@@ -100,7 +108,7 @@ std::vector<Setting> PresetArgument::all_settings() const {
     if (!value.empty()) all.push_back({"--" + key + " " + value, key, value});
   };
   add("integrator", integrator);
-  add("dt", dt);
+  if (dt != automatic) add("dt", dt);
   add("engine", engine);
   add("precision", precision);
   return all;
@@ -119,6 +127,15 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
     resolved.preset = with_parsed_settings(resolved.preset, all_settings());
   } catch (const PresetError& error) {
     throw UsageError(error.what());
+  }
+  resolved.auto_dt = dt == automatic;
+  if (resolved.auto_dt) {
+    const auto chosen = AutoStep::choose(resolved.preset);
+    if (!chosen)
+      throw UsageError("--dt auto: " + resolved.preset.integrator +
+                       " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
+                       "damping with --set k_d=…");
+    resolved.preset.dt = *chosen;
   }
   resolved.threads = threads > 0 ? threads : processors();
   return resolved;

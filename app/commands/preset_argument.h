@@ -29,7 +29,8 @@ bool is_preset(const std::string& name_or_file);
 struct ResolvedPreset {
   Preset preset;
   PresetSource source;
-  int threads = 1;  ///< of the CPU engine, at most
+  int threads = 1;       ///< of the CPU engine, at most
+  bool auto_dt = false;  ///< --dt auto: dt is the one that AutoStep chose, and is to be watched
 };
 
 /// Says in a line on stderr if the picture that the preset names is not there: who does not draw it would not notice.

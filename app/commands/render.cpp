@@ -65,7 +65,7 @@ int render(const RenderOptions& options) {
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   const PictureSize size = parse_size(options.size);
   const bool sequence = wants_sequence(options);
-  const FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);
+  FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);
   if (sequence) {
     make_output_folder("--png", options.png);
   } else {
@@ -75,15 +75,23 @@ int render(const RenderOptions& options) {
   Simulation simulation(scene.preset, scene.threads);
   Film film(scene.preset, options.view, size);
   const InterruptGuard guard;
-  Stepper stepper(simulation, steps, label);
+  Stepper stepper(simulation, steps, label, scene.auto_dt);
   std::int64_t frame = 0;
   if (sequence) {
-    while (frame < plan.count() && stepper.advance_to(plan.step_of(frame))) {
+    while (frame < plan.count()) {
+      const bool there = stepper.advance_to(plan.step_of(frame));
+      if (stepper.changed()) {
+        plan.follow(stepper.timeline());
+        continue;
+      }
+      if (!there) break;
       film.shoot(simulation, fs::path(options.png) / frame_name(label, frame, plan.count(), "png"));
       ++frame;
     }
   } else {
-    stepper.advance_to(steps);
+    do {
+      stepper.advance_to(stepper.end());
+    } while (stepper.changed());
     film.shoot(simulation, options.png);
   }
 

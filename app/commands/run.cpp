@@ -66,6 +66,8 @@ class Outputs {
     return next;
   }
 
+  void follow(const Timeline& timeline) { plan_.follow(timeline); }
+
   /// Writes what is due at the present step.
   void write_due(Simulation& simulation) {
     const std::int64_t step = simulation.steps();
@@ -207,12 +209,13 @@ int run(const RunOptions& options) {
 
   const InterruptGuard guard;
   const auto start = std::chrono::steady_clock::now();
-  Stepper stepper(simulation, steps, scene.source.label);
+  Stepper stepper(simulation, steps, scene.source.label, scene.auto_dt);
   bool going = true;
   do {
     outputs.write_due(simulation);
-    going = stepper.advance_to(std::min(steps, outputs.next_step()));
-  } while (going && simulation.steps() < steps);
+    going = stepper.advance_to(std::min(stepper.end(), outputs.next_step()));
+    if (stepper.changed()) outputs.follow(stepper.timeline()), going = true;
+  } while (going && simulation.steps() < stepper.end());
   if (going) outputs.write_due(simulation);
   const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 

@@ -47,6 +47,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
     sandbox.preset_path = scene.source.file;
   sandbox.explicit_preset = options.preset.typed();
   sandbox.threads = scene.threads;
+  sandbox.auto_dt = scene.auto_dt;
   sandbox.frames = options.frames;
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;

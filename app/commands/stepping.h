@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/commands/progress.h"
+#include "core/energy/auto_step.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -22,6 +23,14 @@ struct Length {
   std::int64_t in_steps(double dt, double default_seconds) const;
 };
 
+/// Which step ends at which time, from the last change of dt on.
+struct Timeline {
+  double dt;
+  std::int64_t step = 0;  ///< at which dt became this
+  double t = 0;           ///< s, then
+  std::int64_t step_at(double time) const;
+};
+
 /// The steps after which a frame is shown or written, `fps` to a second of simulated time; frame 0 is the start.
 class FramePlan {
  public:
@@ -30,27 +39,40 @@ class FramePlan {
   double fps() const { return fps_; }
   std::int64_t count() const { return count_; }
   std::int64_t step_of(std::int64_t frame) const;
+  /// dt has changed: frames stay where they are in time.
+  void follow(const Timeline& timeline) { timeline_ = timeline; }
 
  private:
   double fps_;
-  double steps_a_frame_;
+  Timeline timeline_;
   std::int64_t count_;
 };
 
 class Stepper {
  public:
-  Stepper(Simulation& simulation, std::int64_t steps, const std::string& what);
-  /// Advances to that step. False if it ended before: diverged, or interrupted.
+  /// `auto_dt`: halves dt where the energy ledger asks for it.
+  Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt = false);
+  /// Advances to that step. False if it ended before: diverged, interrupted, or dt has changed (changed()).
   bool advance_to(std::int64_t step);
+  /// Whether dt has changed since the last call, so that what is planned in steps is to be planned anew.
+  bool changed();
+  const Timeline& timeline() const { return timeline_; }
+  /// The step with which the run ends.
+  std::int64_t end() const { return steps_; }
   bool interrupted() const { return interrupted_; }
   /// Wall time of the stepping alone, s.
   double seconds() const { return seconds_; }
 
  private:
   void advance_portion(std::int64_t step);
+  void look_at_ledger();
 
   Simulation& simulation_;
   std::int64_t steps_;
+  double end_time_;  ///< s
+  Timeline timeline_;
+  std::optional<AutoStep> auto_;
+  bool changed_ = false;
   Progress progress_;
   std::int64_t portion_ = 1;
   double seconds_ = 0;

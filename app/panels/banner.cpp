@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "app/panels/imgui_compat.h"
@@ -11,6 +13,7 @@
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
 #include "core/integrators/remedy.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
@@ -26,15 +29,19 @@ void draw_wrapped(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, 
 
 /// What it was, and the constants that decided it: they may be others by now.
 std::string what_happened(const Divergence& d, const Preset& then) {
-  const char* unit = d.quantity == "velocity" ? "m/s" : "m";
+  const char* unit = d.quantity == "velocity" ? "m/s" : d.quantity == "unexplained energy" ? "J" : "m";
   char text[256];
-  std::snprintf(text, sizeof text, "At t = %s s (step %lld), particle (%d, %d): %s = %s %s.",
-                time_number(d.t, then.dt).c_str(), static_cast<long long>(d.step), d.i, d.j, d.quantity.c_str(),
-                short_number(d.value).c_str(), unit);
+  std::snprintf(text, sizeof text, "At t = %s s (step %lld), %s: %s = %s %s.", time_number(d.t, then.dt).c_str(),
+                static_cast<long long>(d.step), d.where().c_str(), d.quantity.c_str(), short_number(d.value).c_str(),
+                unit);
   const bool cloth = then.kind == Kind::cloth;
-  return std::string(text) + "\nWith " + (cloth ? "k_s = " + short_number(then.k_s) : "k = " + short_number(then.k)) +
-         " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
-         " kg, dt = " + short_number(then.dt) + " s.";
+  std::string all = std::string(text) + "\nWith " +
+                    (cloth ? "k_s = " + short_number(then.k_s) : "k = " + short_number(then.k)) +
+                    " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
+                    " kg, dt = " + short_number(then.dt) + " s";
+  const double limit = stable_dt(then, then.integrator);
+  if (limit > 0 && std::isfinite(limit)) all += ", which is " + short_number(then.dt / limit) + " of dt_crit";
+  return all + ".";
 }
 
 std::string capitalised(std::string text) {
@@ -58,10 +65,20 @@ struct Way {
   std::function<void(App&)> go;
 };
 
+constexpr double margin = 0.9;  // of dt_crit
+
+/// The present constants with a dt (s) that the method can take; none where it has it already, or can take none.
+std::optional<Preset> with_stable_dt(const Preset& now) {
+  Preset next = now;
+  next.dt = std::strtod(short_number(margin * stable_dt(now, now.integrator)).c_str(), nullptr);
+  if (!(next.dt >= 1e-7 && next.dt < now.dt)) return std::nullopt;
+  return next;
+}
+
 std::string cure_label(const Preset& now, const Preset& cured) {
   std::string label = cured.integrator == now.integrator ? "" : "Verlet";
   if (cured.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + short_number(cured.dt) + " s");
-  return label + " and restart";
+  return label;
 }
 
 /// Why, and what to do about it: the advice holds for the constants that diverged, and goes with them.
@@ -70,8 +87,24 @@ std::string why_and_what_now(const App& app, const Divergence& d) {
   return sentence(d.cause) + " " + (changed_since_divergence(app) ? changed : sentence(d.remedy));
 }
 
-/// What is offered, the most helpful first: to take back what the user did, to do what the linear theory advises. Once
-/// constants have changed, to try them.
+/// Back to where the cloth was well, with a change that makes it stay so: a smaller dt, Verlet, implicit Euler.
+void add_retries(const App& app, const Advice& advice, std::vector<Way>& ways) {
+  const Preset& now = app.preset();
+  const auto retry = [&](const std::string& label, const Preset& preset, const char* tip) {
+    ways.push_back({label, tip, "", [preset](App& a) { a.requests.emplace_back(request::Retry{preset}); }});
+  };
+  if (advice.cure && advice.cure->integrator != now.integrator)
+    retry(cure_label(now, *advice.cure), *advice.cure, "A second back, and on with what the linear theory advises");
+  if (const auto slower = with_stable_dt(now))
+    retry("dt = " + short_number(slower->dt) + " s", *slower, "A second back, and on with 0.9 of dt_crit for this method");
+  if (is_implicit(scheme(now.integrator))) return;
+  Preset implicit = now;
+  implicit.integrator = "implicit_euler";
+  retry("Implicit Euler", implicit, "A second back, and on with a method that linear theory gives no largest dt");
+}
+
+/// What is offered, the most helpful first: to take back what the user did, to go back and do what the linear theory
+/// advises. Once constants have changed, to try them.
 std::vector<Way> ways_out(App& app) {
   std::vector<Way> ways;
   if (app.history.can_undo())
@@ -79,15 +112,17 @@ std::vector<Way> ways_out(App& app) {
                     [](App& a) { a.command(Command::undo_and_restart); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
                     [](App& a) { a.command(Command::restart); }};
+  const bool past = app.rewind.before(*app.simulation, app.simulation->time(), 1) != nullptr;
+  const Way rewind{"Rewind 1 s", "Back to where it was a second ago, paused", "←",
+                   [](App& a) { a.command(Command::rewind); }};
   if (changed_since_divergence(app)) {
     ways.insert(ways.begin(), restart);
+    if (past) ways.push_back(rewind);
     return ways;
   }
   Advice& advice = app.ui.advice;
   if (advice.of != app.preset()) advice = {app.preset(), cure(app.preset())};
-  if (const auto& cured = advice.cure)
-    ways.push_back({cure_label(app.preset(), *cured), "Makes the change that the linear theory advises", "",
-                    [cured = *cured](App& a) { a.propose(cured), a.command(Command::restart); }});
+  if (past) add_retries(app, advice, ways), ways.push_back(rewind);
   ways.push_back(restart);
   return ways;
 }

@@ -43,7 +43,7 @@ struct Feature {
 };
 
 constexpr Feature features[] = {
-    {"all steps", "Everything that the cloth's motion takes; the features below, down to the watch, are done in it.",
+    {"all steps", "Everything that the cloth's motion takes; the features below, down to the ledger, are done in it.",
      [](const App&) { return true; }, Spent::frame, Part::simulate},
     {"bending", "Springs over two particles: k_b > 0.", nullptr, Spent::step},
     {"damping", "k_d > 0.", nullptr, Spent::step},
@@ -56,6 +56,8 @@ constexpr Feature features[] = {
      Spent::step},
     {"divergence watch", "Always on: how far particles moved, and whether all is finite.",
      [](const App&) { return true; }, Spent::step},
+    {"energy ledger", "Only while its card is open or dt is automatic: every step is looked at.",
+     [](const App& a) { return a.simulation->ledger().has_value(); }, Spent::step},
     {"plot data", "Collected only for plots that are seen, and while the cloth moves.",
      [](const App& a) { return (a.ui.plots.forces_shown || a.ui.plots.height_shown) && !a.ui.plots.paused; },
      Spent::frame, Part::sample},
@@ -159,6 +161,7 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});
   facts.push_back({"plots' history", megabytes(plots)});
+  facts.push_back({"past, for rewinding", megabytes(double(app.rewind.bytes()))});
   facts.push_back({"undo", megabytes(double(app.history.bytes()))});
   return facts;
 }

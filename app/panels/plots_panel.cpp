@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/panels/curves.h"
+#include "app/panels/energy_card.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/panels.h"
 #include "app/panels/performance.h"
@@ -194,8 +195,14 @@ void plots_panel(App& app, const Region& region) {
   const bool weight = app.preset().kind == Kind::one_weight;
   const int cards = weight ? 2 : 1;
   const float column = ImGui::GetContentRegionAvail().y, least_plots = app.theme.px(260);
-  const float performance = std::max(std::min(performance_card_height(app), column - gap - least_plots), 0.f);
-  float available = column - (performance > 0 ? performance + gap : 0);
+  // What stands at the foot takes what the plots can spare, the lowest card first.
+  const auto spared = [&](float wanted, float taken) {
+    return std::floor(std::max(std::min(wanted, column - taken - gap - least_plots), 0.f));
+  };
+  const float performance = spared(performance_card_height(app), 0);
+  const float below = performance > 0 ? performance + gap : 0, energy = spared(energy_card_height(app), below);
+  const float foot = below + (energy > 0 ? energy + gap : 0);
+  float available = column - foot;
   const bool tabs = cards > 1 && (available - gap * float(cards - 1)) / float(cards) < app.theme.px(240);
   if (tabs) {
     static constexpr const char* names[] = {"Height", "Forces"};
@@ -211,8 +218,13 @@ void plots_panel(App& app, const Region& region) {
   if (plots.height_shown) height_card(app, std::floor(height));
   if (plots.height_shown && plots.forces_shown) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
   if (plots.forces_shown) force_card(app, std::floor(height));
+  const float left = ImGui::GetCursorScreenPos().x, lowest = region.at.y + region.size.y - margin;
+  if (energy > 0) {
+    ImGui::SetCursorScreenPos({left, lowest - below - energy});
+    energy_card(app, energy);
+  }
   if (performance > 0) {
-    ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + region.size.y - margin - performance});
+    ImGui::SetCursorScreenPos({left, lowest - performance});
     performance_card(app, performance);
   }
   end_region();

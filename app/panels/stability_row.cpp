@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/panels/constant_row.h"
+#include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
@@ -39,6 +40,30 @@ void draw_gauge(App& app, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
     draw.AddCircleFilled({at(*limits.now / limits.any), (lo.y + hi.y) / 2}, app.theme.px(3), c.text, 16);
 }
 
+/// "auto" where other rows have their unit: dt follows the constants.
+void auto_toggle(App& app, ImVec2 at, float width, float height) {
+  const Tokens& c = app.theme.colors;
+  const ImFont& font = *app.fonts.small;
+  const bool on = app.auto_dt.has_value();
+  const ImVec2 after = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos(at);
+  if (ImGui::InvisibleButton("auto", {width, height})) app.command(Command::toggle_auto);
+  report_control(app, "auto");
+  const bool hovered = ImGui::IsItemHovered();
+  tooltip(app, gui::item_id(),
+          on ? "dt is chosen by the program: 0.8 of what is stable in any configuration, less where the ledger finds "
+               "that the method makes energy. Click to keep it as it is."
+             : "Let the program choose dt, and watch it: 0.8 of what is stable in any configuration, less where the "
+               "ledger finds that the method makes energy.");
+  const float inset = std::round((height - app.theme.px(20)) / 2);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({at.x, at.y + inset}, {at.x + width, at.y + height - inset},
+                     on ? c.accent : hovered ? c.field_hover : c.field, app.theme.px(4));
+  const float x = at.x + (width - text_width(font, "auto")) / 2;
+  draw_on_baseline(draw, font, {x, baseline_at(app.fonts, at.y + height / 2)}, on ? c.on_accent : c.quiet, "auto");
+  ImGui::SetCursorScreenPos(after);
+}
+
 }  // namespace
 
 std::string stability_text(const StabilityLimits& limits, double dt) {
@@ -70,6 +95,8 @@ void stability_row(App& app) {
     const float height = app.theme.px(30);  // as the labels of such rows are placed
     ImGui::Dummy({width, height});
     report_control(app, "stability");
+    const bool wants_words = tooltip_due(app, ImGui::GetID("stability"));
+    auto_toggle(app, {lo.x + width - columns.unit, lo.y}, columns.unit, height);
     if (!limits) return;
     const Tokens& c = app.theme.colors;
     const double dt = app.wished().dt;
@@ -86,8 +113,7 @@ void stability_row(App& app) {
                      : limits->any == 0 ? c.danger
                                         : c.quiet,
                      text);
-    if (const ImGuiID id = ImGui::GetID("stability"); tooltip_due(app, id))
-      tooltip(app, id, stability_words(*limits, dt));
+    if (wants_words) tooltip(app, ImGui::GetID("stability"), stability_words(*limits, dt));
   });
 }
 

@@ -90,6 +90,7 @@ struct Ui {
   bool help = false;
   bool panels = true;  ///< Tab hides them all
   bool force_arrows = true;
+  bool energy_shown = false;  ///< the ledger's card is open
   double arrow_scale = 0;  ///< N for the longest arrow, smoothed
   double now = 0;          ///< s since the window opened
   double draw_by = 0;      ///< when the next frame is wanted though nothing moves (a tooltip, a cursor, a message)

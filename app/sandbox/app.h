@@ -18,12 +18,14 @@
 #include "app/sandbox/messages.h"
 #include "app/sandbox/pointer.h"
 #include "app/sandbox/requests.h"
+#include "app/sandbox/rewind.h"
 #include "app/sandbox/session_report.h"
 #include "app/sandbox/settings.h"
 #include "app/sandbox/sleep.h"
 #include "app/sandbox/stability_watch.h"
 #include "app/viewport/camera.h"
 #include "app/viewport/cloth_renderer.h"
+#include "core/energy/auto_step.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -37,6 +39,8 @@ struct App {
   Pacing pacing;
   Sleep sleep;
   StabilityWatch stability;
+  Rewind rewind;
+  std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
   std::int64_t steps_made = 0;    ///< in the last frame
   bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
   bool told_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise

@@ -22,10 +22,11 @@ struct Shortcut {
   bool repeats = false;
 };
 
-constexpr std::array<Shortcut, 27> shortcuts{{
+constexpr std::array<Shortcut, 28> shortcuts{{
     {GLFW_KEY_SPACE, 0, Command::toggle_play},
     {GLFW_KEY_RIGHT, 0, Command::step, true},
     {GLFW_KEY_O, 0, Command::step, true},
+    {GLFW_KEY_LEFT, 0, Command::rewind, true},
     {GLFW_KEY_BACKSPACE, 0, Command::restart},
     {GLFW_KEY_R, 0, Command::restart},
     {GLFW_KEY_F1, 0, Command::toggle_help},

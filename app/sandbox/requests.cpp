@@ -7,6 +7,7 @@
 #include "app/data_files.h"
 #include "app/panels/curves.h"
 #include "app/panels/dialogs.h"
+#include "app/panels/numbers.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "core/cloth/start.h"
@@ -116,6 +117,48 @@ void take_from_history(App& app, bool backwards) {
   app.history = std::move(kept);
 }
 
+constexpr double rewinds_s = 1;
+
+/// Goes a second back; the plots forget what has not happened.
+void rewind(App& app) {
+  const double t = app.simulation->time();
+  if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) {
+    app.messages.note("There is nothing earlier to go back to.");
+    return;
+  }
+  app.rewind.go_back(*app.simulation, t, rewinds_s);
+  app.tool.kind = Tool::Kind::none;
+  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
+  app.pacing.restart_measure();
+}
+
+void toggle_auto(App& app) {
+  if (app.auto_dt) return app.auto_dt.reset();
+  Preset next = app.wished();
+  const auto dt = AutoStep::choose(next);
+  if (!dt) {
+    app.messages.error(next.integrator + " has no stable dt with these constants. Take another method, or more k_d.");
+    return;
+  }
+  next.dt = *dt;
+  if (next == app.wished() || apply_edit(app, edit::Change{next})) app.auto_dt.emplace();
+}
+
+/// dt follows the other constants while it is automatic; who sets it by hand takes it over.
+void follow_constants(App& app, Preset& next) {
+  if (!app.auto_dt) return;
+  const auto dt = AutoStep::choose(next);
+  if (next.dt != app.wished().dt || !dt) {
+    app.auto_dt.reset();
+    app.messages.note(dt ? "dt is set by hand again." : next.integrator + " has no stable dt: dt is set by hand again.");
+    return;
+  }
+  app.auto_dt->begin();
+  Preset as = app.wished();
+  as.mode = next.mode, as.texture = next.texture, as.name = next.name, as.description = next.description;
+  if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
+}
+
 void reset_everything(App& app) {
   Preset next = app.document.saved;
   apply_edit(app, edit::Change{next});
@@ -147,6 +190,11 @@ void apply(App& app, const request::Do& what) {
       return reset_everything(app);
     case Command::undo_and_restart:
       return take_from_history(app, true), restart(app);
+    case Command::rewind:
+      app.pacing.playing &= !app.simulation->divergence();
+      return rewind(app);
+    case Command::toggle_auto:
+      return toggle_auto(app);
     case Command::toggle_play:
       app.pacing.playing = !app.pacing.playing, app.pacing.restart_measure();
       return;
@@ -208,8 +256,15 @@ void apply(App& app, const request::Apply& what) {
       return;
     }
   }
-  apply_edit(app, what.edit, what.gesture);
+  Edit edit = what.edit;
+  if (auto* change = std::get_if<edit::Change>(&edit)) follow_constants(app, change->preset);
+  apply_edit(app, edit, what.gesture);
   app.ui.last_change = app.ui.now;
+}
+
+void apply(App& app, const request::Retry& what) {
+  rewind(app);
+  apply_edit(app, edit::Change{what.preset});
 }
 
 void apply(App& app, const request::Open& what) {
@@ -302,6 +357,15 @@ bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
     app.messages.error(error.what());
   }
   return false;
+}
+
+void watch_dt(App& app) {
+  const auto dt = app.auto_dt->look(app.preset(), app.simulation->time(), *app.simulation->ledger());
+  if (!dt) return;
+  Preset next = app.preset();
+  next.dt = *dt;
+  apply_edit(app, edit::Change{next});
+  app.messages.note(next.integrator + " was making energy: dt is halved to " + short_number(*dt) + " s.");
 }
 
 void apply_requests(App& app) {

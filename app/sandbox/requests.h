@@ -15,6 +15,8 @@ enum class Command {
   reset_constants,   ///< to the preset's, motion stays
   reset_everything,  ///< the preset, its start, the camera
   undo_and_restart,
+  rewind,       ///< a second back
+  toggle_auto,  ///< dt chosen and watched by the program
   toggle_play,
   step,
   undo,
@@ -45,6 +47,10 @@ struct Apply {
 struct Do {
   Command command;
 };
+/// A second back, and on from there with these constants.
+struct Retry {
+  Preset preset;
+};
 /// Takes a preset from a file (label: how it is called). Asks first where changes would be lost, unless confirmed.
 struct Open {
   std::filesystem::path file;
@@ -68,11 +74,13 @@ struct Quit {
 }  // namespace request
 
 using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
-                             request::LoadTexture, request::Quit>;
+                             request::LoadTexture, request::Retry, request::Quit>;
 
 struct App;
 /// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.
 void apply_requests(App& app);
+/// While dt is automatic: halves it if the ledger finds that the method makes energy.
+void watch_dt(App& app);
 /// Applies one edit at once (the pointer's tools). Returns whether it was taken.
 bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
 /// What follows where the cloth of these constants has given way to the present one.

@@ -106,6 +106,7 @@ void Sandbox::start_preset() {
   if (!first.fallback.empty()) app_.messages.warning(first.fallback);
   app_.simulation = std::move(first.simulation);
   begin_document(app_, first_document(), first.picture);
+  if (options_.auto_dt) app_.auto_dt.emplace();
 }
 
 Document Sandbox::first_document() {
@@ -182,7 +183,10 @@ void Sandbox::simulate(double real_seconds) {
   const FrameCosts::Timer timer(app_.costs, Part::simulate);
   Simulation& simulation = *app_.simulation;
   app_.sleep.begin(simulation);
+  if (const bool wanted = app_.ui.energy_shown || app_.auto_dt; wanted != simulation.ledger().has_value())
+    simulation.keep_ledger(wanted);
   if (!app_.pacing.playing || simulation.divergence() || app_.asleep() || app_.building.holds_present()) return;
+  app_.rewind.look(simulation);
   const double dt = app_.preset().dt;
   const int due = app_.pacing.due(real_seconds, dt);
   move_hand(app_, due);
@@ -219,6 +223,7 @@ void Sandbox::simulate(double real_seconds) {
   }
   app_.pacing.made(made, dt, spent());
   app_.steps_made += made;
+  if (app_.auto_dt && !simulation.divergence()) watch_dt(app_);
   if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none);
 }
 

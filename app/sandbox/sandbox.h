@@ -14,6 +14,7 @@ struct SandboxOptions {
   std::filesystem::path preset_path;     ///< empty if the preset does not come from a user's file
   bool explicit_preset = false;          ///< otherwise the last session's preset is restored
   int threads = 1;                       ///< of the CPU engine, at most
+  bool auto_dt = false;                  ///< dt is chosen and watched (AutoStep)
   int frames = 0;                        ///< ends after that many frames; 0: until the window is closed
   std::filesystem::path screenshot;      ///< PNG of the last frame, empty: none
   std::filesystem::path time_report;     ///< JSON of the frame's cost by part, empty: none

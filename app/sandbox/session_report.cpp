@@ -1,4 +1,5 @@
 #include "app/sandbox/session_report.h"
+#include "app/panels/energy_card.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>  // the window that an item stands in
@@ -103,6 +104,16 @@ Json dt_over_limit(const App& app) {
   return limits && limits->any > 0 && std::isfinite(limits->any) ? Json(app.preset().dt / limits->any) : Json(nullptr);
 }
 
+/// The ledger; null while none is kept.
+Json energy(const App& app) {
+  const auto ledger = app.simulation->ledger();
+  if (!ledger) return nullptr;
+  Json json = Json::object();
+  for (const EnergyRow& row : energy_rows(*ledger)) json[std::string(row.name)] = row.joule;
+  json["share"] = ledger->share();
+  return json;
+}
+
 int pinned_count(const App& app) {
   const Lattice& lattice = app.simulation->lattice();
   int count = 0;
@@ -131,6 +142,8 @@ void add_simulation(Json& json, const App& app) {
   json["speed"] = app.pacing.speed;
   json["divergence"] = divergence(app);
   json["dt_over_limit"] = dt_over_limit(app);
+  json["auto_dt"] = app.auto_dt.has_value();
+  json["energy"] = energy(app);
   const auto next = app.building.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
   json["frames_while_building"] = app.building.frames_beside();

@@ -47,7 +47,10 @@ struct LedgerReading {
   double scale = 0;
   /// What the integrator made (above 0) or ate.
   double unexplained() const { return energy.total() - start - works.total(); }
-  /// In parts of scale; 0 where there is no scale.
+  /// What came from nowhere: unexplained() and what contacts seem to have brought, since bodies at rest only take.
+  /// (Moved ones do push the cloth.)
+  double made() const { return unexplained() + (works.contact > 0 ? works.contact : 0); }
+  /// unexplained() in parts of scale; 0 where there is no scale.
   double share() const { return scale > 0 ? unexplained() / scale : 0; }
 };
 

@@ -27,10 +27,13 @@ struct Divergence {
   double t = 0;           ///< s, end of the step that diverged
   std::int64_t step = 0;  ///< number of that step, the first is 1
   int i = 0, j = 0;       ///< particle (upper or left end of the spring)
+  int di = 0, dj = 0;     ///< to the spring's other end; 0, 0: no spring
   std::string quantity;   ///< "position", "velocity", "spring length"
   double value = 0;       ///< its value; may be non-finite
   std::string cause;      ///< a sentence
   std::string remedy;     ///< a sentence
+  /// "particle (3, 4)" or "spring (3, 4)–(4, 5)".
+  std::string where() const;
 };
 
 /// What one call of Engine::advance did.
@@ -38,6 +41,7 @@ struct Advance {
   int steps = 0;          ///< steps completed
   bool diverged = false;  ///< the next step diverged; the state is the one before it
   int i = 0, j = 0;       ///< where, if diverged
+  int di = 0, dj = 0;     ///< to the other end, if it was a spring
   std::string quantity;
   double value = 0;
   int torn = 0;                    ///< stretch springs broken

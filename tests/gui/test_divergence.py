@@ -34,11 +34,11 @@ def explodes(stage):
 
 @case
 def cure(stage):
-    """the banner makes the change that it names: the cloth of the preset that explodes then moves on"""
+    """the banner makes the change that it names, a second back: the cloth of the preset that explodes then moves on"""
     sandbox = stage.start("explodes")
     sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
-    sandbox.click_control("viewport.Verlet_and_restart")
-    report = sandbox.wait(lambda r: r["divergence"] is None, "the button to restart")
+    sandbox.click_control("viewport.Verlet")
+    report = sandbox.wait(lambda r: r["divergence"] is None, "the button to go back")
     check(report["preset"]["solver"]["integrator"] == "verlet" and report["unsaved"], "the integrator is Verlet")
     sandbox.wait(lambda r: r["t"] > 0.5 and r["divergence"] is None, "the cloth to move on")
 
@@ -56,6 +56,55 @@ def own_doing(stage):
     sandbox.wait(lambda r: r["t"] > 1 and r["divergence"] is None, "the cloth to move on for a second")
 
 
+def pushed_over(stage):
+    """A cloth that has run well for two seconds and then gets a dt too large for it."""
+    sandbox = stage.start("hanging")
+    sandbox.wait(lambda r: r["t"] > 2, "two seconds of motion")
+    sandbox.type_value("dt", "0.004")
+    return sandbox, sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
+
+
+@case
+def rewound(stage):
+    """after a divergence the past can be had back: paused, with the constants as they are"""
+    sandbox, report = pushed_over(stage)
+    sandbox.click_control("viewport.Rewind_1_s")
+    back = sandbox.wait(lambda r: r["divergence"] is None, "the way back")
+    check(back["t"] < report["t"] - 0.9, f"a second back, from {report['t']} to {back['t']}")
+    check(back["paused"] and back["preset"]["solver"]["dt"] == 0.004, "paused, and nothing is changed")
+    sandbox.type_value("dt", "0.001")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["t"] > report["t"] + 0.5 and r["divergence"] is None, "the cloth to move on")
+    sandbox.key("space")
+    later = sandbox.wait(lambda r: r["paused"], "the pause")["t"]
+    sandbox.rest()
+    sandbox.key("Left")
+    sandbox.wait(lambda r: r["t"] < later - 0.5, "the key to go back a second")
+
+
+@case
+def smaller_step(stage):
+    """the banner offers 0.9 of dt_crit, from a second back"""
+    sandbox, report = pushed_over(stage)
+    stage.keep("banner", still=True)
+    name = next(n for n in sandbox.later()["controls"] if n.startswith("viewport.dt"))
+    sandbox.click_control(name)
+    back = sandbox.wait(lambda r: r["divergence"] is None, "the way back")
+    check(0.0005 < back["preset"]["solver"]["dt"] < 0.002, "dt is one that Verlet can take")
+    sandbox.wait(lambda r: r["t"] > report["t"] and r["divergence"] is None, "the cloth to move on")
+
+
+@case
+def implicit(stage):
+    """the banner offers implicit Euler, which goes on with the same dt"""
+    sandbox, report = pushed_over(stage)
+    sandbox.click_control("viewport.Implicit_Euler")
+    back = sandbox.wait(lambda r: r["divergence"] is None, "the way back")
+    check(back["preset"]["solver"]["integrator"] == "implicit_euler", "with the other method")
+    check(back["preset"]["solver"]["dt"] == 0.004, "and the same dt")
+    sandbox.wait(lambda r: r["t"] > report["t"] and r["divergence"] is None, "the cloth to move on")
+
+
 @case
 def changed(stage):
     """once constants have changed, the banner says so and offers to try them instead of advice that is out of date"""
@@ -65,7 +114,7 @@ def changed(stage):
     sandbox.type_value("k_s", "20")
     sandbox.wait(lambda r: r["divergence"]["constants_changed"], "the change to be noticed")
     report = sandbox.later(3)
-    check("viewport.Verlet_and_restart" not in report["controls"], "the advice for the old constants is gone")
+    check("viewport.Verlet" not in report["controls"], "the advice for the old constants is gone")
     stage.keep("banner", still=True)
     sandbox.key("space")  # or the new constants may diverge too before anybody looks
     sandbox.click_control("viewport.Restart")

@@ -42,6 +42,7 @@ class CpuEngine final : public Engine {
     int i, j;
     const char* quantity;
     double value;
+    int di = 0, dj = 0;
   };
   enum class End { none, fault, released, overtaken };
 

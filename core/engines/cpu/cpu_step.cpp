@@ -116,7 +116,7 @@ double CpuEngine<R, Present>::growth_left(const Tears& tears, int d, int i, Faul
   for (int j = begin; j < end; ++j) {
     if (!tears.whole(d, i, j)) continue;
     const double length = std::sqrt(distance2(i, j, dir));
-    if (bound - length < 0) fault = {i, j, "spring length", length};
+    if (bound - length < 0) fault = {i, j, "spring length", length, dir.di, dir.dj};
     if (bound - length < 0) return bound - length;
     slack = std::min(slack, bound - length);
   }
@@ -307,7 +307,7 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
     since_backup_ = is_implicit(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
     torn_ = tears.torn_count();
   }
-  result.i = fault.i, result.j = fault.j, result.value = fault.value;
+  result.i = fault.i, result.j = fault.j, result.di = fault.di, result.dj = fault.dj, result.value = fault.value;
   if (result.diverged) result.quantity = fault.quantity;
   result.torn = tears.torn_count() - torn_before;
   result.left_inside = left_inside_;

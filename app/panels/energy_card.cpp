@@ -1,0 +1,119 @@
+#include "app/panels/energy_card.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+
+namespace tyglab {
+namespace {
+
+constexpr const char* heading = "Energy";
+constexpr float line_at_1 = 19, head_at_1 = 36, foot_at_1 = 10, gap_at_1 = 7;  // pixels at scale 1
+
+bool open(const App& app) {
+  return app.settings.layout.folded.count(heading) == 0;
+}
+
+ImU32 color_of(const Tokens& c, double share) {
+  return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
+}
+
+/// From the middle of the bar: to the right what the cloth has or gained, to the left what it lost.
+void draw_bar(App& app, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float middle = std::round((lo.x + hi.x) / 2);
+  const float end = middle + float(std::clamp(part, -1.0, 1.0)) * (hi.x - middle);
+  draw.AddRectFilled({std::min(middle, end), lo.y}, {std::max(middle, end), hi.y}, color, app.theme.px(2));
+  draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, app.theme.colors.line);
+}
+
+void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, float width) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float height = app.theme.px(line_at_1), middle = std::round(lo.y + height / 2);
+  const float baseline = baseline_at(app.fonts, middle);
+  const bool judged = row.kind == EnergyKind::unexplained;
+  const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
+  ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
+  ImGui::InvisibleButton("energy", {width, height});
+  report_control(app, "line");
+  tooltip(app, gui::item_id(), std::string(row.help) + (judged ? " Now " + share_text(reading) + "." : ""));
+  ImGui::PopID();
+  const ImU32 ink = row.joule == 0 && !judged ? c.quiet : c.text;
+  const ImU32 color = judged ? color_of(c, part) : row.kind == EnergyKind::has ? c.accent : c.text;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, judged ? color : ink, row.name);
+  const float value = app.theme.px(96), bar = app.theme.px(4), left = lo.x + app.theme.px(128);
+  if (left + app.theme.px(24) < lo.x + width - value)
+    draw_bar(app, {left, middle - bar}, {lo.x + width - value, middle + bar}, part, faded(color, 0.8f));
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g J", row.joule == 0 ? 0.0 : row.joule);
+  const ImFont& mono = *app.fonts.mono;
+  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, judged ? color : ink, text);
+}
+
+}  // namespace
+
+std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
+  return {
+      {EnergyKind::has, "motion", "Kinetic energy, ½ m v² of every particle.", r.energy.kinetic},
+      {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of those that pull.", r.energy.stretch},
+      {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of those that push.", r.energy.bending},
+      {EnergyKind::has, "height", "m g y of every particle, from y = 0.", r.energy.gravity},
+      {EnergyKind::works, "damping", "Work of F_d since the ledger began: it only takes.", r.works.damping},
+      {EnergyKind::works, "contact", "Taken by bodies: impacts and friction.", r.works.contact},
+      {EnergyKind::works, "tearing, cutting", "Energy of springs that broke or were cut.", r.works.tearing},
+      {EnergyKind::works, "wind", "Work of F_wind.", r.works.wind},
+      {EnergyKind::works, "hand", "Work of the hand.", r.works.hand},
+      {EnergyKind::works, "edits", "Jumps of energy by changed constants, pins and methods.", r.works.edits},
+      {EnergyKind::unexplained, "made by the method",
+       "What is left: energy that no force explains, so the integrator made it (above 0) or ate it.", r.unexplained()},
+  };
+}
+
+std::string share_text(const LedgerReading& reading) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.2g %% of what the scene can hold, %.3g J", 100 * reading.share(), reading.scale);
+  return text;
+}
+
+float energy_card_height(const App& app) {
+  if (!open(app)) return app.theme.px(head_at_1);
+  const float lines = float(energy_rows({}).size());
+  return app.theme.px(head_at_1 + lines * line_at_1 + 2 * gap_at_1 + foot_at_1);
+}
+
+void energy_card(App& app, float height) {
+  const Tokens& c = app.theme.colors;
+  const float padding = app.theme.px(12);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, inner = width - 2 * padding;
+  ImGui::GetWindowDrawList()->AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, app.theme.px(8));
+  gui::begin_child("energy", {width, height});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+  ImGui::Dummy({inner, app.theme.px(4)});
+  ImGui::Indent(padding);
+  const float row_width = app.ui.row_width;
+  app.ui.row_width = inner;  // a section is as wide as its panel's rows
+  app.ui.energy_shown = section(app, heading);
+  app.ui.row_width = row_width;
+  if (const auto reading = app.simulation->ledger(); app.ui.energy_shown && reading) {
+    ImGui::Dummy({inner, app.theme.px(4)});
+    EnergyKind last = EnergyKind::has;
+    for (const EnergyRow& row : energy_rows(*reading)) {
+      if (row.kind != last) ImGui::Dummy({inner, app.theme.px(gap_at_1)});
+      last = row.kind;
+      energy_line(app, row, *reading, inner);
+    }
+  }
+  ImGui::Unindent(padding);
+  ImGui::PopStyleVar();
+  ImGui::EndChild();
+}
+
+}  // namespace tyglab

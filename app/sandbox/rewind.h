@@ -1,0 +1,31 @@
+// The cloth's recent past, in capped memory, so that a divergence costs a second and not the session.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+
+#include "core/simulation.h"
+
+namespace tyglab {
+
+class Rewind {
+ public:
+  static constexpr double interval = 0.1;            ///< s of simulated time between snapshots
+  static constexpr double longest = 30;              ///< s that are kept, at most
+  static constexpr std::size_t most_bytes = 96 << 20;
+
+  /// Called before the steps of a frame: keeps a snapshot if one is due.
+  void look(Simulation& simulation);
+  /// The newest snapshot that is at least so long (s) before `t` and fits, or the oldest that fits; nullptr: none does.
+  const Snapshot* before(const Simulation& simulation, double t, double seconds) const;
+  /// Goes back to a snapshot: what came after it is forgotten.
+  void go_back(Simulation& simulation, double t, double seconds);
+  void clear() { kept_.clear(), bytes_ = 0; }
+  std::size_t bytes() const { return bytes_; }
+
+ private:
+  std::deque<Snapshot> kept_;  ///< oldest first
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,39 @@
+#include "core/energy/auto_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/integrators/remedy.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double least_dt = 1e-7;  // s, of presets
+
+}  // namespace
+
+std::optional<double> AutoStep::choose(const Preset& preset) {
+  const double limit = stable_dt(preset, preset.integrator);
+  const double dt = std::min(margin * limit, longest);
+  if (!(dt >= least_dt)) return std::nullopt;
+  // Two digits, rounded down: a number to say and to remember.
+  const double unit = std::pow(10, std::floor(std::log10(dt)) - 1);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", std::max(std::floor(dt / unit * (1 + 1e-12)) * unit, least_dt));
+  return std::strtod(text, nullptr);
+}
+
+std::optional<double> AutoStep::look(const Preset& preset, double t, const LedgerReading& ledger) {
+  constexpr double window = 1;  // s
+  const double made = ledger.made();
+  if (begun_ && t >= t_ && made - made_ > allowed * ledger.scale && preset.dt / 2 >= least_dt) {
+    begun_ = false;
+    return preset.dt / 2;
+  }
+  if (!begun_ || t < t_ || t - t_ >= window) begun_ = true, t_ = t, made_ = made;
+  return std::nullopt;
+}
+
+}  // namespace tyglab
