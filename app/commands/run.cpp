@@ -27,13 +27,13 @@ using Json = nlohmann::ordered_json;
 struct RunOptions {
   PresetArgument preset;
   Length length;
-  std::string state, series, obj, pc2, json;
+  std::string state, series, ledger, obj, pc2, json;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
 
   /// All but --obj, which names a folder.
   std::vector<Output> outputs() const {
-    return {{"--state", state}, {"--series", series}, {"--pc2", pc2, true}, {"--json", json}};
+    return {{"--state", state}, {"--series", series}, {"--ledger", ledger}, {"--pc2", pc2, true}, {"--json", json}};
   }
 };
 
@@ -55,6 +55,8 @@ class Outputs {
     const Preset& preset = simulation.preset();
     if (!options_.series.empty())
       series_ = std::make_unique<SeriesCsv>(options_.series, series_columns(preset.kind), preset_hash(preset));
+    if (!options_.ledger.empty())
+      ledger_ = std::make_unique<SeriesCsv>(options_.ledger, ledger_columns(), preset_hash(preset));
     if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().size());
   }
 
@@ -62,7 +64,7 @@ class Outputs {
   std::int64_t next_step() const {
     std::int64_t next = std::numeric_limits<std::int64_t>::max();
     if (wants_frames() && frame_ < plan_.count()) next = plan_.step_of(frame_);
-    if (series_) next = std::min(next, next_row());
+    if (series_ || ledger_) next = std::min(next, next_row());
     return next;
   }
 
@@ -80,8 +82,9 @@ class Outputs {
                   {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps()});
       ++frame_;
     }
-    if (series_ && step == next_row()) {
-      series_->add(simulation.time(), series_values(simulation));
+    if ((series_ || ledger_) && step == next_row()) {
+      if (series_) series_->add(simulation.time(), series_values(simulation));
+      if (ledger_) ledger_->add(simulation.time(), ledger_values(*simulation.ledger()));
       ++row_;
     }
   }
@@ -96,6 +99,7 @@ class Outputs {
       files.push_back({{"kind", "state"}, {"path", options_.state}});
     }
     if (series_) files.push_back({{"kind", "series"}, {"path", options_.series}, {"rows", row_}});
+    if (ledger_) files.push_back({{"kind", "ledger"}, {"path", options_.ledger}, {"rows", row_}});
     if (!options_.obj.empty()) files.push_back({{"kind", "obj"}, {"path", options_.obj}, {"frames", frame_}});
     if (cache_) files.push_back({{"kind", "pc2"}, {"path", options_.pc2}, {"frames", frame_}});
     return files;
@@ -104,11 +108,13 @@ class Outputs {
  private:
   /// An option that would do nothing is a mistake of whoever typed it.
   void check_combination() const {
-    if (options_.series_every && options_.series.empty())
-      throw UsageError("--series-every: says how often --series writes a row; name its file with --series F.csv");
-    const bool rows_by_fps = !options_.series.empty() && !options_.series_every;
-    if (options_.fps && !wants_frames() && !rows_by_fps)
-      throw UsageError("--fps: counts the frames of --obj, --pc2 and --series (without --series-every); name one");
+    const bool rows = !options_.series.empty() || !options_.ledger.empty();
+    if (options_.series_every && !rows)
+      throw UsageError(
+          "--series-every: says how often --series and --ledger write a row; name a file with --series F.csv");
+    if (options_.fps && !wants_frames() && !(rows && !options_.series_every))
+      throw UsageError(
+          "--fps: counts the frames of --obj, --pc2, --series and --ledger (without --series-every); name one");
   }
   bool wants_frames() const { return !options_.obj.empty() || !options_.pc2.empty(); }
   std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
@@ -116,7 +122,7 @@ class Outputs {
   const RunOptions& options_;
   const ResolvedPreset& scene_;
   FramePlan plan_;
-  std::unique_ptr<SeriesCsv> series_;
+  std::unique_ptr<SeriesCsv> series_, ledger_;
   std::unique_ptr<PointCache> cache_;
   std::int64_t frame_ = 0;  ///< frames written
   std::int64_t row_ = 0;    ///< rows written
@@ -148,6 +154,18 @@ Json solves_json(const Engine& engine) {
           {"unconverged", counts.unconverged}};
 }
 
+/// The ledger at the end, J; null where none was kept.
+Json energy_json(const Simulation& simulation) {
+  const auto ledger = simulation.ledger();
+  if (!ledger) return nullptr;
+  Json json = Json::object();
+  const std::vector<double> values = ledger_values(*ledger);
+  std::size_t n = 0;
+  for (const SeriesColumn& column : ledger_columns())
+    json[column.unit.empty() ? column.name : column.name + "_" + column.unit] = values[n++];
+  return json;
+}
+
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
              double ns_per_particle_step, Json files) {
@@ -173,6 +191,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"solves", solves_json(simulation.engine())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
+          {"energy", energy_json(simulation)},
           {"diverged", divergence_json(simulation.divergence())},
           {"files", std::move(files)}};
 }
@@ -205,6 +224,7 @@ int run(const RunOptions& options) {
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   Outputs outputs(options, scene, steps);
   Simulation simulation(scene.preset, scene.threads);
+  if (!options.ledger.empty()) simulation.keep_ledger(true);
   outputs.open(simulation);
 
   const InterruptGuard guard;
@@ -229,9 +249,11 @@ int run(const RunOptions& options) {
                             outputs.finish(simulation));
   if (!options.json.empty()) write_output(options.json, told.dump(2) + "\n");
 
-  people(options.outputs()) << closing(told, options.json.empty()
-                                                 ? " Nothing was written: --state, --series, --obj, --pc2 name files."
-                                                 : "")
+  people(options.outputs()) << closing(
+                                   told,
+                                   options.json.empty()
+                                       ? " Nothing was written: --state, --series, --ledger, --obj, --pc2 name files."
+                                       : "")
                             << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
@@ -258,6 +280,11 @@ void add_run_command(CLI::App& program, Action& action) {
   add_output(*command, "--series", options->series,
              "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"
              "units stand in the header. A row per frame of --fps")
+      ->type_name("F.csv");
+  add_output(*command, "--ledger", options->ledger,
+             "Write the energy ledger (CSV), J: what the cloth has, the work of damping, contact, tearing, wind and\n"
+             "hand, and what the integrator made or ate. Rows as of --series; every step is looked at, which costs\n"
+             "some times the step")
       ->type_name("F.csv");
   command->add_option("--series-every", options->series_every, "A row every N steps instead")
       ->type_name("N")

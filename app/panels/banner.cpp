@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "core/energy/auto_step.h"
 #include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
 
@@ -40,7 +40,10 @@ std::string what_happened(const Divergence& d, const Preset& then) {
                     " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
   const double limit = stable_dt(then, then.integrator);
-  if (limit > 0 && std::isfinite(limit)) all += ", which is " + short_number(then.dt / limit) + " of dt_crit";
+  if (limit > 0 && std::isfinite(limit)) {
+    std::snprintf(text, sizeof text, ", %.2g times the largest that is stable", then.dt / limit);
+    all += text;
+  }
   return all + ".";
 }
 
@@ -70,7 +73,8 @@ constexpr double margin = 0.9;  // of dt_crit
 /// The present constants with a dt (s) that the method can take; none where it has it already, or can take none.
 std::optional<Preset> with_stable_dt(const Preset& now) {
   Preset next = now;
-  next.dt = std::strtod(short_number(margin * stable_dt(now, now.integrator)).c_str(), nullptr);
+  const double limit = stable_dt(now, now.integrator);
+  next.dt = limit > 0 && std::isfinite(limit) ? two_digits_below(margin * limit) : 0;
   if (!(next.dt >= 1e-7 && next.dt < now.dt)) return std::nullopt;
   return next;
 }
@@ -96,7 +100,8 @@ void add_retries(const App& app, const Advice& advice, std::vector<Way>& ways) {
   if (advice.cure && advice.cure->integrator != now.integrator)
     retry(cure_label(now, *advice.cure), *advice.cure, "A second back, and on with what the linear theory advises");
   if (const auto slower = with_stable_dt(now))
-    retry("dt = " + short_number(slower->dt) + " s", *slower, "A second back, and on with 0.9 of dt_crit for this method");
+    retry("dt = " + short_number(slower->dt) + " s", *slower,
+          "A second back, and on with 0.9 of dt_crit for this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";

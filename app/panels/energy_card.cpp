@@ -13,6 +13,7 @@ namespace tyglab {
 namespace {
 
 constexpr const char* heading = "Energy";
+constexpr std::string_view height_row = "height";
 constexpr float line_at_1 = 19, head_at_1 = 36, foot_at_1 = 10, gap_at_1 = 7;  // pixels at scale 1
 
 bool open(const App& app) {
@@ -32,7 +33,7 @@ void draw_bar(App& app, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
   draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, app.theme.colors.line);
 }
 
-void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, float width) {
+void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, double largest, float width) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = app.theme.px(line_at_1), middle = std::round(lo.y + height / 2);
@@ -49,8 +50,10 @@ void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, f
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, judged ? color : ink, row.name);
   const float value = app.theme.px(96), bar = app.theme.px(4), left = lo.x + app.theme.px(128);
-  if (left + app.theme.px(24) < lo.x + width - value)
-    draw_bar(app, {left, middle - bar}, {lo.x + width - value, middle + bar}, part, faded(color, 0.8f));
+  // Height counts from wherever y = 0 is: its size says nothing beside the others.
+  if (row.name != height_row && left + app.theme.px(24) < lo.x + width - value)
+    draw_bar(app, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
+             faded(color, 0.8f));
   char text[32];
   std::snprintf(text, sizeof text, "%.3g J", row.joule == 0 ? 0.0 : row.joule);
   const ImFont& mono = *app.fonts.mono;
@@ -64,7 +67,7 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
       {EnergyKind::has, "motion", "Kinetic energy, ½ m v² of every particle.", r.energy.kinetic},
       {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of those that pull.", r.energy.stretch},
       {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of those that push.", r.energy.bending},
-      {EnergyKind::has, "height", "m g y of every particle, from y = 0.", r.energy.gravity},
+      {EnergyKind::has, height_row, "m g y of every particle, from y = 0.", r.energy.gravity},
       {EnergyKind::works, "damping", "Work of F_d since the ledger began: it only takes.", r.works.damping},
       {EnergyKind::works, "contact", "Taken by bodies: impacts and friction.", r.works.contact},
       {EnergyKind::works, "tearing, cutting", "Energy of springs that broke or were cut.", r.works.tearing},
@@ -105,10 +108,14 @@ void energy_card(App& app, float height) {
   if (const auto reading = app.simulation->ledger(); app.ui.energy_shown && reading) {
     ImGui::Dummy({inner, app.theme.px(4)});
     EnergyKind last = EnergyKind::has;
-    for (const EnergyRow& row : energy_rows(*reading)) {
+    const std::vector<EnergyRow> rows = energy_rows(*reading);
+    double largest = 0;
+    for (const EnergyRow& row : rows)
+      if (row.name != height_row) largest = std::max(largest, std::abs(row.joule));
+    for (const EnergyRow& row : rows) {
       if (row.kind != last) ImGui::Dummy({inner, app.theme.px(gap_at_1)});
       last = row.kind;
-      energy_line(app, row, *reading, inner);
+      energy_line(app, row, *reading, largest, inner);
     }
   }
   ImGui::Unindent(padding);

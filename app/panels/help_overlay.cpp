@@ -26,6 +26,7 @@ constexpr Entry mouse[] = {
 constexpr Entry keys[] = {
     {"Space", "pauses and runs"},
     {"→ or O", "makes one step of dt"},
+    {"←", "goes a second back"},
     {"R or Backspace", "restarts the motion, keeps the constants"},
     {"1 to 5", "the five views"},
     {"F", "frames the cloth"},

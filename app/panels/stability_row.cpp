@@ -58,7 +58,10 @@ void auto_toggle(App& app, ImVec2 at, float width, float height) {
   const float inset = std::round((height - app.theme.px(20)) / 2);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + inset}, {at.x + width, at.y + height - inset},
-                     on ? c.accent : hovered ? c.field_hover : c.field, app.theme.px(4));
+                     on        ? c.accent
+                     : hovered ? c.field_hover
+                               : c.field,
+                     app.theme.px(4));
   const float x = at.x + (width - text_width(font, "auto")) / 2;
   draw_on_baseline(draw, font, {x, baseline_at(app.fonts, at.y + height / 2)}, on ? c.on_accent : c.quiet, "auto");
   ImGui::SetCursorScreenPos(after);

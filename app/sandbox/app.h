@@ -41,9 +41,9 @@ struct App {
   StabilityWatch stability;
   Rewind rewind;
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
-  std::int64_t steps_made = 0;    ///< in the last frame
-  bool told_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
-  bool told_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
+  std::int64_t steps_made = 0;      ///< in the last frame
+  bool told_left_inside = false;    ///< that overlapping bodies keep particles inside, said once a session
+  bool told_unconverged = false;    ///< that an implicit method's solves do not reach their tolerance, likewise
 
   std::unique_ptr<ClothRenderer> renderer;
   Camera camera;

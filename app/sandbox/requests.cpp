@@ -150,7 +150,8 @@ void follow_constants(App& app, Preset& next) {
   const auto dt = AutoStep::choose(next);
   if (next.dt != app.wished().dt || !dt) {
     app.auto_dt.reset();
-    app.messages.note(dt ? "dt is set by hand again." : next.integrator + " has no stable dt: dt is set by hand again.");
+    app.messages.note(dt ? "dt is set by hand again."
+                         : next.integrator + " has no stable dt: dt is set by hand again.");
     return;
   }
   app.auto_dt->begin();

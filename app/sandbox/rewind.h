@@ -10,8 +10,8 @@ namespace tyglab {
 
 class Rewind {
  public:
-  static constexpr double interval = 0.1;            ///< s of simulated time between snapshots
-  static constexpr double longest = 30;              ///< s that are kept, at most
+  static constexpr double interval = 0.1;  ///< s of simulated time between snapshots
+  static constexpr double longest = 30;    ///< s that are kept, at most
   static constexpr std::size_t most_bytes = 96 << 20;
 
   /// Called before the steps of a frame: keeps a snapshot if one is due.

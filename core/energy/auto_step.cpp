@@ -14,15 +14,18 @@ constexpr double least_dt = 1e-7;  // s, of presets
 
 }  // namespace
 
+double two_digits_below(double dt) {
+  const double unit = std::pow(10, std::floor(std::log10(dt)) - 1);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1e", std::floor(dt / unit * (1 + 1e-12)) * unit);
+  return std::strtod(text, nullptr);
+}
+
 std::optional<double> AutoStep::choose(const Preset& preset) {
   const double limit = stable_dt(preset, preset.integrator);
   const double dt = std::min(margin * limit, longest);
   if (!(dt >= least_dt)) return std::nullopt;
-  // Two digits, rounded down: a number to say and to remember.
-  const double unit = std::pow(10, std::floor(std::log10(dt)) - 1);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1e", std::max(std::floor(dt / unit * (1 + 1e-12)) * unit, least_dt));
-  return std::strtod(text, nullptr);
+  return std::max(two_digits_below(dt), least_dt);
 }
 
 std::optional<double> AutoStep::look(const Preset& preset, double t, const LedgerReading& ledger) {

@@ -1,4 +1,5 @@
-// `--dt auto`: a dt that is stable for the constants as they are, and a watch over the energy that tells when it is not.
+// `--dt auto`: a dt that is stable for the constants as they are, and a watch over the energy that tells when it is
+// not.
 #pragma once
 
 #include <optional>
@@ -7,6 +8,9 @@
 #include "core/notation/preset.h"
 
 namespace tyglab {
+
+/// A dt in two digits, rounded down: a number to say and to remember.
+double two_digits_below(double dt);
 
 /// Chooses dt by linear theory, for any configuration of the springs: what is active now may change in the next step,
 /// and the limit of the cloth as it hangs is then too large. One-sided springs that switch feed energy in below that

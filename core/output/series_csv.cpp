@@ -77,4 +77,19 @@ std::vector<double> series_values(Simulation& simulation) {
           double(simulation.tears().torn_count())};
 }
 
+std::vector<SeriesColumn> ledger_columns() {
+  std::vector<SeriesColumn> columns;
+  for (const char* name : {"kinetic", "stretch", "bending", "gravity", "damping", "contact", "tearing", "wind", "hand",
+                           "edits", "unexplained", "scale"})
+    columns.push_back({name, "J"});
+  columns.push_back({"share", ""});
+  return columns;
+}
+
+std::vector<double> ledger_values(const LedgerReading& r) {
+  const Works& w = r.works;
+  return {r.energy.kinetic, r.energy.stretch, r.energy.bending, r.energy.gravity, w.damping, w.contact, w.tearing,
+          w.wind,           w.hand,           w.edits,          r.unexplained(),  r.scale,   r.share()};
+}
+
 }  // namespace tyglab

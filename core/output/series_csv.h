@@ -40,4 +40,8 @@ std::vector<SeriesColumn> series_columns(Kind kind);
 /// The present values of those columns.
 std::vector<double> series_values(Simulation& simulation);
 
+/// What `run --ledger` writes: every row of the energy ledger, J, and its share.
+std::vector<SeriesColumn> ledger_columns();
+std::vector<double> ledger_values(const LedgerReading& reading);
+
 }  // namespace tyglab

@@ -197,5 +197,36 @@ TEST_CASE("render writes a sequence") {
   CHECK(fs::exists(folder / "film" / "flag_0002.png"));
 }
 
+TEST_CASE("--ledger writes where the energy goes, on the rows of --series, and --json what it says at the end") {
+  const test::TemporaryFolder folder;
+  const auto outcome = good(folder.path(), {"run", "flag", "--seconds", "0.4", "--fps", "10", "--ledger", "l.csv",
+                                            "--series", "s.csv", "--json", "-"});
+  const auto rows = test::lines(test::read_file(folder / "l.csv"));
+  REQUIRE(rows.size() == 2 + 5);
+  CHECK(rows[1].rfind("t,kinetic [J],stretch [J],", 0) == 0);
+  CHECK(test::split(rows[1], ',').size() == test::split(rows[6], ',').size());
+  CHECK(test::lines(test::read_file(folder / "s.csv")).size() == rows.size());
+  CHECK(std::abs(std::strtod(test::split(rows[6], ',').back().c_str(), nullptr)) < 0.01);
+  CHECK(outcome.out.find("\"unexplained_J\":") != std::string::npos);
+}
+
+TEST_CASE("--dt auto takes a stable dt, halves it where energy is made, and ends at the time asked for") {
+  const test::TemporaryFolder folder;
+  auto outcome = good(folder.path(), {"run", "explodes", "--integrator", "verlet", "--set", "k_s=20000", "--dt", "auto",
+                                      "--seconds", "0.5", "--json", "-"});
+  CHECK(outcome.out.find("\"status\": \"done\"") != std::string::npos);
+  // A weight on its spring, where semi-implicit Euler's energy swings by more than is allowed.
+  outcome = good(folder.path(), {"run", "one_weight", "--integrator", "semi_implicit_euler", "--dt", "auto", "--set",
+                                 "k=400", "--seconds", "5", "--series", "s.csv", "--fps", "10"});
+  CHECK(outcome.err.find("was making energy; dt is") != std::string::npos);
+  const auto rows = test::lines(test::read_file(folder / "s.csv"));
+  REQUIRE(rows.size() == 2 + 51);
+  for (std::size_t n = 2; n < rows.size(); ++n)
+    CHECK(std::strtod(rows[n].c_str(), nullptr) == doctest::Approx(0.1 * double(n - 2)).epsilon(0.05));
+  outcome = test::tyglab(folder.path(), {"run", "hanging", "--integrator", "euler", "--set", "k_d=0", "--dt", "auto"});
+  CHECK(outcome.code == 2);
+  CHECK(outcome.err.find("no stable dt") != std::string::npos);
+}
+
 }  // namespace
 }  // namespace tyglab
