@@ -1,5 +1,7 @@
 #include "app/panels/curves.h"
 
+#include "app/sandbox/figure.h"
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -39,10 +41,17 @@ CurveStyle integrator_style(const Tokens& c, std::string_view name) {
                                      {"rkn4", &Tokens::text, LineStyle::solid},
                                      {"implicit_euler", &Tokens::magenta, LineStyle::dashed},
                                      {"implicit_midpoint", &Tokens::sky, LineStyle::dashed},
-                                     {"tr_bdf2", &Tokens::green, LineStyle::dashed}};
+                                     {"tr_bdf2", &Tokens::green, LineStyle::dashed},
+                                     {"exact", &Tokens::vermilion, LineStyle::solid}};
   for (const Style& style : styles)
     if (style.name == name) return {c.*style.color, style.line, 1.8f};
   return {c.quiet, LineStyle::solid, 1.8f};
+}
+
+std::vector<std::string> height_column_names() {
+  std::vector<std::string> names{"y [m]"};
+  for (std::string_view curve : Figure::curves) names.push_back("y_" + std::string(curve) + " [m]");
+  return names;
 }
 
 std::vector<std::string> force_column_names() {

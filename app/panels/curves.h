@@ -19,12 +19,13 @@ inline constexpr std::array<std::string_view, Plots::forces_count> force_keys{"F
                                                                               "F_g", "F_int", "F_ext"};
 const Variable& variable(std::string_view key);
 CurveStyle curve_style(const Tokens& colors, std::string_view key);
-/// The report's three methods as in figure 3.2 (blue Verlet, green improved Euler, magenta Euler), the others in
 /// Of a method's curve, alike in every plot: figure 3.2's blue Verlet, green improved Euler and magenta Euler;
 /// vermilion is the exact solution's.
 CurveStyle integrator_style(const Tokens& colors, std::string_view name);
 /// "F_s [N]", …
 std::vector<std::string> force_column_names();
+/// "y [m]", "y_euler [m]", … of Plots::height.
+std::vector<std::string> height_column_names();
 /// Magnitudes in the order of force_keys, N.
 std::array<double, Plots::forces_count> force_values(const ParticleReadout& readout);
 std::array<double, Plots::forces_count> force_values(const ForceSummary& summary);

@@ -77,16 +77,21 @@ void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const 
   ImGui::PushFont(app.fonts.mono);
   wrapped(app, "t = " + time_number(x[n], app.preset().dt) + " s", c.quiet);
   ImDrawList& tip = *ImGui::GetWindowDrawList();
+  float names = app.theme.px(48);
+  for (const PlotCurve& curve : curves)
+    names = std::max(names, symbol_width(app.fonts, curve.symbol) + app.theme.px(12));
   for (const PlotCurve& curve : curves) {
-    if (!has(curve)) continue;
+    if (!has(curve) || !std::isfinite(curve.y[n])) continue;
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float line = app.theme.px(20), middle = std::round(lo.y + line / 2);
     const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(24), middle}};
     draw_styled_line(tip, sample, 2, curve.style, app.theme.scale);
     draw_symbol(tip, app.fonts, {lo.x + app.theme.px(32), baseline_at(app.fonts, middle)}, curve.symbol, c.text);
     const std::string value = steady_number(curve.y[n]) + " " + std::string(unit);
-    draw_on_baseline(tip, *app.fonts.mono, {lo.x + app.theme.px(80), baseline_at(app.fonts, middle)}, c.text, value);
-    ImGui::Dummy({app.theme.px(84) + text_width(*app.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
+    draw_on_baseline(tip, *app.fonts.mono, {lo.x + app.theme.px(32) + names, baseline_at(app.fonts, middle)}, c.text,
+                     value);
+    ImGui::Dummy(
+        {app.theme.px(36) + names + text_width(*app.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
   }
   ImGui::PopFont();
   end_tooltip(app);

@@ -44,7 +44,8 @@ struct Plots {
   int tab = 0;                     ///< the card shown where only one has room
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
-  Series height{1};
+  Series height{5};  ///< of the weight, then by the curves of Figure
+  std::array<bool, 4> figure_hidden{};
   /// From which simulated time on (s) which method moved the weight.
   std::vector<std::pair<double, std::string>> height_methods;
   bool forces_shown = false, height_shown = false;  ///< in the last frame: only then is data collected

@@ -12,6 +12,7 @@
 #include "app/panels/ui_state.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
+#include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
 #include "app/sandbox/input.h"
@@ -40,6 +41,7 @@ struct App {
   Sleep sleep;
   StabilityWatch stability;
   Rewind rewind;
+  Figure figure;
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
   std::int64_t steps_made = 0;      ///< in the last frame
   bool told_left_inside = false;    ///< that overlapping bodies keep particles inside, said once a session

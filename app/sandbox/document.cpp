@@ -38,7 +38,7 @@ FoundPicture find_picture(const Preset& preset) {
 void begin_document(App& app, const Document& document, const FoundPicture& picture) {
   app.document = document;
   take_picture(app, picture);
-  app.history.clear(), app.rewind.clear(), app.auto_dt.reset();
+  app.history.clear(), app.rewind.clear(), app.figure.clear(), app.auto_dt.reset();
   app.picked = first_pick(app);
   app.tool = Tool{};
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();

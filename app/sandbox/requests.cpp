@@ -284,7 +284,7 @@ bool apply(App& app, const request::SavePreset& what) {
 
 void apply(App& app, const request::WriteCsv& what) {
   const Series& series = what.height ? app.ui.plots.height : app.ui.plots.forces;
-  const std::vector<std::string> names = what.height ? std::vector<std::string>{"y [m]"} : force_column_names();
+  const std::vector<std::string> names = what.height ? height_column_names() : force_column_names();
   try {
     write_atomically(what.file, series.csv(names, "tyglab series, t in s, preset hash " + preset_hash(app.preset())));
     app.messages.note("Wrote " + what.file.string());

@@ -1,5 +1,7 @@
 #include "app/sandbox/sampling.h"
 
+#include <array>
+
 #include "app/panels/curves.h"
 #include "app/sandbox/app.h"
 
@@ -22,7 +24,9 @@ void sample(App& app) {
     if (fresh) plots.height_methods.clear();
     if (fresh || plots.height_methods.back().second != app.preset().integrator)
       plots.height_methods.emplace_back(t, app.preset().integrator);
-    plots.height.add(t, {&y, 1});
+    const Figure::Heights others = app.figure.follow(*app.simulation);
+    const std::array row{y, others[0], others[1], others[2], others[3]};
+    plots.height.add(t, row);
   }
 }
 

@@ -1,0 +1,63 @@
+#include "app/sandbox/figure.h"
+
+#include <limits>
+
+#include "core/analysis/one_weight.h"
+
+namespace tyglab {
+namespace {
+
+/// The constants with a start at y (m) and v (m/s).
+Preset starting_at(Preset preset, double y, double v) {
+  preset.offset = y - preset.x_0.y;
+  preset.v_0.y = v;
+  return preset;
+}
+
+}  // namespace
+
+void Figure::begin(Simulation& weight) {
+  const State& state = weight.read();
+  of_ = weight.preset();
+  exact_ = starting_at(of_, state.x.y[0], state.v.y[0]);
+  exact_t_ = t_ = weight.time();
+  steps_ = weight.steps();
+  for (std::size_t n = 0; n < companions_.size(); ++n) {
+    Preset own = exact_;
+    own.integrator = curves[n], own.precision = Precision::double_;
+    companions_[n] = std::make_unique<Simulation>(own);
+  }
+}
+
+/// What counts while the weight moves; each companion keeps its method.
+void Figure::take_constants(const Preset& preset) {
+  const WeightMotion now = exact_weight(exact_, t_ - exact_t_);
+  exact_ = starting_at(preset, now.y, now.v);
+  exact_t_ = t_;
+  for (const auto& companion : companions_) {
+    Preset own = companion->preset();
+    own.m = preset.m, own.k = preset.k, own.k_d = preset.k_d, own.g = preset.g, own.dt = preset.dt;
+    own.x_0 = preset.x_0;
+    if (own != companion->preset()) companion->apply(edit::Change{own});
+  }
+  of_ = preset;
+}
+
+Figure::Heights Figure::follow(Simulation& weight) {
+  // At the start, after a restart and after a way back, all begin together where the weight is.
+  const bool fresh = companions_[0] == nullptr || weight.steps() < steps_;
+  if (fresh) begin(weight);
+  if (of_ != weight.preset()) take_constants(weight.preset());
+  Heights y;
+  y.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t n = 0; n < companions_.size(); ++n) {
+    Simulation& companion = *companions_[n];
+    companion.advance(int(weight.steps() - steps_));
+    if (!companion.divergence()) y[n] = companion.positions().at(0, 0).y;
+  }
+  steps_ = weight.steps(), t_ = weight.time();
+  y.back() = exact_weight(exact_, t_ - exact_t_).y;
+  return y;
+}
+
+}  // namespace tyglab
