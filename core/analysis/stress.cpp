@@ -76,9 +76,11 @@ class StressRun {
   bool advance(int steps) {
     const double particles = simulation_->lattice().size();
     const Scheme& method = scheme(simulation_->preset().integrator);
-    const int at_once = is_implicit(method) ? 1 : steps;
+    // A step of these may take any number of evaluations.
+    const int at_once = is_implicit(method) || chooses_steps(method) ? 1 : steps;
     for (int made = 0; made < steps; made += at_once) {
       const SolveCounts before = simulation_->engine().solves();
+      const std::int64_t evaluated = simulation_->engine().inner_steps().force_evaluations;
       const Advance part = simulation_->advance(std::min(at_once, steps - made));
       const SolveCounts after = simulation_->engine().solves();
       result_.steps += part.steps;
@@ -86,6 +88,7 @@ class StressRun {
       work_ += particles * part.steps * double(method.sweeps.size());
       products_ +=
           particles * double(after.linear - before.linear + after.force_evaluations - before.force_evaluations);
+      work_ += particles * double(simulation_->engine().inner_steps().force_evaluations - evaluated);
       if (!finite(part.hand_force)) fail("the hand's force is not finite");
       if (simulation_->divergence()) {
         result_.divergence = simulation_->divergence();

@@ -12,6 +12,7 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
+#include "core/integrators/step_control.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -104,6 +105,8 @@ class Engine {
   /// Threads that it uses.
   virtual int threads() const = 0;
   virtual SolveCounts solves() const = 0;
+  /// What a method that chooses its own steps did within dt; nothing for others.
+  virtual InnerSteps inner_steps() const = 0;
   /// What a step does for the present scene, and what it skips.
   virtual std::vector<StepFeature> features() const = 0;
   /// "CPU, AVX2, 2 threads": for people.

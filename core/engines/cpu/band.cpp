@@ -58,7 +58,7 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   t.weight = cloth_.preset.m * cloth_.preset.g;
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
-  t.dt_v = cloth_.preset.dt / cloth_.velocity_scale();
+  t.dt_v = cloth_.dt / cloth_.velocity_scale();
   t.largest_way = largest_way_.data();
   return t;
 }
@@ -173,7 +173,7 @@ bool Band<R, Present>::touches(int i) const {
 
 template <class R, unsigned Present>
 void Band<R, Present>::collide_row(int i) {
-  const double scale = cloth_.keeps_displacement ? cloth_.preset.dt : 1;
+  const double scale = cloth_.velocity_scale();
   int next_fixed = cloth_.fixed_begin[i];
   for (int j = 0; j < cloth_.lattice.columns; ++j) {
     if (has(part::pins) && next_fixed < cloth_.fixed_begin[i + 1] && cloth_.fixed_columns[next_fixed] == j) {
@@ -187,7 +187,8 @@ void Band<R, Present>::collide_row(int i) {
                      [&](const Body& b) { return depth(b, p.x) > 0; }))
       continue;
     p.v /= scale;
-    if (!collide(cloth_.preset.bodies, cloth_.preset.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
+    collided_ = true;
+    if (!collide(cloth_.preset.bodies, cloth_.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
       cloth_.row(cloth_.seen_velocity, i, c)[j] = *v[c];
@@ -201,13 +202,26 @@ void Band<R, Present>::collide_row(int i) {
 template <class R, unsigned Present>
 void Band<R, Present>::watch_row(int i) {
   watch_ways(cloth_.row(vector_x, i, 0), old_row(i, 0), cloth_.row(vector_v, i, 0),
-             R(cloth_.preset.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns, largest_way_.data());
+             R(cloth_.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns, largest_way_.data());
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::measure(const ResolvedEstimate& estimate, const ResolvedSweep& s, int i) {
+  RowEstimate<R> row{.x = cloth_.row(s.position, i, 0), .dt = R(cloth_.dt)};
+  for (const auto& share : estimate.shares) {
+    const int n = row.terms++;
+    row.source[n] = cloth_.row(share.vector, i, 0);
+    row.error_x[n] = R(share.error_x), row.error_v[n] = R(share.error_v);
+    row.stage_x[n] = R(share.stage_x), row.stage_v[n] = R(share.stage_v), row.stage_a[n] = R(share.stage_a);
+  }
+  cloth_.measures[std::size_t(i)] = measure_row(row, cloth_.stride, cloth_.lattice.columns);
 }
 
 template <class R, unsigned Present>
 void Band<R, Present>::begin_watch() {
   largest_way_.fill(R(0));
   left_inside_ = 0;
+  collided_ = false;
 }
 
 template <class R, unsigned Present>
@@ -245,6 +259,7 @@ void Band<R, Present>::sweep_pair(int i) {
       read_hand(row);
     if (bodies && touches(row)) collide_row(row);
     if (last && assigns) watch_row(row);
+    if (s.estimate != nullptr) measure(*s.estimate, s, row);
   }
 }
 

@@ -31,6 +31,7 @@ class CpuEngine final : public Engine {
   std::size_t bytes() const override;
   int threads() const override { return team_->size(); }
   SolveCounts solves() const override { return solver_.counts(); }
+  InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
 
@@ -49,6 +50,7 @@ class CpuEngine final : public Engine {
   /// The first row of a thread's band; of the number after the last, where the cloth ends.
   int band_begin(int number) const;
   void resolve();
+  void resolve_estimate();
   void make_waves();
   bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
@@ -57,6 +59,16 @@ class CpuEngine final : public Engine {
   void accelerations(int position, int velocity, const Tears& tears, Field& out);
   /// The implicit stage of a sweep, on this thread alone.
   void solve(const ResolvedSweep& sweep, const Tears& tears);
+  /// Works the coefficients out for a step of another length.
+  void set_dt(double dt);
+  /// Covers dt with inner steps, all threads together; end_ says how it ended.
+  void step_adaptively(int number, Tears& tears, Fault& fault);
+  void take_next_dt();
+  void begin_interval(const Tears& tears);
+  void begin_control(const Tears& tears);
+  void try_inner_step(int number, const Tears& tears);
+  void judge_inner_step();
+  void finish_inner_step(Tears& tears, Fault& fault);
   /// Positions and vector 1 as a velocity.
   void read_stored(State& state) const;
 
@@ -73,6 +85,8 @@ class CpuEngine final : public Engine {
   bool within_bounds(const Tears& tears, Fault& fault);
   /// By how much any spring of a row in one direction may still grow, m; less than 0: `fault` is too long.
   double growth_left(const Tears& tears, int direction, int i, Fault& fault) const;
+  /// The steps before say nothing any more of how long the next may be.
+  void restart_control() { control_.restart(), knows_first_a_ = false; }
   /// Forgets how far particles may still move, and the backup: something else than their motion has changed.
   void measure_again() {
     free_motion_ = tear_motion_ = 0;
@@ -99,6 +113,12 @@ class CpuEngine final : public Engine {
   Cloth<R> cloth_;
   const Scheme* scheme_ = nullptr;
   std::vector<ResolvedSweep> sweeps_;
+  StepControl control_, control_backup_;
+  ResolvedEstimate estimate_;
+  std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step whose first a is known
+  std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once it is accepted
+  double left_of_dt_ = 0;                                      ///< s that inner steps have still to cover
+  bool knows_first_a_ = false, accepted_ = false;
   std::vector<Field> backup_;
   Tears tears_backup_;
   int since_backup_ = -1;             ///< steps; under 0: there is none

@@ -253,6 +253,9 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves
         step_in_waves(number, together, tears);
         team_->barrier();
         if (number == 0) done += finish_wave(together, tears, fault);
+      } else if (chooses_steps(*scheme_)) {
+        step_adaptively(number, tears, fault);
+        if (number == 0 && end_ != End::fault) ++done;
       } else {
         step_in_bands(number, tears);
         if (number == 0) {
@@ -269,7 +272,8 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::keep_backup(const Tears& tears) {
-  for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) backup_[n] = cloth_.vectors[n];
+  for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
+  control_backup_ = control_;
   if (tears_watched()) tears_backup_ = tears;
   since_backup_ = 0;
 }
@@ -277,7 +281,8 @@ void CpuEngine<R, Present>::keep_backup(const Tears& tears) {
 /// The sweep works in place: return to the backup and repeat that many good steps, which gives the same bits.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
-  for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
+  for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
+  control_ = control_backup_, knows_first_a_ = false;
   if (tears_watched()) tears = tears_backup_;
   measure_again();
   Fault none{};
@@ -293,6 +298,7 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   const int torn_before = tears.torn_count();
   Fault fault{};
   while (result.steps < steps && !result.diverged && !result.released) {
+    if (torn_ != tears.torn_count()) restart_control();  // cut from outside
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups || torn_ != tears.torn_count()) keep_backup(tears);
     const int before = since_backup_, batch = std::min(steps - result.steps, steps_between_backups - before);
     int done = run(batch, tears, fault, true);
@@ -304,7 +310,8 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
     result.released = end_ == End::released;
     if (result.diverged) repeat(before + done, tears);
     result.steps += done;
-    since_backup_ = is_implicit(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
+    since_backup_ =
+        is_implicit(*scheme_) || chooses_steps(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
     torn_ = tears.torn_count();
   }
   result.i = fault.i, result.j = fault.j, result.value = fault.value;
