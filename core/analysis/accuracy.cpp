@@ -17,6 +17,8 @@ constexpr double worth_repeating = 0.04;  // s
 std::int64_t evaluations(const Scheme& scheme, const Simulation& simulation) {
   if (chooses_steps(scheme)) return simulation.engine().inner_steps().force_evaluations;
   if (is_implicit(scheme)) return simulation.engine().solves().force_evaluations;
+  // A pass over all springs counts as one.
+  if (projects(scheme)) return simulation.steps() * (1 + simulation.preset().iterations);
   return simulation.steps() * std::int64_t(scheme.sweeps.size()) + (scheme.start.empty() ? 0 : 1);
 }
 
@@ -95,11 +97,11 @@ bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& 
   const AccuracyRow& last = rows.back();
   if (last.status == AccuracyStatus::below_floor) return false;
   if (last.status == AccuracyStatus::ok && last.seconds * (effort.fine ? 1.5 : 2) > effort.longest_s) return false;
-  // Rounding: the error has grown for three rows.
+  // Rounding: the error has grown for three rows. It stays the same where a tolerance asks for nothing yet.
   if (rows.size() < 4 || last.status != AccuracyStatus::ok) return true;
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n + 3 < rows.size(); ++n) best = std::min(best, rows[n].error_rms_m);
-  return std::any_of(rows.end() - 3, rows.end(), [&](const AccuracyRow& row) { return row.error_rms_m < best; });
+  return std::any_of(rows.end() - 3, rows.end(), [&](const AccuracyRow& row) { return row.error_rms_m <= best; });
 }
 
 namespace {
@@ -122,7 +124,7 @@ std::vector<Setting> settings(const AccuracyScene& scene, const std::string& int
     return list;
   }
   // Twice the least limit of any configuration, since the cloth may be far from that one.
-  const double largest_dt = stable_dt(preset, "verlet") * (is_implicit(scheme(integrator)) ? 16 : 2);
+  const double largest_dt = stable_dt(preset, "verlet") * (iterates(scheme(integrator)) ? 16 : 2);
   for (const int steps : accuracy_ladder(scene, largest_dt, effort))
     list.push_back({preset, steps}), list.back().preset.dt = part / steps;
   return list;

@@ -105,29 +105,43 @@ std::vector<Sweep> sweeps() {
 }  // namespace
 
 Scheme dopri5() {
-  return {
-      .name = "dopri5",
-      .title = "Dormand-Prince 5(4)",
-      .equation = "",
-      .source =
-          "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6, 19 (1980); step control as in E. Hairer, "
-          "S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), II.4, II.5, "
-          "and K. Gustafsson, ACM Trans. Math. Softw. 17, 533 (1991)",
-      .order_undamped = 5,
-      .order_damped = 5,
-      .vectors = first_a + stages,
-      .keeps_displacement = false,
-      .note = "Fifth order, and chooses its own steps within dt so that none errs by more than the tolerance.",
-      .stability = "shortens its steps where they would be unstable, h|λ| about 1 to 3.3, and counts them",
-      .cost = "six evaluations of the force an inner step; a rejected one costs as much",
-      .formula =
-          R"(Seven slopes of $y = (x, v)$, the last of which is the next step's first. Two sums of them, of fifth and of fourth order, differ by about what the step errs by. **`tolerance`** (m) is the largest such error of any coordinate of any particle, that of a velocity counted as the way it makes in one more step: $\max(|e_x|, h\,|e_v|) \le$ tolerance. A step beyond it is thrown away and tried again; the next is as long as the last two errors advise (a PI controller, $h' = 0.9\,h\,\varepsilon^{-0.17}\,\varepsilon_{old}^{0.04}$ with $\varepsilon$ = error/tolerance, at most ten times longer and five times shorter), and the steps of a $dt$ fill it exactly. The fifth-order result is kept, so the error at a later time falls about in proportion to the tolerance. $dt$ is only the interval of output. Bodies and tearing act, and the hand's force is looked at, after each inner step; the hand lets go at the end of a $dt$.
+  return {.name = "dopri5",
+          .title = "Dormand-Prince 5(4)",
+          .equation = "",
+          .source =
+              "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6, 19 (1980); step control as in E. Hairer, "
+              "S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), II.4, II.5, "
+              "and K. Gustafsson, ACM Trans. Math. Softw. 17, 533 (1991)",
+          .order_undamped = 5,
+          .order_damped = 5,
+          .vectors = first_a + stages,
+          .keeps_displacement = false,
+          .note = "Fifth order, and chooses its own steps within dt so that none errs by more than the tolerance.",
+          .stability = "shortens its steps where they would be unstable, hλ about 1 to 3.3 in size, and counts them",
+          .cost = "six evaluations of the force an inner step; a rejected one costs as much",
+          .formula =
+              R"(Seven slopes of $y = (x, v)$, the last of which is the next step's first. Two sums of them, of )"
+              R"(fifth and of fourth order, differ by about what the step errs by. **`tolerance`** (m) is the )"
+              R"(largest such error of any coordinate of any particle, that of a velocity counted as the way it )"
+              R"(makes in one more step: $\max(|e_x|, h\,|e_v|) \le$ tolerance. A step beyond it is thrown away )"
+              R"(and tried again; the next is as long as the last two errors advise (a PI controller, $h' = )"
+              R"(0.9\,h\,\varepsilon^{-0.17}\,\varepsilon_{old}^{0.04}$ with $\varepsilon$ = error/tolerance, at )"
+              R"(most ten times longer and five times shorter), and the steps of a $dt$ fill it exactly. The )"
+              R"(fifth-order result is kept, so the error at a later time falls about in proportion to the )"
+              R"(tolerance. $dt$ is only the interval of output. Bodies and tearing act, and the hand's force is )"
+              R"(looked at, after each inner step; the hand lets go at the end of a $dt$.
 
-What limits a step is counted: *stability* where the fastest motion left between the last two stages, which both belong to the step's end, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies outside $|R(h\lambda)| \le 1$ (Hairer's test, which asks for $h|\lambda| > 3.25$, is the case of a motion that only decays); *dt* where one step covers it; *accuracy* otherwise. Where steps are limited by stability a smaller tolerance costs nothing, and an implicit method may be faster. An inner step is never shorter than $dt/10^4$, and no error under the last digit of the largest coordinate is chased: such a step is accepted, counted, and said.)",
-      .sweeps = sweeps(),
-      .start = {},
-      .lags = false,
-      .estimate = estimate()};
+What limits a step is counted: *stability* where the fastest motion left between the last two stages, which )"
+              R"(both belong to the step's end, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"
+              R"(outside $|R(h\lambda)| \le 1$ (Hairer's test, which asks for $h|\lambda| > 3.25$, is the case of )"
+              R"(a motion that only decays); *dt* where one step covers it; *accuracy* otherwise. Where steps are )"
+              R"(limited by stability a smaller tolerance costs nothing, and an implicit method may be faster. An )"
+              R"(inner step is never shorter than $dt/10^4$, and no error under the last digit of the largest )"
+              R"(coordinate is chased: such a step is accepted, counted, and said.)",
+          .sweeps = sweeps(),
+          .start = {},
+          .lags = false,
+          .estimate = estimate()};
 }
 
 }  // namespace tyglab

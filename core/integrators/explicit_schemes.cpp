@@ -21,8 +21,9 @@ std::vector<Scheme> explicit_schemes() {
        .note = "First order. Feeds energy into every oscillation; stable only with enough damping.",
        .stability = "grows at every dt without damping; with it stable up to hω = 2ζ",
        .cost = "one evaluation of the force",
-       .formula =
-           R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines look at the beginning of the step alone, so every swing comes out a little larger, by $\sqrt{1 + (\omega\,dt)^2}$ a step: the report's example of what not to do, and worth seeing.)",
+       .formula = R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines look at the beginning of the step alone, )"
+                  R"(so every swing comes out a little larger, by $\sqrt{1 + (\omega\,dt)^2}$ a step: the report's )"
+                  R"(example of what not to do, and worth seeing.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
        .lags = false},
@@ -37,8 +38,9 @@ std::vector<Scheme> explicit_schemes() {
        .note = "A Taylor expansion of the position; its velocity is first order, so the method is.",
        .stability = "grows at every dt without damping, more slowly than Euler",
        .cost = "one evaluation of the force",
-       .formula =
-           R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to second order, the velocity to first only, and the whole is as good as its worse half. A swing grows by $\sqrt{1 + (\omega\,dt)^2/2}$ a step.)",
+       .formula = R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to )"
+                  R"(second order, the velocity to first only, and the whole is as good as its worse half. A swing )"
+                  R"(grows by $\sqrt{1 + (\omega\,dt)^2/2}$ a step.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
        .lags = false},
@@ -55,8 +57,10 @@ std::vector<Scheme> explicit_schemes() {
            "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
        .stability = "symplectic; stable up to hω = 2 without damping, 2(√(1 + ζ²) − ζ) with it",
        .cost = "one evaluation of the force",
-       .formula =
-           R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, begun with $d = dt\,v - \tfrac12 dt^2 a$. $d$ is kept, $2x - x_{old}$ never formed, which in float would lose the last digits of every step. Damping sees a velocity of half a step ago, which costs an order. Energy wavers and does not drift while no spring switches.)",
+       .formula = R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, begun with $d = dt\,v - \tfrac12 dt^2 a$. $d$ is )"
+                  R"(kept, $2x - x_{old}$ never formed, which in float would lose the last digits of every step. )"
+                  R"(Damping sees a velocity of half a step ago, which costs an order. Energy wavers and does not )"
+                  R"(drift while no spring switches.)",
        .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
        .start = {{v, {{v, 1, 1}, {a, -0.5, 2}}}},
        .lags = true},
@@ -72,7 +76,9 @@ std::vector<Scheme> explicit_schemes() {
        .stability = "symplectic; as stable as Verlet",
        .cost = "one evaluation of the force",
        .formula =
-           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. Verlet's recurrence, read as an Euler step that uses its new velocity at once; the velocity it shows belongs half a step earlier, and that is its first-order error.)",
+           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. Verlet's recurrence, read as an Euler step that uses )"
+           R"(its new velocity at once; the velocity it shows belongs half a step earlier, and that is its )"
+           R"(first-order error.)",
        .sweeps = {{x, v, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}}}},
        .start = {},
        .lags = false},
@@ -92,7 +98,9 @@ std::vector<Scheme> explicit_schemes() {
        .stability = "symplectic without damping; stable up to hω = 2, less with damping",
        .cost = "one evaluation of the force",
        .formula =
-           R"($h' = h + dt\,a(x, p)$, $\;x' = x + dt\,h'$, $\;p' = h' + \tfrac12 dt\,a(x, p)$: $h$ is the velocity between two steps, $p$ a prediction of the one at their end. The damping sees $p$, which errs by $O(dt^2)$ only, so nothing is lost by it.)",
+           R"($h' = h + dt\,a(x, p)$, $\;x' = x + dt\,h'$, $\;p' = h' + \tfrac12 dt\,a(x, p)$: $h$ is the )"
+           R"(velocity between two steps, $p$ a prediction of the one at their end. The damping sees $p$, which )"
+           R"(errs by $O(dt^2)$ only, so nothing is lost by it.)",
        .sweeps = {{x, 2, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}, {2, {{v, 1, 0}, {a, 0.5, 1}}}}}},
        .start = {{2, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -0.5, 1}}}},
        .lags = true},
@@ -108,8 +116,8 @@ std::vector<Scheme> explicit_schemes() {
        .note = "Fourth order while no spring switches. Four evaluations a step; loses a little energy.",
        .stability = "stable up to hω = 2√2; takes energy away, (hω)⁶/144 of a swing a step",
        .cost = "four evaluations of the force",
-       .formula =
-           R"(Four slopes of $y = (x, v)$, at the beginning, twice in the middle, at the end: $y' = y + \tfrac{dt}{6}(k_1 + 2k_2 + 2k_3 + k_4)$.)",
+       .formula = R"(Four slopes of $y = (x, v)$, at the beginning, twice in the middle, at the end: $y' = y + )"
+                  R"(\tfrac{dt}{6}(k_1 + 2k_2 + 2k_3 + k_4)$.)",
        .sweeps = {{x,
                    v,
                    0,
@@ -147,8 +155,10 @@ std::vector<Scheme> explicit_schemes() {
        .note = "Fourth order without damping for three evaluations a step, while no spring switches; second with it.",
        .stability = "stable up to hω = 2.58 without damping",
        .cost = "three evaluations of the force",
-       .formula =
-           R"(Runge-Kutta's idea for $\ddot x = a(x)$ itself: with $a_1 = a(x)$, $a_2 = a(x + \tfrac12 dt\,v + \tfrac18 dt^2 a_1)$, $a_3 = a(x + dt\,v + \tfrac12 dt^2 a_2)$ it is $x' = x + dt\,v + \tfrac16 dt^2 (a_1 + 2 a_2)$, $v' = v + \tfrac16 dt\,(a_1 + 4 a_2 + a_3)$. Damping sees a first-order velocity at the stages.)",
+       .formula = R"(Runge-Kutta's idea for $\ddot x = a(x)$ itself: with $a_1 = a(x)$, $a_2 = a(x + \tfrac12 dt\,v + )"
+                  R"(\tfrac18 dt^2 a_1)$, $a_3 = a(x + dt\,v + \tfrac12 dt^2 a_2)$ it is $x' = x + dt\,v + \tfrac16 )"
+                  R"(dt^2 (a_1 + 2 a_2)$, $v' = v + \tfrac16 dt\,(a_1 + 4 a_2 + a_3)$. Damping sees a first-order )"
+                  R"(velocity at the stages.)",
        .sweeps = {{x,
                    v,
                    0,

@@ -26,7 +26,8 @@ std::vector<Scheme> implicit_schemes() {
        .stability = "stable at every dt (L-stable); takes energy from all that swings",
        .cost = "one solve: some steps of Newton's method, each some dozen products with the stiffness",
        .formula =
-           R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$: the forces of the end of the step. A swing shrinks by $1/\sqrt{1 + (\omega\,dt)^2}$ a step.)",
+           R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$: the forces of the end of the step. A swing shrinks )"
+           R"(by $1/\sqrt{1 + (\omega\,dt)^2}$ a step.)",
        .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
        .start = {},
        .lags = false},
@@ -41,8 +42,9 @@ std::vector<Scheme> implicit_schemes() {
        .note = "Second order, symplectic, stable at every dt while no spring switches; fast oscillations stay.",
        .stability = "symplectic, stable at every dt while no spring switches (A-stable)",
        .cost = "one solve",
-       .formula =
-           R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' = 2v_m - v$. No swing grows or shrinks; those too fast for $dt$ turn at a wrong speed, with their amplitude kept.)",
+       .formula = R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' = )"
+                  R"(2v_m - v$. No swing grows or shrinks; those too fast for $dt$ turn at a wrong speed, with their )"
+                  R"(amplitude kept.)",
        .sweeps = {{2,
                    3,
                    0,
@@ -65,7 +67,8 @@ std::vector<Scheme> implicit_schemes() {
        .stability = "stable at every dt (L-stable); takes energy from what is too fast for dt",
        .cost = "two solves and one evaluation of the force",
        .formula =
-           R"(The trapezium rule to $t + \gamma\,dt$, then the backward difference over the beginning, that point and the end, $\gamma = 2 - \sqrt2$, with which both solves have the same $\beta = \gamma/2$.)",
+           R"(The trapezium rule to $t + \gamma\,dt$, then the backward difference over the beginning, that )"
+           R"(point and the end, $\gamma = 2 - \sqrt2$, with which both solves have the same $\beta = \gamma/2$.)",
        .sweeps = {{x, v, 0, {{2, {{x, 1, 0}, {v, gamma / 2, 1}}}, {3, {{v, 1, 0}, {a, gamma / 2, 1}}}}},
                   {2,
                    3,

@@ -56,6 +56,10 @@ std::string remedy(const Preset& p) {
   if (chooses_steps(scheme(p.integrator)))
     return "Take a smaller dt, of which its own steps may be a ten-thousandth, or a smaller " + stiffness +
            ", and restart; or take the integrator implicit_euler, which no stiffness makes unstable.";
+  if (projects(scheme(p.integrator)))
+    return "Take a smaller dt or more iterations, and restart: this method has no limit of dt, but with few iterations "
+           "its springs give way, and bodies and wind may part them; or take the integrator verlet" +
+           step + ".";
   if (is_implicit(scheme(p.integrator)))
     return "Take a smaller dt and restart: linear theory gives this method no limit, but bodies, wind and springs that "
            "switch do; or take the integrator verlet" +

@@ -38,6 +38,9 @@ struct Sweep {
   std::vector<Assignment> assignments;
   double solves = 0;
   std::vector<Assignment> before = {};
+  bool external = false;  ///< a holds gravity and wind alone
+  bool projects = false;  ///< instead of evaluating a, projects vectors[position] + vectors[velocity] on the springs'
+                          ///< lengths, softened by their compliance; the assignments are followed by a pass of damping
 };
 
 /// What a method that chooses its own steps knows of the step it has just tried, as sums of state vectors.
@@ -88,9 +91,17 @@ inline bool is_implicit(const Scheme& scheme) {
 inline bool chooses_steps(const Scheme& scheme) {
   return scheme.estimate.has_value();
 }
+/// Whether it projects positions on the springs' lengths: then no amplification matrix says what a step does.
+inline bool projects(const Scheme& scheme) {
+  return scheme.sweeps.back().projects;
+}
+/// Whether `iterations` bounds what a step does.
+inline bool iterates(const Scheme& scheme) {
+  return is_implicit(scheme) || projects(scheme);
+}
 /// Whether linear theory can say from which dt on the method is unstable (infinity where it is at none).
 inline bool has_step_limit(const Scheme& scheme) {
-  return !chooses_steps(scheme);
+  return !chooses_steps(scheme) && !projects(scheme);
 }
 /// The scheme of that name; the name must be known (is_integrator).
 const Scheme& scheme(std::string_view name);

@@ -10,5 +10,6 @@ namespace tyglab {
 std::vector<Scheme> explicit_schemes();
 std::vector<Scheme> implicit_schemes();
 Scheme dopri5();
+Scheme xpbd();
 
 }  // namespace tyglab

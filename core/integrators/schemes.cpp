@@ -14,6 +14,7 @@ const std::vector<Scheme>& table() {
     std::vector<Scheme> all = explicit_schemes();
     all.push_back(dopri5());
     for (Scheme& row : implicit_schemes()) all.push_back(std::move(row));
+    all.push_back(xpbd());
     return all;
   }();
   return rows;

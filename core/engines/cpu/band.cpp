@@ -54,7 +54,10 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   PairTask<R> t{};
   t.stride = cloth_.stride;
   t.columns = cloth_.lattice.columns;
-  t.L = cloth_.preset.L, t.k_s = cloth_.preset.k_s, t.k_b = cloth_.preset.k_b, t.k_d = s.k_d;
+  t.L = cloth_.preset.L;
+  const bool weight = cloth_.preset.kind == Kind::one_weight;
+  if (!s.external) t.k_s = weight ? cloth_.preset.k : cloth_.preset.k_s, t.k_b = cloth_.preset.k_b, t.k_d = s.k_d;
+  features_ = s.external ? cloth_.features & unsigned(wind) : cloth_.features;
   t.weight = cloth_.preset.m * cloth_.preset.g;
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
@@ -101,10 +104,10 @@ void Band<R, Present>::forces_on_pair(const PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
-    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, cloth_.preset.k, v, t.k_d) - t.weight);
+    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.k_s, v, t.k_d) - t.weight);
     return;
   }
-  cloth_.sweeps.sweep[cloth_.features][std::size_t(update)](t);
+  cloth_.sweeps.sweep[features_][std::size_t(update)](t);
 }
 
 /// The force on the hand's particle, if it is in this row.

@@ -43,8 +43,9 @@ struct ResolvedSweep {
   int position = 0, velocity = 0;
   double k_d = 0;  ///< divided by dt where the velocity vector holds displacements
   std::vector<ResolvedAssignment> assignments;
-  double solve_dt = 0;                     ///< not 0: an implicit stage over that time is solved first
-  std::vector<ResolvedAssignment> before;  ///< made before it
+  bool external = false, projects = false;  ///< as in Sweep
+  double solve_dt = 0;                      ///< not 0: an implicit stage over that time is solved first
+  std::vector<ResolvedAssignment> before;   ///< made before it
   Update update = Update::force;  ///< what the pair sweep does by itself; force: the assignments are made row by row
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other two
   const ResolvedEstimate* estimate = nullptr;         ///< each row is measured by it
@@ -151,9 +152,10 @@ class Band {
   Cloth<R>& cloth_;
   int begin_, end_;
   Pass pass_;
-  Field ring_;        ///< force rows i … i+3
-  Field old_rows_;    ///< positions of a pair before it is overwritten
-  Halo head_, tail_;  ///< rows begin-2 … begin+1 and end-2 … end+1
+  unsigned features_ = 0;  ///< of the sweep
+  Field ring_;             ///< force rows i … i+3
+  Field old_rows_;         ///< positions of a pair before it is overwritten
+  Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
   alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> largest_way_{};  ///< by lane

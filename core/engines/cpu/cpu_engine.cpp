@@ -76,6 +76,7 @@ ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   out.position = sweep.position, out.velocity = sweep.velocity;
   out.k_d = cloth_.preset.k_d * std::pow(cloth_.dt, sweep.velocity_dt_power);
   out.solve_dt = sweep.solves * cloth_.dt;
+  out.external = sweep.external, out.projects = sweep.projects;
   for (const Assignment& assignment : sweep.assignments) out.assignments.push_back(resolve(assignment));
   for (const Assignment& assignment : sweep.before) out.before.push_back(resolve(assignment));
   return out;
@@ -131,8 +132,8 @@ void CpuEngine<R, Present>::make_waves() {
   const int rows = cloth_.lattice.rows, threads = team_->size();
   int sweeps = std::min(rows / rows_per_sweep, most * threads);
   const std::size_t state = cloth_.vectors.size() * rows * cloth_.vector(vector_x).pitch() * sizeof(R);
-  if (is_implicit(*scheme_) || chooses_steps(*scheme_) || cloth_.preset.kind == Kind::one_weight || sweeps < threads ||
-      (threads == 1 && state <= own_cache))
+  if (is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_) ||
+      cloth_.preset.kind == Kind::one_weight || sweeps < threads || (threads == 1 && state <= own_cache))
     sweeps = 0;
   const std::size_t steps = std::size_t(sweeps) / sweeps_.size();
   waves_.resize(steps < 2 ? 0 : steps * sweeps_.size());
@@ -207,6 +208,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   pinned_.assign(pinned.begin(), pinned.end());
   cloth_.held = held;
+  springs_changed_ = true;
   restart_control();
   std::vector<int> all(pinned_);
   if (held.particle >= 0) all.push_back(held.particle);
@@ -313,8 +315,8 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
-  std::size_t total = acceleration_.bytes() + solver_.bytes() + cloth_.fixed.size() + guards_.size() +
-                      (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
+  std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + cloth_.fixed.size() +
+                      guards_.size() + (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})

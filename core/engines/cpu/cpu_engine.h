@@ -7,6 +7,7 @@
 
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/implicit.h"
+#include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
@@ -98,6 +99,9 @@ class CpuEngine final : public Engine {
   /// returns the steps without fault. `waves`: several steps at a time where that pays.
   int run(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
+  /// What a sweep that projects does, with its assignments.
+  void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
+  void read_hand(const Tears& tears);
   /// How many of the `left` steps can follow each other through the rows before one must be looked at: 1 or more.
   int steps_in_wave(int left) const;
   /// That many steps in one pass over the rows: each sweep two rows behind the one before it, so that rows are worked
@@ -127,6 +131,9 @@ class CpuEngine final : public Engine {
   std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
   std::vector<int> pinned_;
   ImplicitSolver<R> solver_;
+  Projector<R> projector_;
+  int projected_torn_ = 0;
+  bool springs_changed_ = true;  ///< or what is fixed, since the projector looked
   std::unique_ptr<Team> team_;
   std::vector<std::unique_ptr<Band<R, Present>>> bands_;
   std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< all rows each, a sweep each

@@ -7,6 +7,7 @@
 
 #include "core/engines/cpu/cpu_engine.h"
 #include "core/engines/cpu/row_distances.h"
+#include "core/forces/readout.h"
 #include "core/forces/spring-inl.h"
 
 namespace tyglab::cpu {
@@ -157,7 +158,7 @@ typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(
   for (const auto& band : bands) {
     largest = std::max(largest, band->largest_way());
     left_inside_ += band->left_inside();
-    if (has(part::hand) && band->has_hand()) hand_force_ = band->hand_force();
+    if (has(part::hand) && band->has_hand() && !projects(*scheme_)) hand_force_ = band->hand_force();
   }
   growth_ = growth_of(largest);
   if (tears_watched()) {
@@ -178,6 +179,10 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   band.begin_watch();
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
+    if (sweep.projects) {
+      project(number, sweep, tears, last);
+      continue;
+    }
     if (sweep.solve_dt != 0) {
       if (number == 0) solve(sweep, tears);
       team_->barrier();
@@ -190,6 +195,36 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
     band.sweep(sweep, tears, last);
     team_->barrier();
   }
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last) {
+  const int begin = band_begin(number), end = band_begin(number + 1);
+  if (number == 0) {
+    projector_.prepare(cloth_, tears, springs_changed_ || projected_torn_ != tears.torn_count());
+    springs_changed_ = false, projected_torn_ = tears.torn_count();
+  }
+  team_->barrier();
+  projector_.project(cloth_, sweep.velocity, begin, end, *team_);
+  bands_[std::size_t(number)]->assign(sweep.assignments, last);
+  team_->barrier();
+  projector_.damp(cloth_, begin, end, *team_);
+  if (number == 0 && has(part::hand) && cloth_.held.particle >= 0) read_hand(tears);
+}
+
+/// The springs' part of the force on the held particle is in no sweep of a method that projects.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::read_hand(const Tears& tears) {
+  const int i = cloth_.held.particle / cloth_.lattice.columns, j = cloth_.held.particle % cloth_.lattice.columns;
+  constexpr int reach = 2;
+  Neighbourhood near(i, j);
+  for (int ni = std::max(i - reach, 0); ni <= std::min(i + reach, cloth_.lattice.rows - 1); ++ni)
+    for (int nj = std::max(j - reach, 0); nj <= std::min(j + reach, cloth_.lattice.columns - 1); ++nj) {
+      const StoredParticle particle = stored(ni, nj);
+      near.x(ni, nj) = particle.x, near.v(ni, nj) = particle.v;
+    }
+  const ParticleForces forces = forces_on_particle(cloth_.preset, tears, near, i, j);
+  hand_force_ = forces.F_int() + forces.F_ext();
 }
 
 template <class R, unsigned Present>
