@@ -153,7 +153,7 @@ std::vector<Scheme> explicit_schemes() {
        .vectors = 6,
        .keeps_displacement = false,
        .note = "Fourth order without damping for three evaluations a step, while no spring switches; second with it.",
-       .stability = "stable up to hω = 2.58 without damping",
+       .stability = "stable up to hω = 2.59 without damping",
        .cost = "three evaluations of the force",
        .formula = R"(Runge-Kutta's idea for $\ddot x = a(x)$ itself: with $a_1 = a(x)$, $a_2 = a(x + \tfrac12 dt\,v + )"
                   R"(\tfrac18 dt^2 a_1)$, $a_3 = a(x + dt\,v + \tfrac12 dt^2 a_2)$ it is $x' = x + dt\,v + \tfrac16 )"
