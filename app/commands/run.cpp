@@ -11,6 +11,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/stepping.h"
+#include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
 #include "core/output/obj.h"
@@ -166,6 +167,20 @@ Json energy_json(const Simulation& simulation) {
   return json;
 }
 
+/// What a method that chooses its own steps did; null for others.
+Json inner_steps_json(const Engine& engine) {
+  const InnerSteps inner = engine.inner_steps();
+  if (inner.accepted == 0) return nullptr;
+  return {{"accepted", inner.accepted},
+          {"rejected", inner.rejected},
+          {"by_stability", inner.by_stability},
+          {"by_accuracy", inner.by_accuracy},
+          {"by_dt", inner.by_dt},
+          {"too_short", inner.too_short},
+          {"below_digits", inner.below_digits},
+          {"force_evaluations", inner.force_evaluations}};
+}
+
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
              double ns_per_particle_step, Json files) {
@@ -189,6 +204,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"bytes_per_particle", double(simulation.engine().bytes()) / simulation.lattice().size()},
           {"features", features_json(simulation.engine())},
           {"solves", solves_json(simulation.engine())},
+          {"inner_steps", inner_steps_json(simulation.engine())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"energy", energy_json(simulation)},
@@ -261,6 +277,8 @@ int run(const RunOptions& options) {
     std::cerr << "tyglab: " << counted(solves.unconverged, "solve")
               << " did not reach the tolerance, so the result is not quite the method's: take a smaller dt or more "
                  "--set iterations=N.\n";
+  if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
+    std::cerr << "tyglab: " << missed << '\n';
   if (simulation.left_inside() > 0)
     std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
               << " left inside a body, since bodies overlap; move them apart.\n";

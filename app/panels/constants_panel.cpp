@@ -42,8 +42,8 @@ const std::array<Section, 6>& sections() {
 /// Whether the constant plays a part in this scene.
 bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
-  if (row.key == "tolerance") return preset.integrator == "dopri5";
-  if (row.key == "iterations") return is_implicit(scheme(preset.integrator));
+  if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
+  if (row.key == "iterations") return iterates(scheme(preset.integrator));
   return !row.only_one_kind || row.only == preset.kind;
 }
 

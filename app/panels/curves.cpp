@@ -39,6 +39,8 @@ CurveStyle integrator_style(const Tokens& c, std::string_view name) {
                                      {"velocity_verlet", &Tokens::sky, LineStyle::solid},
                                      {"rk4", &Tokens::yellow, LineStyle::solid},
                                      {"rkn4", &Tokens::text, LineStyle::solid},
+                                     {"dopri5", &Tokens::yellow, LineStyle::long_dash},
+                                     {"xpbd", &Tokens::orange, LineStyle::dotted},
                                      {"implicit_euler", &Tokens::magenta, LineStyle::dashed},
                                      {"implicit_midpoint", &Tokens::sky, LineStyle::dashed},
                                      {"tr_bdf2", &Tokens::green, LineStyle::dashed},

@@ -155,6 +155,15 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
                      text("%.1f, ", double(solves.newton) / steps) + text("%.0f", double(solves.linear) / steps)});
     facts.push_back({"solves unconverged", std::to_string(solves.unconverged)});
   }
+  if (const InnerSteps inner = engine.inner_steps(); inner.accepted > 0) {
+    const auto steps = double(std::max<std::int64_t>(1, app.simulation->steps()));
+    const auto share = [&](std::int64_t part) { return text("%.0f %%", 100 * double(part) / double(inner.accepted)); };
+    facts.push_back(
+        {"inner steps, rejected", text("%.2g a dt, ", double(inner.accepted) / steps) + share(inner.rejected)});
+    facts.push_back({"limited by stability", share(inner.by_stability)});
+    facts.push_back({"by accuracy, by dt", share(inner.by_accuracy) + ", " + share(inner.by_dt)});
+    facts.push_back({"tolerance missed", std::to_string(inner.too_short + inner.below_digits)});
+  }
   facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});

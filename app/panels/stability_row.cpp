@@ -9,6 +9,7 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
@@ -75,6 +76,8 @@ std::string stability_text(const StabilityLimits& limits, double dt) {
 }
 
 std::string stability_words(const StabilityLimits& limits, double dt) {
+  if (chooses_steps(scheme(limits.of.integrator)))
+    return "This method chooses its own steps within dt, as short as stability and tolerance ask.";
   if (std::isinf(limits.any))
     return "Linear theory gives this method no largest dt. Bodies, and springs that switch, still may.";
   if (limits.any == 0) return "No dt is stable: without more damping this method feeds energy into every oscillation.";

@@ -16,6 +16,7 @@
 #include "app/sandbox/window.h"
 #include "app/viewport/drawn_cloth.h"
 #include "app/viewport/graphics_error.h"
+#include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
 
@@ -216,6 +217,11 @@ void Sandbox::simulate(double real_seconds) {
           "Newton's method does not reach its tolerance, so this is not quite the method's motion. Take a smaller dt "
           "or "
           "k_s.");
+      app_.told_unconverged = true;
+    }
+    if (const std::string missed = tolerance_missed(simulation.preset(), simulation.engine().inner_steps());
+        !missed.empty() && !app_.told_unconverged) {
+      app_.messages.warning(missed);
       app_.told_unconverged = true;
     }
     if (advance.released) app_.messages.note("The hand let go: its force exceeded F_release.");

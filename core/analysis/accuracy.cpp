@@ -15,7 +15,10 @@ constexpr double least_dt = 1e-7;         // s, of presets
 constexpr double worth_repeating = 0.04;  // s
 
 std::int64_t evaluations(const Scheme& scheme, const Simulation& simulation) {
+  if (chooses_steps(scheme)) return simulation.engine().inner_steps().force_evaluations;
   if (is_implicit(scheme)) return simulation.engine().solves().force_evaluations;
+  // A pass over all springs counts as one.
+  if (projects(scheme)) return simulation.steps() * (1 + simulation.preset().iterations);
   return simulation.steps() * std::int64_t(scheme.sweeps.size()) + (scheme.start.empty() ? 0 : 1);
 }
 
@@ -33,6 +36,11 @@ AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, con
     track.push_back(positions_of(simulation));
   }
   row.steps = simulation.steps();
+  if (chooses_steps(scheme(preset.integrator))) {
+    row.steps = simulation.engine().inner_steps().accepted;
+    row.tolerance = preset.tolerance;
+    row.dt = scene.seconds / double(std::max<std::int64_t>(row.steps, 1));
+  }
   row.force_evaluations = evaluations(scheme(preset.integrator), simulation);
   row.unconverged = simulation.engine().solves().unconverged;
   if (simulation.divergence()) {
@@ -76,29 +84,60 @@ std::vector<int> accuracy_ladder(const AccuracyScene& scene, double largest_dt, 
   return ladder;
 }
 
+std::vector<double> tolerance_ladder(Precision precision, const AccuracyEffort& effort) {
+  const double least = precision == Precision::float_ ? 1e-6 : 1e-12;
+  const double ratio = effort.fine ? std::sqrt(10.0) : 10;
+  std::vector<double> ladder;
+  for (double tolerance = 1e-2; tolerance > least * 0.9; tolerance /= ratio) ladder.push_back(tolerance);
+  return ladder;
+}
+
 bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& effort) {
   if (rows.empty()) return true;
   const AccuracyRow& last = rows.back();
   if (last.status == AccuracyStatus::below_floor) return false;
   if (last.status == AccuracyStatus::ok && last.seconds * (effort.fine ? 1.5 : 2) > effort.longest_s) return false;
-  // Rounding: the error has grown for three rows.
+  // Rounding: the error has grown for three rows. It stays the same where a tolerance asks for nothing yet.
   if (rows.size() < 4 || last.status != AccuracyStatus::ok) return true;
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n + 3 < rows.size(); ++n) best = std::min(best, rows[n].error_rms_m);
-  return std::any_of(rows.end() - 3, rows.end(), [&](const AccuracyRow& row) { return row.error_rms_m < best; });
+  return std::any_of(rows.end() - 3, rows.end(), [&](const AccuracyRow& row) { return row.error_rms_m <= best; });
 }
+
+namespace {
+
+/// The scene's preset with each setting to be measured, and how many steps each makes from a sample to the next.
+struct Setting {
+  Preset preset;
+  int steps;
+};
+std::vector<Setting> settings(const AccuracyScene& scene, const std::string& integrator, Precision precision,
+                              const AccuracyEffort& effort) {
+  std::vector<Setting> list;
+  Preset preset = scene.preset;
+  preset.integrator = integrator, preset.precision = precision;
+  const double part = scene.seconds / accuracy_samples;
+  if (chooses_steps(scheme(integrator))) {
+    preset.dt = part;
+    for (const double tolerance : tolerance_ladder(precision, effort))
+      list.push_back({preset, 1}), list.back().preset.tolerance = tolerance;
+    return list;
+  }
+  // Twice the least limit of any configuration, since the cloth may be far from that one.
+  const double largest_dt = stable_dt(preset, "verlet") * (iterates(scheme(integrator)) ? 16 : 2);
+  for (const int steps : accuracy_ladder(scene, largest_dt, effort))
+    list.push_back({preset, steps}), list.back().preset.dt = part / steps;
+  return list;
+}
+
+}  // namespace
 
 std::vector<AccuracyRow> measure_integrator(const AccuracyScene& scene, const Reference& reference,
                                             const std::string& integrator, Precision precision,
                                             const AccuracyEffort& effort, const Stop& stop) {
-  Preset preset = scene.preset;
-  preset.integrator = integrator, preset.precision = precision;
-  // Twice the least limit of any configuration, since the cloth may be far from that one.
-  const double largest_dt = stable_dt(preset, "verlet") * (is_implicit(scheme(integrator)) ? 16 : 2);
   std::vector<AccuracyRow> rows;
-  for (const int steps : accuracy_ladder(scene, largest_dt, effort)) {
+  for (const auto& [preset, steps] : settings(scene, integrator, precision, effort)) {
     if (!worth_going_on(rows, effort)) break;
-    preset.dt = scene.seconds / accuracy_samples / steps;
     try {
       AccuracyRow row = run_once(scene, reference, preset, steps, stop);
       for (int n = 0; n < effort.repeats && row.seconds < worth_repeating && row.status != AccuracyStatus::diverged;

@@ -43,6 +43,8 @@ bool can_tell(const Reference& reference, double error_rms_m);
 AccuracyStatus judged(const Reference& reference, double error_rms_m);
 /// Numbers of steps from one sample to the next, largest dt first, down to the least dt of presets.
 std::vector<int> accuracy_ladder(const AccuracyScene& scene, double largest_dt, const AccuracyEffort& effort);
+/// Tolerances for methods that choose their own steps, m, coarsest first.
+std::vector<double> tolerance_ladder(Precision precision, const AccuracyEffort& effort);
 /// Whether a finer row of the same method is worth measuring after these: not under the floor, beyond the time allowed,
 /// or where rounding makes the error grow.
 bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& effort);

@@ -176,9 +176,7 @@ std::vector<AccuracyRow> measure_odeint(const AccuracyScene& scene, const Refere
                                         const Stop& stop) {
   std::vector<Setting> ladder;
   if (is_controlled(method)) {
-    const double least = precision == Precision::float_ ? 1e-6 : 1e-12;
-    const double ratio = effort.fine ? std::sqrt(10.0) : 10;
-    for (double tolerance = 1e-2; tolerance > least * 0.9; tolerance /= ratio) ladder.push_back({method, 0, tolerance});
+    for (const double tolerance : tolerance_ladder(precision, effort)) ladder.push_back({method, 0, tolerance});
   } else {
     // The methods of many stages bear longer steps than Verlet.
     for (const int steps : accuracy_ladder(scene, 4 * stable_dt(scene.preset, "verlet"), effort))

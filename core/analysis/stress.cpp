@@ -64,10 +64,16 @@ class StressRun {
     simulation_->apply(next);
   }
 
+  double sweeps_of_a_step() const {
+    const Preset& p = simulation_->preset();
+    const Scheme& method = scheme(p.integrator);
+    return double(method.sweeps.size()) + (projects(method) ? p.iterations : 0);
+  }
+
   /// How many steps of the present scene the case may still make.
   double left() const {
     const double particles = simulation_->lattice().size();
-    const double sweeps = double(scheme(simulation_->preset().integrator).sweeps.size());
+    const double sweeps = sweeps_of_a_step();
     const double by_work = (most_particle_steps - work_) / (particles * sweeps);
     return std::min(double(most_steps) - double(result_.steps), std::max(by_work, result_.steps == 0 ? 1.0 : 0.0));
   }
@@ -76,16 +82,19 @@ class StressRun {
   bool advance(int steps) {
     const double particles = simulation_->lattice().size();
     const Scheme& method = scheme(simulation_->preset().integrator);
-    const int at_once = is_implicit(method) ? 1 : steps;
+    // A step of these may take any number of evaluations.
+    const int at_once = is_implicit(method) || chooses_steps(method) ? 1 : steps;
     for (int made = 0; made < steps; made += at_once) {
       const SolveCounts before = simulation_->engine().solves();
+      const std::int64_t evaluated = simulation_->engine().inner_steps().force_evaluations;
       const Advance part = simulation_->advance(std::min(at_once, steps - made));
       const SolveCounts after = simulation_->engine().solves();
       result_.steps += part.steps;
       result_.unconverged += after.unconverged - before.unconverged;
-      work_ += particles * part.steps * double(method.sweeps.size());
+      work_ += particles * part.steps * sweeps_of_a_step();
       products_ +=
           particles * double(after.linear - before.linear + after.force_evaluations - before.force_evaluations);
+      work_ += particles * double(simulation_->engine().inner_steps().force_evaluations - evaluated);
       if (!finite(part.hand_force)) fail("the hand's force is not finite");
       if (simulation_->divergence()) {
         result_.divergence = simulation_->divergence();

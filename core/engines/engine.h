@@ -12,6 +12,7 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
+#include "core/integrators/step_control.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -104,7 +105,7 @@ class Engine {
   virtual Advance advance(int steps, Tears& tears) = 0;
   /// Whether steps note what bodies stop, which only the energy ledger asks for.
   virtual void note_contacts(bool on) = 0;
-  /// What bodies stopped in the last step, once note_contacts(true) has been called.
+  /// What bodies stopped in the last step (where a method makes several of its own within dt, in each of them), once note_contacts(true) has been called.
   virtual std::vector<Contact> contacts() const = 0;
   /// Positions and the velocities that belong to them (v + dt/2 a for Verlet).
   virtual void read(State& state, const Tears& tears) = 0;
@@ -119,6 +120,8 @@ class Engine {
   /// Threads that it uses.
   virtual int threads() const = 0;
   virtual SolveCounts solves() const = 0;
+  /// What a method that chooses its own steps did within dt; nothing for others.
+  virtual InnerSteps inner_steps() const = 0;
   /// What a step does for the present scene, and what it skips.
   virtual std::vector<StepFeature> features() const = 0;
   /// "CPU, AVX2, 2 threads": for people.

@@ -35,6 +35,7 @@ Mode any_configuration(const Preset& p) {
 
 double dt_crit(const Scheme& scheme, std::span<const Mode> modes) {
   double least = infinity;
+  if (!has_step_limit(scheme)) return least;
   for (const Mode& mode : modes)
     if (const auto [omega, zeta] = oscillator_of(mode); omega > 0)
       least = std::min(least, stability_limit(scheme, zeta) / omega);
@@ -42,6 +43,7 @@ double dt_crit(const Scheme& scheme, std::span<const Mode> modes) {
 }
 
 double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, double dt) {
+  if (!has_step_limit(scheme)) return infinity;
   const auto holds = [&](double factor) {
     return std::all_of(modes.begin(), modes.end(), [&](Mode mode) {
       mode.stiffness *= factor;
@@ -61,6 +63,7 @@ double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, doubl
 
 double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double dt) {
   double most = -infinity;
+  if (!has_step_limit(scheme)) return most;
   for (const Mode& mode : modes)
     if (const auto [omega, zeta] = oscillator_of(mode); omega > 0)
       most = std::max(most, std::log(spectral_radius(amplification(scheme, omega * dt, zeta))));

@@ -19,7 +19,8 @@ struct Mode {
 /// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (one weight: k/m, k_d/m).
 Mode any_configuration(const Preset& preset);
 
-/// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large.
+/// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large, or where
+/// linear theory has nothing to say of dt (has_step_limit).
 double dt_crit(const Scheme& scheme, std::span<const Mode> modes);
 /// Factor by which all stiffness could grow before the method breaks at dt; 0 where it is broken at any, infinity where
 /// at none. With k_b = 0 that times k_s is the k_s at which it breaks.

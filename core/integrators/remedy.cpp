@@ -32,6 +32,19 @@ double stable_dt(const Preset& p, const std::string& integrator) {
   return any[0].stiffness == 0 ? 1 : dt_crit(scheme(integrator), any);
 }
 
+std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
+  if (inner.below_digits == 0 && inner.too_short == 0) return "";
+  const std::string tolerance = "The tolerance " + shortest_number(p.tolerance) + " m is ";
+  const std::string precision = p.precision == Precision::float_ ? "float" : "double";
+  if (inner.below_digits > 0)
+    return tolerance + "below what " + precision +
+           " can hold: the last digit of the largest coordinate is more. Take " +
+           (p.precision == Precision::float_ ? "a larger one, or the precision double." : "a larger one.");
+  return tolerance +
+         "more than the shortest inner steps reach, a ten-thousandth of dt: take a smaller dt or a larger "
+         "tolerance.";
+}
+
 std::string remedy(const Preset& p) {
   const std::string stiffness = p.kind == Kind::cloth ? "k_s" : "k";
   const double verlet_dt = advised_verlet_dt(p);
@@ -40,6 +53,13 @@ std::string remedy(const Preset& p) {
     return "Take dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
   }
   const std::string step = p.dt <= verlet_dt ? "" : " with dt = " + seconds(verlet_dt) + " or less";
+  if (chooses_steps(scheme(p.integrator)))
+    return "Take a smaller dt, of which its own steps may be a ten-thousandth, or a smaller " + stiffness +
+           ", and restart; or take the integrator implicit_euler, which no stiffness makes unstable.";
+  if (projects(scheme(p.integrator)))
+    return "Take a smaller dt or more iterations, and restart: this method has no limit of dt, but with few iterations "
+           "its springs give way, and bodies and wind may part them; or take the integrator verlet" +
+           step + ".";
   if (is_implicit(scheme(p.integrator)))
     return "Take a smaller dt and restart: linear theory gives this method no limit, but bodies, wind and springs that "
            "switch do; or take the integrator verlet" +

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/integrators/step_control.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -13,6 +14,9 @@ namespace tyglab {
 /// ω² <= (12 k_s + 8 k_b)/m and damping 12 k_d/m; 0 where no dt is. From the method's own table (amplification.h).
 /// One-sided springs switch, so it is advice and no guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
+
+/// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
+std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 
 /// What to change so that the preset does not diverge again.
 std::string remedy(const Preset& preset);

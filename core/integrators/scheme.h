@@ -3,6 +3,7 @@
 // in each engine runs them all; a new scheme is one row in schemes.cpp.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -37,25 +38,41 @@ struct Sweep {
   std::vector<Assignment> assignments;
   double solves = 0;
   std::vector<Assignment> before = {};
+  bool external = false;  ///< a holds gravity and wind alone
+  bool projects = false;  ///< instead of evaluating a, projects vectors[position] + vectors[velocity] on the springs'
+                          ///< lengths, softened by their compliance; the assignments are followed by a pass of damping
+};
+
+/// What a method that chooses its own steps knows of the step it has just tried, as sums of state vectors.
+struct Estimate {
+  std::vector<Term> x, v;                       ///< what the step errs by, m and m/s
+  std::vector<Term> stage_x, stage_v, stage_a;  ///< by how much the last two stages differ, both at the step's end
+  std::vector<double> growth;                   ///< coefficients of R(z): a step takes y of y' = λ y to R(λ dt) y
 };
 
 /// Vector 0 changes in the last sweep alone, or in the only one: bodies act on the way from the old to the new
-/// position.
+/// position. Where there is an `estimate`, dt is covered with as many steps as the tolerance asks, the first assignment
+/// of every sweep keeps its a, the last sweep's a is the next step's first, and all other assignments of the last sweep
+/// wait until the step is accepted.
 struct Scheme {
   std::string_view name;      ///< in presets and on the command line
   std::string_view title;     ///< for people
   std::string_view equation;  ///< number in the report
   std::string_view source;
-  int order_undamped;       ///< of the whole method (position and velocity), k_d = 0, smooth forces
-  int order_damped;         ///< k_d > 0
-  int vectors;              ///< state vectors that it keeps
-  bool keeps_displacement;  ///< vector 1 is d = dt·v, not v
-  std::string_view note;    ///< a sentence said where it is offered
+  int order_undamped;          ///< of the whole method (position and velocity), k_d = 0, smooth forces
+  int order_damped;            ///< k_d > 0
+  int vectors;                 ///< state vectors that it keeps
+  bool keeps_displacement;     ///< vector 1 is d = dt·v, not v
+  std::string_view note;       ///< a sentence said where it is offered
+  std::string_view stability;  ///< what is known of it, a clause
+  std::string_view cost;       ///< of a step, a clause
+  std::string_view formula;    ///< a paragraph for docs/integrators.md, with TeX
   std::vector<Sweep> sweeps;
   /// What the vectors become at the start, in order, from x in vector 0, v in vector 1 and a(x, v); none: these are
   /// kept.
   std::vector<Assignment> start;
   bool lags;  ///< vector 1 holds the velocity of half a step ago: dt/2 a more belongs to the position
+  std::optional<Estimate> estimate = {};  ///< it chooses its own steps
 };
 
 std::span<const Scheme> schemes();
@@ -69,6 +86,22 @@ inline bool is_implicit(const Scheme& scheme) {
   for (const Sweep& sweep : scheme.sweeps)
     if (sweep.solves != 0) return true;
   return false;
+}
+/// Whether it covers dt with as many steps as the tolerance asks.
+inline bool chooses_steps(const Scheme& scheme) {
+  return scheme.estimate.has_value();
+}
+/// Whether it projects positions on the springs' lengths: then no amplification matrix says what a step does.
+inline bool projects(const Scheme& scheme) {
+  return scheme.sweeps.back().projects;
+}
+/// Whether `iterations` bounds what a step does.
+inline bool iterates(const Scheme& scheme) {
+  return is_implicit(scheme) || projects(scheme);
+}
+/// Whether linear theory can say from which dt on the method is unstable (infinity where it is at none).
+inline bool has_step_limit(const Scheme& scheme) {
+  return !chooses_steps(scheme) && !projects(scheme);
 }
 /// The scheme of that name; the name must be known (is_integrator).
 const Scheme& scheme(std::string_view name);

@@ -23,7 +23,7 @@ Preset busy(const std::string& integrator, Precision precision) {
 }
 
 TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "xpbd"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       CAPTURE(std::string(integrator));
       const Preset preset = busy(integrator, precision);
@@ -43,7 +43,7 @@ TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
 }
 
 TEST_CASE("reading, and edits that change nothing, do not disturb a run") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "xpbd"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       CAPTURE(std::string(integrator));
       const Preset preset = busy(integrator, precision);
@@ -72,7 +72,7 @@ Preset large(const std::string& integrator, Precision precision) {
 }
 
 TEST_CASE("threads change nothing, to the last bit") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
+  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "xpbd"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       CAPTURE(std::string(integrator));
       const Preset preset = large(integrator, precision);

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "core/integrators/integrators_page.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 #include "tests/support/files.h"
@@ -88,6 +90,20 @@ TEST_CASE("docs/notation.md is current") {
     write_atomically(TYGLAB_SOURCE_DIR "/docs/notation.md", notation_markdown());
   }
   CHECK(test::read_file(TYGLAB_SOURCE_DIR "/docs/notation.md") == notation_markdown());
+}
+
+TEST_CASE("docs/integrators.md is current, and says of each method what it must") {
+  if (std::getenv("TYGLAB_WRITE_DOCS") != nullptr)
+    write_atomically(TYGLAB_SOURCE_DIR "/docs/integrators.md", integrators_markdown());
+  CHECK(test::read_file(TYGLAB_SOURCE_DIR "/docs/integrators.md") == integrators_markdown());
+  for (const Scheme& scheme : schemes()) {
+    CAPTURE(std::string(scheme.name));
+    for (const std::string_view text :
+         {scheme.title, scheme.source, scheme.note, scheme.stability, scheme.cost, scheme.formula})
+      CHECK_FALSE(text.empty());
+    CHECK(scheme.note.ends_with('.'));
+    CHECK_FALSE(scheme.stability.ends_with('.'));
+  }
 }
 
 TEST_CASE("the nearest known word is found, and nothing far-fetched") {

@@ -37,6 +37,10 @@ TEST_CASE("stability limits have their closed forms") {
     if (zeta < 1) CHECK(stability_limit(scheme("euler"), zeta) == doctest::Approx(2 * zeta).epsilon(1e-6));
   }
   CHECK(stability_limit(scheme("velocity_verlet"), 0) == doctest::Approx(2).epsilon(1e-4));
+  // As docs/integrators.md says them.
+  CHECK(stability_limit(scheme("rkn4"), 0) == doctest::Approx(2.59).epsilon(2e-3));
+  CHECK(stability_limit(scheme("dopri5"), 0) == doctest::Approx(1).epsilon(5e-3));
+  CHECK(2 * stability_limit(scheme("dopri5"), 1e3) * 1e3 == doctest::Approx(3.31).epsilon(2e-3));
   CHECK(stability_limit(scheme("rk4"), 0) == doctest::Approx(2 * std::sqrt(2.0)).epsilon(1e-6));
 }
 
@@ -65,6 +69,7 @@ TEST_CASE("the tables say what the running code does: a weight on its spring gro
         CAPTURE(std::string(s.name));
         CAPTURE(zeta);
         CAPTURE(h);
+        if (!has_step_limit(s)) continue;
         Preset preset = test::one_weight(std::string(s.name));
         preset.g = 0, preset.v_0 = {0, 0, 0}, preset.offset = 1e-3;
         preset.m = 1, preset.k = 1, preset.k_d = 2 * zeta, preset.dt = h / std::sqrt(preset.k / preset.m);

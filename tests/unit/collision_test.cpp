@@ -59,7 +59,7 @@ double worst_depth_in_ulp(Simulation& simulation) {
   return worst;
 }
 
-const char* const methods[] = {"verlet", "euler", "improved_euler"};
+const char* const methods[] = {"verlet", "euler", "improved_euler", "rk4", "dopri5", "xpbd"};
 
 TEST_CASE("a plane takes the normal velocity and leaves the tangential one") {
   for (const char* integrator : methods) {

@@ -54,11 +54,14 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   PairTask<R> t{};
   t.stride = cloth_.stride;
   t.columns = cloth_.lattice.columns;
-  t.L = cloth_.preset.L, t.k_s = cloth_.preset.k_s, t.k_b = cloth_.preset.k_b, t.k_d = s.k_d;
+  t.L = cloth_.preset.L;
+  const bool weight = cloth_.preset.kind == Kind::one_weight;
+  if (!s.external) t.k_s = weight ? cloth_.preset.k : cloth_.preset.k_s, t.k_b = cloth_.preset.k_b, t.k_d = s.k_d;
+  features_ = s.external ? cloth_.features & unsigned(wind) : cloth_.features;
   t.weight = cloth_.preset.m * cloth_.preset.g;
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
-  t.dt_v = cloth_.preset.dt / cloth_.velocity_scale();
+  t.dt_v = cloth_.dt / cloth_.velocity_scale();
   t.largest_way = largest_way_.data();
   return t;
 }
@@ -101,10 +104,10 @@ void Band<R, Present>::forces_on_pair(const PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
-    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, cloth_.preset.k, v, t.k_d) - t.weight);
+    t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.k_s, v, t.k_d) - t.weight);
     return;
   }
-  cloth_.sweeps.sweep[cloth_.features][std::size_t(update)](t);
+  cloth_.sweeps.sweep[features_][std::size_t(update)](t);
 }
 
 /// The force on the hand's particle, if it is in this row.
@@ -173,7 +176,7 @@ bool Band<R, Present>::touches(int i) const {
 
 template <class R, unsigned Present>
 void Band<R, Present>::collide_row(int i) {
-  const double scale = cloth_.keeps_displacement ? cloth_.preset.dt : 1;
+  const double scale = cloth_.velocity_scale();
   int next_fixed = cloth_.fixed_begin[i];
   for (int j = 0; j < cloth_.lattice.columns; ++j) {
     if (has(part::pins) && next_fixed < cloth_.fixed_begin[i + 1] && cloth_.fixed_columns[next_fixed] == j) {
@@ -188,7 +191,8 @@ void Band<R, Present>::collide_row(int i) {
       continue;
     p.v /= scale;
     const Passage freely = p;
-    if (!collide(cloth_.preset.bodies, cloth_.preset.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
+    collided_ = true;
+    if (!collide(cloth_.preset.bodies, cloth_.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
       cloth_.row(cloth_.seen_velocity, i, c)[j] = *v[c];
@@ -205,7 +209,19 @@ void Band<R, Present>::collide_row(int i) {
 template <class R, unsigned Present>
 void Band<R, Present>::watch_row(int i) {
   watch_ways(cloth_.row(vector_x, i, 0), old_row(i, 0), cloth_.row(vector_v, i, 0),
-             R(cloth_.preset.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns, largest_way_.data());
+             R(cloth_.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns, largest_way_.data());
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::measure(const ResolvedEstimate& estimate, const ResolvedSweep& s, int i) {
+  RowEstimate<R> row{.x = cloth_.row(s.position, i, 0), .dt = R(cloth_.dt)};
+  for (const auto& share : estimate.shares) {
+    const int n = row.terms++;
+    row.source[n] = cloth_.row(share.vector, i, 0);
+    row.error_x[n] = R(share.error_x), row.error_v[n] = R(share.error_v);
+    row.stage_x[n] = R(share.stage_x), row.stage_v[n] = R(share.stage_v), row.stage_a[n] = R(share.stage_a);
+  }
+  cloth_.measures[std::size_t(i)] = measure_row(row, cloth_.stride, cloth_.lattice.columns);
 }
 
 template <class R, unsigned Present>
@@ -213,6 +229,7 @@ void Band<R, Present>::begin_watch() {
   largest_way_.fill(R(0));
   contacts_.clear();
   left_inside_ = 0;
+  collided_ = false;
 }
 
 template <class R, unsigned Present>
@@ -250,6 +267,7 @@ void Band<R, Present>::sweep_pair(int i) {
       read_hand(row);
     if (bodies && touches(row)) collide_row(row);
     if (last && assigns) watch_row(row);
+    if (s.estimate != nullptr) measure(*s.estimate, s, row);
   }
 }
 

@@ -15,11 +15,21 @@
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/parts.h"
 #include "core/engines/cpu/row_field.h"
+#include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset.h"
 
 namespace tyglab::cpu {
+
+/// Sums of state vectors that a step is judged by (scheme.h), all over the same vectors.
+struct ResolvedEstimate {
+  struct Share {
+    int vector;
+    double error_x = 0, error_v = 0, stage_x = 0, stage_v = 0, stage_a = 0;
+  };
+  std::vector<Share> shares;
+};
 
 /// A sweep with its coefficients worked out for one dt and m: acceleration terms multiply forces, so they hold 1/m.
 struct ResolvedSweep {
@@ -34,10 +44,12 @@ struct ResolvedSweep {
   int position = 0, velocity = 0;
   double k_d = 0;  ///< divided by dt where the velocity vector holds displacements
   std::vector<ResolvedAssignment> assignments;
-  double solve_dt = 0;                     ///< not 0: an implicit stage over that time is solved first
-  std::vector<ResolvedAssignment> before;  ///< made before it
+  bool external = false, projects = false;  ///< as in Sweep
+  double solve_dt = 0;                      ///< not 0: an implicit stage over that time is solved first
+  std::vector<ResolvedAssignment> before;   ///< made before it
   Update update = Update::force;  ///< what the pair sweep does by itself; force: the assignments are made row by row
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other two
+  const ResolvedEstimate* estimate = nullptr;         ///< each row is measured by it
 };
 
 /// What all bands share: the arrays and what is known of the scene.
@@ -46,6 +58,7 @@ struct Cloth {
   using Field = RowField<R>;
 
   Preset preset;
+  double dt = 0;  ///< of the step that is being made, s: the preset's, or that of an inner step
   Lattice lattice;
   int stride = 0;
   PairSweeps<R> sweeps;
@@ -63,6 +76,7 @@ struct Cloth {
   const Field& vector(int number) const { return vectors[std::size_t(number)]; }
   R* row(int vector, int i, int component) { return vectors[std::size_t(vector)].row(i, component); }
   const R* row(int vector, int i, int component) const { return vectors[std::size_t(vector)].row(i, component); }
+  std::vector<RowMeasures> measures;  ///< of each row, by the last sweep with an estimate
   double velocity_scale() const { return keeps_displacement ? preset.dt : 1; }
   bool has_fixed(int i) const { return fixed_begin[std::size_t(i)] < fixed_begin[std::size_t(i) + 1]; }
 };
@@ -97,6 +111,8 @@ class Band {
   /// Largest way of a particle in one component since begin_watch, m; ∞ if something is not finite.
   double largest_way() const;
   int left_inside() const { return left_inside_; }
+  /// Whether a body has moved a particle since begin_watch.
+  bool collided() const { return collided_; }
   /// The force on the hand's particle as the last sweep found it; only the band that has its row sets it.
   bool has_hand() const { return has_hand_; }
   glm::dvec3 hand_force() const { return hand_force_; }
@@ -125,6 +141,7 @@ class Band {
   bool touches(int i) const;
   void collide_row(int i);
   void watch_row(int i);
+  void measure(const ResolvedEstimate& estimate, const ResolvedSweep& sweep, int i);
   R* old_row(int i, int c) { return old_rows_.row(i % 2, c); }
   R* force_row(int i, int c) { return ring_.row(i % 4, c); }
 
@@ -139,14 +156,16 @@ class Band {
   Cloth<R>& cloth_;
   int begin_, end_;
   Pass pass_;
-  Field ring_;        ///< force rows i … i+3
-  Field old_rows_;    ///< positions of a pair before it is overwritten
-  Halo head_, tail_;  ///< rows begin-2 … begin+1 and end-2 … end+1
+  unsigned features_ = 0;  ///< of the sweep
+  Field ring_;             ///< force rows i … i+3
+  Field old_rows_;         ///< positions of a pair before it is overwritten
+  Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
   alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> largest_way_{};  ///< by lane
   int left_inside_ = 0;
   std::vector<Contact> contacts_;
+  bool collided_ = false;
 };
 
 }  // namespace tyglab::cpu

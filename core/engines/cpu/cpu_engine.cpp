@@ -37,6 +37,15 @@ int useful_threads(const Lattice& lattice, int asked) {
   return std::clamp(std::min(lattice.size() / least_particles, lattice.rows / Band<float>::least_rows), 1, asked);
 }
 
+/// Whether two presets differ in nothing that moves a cloth that is under way.
+bool moves_alike(const Preset& a, const Preset& b) {
+  Preset as = a;
+  as.name = b.name, as.description = b.description, as.mode = b.mode, as.texture = b.texture;
+  as.v_0 = b.v_0, as.tilt_deg = b.tilt_deg, as.initial_stretch = b.initial_stretch, as.offset = b.offset;
+  if (a.kind == Kind::cloth) as.x_0 = b.x_0;
+  return as == b;
+}
+
 constexpr int lines_apart = 23;  // between vectors' places in their pages, of 64 cache lines
 
 }  // namespace
@@ -65,8 +74,9 @@ template <class R, unsigned Present>
 ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   ResolvedSweep out;
   out.position = sweep.position, out.velocity = sweep.velocity;
-  out.k_d = cloth_.preset.k_d * std::pow(cloth_.preset.dt, sweep.velocity_dt_power);
-  out.solve_dt = sweep.solves * cloth_.preset.dt;
+  out.k_d = cloth_.preset.k_d * std::pow(cloth_.dt, sweep.velocity_dt_power);
+  out.solve_dt = sweep.solves * cloth_.dt;
+  out.external = sweep.external, out.projects = sweep.projects;
   for (const Assignment& assignment : sweep.assignments) out.assignments.push_back(resolve(assignment));
   for (const Assignment& assignment : sweep.before) out.before.push_back(resolve(assignment));
   return out;
@@ -76,7 +86,7 @@ template <class R, unsigned Present>
 ResolvedSweep::ResolvedAssignment CpuEngine<R, Present>::resolve(const Assignment& assignment) const {
   ResolvedSweep::ResolvedAssignment out{assignment.target, {}};
   for (const Term& term : assignment.terms) {
-    const double factor = term.factor * std::pow(cloth_.preset.dt, term.dt_power);
+    const double factor = term.factor * std::pow(cloth_.dt, term.dt_power);
     out.terms.push_back({term.vector, term.vector == acceleration ? factor / cloth_.preset.m : factor});
   }
   return out;
@@ -87,10 +97,10 @@ void CpuEngine<R, Present>::resolve() {
   scheme_ = &scheme(cloth_.preset.integrator);
   cloth_.keeps_displacement = scheme_->keeps_displacement;
   cloth_.seen_velocity = seen_velocity(*scheme_);
-  sweeps_.clear();
-  for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
+  set_dt(cloth_.preset.dt);
   cloth_.vectors.resize(std::size_t(scheme_->vectors));
-  backup_.resize(cloth_.vectors.size());
+  // What a method that chooses its own steps keeps beside x and v follows from them.
+  backup_.resize(chooses_steps(*scheme_) ? 2 : cloth_.vectors.size());
   for (auto* fields : {&cloth_.vectors, &backup_}) {
     int lead = 0;
     for (auto& field : *fields) {
@@ -104,6 +114,14 @@ void CpuEngine<R, Present>::resolve() {
   measure_again();
 }
 
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::set_dt(double dt) {
+  cloth_.dt = dt;
+  sweeps_.clear();
+  for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
+  if (chooses_steps(*scheme_)) resolve_estimate();
+}
+
 /// Several steps follow each other through the rows where the state does not stay in a core's own cache, and where
 /// threads would otherwise have to wait for each other in every step.
 template <class R, unsigned Present>
@@ -114,8 +132,8 @@ void CpuEngine<R, Present>::make_waves() {
   const int rows = cloth_.lattice.rows, threads = team_->size();
   int sweeps = std::min(rows / rows_per_sweep, most * threads);
   const std::size_t state = cloth_.vectors.size() * rows * cloth_.vector(vector_x).pitch() * sizeof(R);
-  if (is_implicit(*scheme_) || cloth_.preset.kind == Kind::one_weight || sweeps < threads ||
-      (threads == 1 && state <= own_cache))
+  if (is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_) ||
+      cloth_.preset.kind == Kind::one_weight || sweeps < threads || (threads == 1 && state <= own_cache))
     sweeps = 0;
   const std::size_t steps = std::size_t(sweeps) / sweeps_.size();
   waves_.resize(steps < 2 ? 0 : steps * sweeps_.size());
@@ -157,12 +175,14 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
     });
   }
   set_fixed(std::vector<int>(pinned_), cloth_.held);
+  restart_control();
   measure_again();
 }
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
   const Scheme& next = scheme(preset.integrator);
+  if (!moves_alike(preset, cloth_.preset)) restart_control();
   // What lags half a step depends on dt, and the velocity must stay.
   const bool shifts = scheme_->lags && preset.dt != cloth_.preset.dt;
   if (&next != scheme_ || (shifts && !scheme_->keeps_displacement)) {
@@ -188,6 +208,8 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   pinned_.assign(pinned.begin(), pinned.end());
   cloth_.held = held;
+  springs_changed_ = true;
+  restart_control();
   std::vector<int> all(pinned_);
   if (held.particle >= 0) all.push_back(held.particle);
   std::sort(all.begin(), all.end());
@@ -233,6 +255,7 @@ void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
 
 template <class R, unsigned Present>
 std::vector<Contact> CpuEngine<R, Present>::contacts() const {
+  if (scheme_->estimate) return inner_contacts_;
   std::vector<Contact> all;
   for (const auto& band : bands_) all.insert(all.end(), band->contacts().begin(), band->contacts().end());
   return all;
@@ -300,8 +323,8 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
-  std::size_t total = acceleration_.bytes() + solver_.bytes() + cloth_.fixed.size() + guards_.size() +
-                      (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
+  std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + cloth_.fixed.size() +
+                      guards_.size() + (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})

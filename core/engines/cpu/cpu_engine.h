@@ -7,6 +7,7 @@
 
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/implicit.h"
+#include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
@@ -33,6 +34,7 @@ class CpuEngine final : public Engine {
   std::size_t bytes() const override;
   int threads() const override { return team_->size(); }
   SolveCounts solves() const override { return solver_.counts(); }
+  InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
 
@@ -52,6 +54,7 @@ class CpuEngine final : public Engine {
   /// The first row of a thread's band; of the number after the last, where the cloth ends.
   int band_begin(int number) const;
   void resolve();
+  void resolve_estimate();
   void make_waves();
   bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
@@ -60,6 +63,16 @@ class CpuEngine final : public Engine {
   void accelerations(int position, int velocity, const Tears& tears, Field& out);
   /// The implicit stage of a sweep, on this thread alone.
   void solve(const ResolvedSweep& sweep, const Tears& tears);
+  /// Works the coefficients out for a step of another length.
+  void set_dt(double dt);
+  /// Covers dt with inner steps, all threads together; end_ says how it ended.
+  void step_adaptively(int number, Tears& tears, Fault& fault);
+  void take_next_dt();
+  void begin_interval(const Tears& tears);
+  void begin_control(const Tears& tears);
+  void try_inner_step(int number, const Tears& tears);
+  void judge_inner_step();
+  void finish_inner_step(Tears& tears, Fault& fault);
   /// Positions and vector 1 as a velocity.
   void read_stored(State& state) const;
 
@@ -76,6 +89,8 @@ class CpuEngine final : public Engine {
   bool within_bounds(const Tears& tears, Fault& fault);
   /// By how much any spring of a row in one direction may still grow, m; less than 0: `fault` is too long.
   double growth_left(const Tears& tears, int direction, int i, Fault& fault) const;
+  /// The steps before say nothing any more of how long the next may be.
+  void restart_control() { control_.restart(), knows_first_a_ = false; }
   /// Forgets how far particles may still move, and the backup: something else than their motion has changed.
   void measure_again() {
     free_motion_ = tear_motion_ = 0;
@@ -87,6 +102,9 @@ class CpuEngine final : public Engine {
   /// returns the steps without fault. `waves`: several steps at a time where that pays.
   int run(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
+  /// What a sweep that projects does, with its assignments.
+  void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
+  void read_hand(const Tears& tears);
   /// How many of the `left` steps can follow each other through the rows before one must be looked at: 1 or more.
   int steps_in_wave(int left) const;
   /// That many steps in one pass over the rows: each sweep two rows behind the one before it, so that rows are worked
@@ -102,6 +120,12 @@ class CpuEngine final : public Engine {
   Cloth<R> cloth_;
   const Scheme* scheme_ = nullptr;
   std::vector<ResolvedSweep> sweeps_;
+  StepControl control_, control_backup_;
+  ResolvedEstimate estimate_;
+  std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step whose first a is known
+  std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once it is accepted
+  double left_of_dt_ = 0;                                      ///< s that inner steps have still to cover
+  bool knows_first_a_ = false, accepted_ = false;
   std::vector<Field> backup_;
   Tears tears_backup_;
   int since_backup_ = -1;             ///< steps; under 0: there is none
@@ -109,7 +133,11 @@ class CpuEngine final : public Engine {
   Field acceleration_;                ///< used between steps alone (readouts, starts)
   std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
   std::vector<int> pinned_;
+  std::vector<Contact> inner_contacts_;  ///< of all inner steps of the last dt
   ImplicitSolver<R> solver_;
+  Projector<R> projector_;
+  int projected_torn_ = 0;
+  bool springs_changed_ = true;  ///< or what is fixed, since the projector looked
   std::unique_ptr<Team> team_;
   std::vector<std::unique_ptr<Band<R, Present>>> bands_;
   std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< all rows each, a sweep each

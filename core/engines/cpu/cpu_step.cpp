@@ -7,6 +7,7 @@
 
 #include "core/engines/cpu/cpu_engine.h"
 #include "core/engines/cpu/row_distances.h"
+#include "core/forces/readout.h"
 #include "core/forces/spring-inl.h"
 
 namespace tyglab::cpu {
@@ -157,7 +158,7 @@ typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(
   for (const auto& band : bands) {
     largest = std::max(largest, band->largest_way());
     left_inside_ += band->left_inside();
-    if (has(part::hand) && band->has_hand()) hand_force_ = band->hand_force();
+    if (has(part::hand) && band->has_hand() && !projects(*scheme_)) hand_force_ = band->hand_force();
   }
   growth_ = growth_of(largest);
   if (tears_watched()) {
@@ -178,6 +179,10 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   band.begin_watch();
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
+    if (sweep.projects) {
+      project(number, sweep, tears, last);
+      continue;
+    }
     if (sweep.solve_dt != 0) {
       if (number == 0) solve(sweep, tears);
       team_->barrier();
@@ -190,6 +195,36 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
     band.sweep(sweep, tears, last);
     team_->barrier();
   }
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last) {
+  const int begin = band_begin(number), end = band_begin(number + 1);
+  if (number == 0) {
+    projector_.prepare(cloth_, tears, springs_changed_ || projected_torn_ != tears.torn_count());
+    springs_changed_ = false, projected_torn_ = tears.torn_count();
+  }
+  team_->barrier();
+  projector_.project(cloth_, sweep.velocity, begin, end, *team_);
+  bands_[std::size_t(number)]->assign(sweep.assignments, last);
+  team_->barrier();
+  projector_.damp(cloth_, begin, end, *team_);
+  if (number == 0 && has(part::hand) && cloth_.held.particle >= 0) read_hand(tears);
+}
+
+/// The springs' part of the force on the held particle is in no sweep of a method that projects.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::read_hand(const Tears& tears) {
+  const int i = cloth_.held.particle / cloth_.lattice.columns, j = cloth_.held.particle % cloth_.lattice.columns;
+  constexpr int reach = 2;
+  Neighbourhood near(i, j);
+  for (int ni = std::max(i - reach, 0); ni <= std::min(i + reach, cloth_.lattice.rows - 1); ++ni)
+    for (int nj = std::max(j - reach, 0); nj <= std::min(j + reach, cloth_.lattice.columns - 1); ++nj) {
+      const StoredParticle particle = stored(ni, nj);
+      near.x(ni, nj) = particle.x, near.v(ni, nj) = particle.v;
+    }
+  const ParticleForces forces = forces_on_particle(cloth_.preset, tears, near, i, j);
+  hand_force_ = forces.F_int() + forces.F_ext();
 }
 
 template <class R, unsigned Present>
@@ -253,6 +288,9 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves
         step_in_waves(number, together, tears);
         team_->barrier();
         if (number == 0) done += finish_wave(together, tears, fault);
+      } else if (chooses_steps(*scheme_)) {
+        step_adaptively(number, tears, fault);
+        if (number == 0 && end_ != End::fault) ++done;
       } else {
         step_in_bands(number, tears);
         if (number == 0) {
@@ -269,7 +307,8 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::keep_backup(const Tears& tears) {
-  for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) backup_[n] = cloth_.vectors[n];
+  for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
+  control_backup_ = control_;
   if (tears_watched()) tears_backup_ = tears;
   since_backup_ = 0;
 }
@@ -277,7 +316,8 @@ void CpuEngine<R, Present>::keep_backup(const Tears& tears) {
 /// The sweep works in place: return to the backup and repeat that many good steps, which gives the same bits.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
-  for (std::size_t n = 0; n < cloth_.vectors.size(); ++n) cloth_.vectors[n] = backup_[n];
+  for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
+  control_ = control_backup_, knows_first_a_ = false;
   if (tears_watched()) tears = tears_backup_;
   measure_again();
   Fault none{};
@@ -293,6 +333,7 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   const int torn_before = tears.torn_count();
   Fault fault{};
   while (result.steps < steps && !result.diverged && !result.released) {
+    if (torn_ != tears.torn_count()) restart_control();  // cut from outside
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups || torn_ != tears.torn_count()) keep_backup(tears);
     const int before = since_backup_, batch = std::min(steps - result.steps, steps_between_backups - before);
     int done = run(batch, tears, fault, true);
@@ -304,7 +345,8 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
     result.released = end_ == End::released;
     if (result.diverged) repeat(before + done, tears);
     result.steps += done;
-    since_backup_ = is_implicit(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
+    since_backup_ =
+        is_implicit(*scheme_) || chooses_steps(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
     torn_ = tears.torn_count();
   }
   result.i = fault.i, result.j = fault.j, result.di = fault.di, result.dj = fault.dj, result.value = fault.value;

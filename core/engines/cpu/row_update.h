@@ -9,7 +9,7 @@ namespace tyglab::cpu {
 /// target := Σ factor · source; rows as in row_field.h, of which the target may be one of the sources.
 template <class R>
 struct RowSum {
-  static constexpr int most_terms = 4;
+  static constexpr int most_terms = 8;
   R* target = nullptr;
   int terms = 0;
   const R* source[most_terms] = {};
@@ -24,5 +24,25 @@ void make_sum(const RowSum<R>& sum, std::ptrdiff_t stride, int columns);
 /// is not finite makes it ∞ or NaN.
 template <class R>
 void watch_ways(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, int columns, R* largest);
+
+/// Five sums of the same sources: what a step errs by in x and v, by how much its last two stages differ in x, v and a.
+template <class R>
+struct RowEstimate {
+  static constexpr int most_terms = 8;
+  int terms = 0;
+  const R* source[most_terms] = {};
+  R error_x[most_terms] = {}, error_v[most_terms] = {};
+  R stage_x[most_terms] = {}, stage_v[most_terms] = {}, stage_a[most_terms] = {};
+  const R* x = nullptr;  ///< positions
+  R dt = 0;              ///< s, that makes a way of an error in v
+};
+/// Of a row: largest |component|, m, and sums over all components.
+struct RowMeasures {
+  double error = 0;  ///< of error_x and dt·error_v; ∞ if one is not finite
+  double farthest = 0;
+  double xx = 0, xv = 0, vv = 0, xa = 0, va = 0;
+};
+template <class R>
+RowMeasures measure_row(const RowEstimate<R>& estimate, std::ptrdiff_t stride, int columns);
 
 }  // namespace tyglab::cpu

@@ -1,0 +1,154 @@
+// Methods that choose their own steps: dt covered with inner steps, each tried, judged and then accepted or thrown
+// away. Threads sweep together; the first one decides between two barriers.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/engines/cpu/cpu_engine.h"
+
+namespace tyglab::cpu {
+
+/// The last sweep keeps its a and measures the step; what it assigns besides waits. The first sweep's a may be known.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::resolve_estimate() {
+  const Estimate& from = *scheme_->estimate;
+  estimate_.shares.clear();
+  const auto add = [&](const std::vector<Term>& terms, double ResolvedEstimate::Share::*factor) {
+    for (const Term& term : terms) {
+      auto& shares = estimate_.shares;
+      auto share = std::find_if(shares.begin(), shares.end(), [&](const auto& s) { return s.vector == term.vector; });
+      if (share == shares.end()) share = shares.insert(share, {.vector = term.vector});
+      (*share).*factor = term.factor * std::pow(cloth_.dt, term.dt_power);
+    }
+  };
+  using Share = ResolvedEstimate::Share;
+  add(from.x, &Share::error_x), add(from.v, &Share::error_v);
+  add(from.stage_x, &Share::stage_x), add(from.stage_v, &Share::stage_v), add(from.stage_a, &Share::stage_a);
+  auto &first = sweeps_.front().assignments, &last = sweeps_.back().assignments;
+  next_stage_.assign(first.begin() + 1, first.end());
+  accepting_.assign(last.begin() + 1, last.end());
+  last.resize(1);
+  sweeps_.back().estimate = &estimate_;
+  cloth_.measures.resize(std::size_t(cloth_.lattice.rows));
+}
+
+/// The first step's length, by Hairer's rule; the first a is known then.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::begin_control(const Tears& tears) {
+  Field &a = cloth_.vector(sweeps_.front().assignments.front().target),
+        &changed = cloth_.vector(sweeps_[1].assignments.front().target), &x = cloth_.vector(sweeps_[1].position),
+        &v = cloth_.vector(sweeps_[1].velocity);
+  const auto largest = [](std::span<const R> values) {
+    double most = 0;
+    for (const R value : values) most = std::isfinite(value) ? std::max(most, std::abs(double(value))) : most;
+    return most;
+  };
+  accelerations(vector_x, vector_v, tears, a);
+  const double largest_v = largest(cloth_.vector(vector_v).all()), largest_a = largest(a.all());
+  const double probe = std::min(first_probe(cloth_.preset.L, largest_v, largest_a), cloth_.preset.dt);
+  const auto euler = [&](Field& to, const Field& from, const Field& slope) {
+    for (int i = 0; i < cloth_.lattice.rows; ++i)
+      for (std::ptrdiff_t n = 0; n < to.pitch(); ++n) to.row(i)[n] = from.row(i)[n] + R(probe) * slope.row(i)[n];
+  };
+  euler(x, cloth_.vector(vector_x), cloth_.vector(vector_v)), euler(v, cloth_.vector(vector_v), a);
+  accelerations(sweeps_[1].position, sweeps_[1].velocity, tears, changed);
+  double change = 0;
+  for (int i = 0; i < cloth_.lattice.rows; ++i)
+    for (std::ptrdiff_t n = 0; n < a.pitch(); ++n)
+      change = std::max(change, std::abs(double(changed.row(i)[n]) - double(a.row(i)[n])));
+  control_.begin(first_step(cloth_.preset.tolerance, largest_v, largest_a, change, probe, scheme_->order_undamped));
+  control_.count_evaluations(2);
+  knows_first_a_ = true;
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::take_next_dt() {
+  if (const double next = control_.next(left_of_dt_, cloth_.preset.dt); next != cloth_.dt) set_dt(next);
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::begin_interval(const Tears& tears) {
+  left_of_dt_ = cloth_.preset.dt;
+  end_ = End::none;
+  inner_contacts_.clear();
+  if (!control_.begun()) begin_control(tears);
+  take_next_dt();
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::try_inner_step(int number, const Tears& tears) {
+  Band<R, Present>& band = *bands_[std::size_t(number)];
+  for (const ResolvedSweep& sweep : sweeps_) {
+    if (&sweep == &sweeps_.front() && knows_first_a_) {
+      band.assign(next_stage_, false);
+    } else {
+      band.copy_halo(sweep);
+      team_->barrier();
+      band.sweep(sweep, tears, false);
+    }
+    team_->barrier();
+  }
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::judge_inner_step() {
+  TriedStep tried{.tolerance = cloth_.preset.tolerance};
+  StageProducts products;
+  double farthest = 0;
+  for (const RowMeasures& row : cloth_.measures) {
+    tried.error = std::max(tried.error, row.error), farthest = std::max(farthest, row.farthest);
+    products.xx += row.xx, products.xv += row.xv, products.vv += row.vv;
+    products.xa += row.xa, products.va += row.va;
+  }
+  tried.last_digit = double(std::numeric_limits<R>::epsilon()) * (std::isfinite(farthest) ? farthest : 0);
+  tried.unstable = beyond_stability(*scheme_->estimate, products, cloth_.dt);
+  control_.count_evaluations(int(sweeps_.size()) - (knows_first_a_ ? 1 : 0));
+  knows_first_a_ = true;
+  accepted_ = control_.judge(tried);
+  if (!accepted_) take_next_dt();
+}
+
+/// What the end of a step asks for; then the next inner step, or the end of dt.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
+  const int torn = tears.torn_count();
+  if (cloth_.notes_contacts)
+    for (const auto& band : bands_)
+      inner_contacts_.insert(inner_contacts_.end(), band->contacts().begin(), band->contacts().end());
+  const End end = finish_step(bands_, tears, fault);
+  if (end != End::none) end_ = end;
+  left_of_dt_ = end == End::fault ? 0 : left_of_dt_ - cloth_.dt;
+  // The last a is the next step's first, unless something else than the method has moved the particles or the springs.
+  std::swap(cloth_.vector(sweeps_.front().assignments.front().target),
+            cloth_.vector(sweeps_.back().assignments.front().target));
+  knows_first_a_ = torn == tears.torn_count() &&
+                   std::none_of(bands_.begin(), bands_.end(), [](const auto& band) { return band->collided(); });
+  if (left_of_dt_ > 0) take_next_dt();
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::step_adaptively(int number, Tears& tears, Fault& fault) {
+  Band<R, Present>& band = *bands_[std::size_t(number)];
+  if (number == 0) begin_interval(tears);
+  team_->barrier();
+  do {
+    try_inner_step(number, tears);
+    if (number == 0) judge_inner_step();
+    team_->barrier();
+    if (!accepted_) continue;
+    band.begin_watch();
+    band.assign(accepting_, true);
+    team_->barrier();
+    if (number == 0) finish_inner_step(tears, fault);
+    team_->barrier();
+  } while (left_of_dt_ > 0);
+}
+
+// What the engine's other files need of this one.
+#define TYGLAB_MAKE(R, present)                              \
+  template void CpuEngine<R, (present)>::resolve_estimate(); \
+  template void CpuEngine<R, (present)>::step_adaptively(int, Tears&, Fault&);
+TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
+#undef TYGLAB_MAKE
+
+}  // namespace tyglab::cpu

@@ -1,0 +1,156 @@
+#include "core/engines/cpu/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyglab::cpu {
+namespace {
+
+constexpr int E = 0, S = 1, SE = 2, SW = 3, EE = 4, SS = 5;  // directions
+constexpr double softest = 1e30;                             // m/(k dt²): softer springs move nothing
+
+}  // namespace
+
+template <class R>
+void Projector<R>::prepare(const Cloth<R>& cloth, const Tears& tears, bool changed) {
+  if (rows_ == 0) {
+    rows_ = cloth.lattice.rows, stride_ = cloth.stride;
+    lambda_.assign(std::size_t(rows_) * lambdas * stride_ + widest_vector / sizeof(R), R(0));
+    changed = true;
+  }
+  if (!changed) return;
+  masked_ = !tears.untorn() || !cloth.fixed.empty();
+  if (!masked_) return;
+  const int columns = cloth.lattice.columns;
+  free_.assign(std::size_t(rows_) * stride_ + widest_vector / sizeof(R), R(1));
+  whole_.assign(std::size_t(rows_) * directions.size() * stride_ + widest_vector / sizeof(R), R(1));
+  for (int i = 0; i < rows_; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const std::size_t p = std::size_t(i) * columns + j;
+      if (!cloth.fixed.empty() && cloth.fixed[p] != 0) free_[std::size_t(i) * stride_ + j] = R(0);
+      for (int d = 0; d < int(directions.size()); ++d)
+        if (!tears.whole(d, i, j)) whole_[(std::size_t(i) * directions.size() + d) * stride_ + j] = R(0);
+    }
+}
+
+/// Where the springs of a colour in row i lie: the first elements of both ends' rows. False where there are none.
+template <class R>
+template <class Row>
+bool Projector<R>::place(const Cloth<R>& cloth, const Colour& colour, int i, Row& row, int& upper, int& lower) const {
+  const Direction& to = directions[std::size_t(colour.direction)];
+  const int columns = cloth.lattice.columns;
+  row.stride = cloth.stride;
+  if (to.di == 0) {
+    row.reach = to.dj;
+    upper = lower = colour.first;
+    row.count = columns - colour.first;
+    if (row.count <= row.reach) return false;
+  } else {
+    upper = std::max(0, -to.dj), lower = upper + to.dj;
+    row.count = columns - std::abs(to.dj);
+    if (row.count <= 0 || i + to.di >= rows_) return false;
+  }
+  if (masked_) {
+    row.free_a = free_.data() + std::size_t(i) * stride_ + upper;
+    row.free_b = free_.data() + std::size_t(i + to.di) * stride_ + lower;
+    row.whole = whole_.data() + (std::size_t(i) * directions.size() + colour.direction) * stride_ + upper;
+  }
+  return true;
+}
+
+template <class R>
+void Projector<R>::project_colour(Cloth<R>& cloth, int q, const Colour& colour, int i) {
+  const Direction& to = directions[std::size_t(colour.direction)];
+  const Preset& p = cloth.preset;
+  ProjectionRow<R> row;
+  int upper = 0, lower = 0;
+  row.compliance = p.m / ((to.bending ? p.k_b : p.k_s) * cloth.dt * cloth.dt);
+  if (!(row.compliance < softest) || !place(cloth, colour, i, row, upper, lower)) return;
+  row.x_a = cloth.row(vector_x, i, 0) + upper, row.x_b = cloth.row(vector_x, i + to.di, 0) + lower;
+  row.q_a = cloth.row(q, i, 0) + upper, row.q_b = cloth.row(q, i + to.di, 0) + lower;
+  row.lambda = lambda_.data() + (std::size_t(i) * lambdas + colour.lambda) * stride_ + upper;
+  row.rest = to.rest * p.L, row.pushes = to.bending;
+  project_row(row);
+}
+
+template <class R>
+void Projector<R>::damp_colour(Cloth<R>& cloth, const Colour& colour, int i) {
+  const Direction& to = directions[std::size_t(colour.direction)];
+  const double decay = cloth.preset.k_d * cloth.dt / cloth.preset.m;
+  DampingRow<R> row;
+  int upper = 0, lower = 0;
+  if (!place(cloth, colour, i, row, upper, lower)) return;
+  row.v_a = cloth.row(vector_v, i, 0) + upper, row.v_b = cloth.row(vector_v, i + to.di, 0) + lower;
+  row.both = -std::expm1(-2 * decay) / 2, row.one = -std::expm1(-decay);
+  damp_row(row);
+}
+
+template <class R>
+template <class Work>
+void Projector<R>::in_colours(int begin, int end, bool bending, Team& team, Work work) {
+  static constexpr Colour in_row[]{{E, 0, 0}, {E, 1, 1}, {EE, 0, 2}, {EE, 2, 3}};
+  static constexpr Colour to_next[]{{S, 0, 4}, {SE, 0, 5}, {SW, 0, 6}};
+  static constexpr Colour to_second{SS, 0, 7};
+  // Rows of even number first, with what lies within them and below; then what joins pairs to pairs.
+  for (int i = begin; i < end; i += 2) {
+    for (int row = i; row < std::min(i + 2, end); ++row)
+      for (const Colour& colour : in_row)
+        if (bending || colour.direction == E) work(colour, row);
+    for (const Colour& colour : to_next) work(colour, i);
+  }
+  team.barrier();
+  for (int i = begin + 1; i < end; i += 2)
+    for (const Colour& colour : to_next) work(colour, i);
+  team.barrier();
+  if (!bending) return;
+  for (const int first : {0, 2}) {
+    for (int i = begin; i < end; ++i)
+      if ((i & 2) == first) work(to_second, i);
+    team.barrier();
+  }
+}
+
+template <class R>
+void Projector<R>::project_weight(Cloth<R>& cloth, int q) {
+  const Preset& p = cloth.preset;
+  // One spring, linear: a single step of Gauss-Seidel solves it.
+  const double compliance = p.m / (p.k * cloth.dt * cloth.dt);
+  if (!(compliance < softest)) return;
+  R* way = cloth.row(q, 0, 1);
+  way[0] -= R((double(cloth.row(vector_x, 0, 1)[0]) + double(way[0]) - p.x_0.y) / (1 + compliance));
+}
+
+template <class R>
+void Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& team) {
+  if (cloth.preset.kind == Kind::one_weight) {
+    if (begin == 0) project_weight(cloth, q);
+    team.barrier();
+    return;
+  }
+  const std::size_t pitch = std::size_t(lambdas) * stride_;
+  std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
+  for (int n = 0; n < cloth.preset.iterations; ++n)
+    in_colours(begin, end, cloth.preset.k_b > 0, team,
+               [&](const Colour& colour, int i) { project_colour(cloth, q, colour, i); });
+}
+
+template <class R>
+void Projector<R>::damp(Cloth<R>& cloth, int begin, int end, Team& team) {
+  if (cloth.preset.k_d == 0) return;
+  if (cloth.preset.kind == Kind::one_weight) {
+    if (begin == 0) cloth.row(vector_v, 0, 1)[0] *= R(std::exp(-cloth.preset.k_d * cloth.dt / cloth.preset.m));
+    team.barrier();
+    return;
+  }
+  in_colours(begin, end, false, team, [&](const Colour& colour, int i) { damp_colour(cloth, colour, i); });
+}
+
+template <class R>
+std::size_t Projector<R>::bytes() const {
+  return (lambda_.size() + free_.size() + whole_.size()) * sizeof(R);
+}
+
+template class Projector<float>;
+template class Projector<double>;
+
+}  // namespace tyglab::cpu

@@ -1,0 +1,182 @@
+// The explicit methods of fixed dt, a row each.
+#include "core/integrators/scheme_rows.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int x = vector_x, v = vector_v, a = acceleration;
+
+}  // namespace
+
+std::vector<Scheme> explicit_schemes() {
+  return {
+      {.name = "euler",
+       .title = "Euler",
+       .equation = "2.10",
+       .source = "L. Euler, Institutiones calculi integralis, 1768; the report's (2.10)",
+       .order_undamped = 1,
+       .order_damped = 1,
+       .vectors = 2,
+       .keeps_displacement = false,
+       .note = "First order. Feeds energy into every oscillation; stable only with enough damping.",
+       .stability = "grows at every dt without damping; with it stable up to hω = 2ζ",
+       .cost = "one evaluation of the force",
+       .formula = R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines look at the beginning of the step alone, )"
+                  R"(so every swing comes out a little larger, by $\sqrt{1 + (\omega\,dt)^2}$ a step: the report's )"
+                  R"(example of what not to do, and worth seeing.)",
+       .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
+       .start = {},
+       .lags = false},
+      {.name = "improved_euler",
+       .title = "Improved Euler",
+       .equation = "2.11",
+       .source = "the report's (2.11)",
+       .order_undamped = 1,
+       .order_damped = 1,
+       .vectors = 2,
+       .keeps_displacement = false,
+       .note = "A Taylor expansion of the position; its velocity is first order, so the method is.",
+       .stability = "grows at every dt without damping, more slowly than Euler",
+       .cost = "one evaluation of the force",
+       .formula = R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to )"
+                  R"(second order, the velocity to first only, and the whole is as good as its worse half. A swing )"
+                  R"(grows by $\sqrt{1 + (\omega\,dt)^2/2}$ a step.)",
+       .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
+       .start = {},
+       .lags = false},
+      // d[n] = x[n] - x[n-1] is kept: x[n+1] = 2x[n] - x[n-1] + dt² a would lose a float's last digits in every step.
+      {.name = "verlet",
+       .title = "Verlet",
+       .equation = "2.15",
+       .source = "L. Verlet, Phys. Rev. 159, 98 (1967); the report's (2.15)",
+       .order_undamped = 2,
+       .order_damped = 1,
+       .vectors = 2,
+       .keeps_displacement = true,
+       .note =
+           "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
+       .stability = "symplectic; stable up to hω = 2 without damping, 2(√(1 + ζ²) − ζ) with it",
+       .cost = "one evaluation of the force",
+       .formula = R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, begun with $d = dt\,v - \tfrac12 dt^2 a$. $d$ is )"
+                  R"(kept, $2x - x_{old}$ never formed, which in float would lose the last digits of every step. )"
+                  R"(Damping sees a velocity of half a step ago, which costs an order. Energy wavers and does not )"
+                  R"(drift while no spring switches.)",
+       .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
+       .start = {{v, {{v, 1, 1}, {a, -0.5, 2}}}},
+       .lags = true},
+      {.name = "semi_implicit_euler",
+       .title = "Semi-implicit Euler",
+       .equation = "",
+       .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed. (2006), I.1.2",
+       .order_undamped = 1,
+       .order_damped = 1,
+       .vectors = 2,
+       .keeps_displacement = false,
+       .note = "Verlet's recurrence with a simpler start: first order, and just as stable.",
+       .stability = "symplectic; as stable as Verlet",
+       .cost = "one evaluation of the force",
+       .formula =
+           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. Verlet's recurrence, read as an Euler step that uses )"
+           R"(its new velocity at once; the velocity it shows belongs half a step earlier, and that is its )"
+           R"(first-order error.)",
+       .sweeps = {{x, v, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}}}},
+       .start = {},
+       .lags = false},
+      // Vector 1 is v half a step back; vector 2 is v + dt a of the step before, a second-order prediction that the
+      // damping sees, so that one evaluation a step is enough.
+      {.name = "velocity_verlet",
+       .title = "Velocity Verlet",
+       .equation = "",
+       .source =
+           "W. C. Swope et al., J. Chem. Phys. 76, 637 (1982); predicted velocity as in R. D. Groot, P. B. Warren, "
+           "J. Chem. Phys. 107, 4423 (1997), with λ = 1",
+       .order_undamped = 2,
+       .order_damped = 2,
+       .vectors = 3,
+       .keeps_displacement = false,
+       .note = "Second order with damping too, since the damping sees a predicted velocity. One evaluation a step.",
+       .stability = "symplectic without damping; stable up to hω = 2, less with damping",
+       .cost = "one evaluation of the force",
+       .formula =
+           R"($h' = h + dt\,a(x, p)$, $\;x' = x + dt\,h'$, $\;p' = h' + \tfrac12 dt\,a(x, p)$: $h$ is the )"
+           R"(velocity between two steps, $p$ a prediction of the one at their end. The damping sees $p$, which )"
+           R"(errs by $O(dt^2)$ only, so nothing is lost by it.)",
+       .sweeps = {{x, 2, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}, {2, {{v, 1, 0}, {a, 0.5, 1}}}}}},
+       .start = {{2, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -0.5, 1}}}},
+       .lags = true},
+      // Vectors 2 and 3 gather the result, 4 and 5 hold the stage.
+      {.name = "rk4",
+       .title = "Runge-Kutta 4",
+       .equation = "",
+       .source = "W. Kutta, Z. Math. Phys. 46, 435 (1901)",
+       .order_undamped = 4,
+       .order_damped = 4,
+       .vectors = 6,
+       .keeps_displacement = false,
+       .note = "Fourth order while no spring switches. Four evaluations a step; loses a little energy.",
+       .stability = "stable up to hω = 2√2; takes energy away, (hω)⁶/144 of a swing a step",
+       .cost = "four evaluations of the force",
+       .formula = R"(Four slopes of $y = (x, v)$, at the beginning, twice in the middle, at the end: $y' = y + )"
+                  R"(\tfrac{dt}{6}(k_1 + 2k_2 + 2k_3 + k_4)$.)",
+       .sweeps = {{x,
+                   v,
+                   0,
+                   {{2, {{x, 1, 0}, {v, 1.0 / 6, 1}}},
+                    {3, {{v, 1, 0}, {a, 1.0 / 6, 1}}},
+                    {4, {{x, 1, 0}, {v, 0.5, 1}}},
+                    {5, {{v, 1, 0}, {a, 0.5, 1}}}}},
+                  {4,
+                   5,
+                   0,
+                   {{2, {{2, 1, 0}, {5, 1.0 / 3, 1}}},
+                    {3, {{3, 1, 0}, {a, 1.0 / 3, 1}}},
+                    {4, {{x, 1, 0}, {5, 0.5, 1}}},
+                    {5, {{v, 1, 0}, {a, 0.5, 1}}}}},
+                  {4,
+                   5,
+                   0,
+                   {{2, {{2, 1, 0}, {5, 1.0 / 3, 1}}},
+                    {3, {{3, 1, 0}, {a, 1.0 / 3, 1}}},
+                    {4, {{x, 1, 0}, {5, 1, 1}}},
+                    {5, {{v, 1, 0}, {a, 1, 1}}}}},
+                  {4, 5, 0, {{x, {{2, 1, 0}, {5, 1.0 / 6, 1}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
+       .start = {},
+       .lags = false},
+      // Vectors 2 and 3 gather the result, 4 and 5 hold the stage.
+      {.name = "rkn4",
+       .title = "Nyström 4",
+       .equation = "",
+       .source = "E. J. Nyström, Acta Soc. Sci. Fenn. 50, no. 13 (1925); Hairer, Nørsett, Wanner, Solving Ordinary "
+                 "Differential Equations I, II.14",
+       .order_undamped = 4,
+       .order_damped = 2,
+       .vectors = 6,
+       .keeps_displacement = false,
+       .note = "Fourth order without damping for three evaluations a step, while no spring switches; second with it.",
+       .stability = "stable up to hω = 2.59 without damping",
+       .cost = "three evaluations of the force",
+       .formula = R"(Runge-Kutta's idea for $\ddot x = a(x)$ itself: with $a_1 = a(x)$, $a_2 = a(x + \tfrac12 dt\,v + )"
+                  R"(\tfrac18 dt^2 a_1)$, $a_3 = a(x + dt\,v + \tfrac12 dt^2 a_2)$ it is $x' = x + dt\,v + \tfrac16 )"
+                  R"(dt^2 (a_1 + 2 a_2)$, $v' = v + \tfrac16 dt\,(a_1 + 4 a_2 + a_3)$. Damping sees a first-order )"
+                  R"(velocity at the stages.)",
+       .sweeps = {{x,
+                   v,
+                   0,
+                   {{2, {{x, 1, 0}, {v, 1, 1}, {a, 1.0 / 6, 2}}},
+                    {3, {{v, 1, 0}, {a, 1.0 / 6, 1}}},
+                    {4, {{x, 1, 0}, {v, 0.5, 1}, {a, 0.125, 2}}},
+                    {5, {{v, 1, 0}, {a, 0.5, 1}}}}},
+                  {4,
+                   5,
+                   0,
+                   {{2, {{2, 1, 0}, {a, 1.0 / 3, 2}}},
+                    {3, {{3, 1, 0}, {a, 2.0 / 3, 1}}},
+                    {4, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}},
+                    {5, {{v, 1, 0}, {a, 1, 1}}}}},
+                  {4, 5, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
+       .start = {},
+       .lags = false},
+  };
+}
+
+}  // namespace tyglab

@@ -1,0 +1,85 @@
+// The implicit methods, a row each.
+#include <numbers>
+
+#include "core/integrators/scheme_rows.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int x = vector_x, v = vector_v, a = acceleration;
+constexpr double gamma = 2 - std::numbers::sqrt2;  // of TR-BDF2, and the weights of its second stage
+constexpr double bdf_stage = 1 / (gamma * (2 - gamma)), bdf_start = (1 - gamma) * (1 - gamma) / (gamma * (2 - gamma));
+
+}  // namespace
+
+std::vector<Scheme> implicit_schemes() {
+  return {
+      {.name = "implicit_euler",
+       .title = "Implicit Euler",
+       .equation = "",
+       .source = "D. Baraff, A. Witkin, SIGGRAPH 1998; here with Newton's method to the end",
+       .order_undamped = 1,
+       .order_damped = 1,
+       .vectors = 4,
+       .keeps_displacement = false,
+       .note = "Stable at every dt and k_s, since it takes energy away: the more, the larger dt.",
+       .stability = "stable at every dt (L-stable); takes energy from all that swings",
+       .cost = "one solve: some steps of Newton's method, each some dozen products with the stiffness",
+       .formula =
+           R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$: the forces of the end of the step. A swing shrinks )"
+           R"(by $1/\sqrt{1 + (\omega\,dt)^2}$ a step.)",
+       .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
+       .start = {},
+       .lags = false},
+      {.name = "implicit_midpoint",
+       .title = "Implicit midpoint",
+       .equation = "",
+       .source = "E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2nd ed. (2006), II.1",
+       .order_undamped = 2,
+       .order_damped = 2,
+       .vectors = 4,
+       .keeps_displacement = false,
+       .note = "Second order, symplectic, stable at every dt while no spring switches; fast oscillations stay.",
+       .stability = "symplectic, stable at every dt while no spring switches (A-stable)",
+       .cost = "one solve",
+       .formula = R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' = )"
+                  R"(2v_m - v$. No swing grows or shrinks; those too fast for $dt$ turn at a wrong speed, with their )"
+                  R"(amplitude kept.)",
+       .sweeps = {{2,
+                   3,
+                   0,
+                   {{x, {{2, 2, 0}, {x, -1, 0}}}, {v, {{3, 2, 0}, {v, -1, 0}}}},
+                   0.5,
+                   {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
+       .start = {},
+       .lags = false},
+      // The trapezium to t + γ dt, then BDF2 over both points, γ = 2 - √2: both solve with γ/2.
+      {.name = "tr_bdf2",
+       .title = "TR-BDF2",
+       .equation = "",
+       .source = "R. E. Bank et al., IEEE Trans. Electron Devices 32, 1992 (1985); M. E. Hosea, L. F. Shampine, Appl. "
+                 "Numer. Math. 20, 21 (1996)",
+       .order_undamped = 2,
+       .order_damped = 2,
+       .vectors = 4,
+       .keeps_displacement = false,
+       .note = "Second order, and takes fast oscillations away: what dt resolves stays, the rest calms. Two solves.",
+       .stability = "stable at every dt (L-stable); takes energy from what is too fast for dt",
+       .cost = "two solves and one evaluation of the force",
+       .formula =
+           R"(The trapezium rule to $t + \gamma\,dt$, then the backward difference over the beginning, that )"
+           R"(point and the end, $\gamma = 2 - \sqrt2$, with which both solves have the same $\beta = \gamma/2$.)",
+       .sweeps = {{x, v, 0, {{2, {{x, 1, 0}, {v, gamma / 2, 1}}}, {3, {{v, 1, 0}, {a, gamma / 2, 1}}}}},
+                  {2,
+                   3,
+                   0,
+                   {{2, {{2, bdf_stage, 0}, {x, -bdf_start, 0}}}, {3, {{3, bdf_stage, 0}, {v, -bdf_start, 0}}}},
+                   gamma / 2,
+                   {}},
+                  {2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, gamma / 2, {}}},
+       .start = {},
+       .lags = false},
+  };
+}
+
+}  // namespace tyglab

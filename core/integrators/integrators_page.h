@@ -1,0 +1,11 @@
+// docs/integrators.md, made from the table of methods.
+#pragma once
+
+#include <string>
+
+namespace tyglab {
+
+/// The page, in Markdown.
+std::string integrators_markdown();
+
+}  // namespace tyglab

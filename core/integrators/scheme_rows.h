@@ -1,0 +1,15 @@
+// Where the rows of the table of methods come from; schemes.cpp puts them together.
+#pragma once
+
+#include <vector>
+
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+
+std::vector<Scheme> explicit_schemes();
+std::vector<Scheme> implicit_schemes();
+Scheme dopri5();
+Scheme xpbd();
+
+}  // namespace tyglab
