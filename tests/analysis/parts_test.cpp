@@ -21,7 +21,8 @@ State after(Engine& engine, const Preset& preset, int steps) {
   return state;
 }
 
-TEST_CASE("an engine without a part makes the same bits as the whole one with the part off") {
+TEST_CASE("an engine without a part makes the same bits as the whole one with the part off" *
+          doctest::skip(TYGLAB_SANITIZED)) {
   for (const SkipFeature& feature : skip_features(19)) {
     CAPTURE(feature.name);
     const Lattice lattice = lattice_of(feature.preset_off);
@@ -32,7 +33,8 @@ TEST_CASE("an engine without a part makes the same bits as the whole one with th
   }
 }
 
-TEST_CASE("an engine without a part leaves it out even where the preset asks for it") {
+TEST_CASE("an engine without a part leaves it out even where the preset asks for it" *
+          doctest::skip(TYGLAB_SANITIZED)) {
   Preset preset = test::cloth(18, 17);
   preset.precision = Precision::float_;
   preset.W = {0.002, 0.001, 0.01};
@@ -54,7 +56,7 @@ TEST_CASE("an engine without a part leaves it out even where the preset asks for
   same_without(part::bodies, [](Preset& p) { p.bodies.clear(); });
 }
 
-TEST_CASE("only one part can be left out") {
+TEST_CASE("only one part can be left out" * doctest::skip(TYGLAB_SANITIZED)) {
   const Preset preset = test::cloth(4, 4);
   CHECK(cpu::make_engine_without(0, preset, lattice_of(preset)) == nullptr);
   CHECK(cpu::make_engine_without(part::bending | part::wind, preset, lattice_of(preset)) == nullptr);

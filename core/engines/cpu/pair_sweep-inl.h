@@ -224,9 +224,22 @@ class PairSweep {
   Carry<2, D> two_right_[2];  ///< reactions on those two to the right, rows i and i+1
 };
 
+/// The fallback of machines older than SSE4 has all features compiled in; what is off has constants of 0 there. It
+/// would take as long to compile as an instruction set that is used.
+constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128;
+
 template <class R, unsigned F, Update U>
 void sweep_pair(const PairTask<R>& task) {
-  PairSweep<R, F, U>(task).run();
+  constexpr unsigned all = feature_sets - 1;
+  if constexpr (fallback && F != all) {
+    PairTask<R> t = task;
+    if ((F & bending) == 0) t.k_b = 0;
+    if ((F & damping) == 0) t.k_d = 0;
+    if ((F & wind) == 0) t.W[0] = t.W[1] = t.W[2] = 0;
+    sweep_pair<R, all, U>(t);
+  } else {
+    PairSweep<R, F, U>(task).run();
+  }
 }
 
 template <class R, std::size_t... F>
