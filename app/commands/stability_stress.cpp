@@ -80,9 +80,9 @@ Json row_of(std::uint64_t seed, std::int64_t number, const ChildOutcome& outcome
 }
 
 /// How many cases of each method ended how.
-using Counts = std::map<std::string, std::map<std::string, int>>;
+using Tally = std::map<std::string, std::map<std::string, int>>;
 
-void print_counts(std::ostream& out, const Counts& counts) {
+void print_counts(std::ostream& out, const Tally& counts) {
   out << "\nintegrator            bounded  diverged  failed\n";
   std::map<std::string, int> sums;
   const auto print = [&](const std::string& name, const std::map<std::string, int>& by) {
@@ -110,7 +110,7 @@ int stress(const StressOptions& options) {
       << options.from + count - 1 << ". Each must end bounded, or be reported as diverged.\n"
       << std::flush;
   Json rows = Json::array();
-  Counts counts;
+  Tally counts;
   int failed = 0;
   InterruptGuard guard;
   Progress progress("stability stress");

@@ -141,13 +141,13 @@ void motion_line(App& app, std::string_view key, const ParticleReadout* readout)
   draw_on_baseline(draw, *app.fonts.small, {lo.x + columns.last_end + app.theme.px(5), baseline}, c.quiet, what.unit);
 }
 
-constexpr const char* head = "Picked particle";
+constexpr const char* card_title = "Picked particle";
 
 }  // namespace
 
 float particle_panel_height(const App& app) {
   const float spacing = app.theme.px(2), title = app.theme.px(2) + app.theme.px(22) + 2 * spacing;
-  const bool open = app.settings.layout.folded.count(head) == 0;
+  const bool open = app.settings.layout.folded.count(card_title) == 0;
   const int lines = open ? int(forces.size() + 1) / 2 + int(motion.size()) : 0;
   return title + float(lines) * (line_height(app) + spacing) + app.theme.px(8);
 }
@@ -155,7 +155,7 @@ float particle_panel_height(const App& app) {
 void particle_panel(App& app) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool open = section(app, head);
+  const bool open = section(app, card_title);
   char where[64] = "none: right-click one";
   if (app.picked) {
     const bool pinned = app.simulation->pinned(app.picked->i, app.picked->j);

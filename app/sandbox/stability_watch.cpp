@@ -12,7 +12,7 @@
 namespace tyglab {
 namespace {
 
-constexpr double period = 0.5;                // s between two looks at a cloth in motion
+constexpr double between_looks = 0.5;         // s, at a cloth in motion
 constexpr int largest_looked_at = 128 * 128;  // particles: to linearise more of them would be felt in the frame
 
 StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
@@ -40,7 +40,7 @@ void StabilityWatch::poll(App& app) {
   }
   const Simulation& simulation = *app.simulation;
   const bool new_constants = looked_for_ != simulation.preset(), moved = looked_at_ != simulation.time();
-  if (!new_constants && (!moved || app.ui.now < begun_ + period)) return;
+  if (!new_constants && (!moved || app.ui.now < begun_ + between_looks)) return;
   begun_ = app.ui.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;
   if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);

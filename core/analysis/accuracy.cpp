@@ -11,8 +11,7 @@
 namespace tyglab {
 namespace {
 
-constexpr double least_dt = 1e-7;         // s, of presets
-constexpr double worth_repeating = 0.04;  // s
+constexpr double least_dt = 1e-7;  // s, of presets
 
 std::int64_t evaluations(const Scheme& scheme, const Simulation& simulation) {
   if (chooses_steps(scheme)) return simulation.engine().inner_steps().force_evaluations;
@@ -107,13 +106,13 @@ bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& 
 namespace {
 
 /// The scene's preset with each setting to be measured, and how many steps each makes from a sample to the next.
-struct Setting {
+struct Rung {
   Preset preset;
   int steps;
 };
-std::vector<Setting> settings(const AccuracyScene& scene, const std::string& integrator, Precision precision,
+std::vector<Rung> settings(const AccuracyScene& scene, const std::string& integrator, Precision precision,
                               const AccuracyEffort& effort) {
-  std::vector<Setting> list;
+  std::vector<Rung> list;
   Preset preset = scene.preset;
   preset.integrator = integrator, preset.precision = precision;
   const double part = scene.seconds / accuracy_samples;
@@ -140,8 +139,8 @@ std::vector<AccuracyRow> measure_integrator(const AccuracyScene& scene, const Re
     if (!worth_going_on(rows, effort)) break;
     try {
       AccuracyRow row = run_once(scene, reference, preset, steps, stop);
-      for (int n = 0; n < effort.repeats && row.seconds < worth_repeating && row.status != AccuracyStatus::diverged;
-           ++n)
+      for (int n = 0;
+           n < effort.repeats && row.seconds < effort.repeated_below_s && row.status != AccuracyStatus::diverged; ++n)
         row.seconds = std::min(row.seconds, run_once(scene, reference, preset, steps, stop).seconds);
       rows.push_back(row);
     } catch (const Stopped&) {

@@ -32,6 +32,7 @@ struct AccuracyEffort {
   double longest_s = 0.4;  ///< of one run
   bool fine = true;        ///< two dt for each halving; otherwise one
   int repeats = 6;         ///< of a run that is short, beside the first
+  double repeated_below_s = 0.04;
 };
 
 /// Processor time of this thread so far, s: what another process takes meanwhile is not in it.

@@ -14,8 +14,6 @@ namespace {
 
 namespace odeint = boost::numeric::odeint;
 
-constexpr double worth_repeating = 0.04;  // s
-
 template <class R>
 using Vector = typename EngineForces<R>::Vector;
 template <class R>
@@ -72,7 +70,7 @@ Advancer<R> controlled_steps(EngineForces<R>& forces, Stepper, double tolerance,
 }
 
 /// A method with its dt (steps from a sample to the next) or its tolerance.
-struct Setting {
+struct OdeintRung {
   std::string method;
   int steps = 0;
   double tolerance = 0;
@@ -83,7 +81,7 @@ bool is_controlled(const std::string& method) {
 }
 
 template <class R>
-Advancer<R> advancer(EngineForces<R>& forces, const Setting& setting, double first_dt) {
+Advancer<R> advancer(EngineForces<R>& forces, const OdeintRung& setting, double first_dt) {
   const std::string& method = setting.method;
   if (method == "odeint_runge_kutta4") return fixed_steps(forces, Rk4<R>(), setting.steps);
   if (method == "odeint_runge_kutta_dopri5") return fixed_steps(forces, Dopri5<R>(), setting.steps);
@@ -117,7 +115,7 @@ bool advance_all(EngineForces<R>& forces, const AccuracyScene& scene, const Adva
 }
 
 template <class R>
-AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, const Setting& setting, const Stop& stop) {
+AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, const OdeintRung& setting, const Stop& stop) {
   AccuracyRow row{scene.name, setting.method};
   row.precision = sizeof(R) == sizeof(float) ? Precision::float_ : Precision::double_;
   if (is_controlled(setting.method)) row.tolerance = setting.tolerance;
@@ -138,14 +136,14 @@ AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, con
 
 template <class R>
 std::vector<AccuracyRow> measure(const AccuracyScene& scene, const Reference& reference,
-                                 const std::vector<Setting>& ladder, const AccuracyEffort& effort, const Stop& stop) {
+                                 const std::vector<OdeintRung>& ladder, const AccuracyEffort& effort, const Stop& stop) {
   std::vector<AccuracyRow> rows;
-  for (const Setting& setting : ladder) {
+  for (const OdeintRung& setting : ladder) {
     if (!worth_going_on(rows, effort)) break;
     try {
       AccuracyRow row = run_once<R>(scene, reference, setting, stop);
-      for (int n = 0; n < effort.repeats && row.seconds < worth_repeating && row.status != AccuracyStatus::diverged;
-           ++n)
+      for (int n = 0;
+           n < effort.repeats && row.seconds < effort.repeated_below_s && row.status != AccuracyStatus::diverged; ++n)
         row.seconds = std::min(row.seconds, run_once<R>(scene, reference, setting, stop).seconds);
       rows.push_back(row);
     } catch (const Stopped&) {
@@ -174,7 +172,7 @@ bool odeint_can(const AccuracyScene& scene) {
 std::vector<AccuracyRow> measure_odeint(const AccuracyScene& scene, const Reference& reference,
                                         const std::string& method, Precision precision, const AccuracyEffort& effort,
                                         const Stop& stop) {
-  std::vector<Setting> ladder;
+  std::vector<OdeintRung> ladder;
   if (is_controlled(method)) {
     for (const double tolerance : tolerance_ladder(precision, effort)) ladder.push_back({method, 0, tolerance});
   } else {

@@ -16,7 +16,7 @@ struct Fineness {
   double first, last;
 };
 constexpr Fineness linear_motion{1.01, 1 + 2e-4}, chaotic_motion{1.1, 1.01};
-constexpr int between_looks = 25;  // steps from one look at the perturbation to the next
+constexpr int steps_between_looks = 25;  // steps from one look at the perturbation to the next
 
 /// A simulation and the perturbation in it.
 class Perturbed {
@@ -134,8 +134,8 @@ double damping_for(const Preset& sheet, double zeta) {
 
 bool unstable(const Preset& sheet) {
   Perturbed cloth(sheet);
-  for (int steps = 0; steps < steps_that_count; steps += between_looks)
-    if (!cloth.advance(between_looks) || cloth.growth() >= growth_that_counts) return true;
+  for (int steps = 0; steps < steps_that_count; steps += steps_between_looks)
+    if (!cloth.advance(steps_between_looks) || cloth.growth() >= growth_that_counts) return true;
   return false;
 }
 

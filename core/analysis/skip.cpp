@@ -14,7 +14,7 @@ namespace {
 namespace part = cpu::part;
 
 /// The default cloth: stretch, bending, damping and gravity, pinned at two corners.
-Preset square(int side) {
+Preset scene_of(int side) {
   Preset preset;
   preset.rows = preset.columns = side;
   preset.dt = 1e-4;  // thousands of steps stay within a second of motion
@@ -42,7 +42,7 @@ std::string_view name_of(SkipState state) {
 std::vector<SkipFeature> skip_features(int side) {
   std::vector<SkipFeature> features;
   const auto add = [&](std::string name, std::string on_means, unsigned which, auto on, auto off) {
-    SkipFeature feature{std::move(name), std::move(on_means), which, square(side), square(side)};
+    SkipFeature feature{std::move(name), std::move(on_means), which, scene_of(side), scene_of(side)};
     on(feature.preset_on), off(feature.preset_off);
     features.push_back(std::move(feature));
   };

@@ -14,7 +14,7 @@ namespace tyglab {
 namespace {
 
 /// The default cloth with that many particles a side: stretch, bending, damping and gravity; pinned at two corners.
-Preset square(int side) {
+Preset cloth_of(int side) {
   Preset preset;
   preset.rows = preset.columns = side;
   // Euler and improved Euler are measured too: a step must be short enough that they stay finite while it lasts.
@@ -33,14 +33,14 @@ double seconds_of(Simulation& simulation, int steps) {
 }  // namespace
 
 void wake_processor() {
-  Simulation simulation(square(128));
+  Simulation simulation(cloth_of(128));
   for (double seconds = 0; seconds < 0.5;) seconds += seconds_of(simulation, shortest_run);
 }
 
 std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
   std::vector<ThroughputCase> cases;
   const auto add = [&](std::string variant, int side, int with, auto change) {
-    ThroughputCase which{std::move(variant), square(side), with};
+    ThroughputCase which{std::move(variant), cloth_of(side), with};
     change(which.preset);
     cases.push_back(which);
   };

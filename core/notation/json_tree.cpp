@@ -10,7 +10,7 @@
 namespace tyglab {
 namespace {
 
-constexpr int max_depth = 16;               // a preset needs 4; a bound keeps recursion over the tree safe
+constexpr int max_tree_depth = 16;               // a preset needs 4; a bound keeps recursion over the tree safe
 constexpr std::size_t max_keys = 1000;      // in one block; each is compared with all before it
 constexpr std::size_t max_values = 200000;  // a list of every pin of a large cloth's border fits well
 
@@ -129,7 +129,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     const bool root = !started_;
     JsonNode* node = place(type);
     if (!node) return false;
-    if (int(stack_.size()) > max_depth) return fail("nested too deeply for a preset");
+    if (int(stack_.size()) > max_tree_depth) return fail("nested too deeply for a preset");
     if (!root) stack_.push_back(node);
     return true;
   }
