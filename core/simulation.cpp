@@ -54,9 +54,7 @@ Ledger::Source source_of(const Edit& edit) {
 }  // namespace
 
 std::string Divergence::where() const {
-  const auto site = [](int row, int column) {
-    return "(" + std::to_string(row) + ", " + std::to_string(column) + ")";
-  };
+  const auto site = [](int row, int column) { return "(" + std::to_string(row) + ", " + std::to_string(column) + ")"; };
   return di == 0 && dj == 0 ? "particle " + site(i, j) : "spring " + site(i, j) + "–" + site(i + di, j + dj);
 }
 

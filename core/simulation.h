@@ -85,7 +85,8 @@ class Simulation {
   Snapshot snapshot();
   /// Whether the cloth still has the particles that the snapshot holds.
   bool fits(const Snapshot& then) const { return then.lattice == lattice_ && then.kind == preset_.kind; }
-  /// Goes back to a snapshot that fits, with the present constants and pins; the hand lets go, a divergence is forgotten.
+  /// Goes back to a snapshot that fits, with the present constants and pins; the hand lets go, a divergence is
+  /// forgotten.
   void restore(const Snapshot& then);
 
   /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.

@@ -105,7 +105,8 @@ class Engine {
   virtual Advance advance(int steps, Tears& tears) = 0;
   /// Whether steps note what bodies stop, which only the energy ledger asks for.
   virtual void note_contacts(bool on) = 0;
-  /// What bodies stopped in the last step (where a method makes several of its own within dt, in each of them), once note_contacts(true) has been called.
+  /// What bodies stopped in the last step (where a method makes several of its own within dt, in each of them), once
+  /// note_contacts(true) has been called.
   virtual std::vector<Contact> contacts() const = 0;
   /// Positions and the velocities that belong to them (v + dt/2 a for Verlet).
   virtual void read(State& state, const Tears& tears) = 0;

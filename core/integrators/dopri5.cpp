@@ -129,13 +129,15 @@ Scheme dopri5() {
               R"(most ten times longer and five times shorter), and the steps of a $dt$ fill it exactly. The )"
               R"(fifth-order result is kept, so the error at a later time falls about in proportion to the )"
               R"(tolerance. $dt$ is only the interval of output. Bodies and tearing act, and the hand's force is )"
-              R"(looked at, after each inner step; the hand lets go at the end of a $dt$.
+              R"(looked at, after each inner step; the hand lets go at the end of a $dt$. Contact is no smooth )"
+              R"(force and in no estimate: it errs by what a particle does within an inner step, whatever the )"
+              R"(tolerance is, so where bodies matter $dt$ must be short too.
 
 What limits a step is counted: *stability* where the fastest motion left between the last two stages, which )"
               R"(both belong to the step's end, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"
               R"(outside $|R(h\lambda)| \le 1$ (Hairer's test, which asks for $h|\lambda| > 3.25$, is the case of )"
               R"(a motion that only decays); *dt* where one step covers it; *accuracy* otherwise. Where steps are )"
-              R"(limited by stability a smaller tolerance costs nothing, and an implicit method may be faster. An )"
+              R"(limited by stability a smaller tolerance costs little, and an implicit method may be faster. An )"
               R"(inner step is never shorter than $dt/10^4$, and no error under the last digit of the largest )"
               R"(coordinate is chased: such a step is accepted, counted, and said.)",
           .sweeps = sweeps(),

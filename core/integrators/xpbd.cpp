@@ -31,7 +31,8 @@ Scheme xpbd() {
                  R"(bending spring only pushes is kept by keeping $\lambda$ on its side: $\lambda \le 0$, $\lambda )"
                  R"(\ge 0$. In the end $v' = (x' - x)/dt$. At the fixed point $-\lambda/dt^2 = k\,C$, the force of )"
                  R"(the spring at the step's end: with many iterations it is implicit Euler's step, but for how far )"
-                 R"(springs turn while they wait for each other, an error of $dt^4$ a step. With few, errors spread )"
+                 R"(springs turn while they wait for each other, an error of $dt^4$ a step, and of $dt^2$ in a )"
+                 R"(drape at rest. With few, errors spread )"
                  R"(slowly over the lattice and the cloth seems softer; smaller steps help more than more iterations.
 
 The order of the springs is fixed, so that any number of threads computes the same bits: in every row E of even )"

@@ -63,7 +63,9 @@ const std::array<PresetRow, 23> rows{{
     {"solver", "tolerance", "tol", "Tolerance of adaptive methods", "Tolerans", "m", &Preset::tolerance, 1e-12, 1,
      logarithmic, solver, "", "Error allowed in a step by methods that choose their own steps."},
     {"solver", "iterations", "n_iter", "Most iterations of a step", "Iterationer", "", &Preset::iterations, 1, 1000,
-     logarithmic, solver, "", "Implicit methods: Newton steps of a solve at most, 1 takes a linear one as it is. xpbd: passes over the springs in a "
+     logarithmic, solver, "",
+     "Implicit methods: Newton steps of a solve at most, 1 takes a linear one as it is. xpbd: passes over the springs "
+     "in a "
      "step."},
 
     {"view", "mode", "", "View", "Vy", "", &Preset::mode, 1, 5, linear, view, "",

@@ -123,7 +123,7 @@ TEST_CASE("what nothing explains falls at the order of the method, down to round
 }
 
 TEST_CASE("a body's impact and friction are contact's, and leave little unexplained") {
-  Preset preset = test::cloth(8, 8, "velocity_verlet");
+  Preset preset = test::cloth(8, 8);
   preset.pins.mode = Pins::Mode::none;
   preset.tilt_deg = 0;
   preset.x_0 = {0, 0.05, 0}, preset.v_0 = {0.5, -1, 0};
@@ -131,14 +131,18 @@ TEST_CASE("a body's impact and friction are contact's, and leave little unexplai
   plane.shape = Body::Shape::plane, plane.y = 0, plane.friction = 0.4, plane.restitution = 0.3;
   preset.bodies = {plane};
   preset.dt = 1e-4;
-  Simulation simulation(preset);
-  simulation.keep_ledger(true);
-  simulation.advance(4000);
-  const LedgerReading ledger = *simulation.ledger();
-  CHECK(ledger.works.contact < -0.5 * ledger.start);
-  CHECK(std::abs(ledger.share()) < 2e-3);
-  CHECK(ledger.works.wind == 0);
-  CHECK(ledger.works.edits == 0);
+  for (const char* method : {"velocity_verlet", "rk4", "dopri5"}) {
+    CAPTURE(method);
+    preset.integrator = method;
+    Simulation simulation(preset);
+    simulation.keep_ledger(true);
+    simulation.advance(4000);
+    const LedgerReading ledger = *simulation.ledger();
+    CHECK(ledger.works.contact < -0.5 * ledger.start);
+    CHECK(std::abs(ledger.share()) < 2e-3);
+    CHECK(ledger.works.wind == 0);
+    CHECK(ledger.works.edits == 0);
+  }
 }
 
 TEST_CASE("springs that break and cuts take their energy with them") {

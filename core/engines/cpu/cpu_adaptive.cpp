@@ -7,29 +7,55 @@
 #include "core/engines/cpu/cpu_engine.h"
 
 namespace tyglab::cpu {
+namespace {
+
+ResolvedEstimate::Share* share_of(ResolvedEstimate& estimate, int vector) {
+  const auto it = std::find_if(estimate.shares.begin(), estimate.shares.end(),
+                               [&](const ResolvedEstimate::Share& share) { return share.vector == vector; });
+  return it == estimate.shares.end() ? nullptr : &*it;
+}
+
+}  // namespace
 
 /// The last sweep keeps its a and measures the step; what it assigns besides waits. The first sweep's a may be known.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::resolve_estimate() {
   const Estimate& from = *scheme_->estimate;
   estimate_.shares.clear();
-  const auto add = [&](const std::vector<Term>& terms, double ResolvedEstimate::Share::*factor) {
-    for (const Term& term : terms) {
-      auto& shares = estimate_.shares;
-      auto share = std::find_if(shares.begin(), shares.end(), [&](const auto& s) { return s.vector == term.vector; });
-      if (share == shares.end()) share = shares.insert(share, {.vector = term.vector});
-      (*share).*factor = term.factor * std::pow(cloth_.dt, term.dt_power);
-    }
-  };
-  using Share = ResolvedEstimate::Share;
-  add(from.x, &Share::error_x), add(from.v, &Share::error_v);
-  add(from.stage_x, &Share::stage_x), add(from.stage_v, &Share::stage_v), add(from.stage_a, &Share::stage_a);
+  for (const auto* terms : {&from.x, &from.v, &from.stage_x, &from.stage_v, &from.stage_a})
+    for (const Term& term : *terms)
+      if (share_of(estimate_, term.vector) == nullptr) estimate_.shares.push_back({.vector = term.vector});
+  scale_estimate();
   auto &first = sweeps_.front().assignments, &last = sweeps_.back().assignments;
   next_stage_.assign(first.begin() + 1, first.end());
   accepting_.assign(last.begin() + 1, last.end());
   last.resize(1);
   sweeps_.back().estimate = &estimate_;
   cloth_.measures.resize(std::size_t(cloth_.lattice.rows));
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::scale_estimate() {
+  using Share = ResolvedEstimate::Share;
+  const auto scale = [&](const std::vector<Term>& terms, double Share::*factor) {
+    for (const Term& term : terms)
+      share_of(estimate_, term.vector)->*factor = term.factor * power(cloth_.dt, term.dt_power);
+  };
+  const Estimate& from = *scheme_->estimate;
+  scale(from.x, &Share::error_x), scale(from.v, &Share::error_v);
+  scale(from.stage_x, &Share::stage_x), scale(from.stage_v, &Share::stage_v), scale(from.stage_a, &Share::stage_a);
+}
+
+/// Nothing but the terms' factors depends on it; what the last sweep assigns besides a does not at all.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::change_dt(double dt) {
+  cloth_.dt = dt;
+  for (std::size_t n = 0; n < sweeps_.size(); ++n)
+    for (std::size_t k = 0; k < sweeps_[n].assignments.size(); ++k)
+      scale(scheme_->sweeps[n].assignments[k], sweeps_[n].assignments[k]);
+  const auto& first = sweeps_.front().assignments;
+  std::copy(first.begin() + 1, first.end(), next_stage_.begin());
+  scale_estimate();
 }
 
 /// The first step's length, by Hairer's rule; the first a is known then.
@@ -63,7 +89,7 @@ void CpuEngine<R, Present>::begin_control(const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::take_next_dt() {
-  if (const double next = control_.next(left_of_dt_, cloth_.preset.dt); next != cloth_.dt) set_dt(next);
+  if (const double next = control_.next(left_of_dt_, cloth_.preset.dt); next != cloth_.dt) change_dt(next);
 }
 
 template <class R, unsigned Present>

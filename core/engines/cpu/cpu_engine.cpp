@@ -74,7 +74,7 @@ template <class R, unsigned Present>
 ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   ResolvedSweep out;
   out.position = sweep.position, out.velocity = sweep.velocity;
-  out.k_d = cloth_.preset.k_d * std::pow(cloth_.dt, sweep.velocity_dt_power);
+  out.k_d = cloth_.preset.k_d * power(cloth_.dt, sweep.velocity_dt_power);
   out.solve_dt = sweep.solves * cloth_.dt;
   out.external = sweep.external, out.projects = sweep.projects;
   for (const Assignment& assignment : sweep.assignments) out.assignments.push_back(resolve(assignment));
@@ -85,11 +85,18 @@ ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
 template <class R, unsigned Present>
 ResolvedSweep::ResolvedAssignment CpuEngine<R, Present>::resolve(const Assignment& assignment) const {
   ResolvedSweep::ResolvedAssignment out{assignment.target, {}};
-  for (const Term& term : assignment.terms) {
-    const double factor = term.factor * std::pow(cloth_.dt, term.dt_power);
-    out.terms.push_back({term.vector, term.vector == acceleration ? factor / cloth_.preset.m : factor});
-  }
+  for (const Term& term : assignment.terms) out.terms.push_back({term.vector, 0});
+  scale(assignment, out);
   return out;
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const {
+  for (std::size_t n = 0; n < out.terms.size(); ++n) {
+    const Term& term = assignment.terms[n];
+    const double factor = term.factor * power(cloth_.dt, term.dt_power);
+    out.terms[n].factor = term.vector == acceleration ? factor / cloth_.preset.m : factor;
+  }
 }
 
 template <class R, unsigned Present>

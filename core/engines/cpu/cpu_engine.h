@@ -63,8 +63,12 @@ class CpuEngine final : public Engine {
   void accelerations(int position, int velocity, const Tears& tears, Field& out);
   /// The implicit stage of a sweep, on this thread alone.
   void solve(const ResolvedSweep& sweep, const Tears& tears);
-  /// Works the coefficients out for a step of another length.
+  /// Works the coefficients out for steps of that length.
   void set_dt(double dt);
+  /// The same for an inner step, which comes often: in place.
+  void change_dt(double dt);
+  void scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const;
+  void scale_estimate();
   /// Covers dt with inner steps, all threads together; end_ says how it ended.
   void step_adaptively(int number, Tears& tears, Fault& fault);
   void take_next_dt();
