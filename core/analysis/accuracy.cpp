@@ -111,7 +111,7 @@ struct Rung {
   int steps;
 };
 std::vector<Rung> settings(const AccuracyScene& scene, const std::string& integrator, Precision precision,
-                              const AccuracyEffort& effort) {
+                           const AccuracyEffort& effort) {
   std::vector<Rung> list;
   Preset preset = scene.preset;
   preset.integrator = integrator, preset.precision = precision;

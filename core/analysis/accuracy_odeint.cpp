@@ -115,7 +115,8 @@ bool advance_all(EngineForces<R>& forces, const AccuracyScene& scene, const Adva
 }
 
 template <class R>
-AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, const OdeintRung& setting, const Stop& stop) {
+AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, const OdeintRung& setting,
+                     const Stop& stop) {
   AccuracyRow row{scene.name, setting.method};
   row.precision = sizeof(R) == sizeof(float) ? Precision::float_ : Precision::double_;
   if (is_controlled(setting.method)) row.tolerance = setting.tolerance;
@@ -136,7 +137,8 @@ AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, con
 
 template <class R>
 std::vector<AccuracyRow> measure(const AccuracyScene& scene, const Reference& reference,
-                                 const std::vector<OdeintRung>& ladder, const AccuracyEffort& effort, const Stop& stop) {
+                                 const std::vector<OdeintRung>& ladder, const AccuracyEffort& effort,
+                                 const Stop& stop) {
   std::vector<AccuracyRow> rows;
   for (const OdeintRung& setting : ladder) {
     if (!worth_going_on(rows, effort)) break;

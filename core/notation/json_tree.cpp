@@ -10,7 +10,7 @@
 namespace tyglab {
 namespace {
 
-constexpr int max_tree_depth = 16;               // a preset needs 4; a bound keeps recursion over the tree safe
+constexpr int max_tree_depth = 16;          // a preset needs 4; a bound keeps recursion over the tree safe
 constexpr std::size_t max_keys = 1000;      // in one block; each is compared with all before it
 constexpr std::size_t max_values = 200000;  // a list of every pin of a large cloth's border fits well
 
