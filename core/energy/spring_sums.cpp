@@ -13,7 +13,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 struct Sums {
   using V = hn::Vec<D>;
-  V longer = hn::Zero(D()), shorter = hn::Zero(D()), speed = hn::Zero(D());
+  V longer, shorter, speed;
+
+  HWY_INLINE Sums() : longer(hn::Zero(D())), shorter(hn::Zero(D())), speed(hn::Zero(D())) {}
 
   HWY_INLINE void add(const SpringRow& row, int j) {
     V way = hn::Zero(D()), change = hn::Zero(D());
