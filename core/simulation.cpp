@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
-#include <limits>
 
 #include "core/cloth/start.h"
-#include "core/forces/contact.h"
-#include "core/forces/readout.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
 
@@ -26,11 +22,6 @@ std::string printed(const char* format, double a) {
   char text[64];
   std::snprintf(text, sizeof text, format, a);
   return text;
-}
-
-double rounding_unit(Precision precision) {
-  return precision == Precision::float_ ? double(std::numeric_limits<float>::epsilon())
-                                        : std::numeric_limits<double>::epsilon();
 }
 
 /// Whether two presets of one lattice differ, but begin with the same state: what differs is seen, named or met later.
@@ -58,8 +49,8 @@ std::string Divergence::where() const {
   return di == 0 && dj == 0 ? "particle " + site(i, j) : "spring " + site(i, j) + "–" + site(i + di, j + dj);
 }
 
-Simulation::Simulation(const Preset& preset, int threads) : preset_(preset), threads_(threads) {
-  build();
+Simulation::Simulation(const Preset& preset, int threads) : threads_(threads) {
+  build(preset);
 }
 Simulation::~Simulation() = default;
 
@@ -82,11 +73,8 @@ Simulation::Simulation(const Simulation& from)
       tear_revision_(from.tear_revision_),
       watch_(from.watch_) {}
 
-void Simulation::build() {
-  const Lattice lattice = lattice_of(preset_);
-  auto engine = make_engine(preset_, lattice, threads_);  // first: it alone can fail
-  lattice_ = lattice;
-  engine_ = std::move(engine);
+void Simulation::build(const Preset& preset) {
+  renew_engine(preset, lattice_of(preset));  // first: it alone can fail
   tears_ = Tears(lattice_);
   pinned_mask_ = pinned_particles(preset_);
   held_ = {};
@@ -100,6 +88,14 @@ void Simulation::build() {
   divergence_.reset();
   ++revision_, ++tear_revision_;
   if (watch_) keep_ledger(true);
+}
+
+/// Makes the engine for these constants; throws EngineError and leaves everything as it was.
+void Simulation::renew_engine(const Preset& next, const Lattice& lattice) {
+  engine_ = make_engine(next, lattice, threads_);
+  engine_->note_contacts(watch_.has_value());
+  lattice_ = lattice;
+  preset_ = next;
 }
 
 double Simulation::time() const {
@@ -122,7 +118,7 @@ void Simulation::update_fixed() {
 }
 
 void Simulation::apply(const Edit& edit) {
-  std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [&](const edit::Restart&) { build(); },
+  std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [&](const edit::Restart&) { build(preset_); },
                         [&](const edit::Grab& e) { grab(e); }, [&](const edit::MoveHand& e) { move_hand(e); },
                         [&](const edit::Release&) { release(); }, [&](const edit::Cut& e) { cut(e); },
                         [&](const edit::Pin& e) { pin(e); }, [&](const edit::MoveBody& e) { move_body(e); }},
@@ -135,13 +131,7 @@ void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   const Preset old = preset_;
   if (lattice_of(next) != lattice_ || next.kind != old.kind) {
-    preset_ = next;
-    try {
-      build();
-    } catch (...) {
-      preset_ = old;
-      throw;
-    }
+    build(next);
     return;
   }
   if (steps_ == 0 && !begin_alike(next, old)) {
@@ -162,12 +152,10 @@ bool Simulation::converts(const Preset& next) const {
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {
-  auto engine = make_engine(next, lattice_, threads_);
-  rebase_time();
-  engine_ = std::move(engine);
-  preset_ = next;
+  const double now = time();
+  renew_engine(next, lattice_);
+  time_at_dt_ = now, steps_at_dt_ = steps_;
   engine_->set_fixed(pinned_, held_);
-  engine_->note_contacts(watch_.has_value());
   engine_->load(state, tears_);
 }
 
@@ -213,8 +201,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
 /// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
 /// the hand stay.
 void Simulation::restart_untouched(const Preset& next) {
-  engine_ = make_engine(next, lattice_, threads_);
-  preset_ = next;
+  renew_engine(next, lattice_);
   divergence_.reset();
   pinned_mask_ = pinned_particles(preset_);
   if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
@@ -331,37 +318,6 @@ void Simulation::diverge(const Advance& part) {
   diverged_preset_ = preset_;
 }
 
-EnergyReading Simulation::energy() {
-  return read_energy(preset_, tears_, read(), held_);
-}
-
-void Simulation::keep_ledger(bool on) {
-  if (on) watch_.emplace().begin(preset_, energy());
-  if (!on) watch_.reset();
-  engine_->note_contacts(on);
-}
-
-std::optional<LedgerReading> Simulation::ledger() const {
-  if (!watch_) return std::nullopt;
-  return watch_->ledger().reading();
-}
-
-void Simulation::watch_edit(Ledger::Source source) {
-  if (!watch_) return;
-  ++revision_;
-  watch_->edited(energy(), source);
-}
-
-void Simulation::watch_step() {
-  ++revision_;
-  watch_->after_step(preset_, tears_, read(), held_, engine_->contacts());
-  if (divergence_) return;
-  divergence_ = watch_->divergence(preset_, state_, lattice_.columns);
-  if (!divergence_) return;
-  divergence_->step = steps_, divergence_->t = time();
-  diverged_preset_ = preset_;
-}
-
 Snapshot Simulation::snapshot() {
   return {lattice_, preset_.kind, read(), tears_, time(), steps_};
 }
@@ -384,73 +340,6 @@ void Simulation::restore(const Snapshot& then) {
 std::size_t Simulation::bytes() const {
   return tears_.bytes() + pinned_mask_.capacity() + pinned_.capacity() * sizeof(int) + state_.x.bytes() +
          state_.v.bytes();
-}
-
-const State& Simulation::read() {
-  if (state_revision_ != revision_) engine_->read(state_, tears_), state_revision_ = revision_;
-  return state_;
-}
-
-State Simulation::read_raw() {
-  State state;
-  engine_->read_raw(state, tears_);
-  return state;
-}
-
-/// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
-glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const {
-  const bool fixed = pinned(i, j) || held_.particle == i * lattice_.columns + j;
-  if (stored.lag == 0 || fixed) return stored.v;
-  const ParticleForces forces = forces_on_particle(preset_, tears_, near, i, j);
-  return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
-}
-
-ParticleReadout Simulation::particle(int i, int j) const {
-  // Only what stands round it: to read a whole cloth takes longer than all the rest of a frame.
-  constexpr int reach = Neighbourhood::reach;
-  Neighbourhood near(i, j);
-  const auto visit = [&](int far, const auto& what) {
-    for (int ni = std::max(i - far, 0); ni <= std::min(i + far, lattice_.rows - 1); ++ni)
-      for (int nj = std::max(j - far, 0); nj <= std::min(j + far, lattice_.columns - 1); ++nj) what(ni, nj);
-  };
-  visit(reach, [&](int ni, int nj) {
-    const StoredParticle stored = engine_->stored(ni, nj);
-    near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
-  });
-  Neighbourhood now = near;
-  visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
-  const ParticleForces forces = forces_on_particle(preset_, tears_, now, i, j);
-  const std::size_t p = std::size_t(i) * lattice_.columns + j;
-  ParticleReadout out;
-  out.F_s = forces.F_s, out.F_b = forces.F_b, out.F_d = forces.F_d, out.F_g = forces.F_g, out.F_wind = forces.F_wind;
-  out.F_int = forces.F_int();
-  out.F_ext = forces.F_ext();
-  out.pinned = pinned(i, j);
-  out.held = held_.particle == int(p);
-  // What holds a particle (pin or hand) bears the rest of its force; the hand's belongs to F_ext.
-  if (out.held) out.F_ext -= out.F_int + out.F_ext;
-  out.F = out.F_int + out.F_ext;
-  out.x = now.x(i, j), out.v = now.v(i, j);
-  out.a = out.pinned ? glm::dvec3(0) : out.F / preset_.m;
-  out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
-                held_by_contact(preset_.bodies, preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
-  return out;
-}
-
-ForceSummary Simulation::forces(Reduction reduction) {
-  const State& state = read();
-  ForceSummary sum;
-  const auto add = [&](double& to, const glm::dvec3& force) {
-    const double size = glm::length(force);
-    to = reduction == Reduction::sum ? to + size : std::max(to, size);
-  };
-  for (int i = 0; i < lattice_.rows; ++i)
-    for (int j = 0; j < lattice_.columns; ++j) {
-      const ParticleForces f = forces_on_particle(preset_, tears_, state, i, j);
-      add(sum.F_s, f.F_s), add(sum.F_b, f.F_b), add(sum.F_d, f.F_d), add(sum.F_g, f.F_g), add(sum.F_wind, f.F_wind);
-      add(sum.F_int, f.F_int()), add(sum.F_ext, f.F_ext()), add(sum.F, f.F_int() + f.F_ext());
-    }
-  return sum;
 }
 
 }  // namespace tyglab

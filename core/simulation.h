@@ -38,6 +38,8 @@ struct Snapshot {
   double t = 0;  ///< s
   std::int64_t steps = 0;
   std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes(); }
+  /// At least so much will it be.
+  static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
 };
 
 class Simulation {
@@ -105,7 +107,8 @@ class Simulation {
  private:
   /// A copy of all but the engine and what is read of it.
   Simulation(const Simulation& from);
-  void build();
+  void build(const Preset& preset);
+  void renew_engine(const Preset& next, const Lattice& lattice);
   bool converts(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins(const Preset& old);
@@ -124,6 +127,7 @@ class Simulation {
   Advance advance_part(int steps);
   void watch_step();
   void watch_edit(Ledger::Source source);
+
   Preset preset_;
   int threads_;
   Lattice lattice_;

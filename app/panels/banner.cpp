@@ -11,7 +11,6 @@
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
-#include "core/energy/auto_step.h"
 #include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
 
@@ -68,17 +67,6 @@ struct Way {
   std::function<void(App&)> go;
 };
 
-constexpr double margin = 0.9;  // of dt_crit
-
-/// The present constants with a dt (s) that the method can take; none where it has it already, or can take none.
-std::optional<Preset> with_stable_dt(const Preset& now) {
-  Preset next = now;
-  const double limit = stable_dt(now, now.integrator);
-  next.dt = limit > 0 && std::isfinite(limit) ? two_digits_below(margin * limit) : 0;
-  if (!(next.dt >= 1e-7 && next.dt < now.dt)) return std::nullopt;
-  return next;
-}
-
 std::string cure_label(const Preset& now, const Preset& cured) {
   std::string label = cured.integrator == now.integrator ? "" : "Verlet";
   if (cured.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + short_number(cured.dt) + " s");
@@ -92,20 +80,20 @@ std::string why_and_what_now(const App& app, const Divergence& d) {
 }
 
 /// Back to where the cloth was well, with a change that makes it stay so: a smaller dt, Verlet, implicit Euler.
-void add_retries(const App& app, const Advice& advice, std::vector<Way>& ways) {
+void add_retries(const App& app, const Advice& advice, bool past, std::vector<Way>& ways) {
   const Preset& now = app.preset();
-  const auto retry = [&](const std::string& label, const Preset& preset, const char* tip) {
-    ways.push_back({label, tip, "", [preset](App& a) { a.requests.emplace_back(request::Retry{preset}); }});
+  const std::string from = past ? "A second back, and on with " : "From the start again with ";
+  const auto retry = [&](const std::string& label, const Preset& preset, const char* with) {
+    ways.push_back({label, from + with, "", [preset](App& a) { a.requests.emplace_back(request::Retry{preset}); }});
   };
   if (advice.cure && advice.cure->integrator != now.integrator)
-    retry(cure_label(now, *advice.cure), *advice.cure, "A second back, and on with what the linear theory advises");
-  if (const auto slower = with_stable_dt(now))
-    retry("dt = " + short_number(slower->dt) + " s", *slower,
-          "A second back, and on with 0.9 of dt_crit for this method");
+    retry(cure_label(now, *advice.cure), *advice.cure, "what the linear theory advises");
+  if (const auto slower = with_advised_dt(now))
+    retry("dt = " + short_number(slower->dt) + " s", *slower, "0.9 of dt_crit for this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";
-  retry("Implicit Euler", implicit, "A second back, and on with a method that linear theory gives no largest dt");
+  retry("Implicit Euler", implicit, "a method that linear theory gives no largest dt");
 }
 
 /// What is offered, the most helpful first: to take back what the user did, to go back and do what the linear theory
@@ -127,7 +115,8 @@ std::vector<Way> ways_out(App& app) {
   }
   Advice& advice = app.ui.advice;
   if (advice.of != app.preset()) advice = {app.preset(), cure(app.preset())};
-  if (past) add_retries(app, advice, ways), ways.push_back(rewind);
+  add_retries(app, advice, past, ways);
+  if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;
 }

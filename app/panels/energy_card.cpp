@@ -12,13 +12,9 @@
 namespace tyglab {
 namespace {
 
-constexpr const char* heading = "Energy";
+constexpr const char* energy_heading = "Energy";
 constexpr std::string_view height_row = "height";
-constexpr float line_at_1 = 19, head_at_1 = 36, foot_at_1 = 10, gap_at_1 = 7;  // pixels at scale 1
-
-bool open(const App& app) {
-  return app.settings.layout.folded.count(heading) == 0;
-}
+constexpr float gap_at_1 = 7;  // pixels at scale 1
 
 ImU32 color_of(const Tokens& c, double share) {
   return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
@@ -36,7 +32,7 @@ void draw_bar(App& app, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
 void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, double largest, float width) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(line_at_1), middle = std::round(lo.y + height / 2);
+  const float height = app.theme.px(card::line), middle = std::round(lo.y + height / 2);
   const float baseline = baseline_at(app.fonts, middle);
   const bool judged = row.kind == EnergyKind::unexplained;
   const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
@@ -86,41 +82,25 @@ std::string share_text(const LedgerReading& reading) {
 }
 
 float energy_card_height(const App& app) {
-  if (!open(app)) return app.theme.px(head_at_1);
-  const float lines = float(energy_rows({}).size());
-  return app.theme.px(head_at_1 + lines * line_at_1 + 2 * gap_at_1 + foot_at_1);
+  return card_height(app, energy_heading, float(energy_rows({}).size()) * card::line + 2 * gap_at_1);
 }
 
 void energy_card(App& app, float height) {
-  const Tokens& c = app.theme.colors;
-  const float padding = app.theme.px(12);
-  const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, inner = width - 2 * padding;
-  ImGui::GetWindowDrawList()->AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, app.theme.px(8));
-  gui::begin_child("energy", {width, height});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
-  ImGui::Dummy({inner, app.theme.px(4)});
-  ImGui::Indent(padding);
-  const float row_width = app.ui.row_width;
-  app.ui.row_width = inner;  // a section is as wide as its panel's rows
-  app.ui.energy_shown = section(app, heading);
-  app.ui.row_width = row_width;
+  app.ui.energy_shown = begin_card(app, energy_heading, height);
   if (const auto reading = app.simulation->ledger(); app.ui.energy_shown && reading) {
-    ImGui::Dummy({inner, app.theme.px(4)});
+    const float width = card_width(app);
     EnergyKind last = EnergyKind::has;
     const std::vector<EnergyRow> rows = energy_rows(*reading);
     double largest = 0;
     for (const EnergyRow& row : rows)
       if (row.name != height_row) largest = std::max(largest, std::abs(row.joule));
     for (const EnergyRow& row : rows) {
-      if (row.kind != last) ImGui::Dummy({inner, app.theme.px(gap_at_1)});
+      if (row.kind != last) ImGui::Dummy({width, app.theme.px(gap_at_1)});
       last = row.kind;
-      energy_line(app, row, *reading, largest, inner);
+      energy_line(app, row, *reading, largest, width);
     }
   }
-  ImGui::Unindent(padding);
-  ImGui::PopStyleVar();
-  ImGui::EndChild();
+  end_card(app);
 }
 
 }  // namespace tyglab

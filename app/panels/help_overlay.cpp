@@ -13,7 +13,7 @@ struct Entry {
   const char *keys, *does;
 };
 
-constexpr Entry mouse[] = {
+constexpr Entry mouse_entries[] = {
     {"Right drag", "grabs a particle and pulls it"},
     {"Right click", "picks a particle: its forces are shown"},
     {"Right double-click", "pins or unpins a particle"},
@@ -78,7 +78,7 @@ void tables(App& app, float width) {
   const bool two = width > app.theme.px(640);
   const float column = two ? (width - gap) / 2 : width, key_width = std::min(app.theme.px(180), 0.42f * column);
   const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
-  table(app, "In the viewport", mouse, left);
+  table(app, "In the viewport", mouse_entries, left);
   table(app, "On sliders", sliders, left);
   const float half = ImGui::GetCursorPosY();
   if (two) ImGui::SetCursorPosY(start.y);

@@ -12,8 +12,7 @@
 namespace tyglab {
 namespace {
 
-constexpr const char* heading = "Performance";
-constexpr float line_at_1 = 19, head_at_1 = 36, foot_at_1 = 10;  // pixels at scale 1
+constexpr const char* performance_heading = "Performance";
 
 bool cloth(const App& app) {
   return app.preset().kind == Kind::cloth;
@@ -87,7 +86,7 @@ ImU32 color_of(const Tokens& c, Activity activity) {
 void feature_line(App& app, const FeatureRow& row, float width) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(line_at_1), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  const float height = app.theme.px(card::line), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
   ImGui::InvisibleButton("feature", {width, height});
   tooltip(app, gui::item_id(), row.help);
@@ -105,7 +104,7 @@ void feature_line(App& app, const FeatureRow& row, float width) {
 void fact_line(App& app, const PerformanceFact& fact, float width) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(line_at_1), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  const float height = app.theme.px(card::line), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
   ImGui::Dummy({width, height});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
@@ -176,34 +175,16 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
 }
 
 float performance_card_height(const App& app) {
-  const bool open = app.settings.layout.folded.count(heading) == 0;
-  if (!open) return app.theme.px(head_at_1);
-  const auto lines = float(std::size(features) + performance_facts(app).size());
-  return app.theme.px(head_at_1) + lines * app.theme.px(line_at_1) + app.theme.px(foot_at_1);
+  return card_height(app, performance_heading, float(std::size(features) + performance_facts(app).size()) * card::line);
 }
 
 void performance_card(App& app, float height) {
-  const Tokens& c = app.theme.colors;
-  const float padding = app.theme.px(12);
-  const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, inner = width - 2 * padding;
-  ImGui::GetWindowDrawList()->AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, app.theme.px(8));
-  gui::begin_child("performance", {width, height});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
-  ImGui::Dummy({inner, app.theme.px(4)});
-  ImGui::Indent(padding);
-  const float row_width = app.ui.row_width;
-  app.ui.row_width = inner;  // a section is as wide as its panel's rows
-  const bool open = section(app, heading);
-  app.ui.row_width = row_width;
-  if (open) {
-    ImGui::Dummy({inner, app.theme.px(4)});
-    for (const PerformanceFact& fact : performance_facts(app)) fact_line(app, fact, inner);
-    for (const FeatureRow& row : feature_rows(app)) feature_line(app, row, inner);
+  if (begin_card(app, performance_heading, height)) {
+    const float width = card_width(app);
+    for (const PerformanceFact& fact : performance_facts(app)) fact_line(app, fact, width);
+    for (const FeatureRow& row : feature_rows(app)) feature_line(app, row, width);
   }
-  ImGui::Unindent(padding);
-  ImGui::PopStyleVar();
-  ImGui::EndChild();
+  end_card(app);
 }
 
 }  // namespace tyglab

@@ -15,10 +15,10 @@ namespace tyglab {
 namespace {
 
 constexpr double full = 1.5;  // of the limit, at the bar's right end
-constexpr double margin = 0.9;
+constexpr double near_limit = 0.9;
 
 ImU32 color_of(const Tokens& c, double part) {
-  return part > 1 ? c.danger : part > margin ? c.warning : c.good;
+  return part > 1 ? c.danger : part > near_limit ? c.warning : c.good;
 }
 
 std::string two_digits(double value) {

@@ -39,6 +39,18 @@ bool check(App& app, const char* label, bool value);
 /// Head of a section: small capitals and a line; a click folds it. Returns whether it is open.
 bool section(App& app, const char* name);
 
+/// A card of lines under a heading that folds it. Heights at scale 1.
+namespace card {
+inline constexpr float line = 19, head = 36, foot = 10;
+}
+/// Its height, px, with so much (at scale 1) under its heading, or folded.
+float card_height(const App& app, const char* heading, float content);
+/// Begins a card as wide as its region; returns whether it is open. end_card in any case.
+bool begin_card(App& app, const char* heading, float height);
+void end_card(App& app);
+/// Width of what stands in a card that has begun, px.
+float card_width(const App& app);
+
 /// A combo box; while it is open its list is written with ImGui::Selectable, then end_combo.
 bool begin_combo(App& app, const char* id, const char* shown, float width);
 void end_combo();

@@ -16,12 +16,10 @@ Preset starting_at(Preset preset, double y, double v) {
 
 }  // namespace
 
-void Figure::begin(Simulation& weight) {
-  const State& state = weight.read();
+void Figure::begin(const Simulation& weight, double y, double v, double t) {
   of_ = weight.preset();
-  exact_ = starting_at(of_, state.x.y[0], state.v.y[0]);
-  exact_t_ = t_ = weight.time();
-  steps_ = weight.steps();
+  exact_ = starting_at(of_, y, v);
+  exact_t_ = t_ = t;
   for (std::size_t n = 0; n < companions_.size(); ++n) {
     Preset own = exact_;
     own.integrator = curves[n], own.precision = Precision::double_;
@@ -43,16 +41,22 @@ void Figure::take_constants(const Preset& preset) {
   of_ = preset;
 }
 
-Figure::Heights Figure::follow(Simulation& weight) {
-  // At the start, after a restart and after a way back, all begin together where the weight is.
-  const bool fresh = companions_[0] == nullptr || weight.steps() < steps_;
-  if (fresh) begin(weight);
+Figure::Heights Figure::follow(Simulation& weight, std::int64_t steps) {
+  const bool from_start = weight.steps() == steps;
+  const bool unseen = companions_[0] == nullptr || weight.steps() != steps_ + steps;
+  if (from_start) {
+    begin(weight, weight.preset().x_0.y + weight.preset().offset, weight.preset().v_0.y, 0);
+  } else if (unseen) {
+    const State& state = weight.read();
+    begin(weight, state.x.y[0], state.v.y[0], weight.time());
+    steps = 0;
+  }
   if (of_ != weight.preset()) take_constants(weight.preset());
   Heights y;
   y.fill(std::numeric_limits<double>::quiet_NaN());
   for (std::size_t n = 0; n < companions_.size(); ++n) {
     Simulation& companion = *companions_[n];
-    companion.advance(int(weight.steps() - steps_));
+    companion.advance(int(steps));
     if (!companion.divergence()) y[n] = companion.positions().at(0, 0).y;
   }
   steps_ = weight.steps(), t_ = weight.time();

@@ -16,13 +16,14 @@ class Figure {
   static constexpr std::array<std::string_view, 4> titles{"Euler", "improved Euler", "Verlet", "exact"};
   using Heights = std::array<double, curves.size()>;
 
-  /// Makes the steps that the weight has made since the last call, with its constants and dt, from where it began;
-  /// returns y by each curve, m: not a number once a companion has diverged.
-  Heights follow(Simulation& weight);
+  /// Makes the `steps` that the weight has just made, with its constants and dt, from where it began; returns y by each
+  /// curve, m: not a number once a companion has diverged. Where the weight has moved unseen, its constants may have
+  /// changed on the way: all begin anew from where it is, or from its start where it has made no other steps.
+  Heights follow(Simulation& weight, std::int64_t steps);
   void clear() { companions_ = {}; }
 
  private:
-  void begin(Simulation& weight);
+  void begin(const Simulation& weight, double y, double v, double t);
   void take_constants(const Preset& preset);
 
   std::array<std::unique_ptr<Simulation>, curves.size() - 1> companions_;

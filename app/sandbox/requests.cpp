@@ -104,6 +104,25 @@ void restart(App& app) {
   app.pacing.restart_measure();
 }
 
+constexpr double rewinds_s = 1;
+
+/// Goes a second back; the plots forget what has not happened. False where there is nothing to go back to.
+bool rewind(App& app) {
+  const double t = app.simulation->time();
+  if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) return false;
+  app.rewind.go_back(*app.simulation, t, rewinds_s);
+  app.tool.kind = Tool::Kind::none;
+  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
+  app.pacing.restart_measure();
+  return true;
+}
+
+/// Takes constants that stood before. An automatic dt stays so only if it is the one that would be chosen for them.
+bool take_back(App& app, const Preset& preset) {
+  if (app.auto_dt && preset.dt != AutoStep::choose(preset)) app.auto_dt.reset();
+  return apply_edit(app, edit::Change{preset});
+}
+
 void take_from_history(App& app, bool backwards) {
   const auto preset = backwards ? app.history.undo(app.wished()) : app.history.redo(app.wished());
   if (!preset) {
@@ -113,23 +132,8 @@ void take_from_history(App& app, bool backwards) {
   History kept = app.history;
   Preset next = *preset;
   next.mode = app.wished().mode;  // the view is not a change to undo
-  apply_edit(app, edit::Change{next});
+  take_back(app, next);
   app.history = std::move(kept);
-}
-
-constexpr double rewinds_s = 1;
-
-/// Goes a second back; the plots forget what has not happened.
-void rewind(App& app) {
-  const double t = app.simulation->time();
-  if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) {
-    app.messages.note("There is nothing earlier to go back to.");
-    return;
-  }
-  app.rewind.go_back(*app.simulation, t, rewinds_s);
-  app.tool.kind = Tool::Kind::none;
-  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
-  app.pacing.restart_measure();
 }
 
 void toggle_auto(App& app) {
@@ -161,8 +165,7 @@ void follow_constants(App& app, Preset& next) {
 }
 
 void reset_everything(App& app) {
-  Preset next = app.document.saved;
-  apply_edit(app, edit::Change{next});
+  take_back(app, app.document.saved);
   restart(app);
   app.wants_framing = true;
 }
@@ -185,7 +188,7 @@ void apply(App& app, const request::Do& what) {
     case Command::restart:
       return restart(app);
     case Command::reset_constants:
-      apply_edit(app, edit::Change{app.document.saved});
+      take_back(app, app.document.saved);
       return;
     case Command::reset_everything:
       return reset_everything(app);
@@ -193,7 +196,8 @@ void apply(App& app, const request::Do& what) {
       return take_from_history(app, true), restart(app);
     case Command::rewind:
       app.pacing.playing &= !app.simulation->divergence();
-      return rewind(app);
+      if (!rewind(app)) app.messages.note("There is nothing earlier to go back to.");
+      return;
     case Command::toggle_auto:
       return toggle_auto(app);
     case Command::toggle_play:
@@ -264,8 +268,8 @@ void apply(App& app, const request::Apply& what) {
 }
 
 void apply(App& app, const request::Retry& what) {
-  rewind(app);
-  apply_edit(app, edit::Change{what.preset});
+  const bool back = rewind(app);
+  if (take_back(app, what.preset) && !back) restart(app);
 }
 
 void apply(App& app, const request::Open& what) {

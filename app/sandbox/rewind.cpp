@@ -4,17 +4,17 @@ namespace tyglab {
 
 void Rewind::look(Simulation& simulation) {
   if (simulation.divergence()) return;
+  if (Snapshot::bytes(simulation.lattice()) > most_bytes / fewest) return clear();
   const double t = simulation.time();
   // A restart or another cloth: that past is another's.
   if (!kept_.empty() && (t < kept_.back().t || !simulation.fits(kept_.back()))) clear();
   if (!kept_.empty() && t - kept_.back().t < interval) return;
   kept_.push_back(simulation.snapshot());
   bytes_ += kept_.back().bytes();
-  while (kept_.size() > 1 && (bytes_ > most_bytes || t - kept_.front().t > longest)) {
+  while (bytes_ > most_bytes || t - kept_.front().t > longest) {
     bytes_ -= kept_.front().bytes();
     kept_.pop_front();
   }
-  if (bytes_ > most_bytes) clear();  // one alone is too much
 }
 
 const Snapshot* Rewind::before(const Simulation& simulation, double t, double seconds) const {

@@ -13,6 +13,7 @@ class Rewind {
   static constexpr double interval = 0.1;  ///< s of simulated time between snapshots
   static constexpr double longest = 30;    ///< s that are kept, at most
   static constexpr std::size_t most_bytes = 96 << 20;
+  static constexpr std::size_t fewest = 10;  ///< snapshots that must fit; of a larger cloth nothing is kept
 
   /// Called before the steps of a frame: keeps a snapshot if one is due.
   void look(Simulation& simulation);

@@ -24,7 +24,7 @@ void sample(App& app) {
     if (fresh) plots.height_methods.clear();
     if (fresh || plots.height_methods.back().second != app.preset().integrator)
       plots.height_methods.emplace_back(t, app.preset().integrator);
-    const Figure::Heights others = app.figure.follow(*app.simulation);
+    const Figure::Heights others = app.figure.follow(*app.simulation, app.steps_made);
     const std::array row{y, others[0], others[1], others[2], others[3]};
     plots.height.add(t, row);
   }

@@ -20,16 +20,15 @@ std::string seconds(double dt) {
   return shortest_number(std::strtod(text, nullptr)) + " s";
 }
 
-/// The largest dt that is advised for Verlet, s, in the two digits in which it is said.
-double advised_verlet_dt(const Preset& p) {
-  return std::strtod(seconds(margin * stable_dt(p, "verlet")).c_str(), nullptr);
-}
-
 }  // namespace
 
 double stable_dt(const Preset& p, const std::string& integrator) {
   const std::array any{any_configuration(p)};
   return any[0].stiffness == 0 ? 1 : dt_crit(scheme(integrator), any);
+}
+
+double advised_dt(const Preset& p, const std::string& integrator) {
+  return std::strtod(seconds(margin * stable_dt(p, integrator)).c_str(), nullptr);
 }
 
 std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
@@ -47,7 +46,7 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
 
 std::string remedy(const Preset& p) {
   const std::string stiffness = p.kind == Kind::cloth ? "k_s" : "k";
-  const double verlet_dt = advised_verlet_dt(p);
+  const double verlet_dt = advised_dt(p, "verlet");
   if (p.integrator == "verlet") {
     if (p.dt <= verlet_dt) return "Take a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
     return "Take dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
@@ -64,7 +63,7 @@ std::string remedy(const Preset& p) {
     return "Take a smaller dt and restart: linear theory gives this method no limit, but bodies, wind and springs that "
            "switch do; or take the integrator verlet" +
            step + ".";
-  const double own_dt = margin * stable_dt(p, p.integrator);
+  const double own_dt = advised_dt(p, p.integrator);
   const std::string own = own_dt > 0 ? "this method itself needs dt below about " + seconds(own_dt)
                                      : "without damping no dt makes this method stable";
   return "Take the integrator verlet" + step + " and restart; " + own + ".";
@@ -73,9 +72,16 @@ std::string remedy(const Preset& p) {
 std::optional<Preset> cure(const Preset& p) {
   Preset cured = p;
   cured.integrator = "verlet";
-  cured.dt = std::min(p.dt, advised_verlet_dt(p));
+  cured.dt = std::min(p.dt, advised_dt(p, "verlet"));
   if (cured == p || cured.dt < 1e-7) return std::nullopt;  // nothing to change, or below the range of dt
   return cured;
+}
+
+std::optional<Preset> with_advised_dt(const Preset& p) {
+  Preset slower = p;
+  slower.dt = advised_dt(p, p.integrator);
+  if (!(slower.dt >= 1e-7 && slower.dt < p.dt)) return std::nullopt;
+  return slower;
 }
 
 }  // namespace tyglab

@@ -15,6 +15,9 @@ namespace tyglab {
 /// One-sided springs switch, so it is advice and no guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
 
+/// 0.9 of it, s, in the two digits in which it is said; 0 where no dt is stable, infinity where every one is.
+double advised_dt(const Preset& preset, const std::string& integrator);
+
 /// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
 std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 
@@ -23,5 +26,8 @@ std::string remedy(const Preset& preset);
 
 /// The preset with the change of integrator and dt that remedy() names first, made; none where it names none.
 std::optional<Preset> cure(const Preset& preset);
+
+/// The preset with the dt that is advised for its own method; none where it has it already, or none is stable.
+std::optional<Preset> with_advised_dt(const Preset& preset);
 
 }  // namespace tyglab

@@ -44,6 +44,14 @@ TEST_CASE("the past of another cloth, or of a motion begun anew, is forgotten") 
   CHECK(past.before(other, 1, 1) != nullptr);
 }
 
+TEST_CASE("of a cloth that hardly fits nothing is kept") {
+  Simulation simulation(test::cloth(500, 500));
+  Rewind past;
+  past.look(simulation);
+  CHECK(past.bytes() == 0);
+  CHECK(past.before(simulation, 0, 1) == nullptr);
+}
+
 TEST_CASE("memory is capped") {
   Preset preset = test::cloth(400, 400);
   preset.dt = 0.2;

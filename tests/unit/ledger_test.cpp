@@ -146,6 +146,26 @@ TEST_CASE("a body's impact and friction are contact's, and leave little unexplai
   }
 }
 
+TEST_CASE("what a body stops is contact's also under an engine made anew before the first step") {
+  Preset preset = test::cloth(5, 5);
+  preset.pins.mode = Pins::Mode::none;
+  preset.tilt_deg = 0;
+  preset.x_0 = {0, 0.01, 0}, preset.v_0 = {0, -1, 0};
+  preset.bodies.emplace_back().shape = Body::Shape::plane;
+  Preset other = preset;
+  other.integrator = "velocity_verlet";
+  const auto contact_of = [](Simulation& simulation) {
+    simulation.advance(200);
+    return simulation.ledger()->works.contact;
+  };
+  Simulation simulation(preset);
+  simulation.keep_ledger(true);
+  const auto beside = simulation.rebuilt(edit::Change{other});
+  simulation.apply(edit::Change{other});
+  CHECK(contact_of(simulation) < -1e-6);
+  CHECK(contact_of(*beside) == contact_of(simulation));
+}
+
 TEST_CASE("springs that break and cuts take their energy with them") {
   Preset preset = test::cloth(10, 10, "velocity_verlet");
   preset.F_max = 0.02, preset.dt = 2e-4, preset.v_0 = {0, 0, 2};

@@ -224,9 +224,9 @@ class PairSweep {
   Carry<2, D> two_right_[2];  ///< reactions on those two to the right, rows i and i+1
 };
 
-/// The fallback of machines older than SSE4 has all features compiled in; what is off has constants of 0 there. It
-/// would take as long to compile as an instruction set that is used.
-constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128;
+/// The fallbacks of processors from before AVX2 (2013) have all features compiled in; what is off has constants of 0
+/// there. Each would take as long to compile as an instruction set that is used.
+constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSE4;
 
 template <class R, unsigned F, Update U>
 void sweep_pair(const PairTask<R>& task) {

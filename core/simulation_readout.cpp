@@ -1,0 +1,87 @@
+// What is read of a simulation: the whole state, everything that table B.1 says of one particle, sums over the cloth.
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/forces/contact.h"
+#include "core/forces/readout.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+namespace {
+
+double rounding_unit(Precision precision) {
+  return precision == Precision::float_ ? double(std::numeric_limits<float>::epsilon())
+                                        : std::numeric_limits<double>::epsilon();
+}
+
+}  // namespace
+
+const State& Simulation::read() {
+  if (state_revision_ != revision_) engine_->read(state_, tears_), state_revision_ = revision_;
+  return state_;
+}
+
+State Simulation::read_raw() {
+  State state;
+  engine_->read_raw(state, tears_);
+  return state;
+}
+
+/// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
+glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const {
+  const bool fixed = pinned(i, j) || held_.particle == i * lattice_.columns + j;
+  if (stored.lag == 0 || fixed) return stored.v;
+  const ParticleForces forces = forces_on_particle(preset_, tears_, near, i, j);
+  return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
+}
+
+ParticleReadout Simulation::particle(int i, int j) const {
+  // Only what stands round it: to read a whole cloth takes longer than all the rest of a frame.
+  constexpr int reach = Neighbourhood::reach;
+  Neighbourhood near(i, j);
+  const auto visit = [&](int far, const auto& what) {
+    for (int ni = std::max(i - far, 0); ni <= std::min(i + far, lattice_.rows - 1); ++ni)
+      for (int nj = std::max(j - far, 0); nj <= std::min(j + far, lattice_.columns - 1); ++nj) what(ni, nj);
+  };
+  visit(reach, [&](int ni, int nj) {
+    const StoredParticle stored = engine_->stored(ni, nj);
+    near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
+  });
+  Neighbourhood now = near;
+  visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
+  const ParticleForces forces = forces_on_particle(preset_, tears_, now, i, j);
+  const std::size_t p = std::size_t(i) * lattice_.columns + j;
+  ParticleReadout out;
+  out.F_s = forces.F_s, out.F_b = forces.F_b, out.F_d = forces.F_d, out.F_g = forces.F_g, out.F_wind = forces.F_wind;
+  out.F_int = forces.F_int();
+  out.F_ext = forces.F_ext();
+  out.pinned = pinned(i, j);
+  out.held = held_.particle == int(p);
+  // What holds a particle (pin or hand) bears the rest of its force; the hand's belongs to F_ext.
+  if (out.held) out.F_ext -= out.F_int + out.F_ext;
+  out.F = out.F_int + out.F_ext;
+  out.x = now.x(i, j), out.v = now.v(i, j);
+  out.a = out.pinned ? glm::dvec3(0) : out.F / preset_.m;
+  out.on_body = !out.pinned && !out.held && preset_.kind == Kind::cloth &&
+                held_by_contact(preset_.bodies, preset_.dt, rounding_unit(preset_.precision), out.x, out.v, out.a);
+  return out;
+}
+
+ForceSummary Simulation::forces(Reduction reduction) {
+  const State& state = read();
+  ForceSummary sum;
+  const auto add = [&](double& to, const glm::dvec3& force) {
+    const double size = glm::length(force);
+    to = reduction == Reduction::sum ? to + size : std::max(to, size);
+  };
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int j = 0; j < lattice_.columns; ++j) {
+      const ParticleForces f = forces_on_particle(preset_, tears_, state, i, j);
+      add(sum.F_s, f.F_s), add(sum.F_b, f.F_b), add(sum.F_d, f.F_d), add(sum.F_g, f.F_g), add(sum.F_wind, f.F_wind);
+      add(sum.F_int, f.F_int()), add(sum.F_ext, f.F_ext()), add(sum.F, f.F_int() + f.F_ext());
+    }
+  return sum;
+}
+
+}  // namespace tyglab
