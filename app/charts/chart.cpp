@@ -41,6 +41,7 @@ float legend(const PlotPaint& paint, ImVec2 at, float width, const Chart& chart,
   const float line = theme.px(20), sample = theme.px(24), gap = theme.px(8), between = theme.px(20);
   float x = 0, y = 0;
   for (const ChartSeries& series : chart.series) {
+    if (series.name.empty()) continue;
     const float needs = sample + gap + text_width(*paint.fonts.text, series.name);
     if (x > 0 && x + needs > width) x = 0, y += line;
     if (paint_it) {
@@ -69,13 +70,13 @@ void draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& cha
   const Theme& theme = paint.theme;
   const Fonts& fonts = paint.fonts;
   const Tokens& c = theme.colors;
-  const float pad = theme.px(20);
+  const float pad = theme.px(chart.padding);
   paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, c.panel);
   const ImVec2 lo{at.x + pad, at.y + pad}, hi{at.x + size.x - pad, at.y + size.y - pad};
   draw_text(paint.draw, *fonts.title, lo, c.text, chart.title);
-  float top = lo.y + fonts.title->FontSize + theme.px(2);
+  float top = lo.y + (chart.title.empty() ? 0 : fonts.title->FontSize + theme.px(2));
   draw_text(paint.draw, *fonts.small, {lo.x, top}, c.quiet, chart.note);
-  top += (chart.note.empty() ? 0 : fonts.small->FontSize) + theme.px(10);
+  top += (chart.note.empty() ? 0 : fonts.small->FontSize) + theme.px(chart.title.empty() ? 0 : 10);
   draw_text(paint.draw, *fonts.small, {lo.x, top}, c.text, chart.y.title);
   top += (chart.y.title.empty() ? 0 : fonts.small->FontSize) + theme.px(8);
 

@@ -19,7 +19,7 @@ struct ChartAxis {
 };
 
 struct ChartSeries {
-  std::string name;
+  std::string name;  ///< empty: not in the legend
   CurveStyle style;
   bool line = true;
   float marks = 3;  ///< radius of the discs, at scale 1; 0: none
@@ -31,6 +31,7 @@ struct Chart {
   std::string note;  ///< a quiet line under the title
   ChartAxis x, y;
   std::vector<ChartSeries> series;
+  float padding = 20;  ///< on all sides, at scale 1
 };
 
 /// A colour and a line style for the k-th of many series, the same in every chart; alike only eight apart.

@@ -6,6 +6,7 @@
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
 #include "core/analysis/machine.h"
+#include "core/analysis/tolerance.h"
 #include "core/energy/auto_step.h"
 #include "core/integrators/names.h"
 #include "core/notation/json_tree.h"
@@ -86,6 +87,13 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
       ->type_name("S|auto")
       ->check(not_empty());
   command
+      .add_option("--tolerance", tolerance,
+                  "Choose --integrator and --dt, and --precision if float cannot hold it, so that positions err by at\n"
+                  "most so much (m, root mean square) in the first second: by short trial runs of this very scene.\n"
+                  "Those of the three that are typed stay")
+      ->type_name("M")
+      ->transform(number_between(1e-12, 1, "m"));
+  command
       .add_option("--engine", engine,
                   "Where it runs: cpu, or opencl (this version finds OpenCL devices but does not step on them yet)")
       ->type_name("cpu|opencl")
@@ -116,10 +124,40 @@ std::vector<Setting> PresetArgument::all_settings() const {
 
 bool PresetArgument::typed() const {
   const auto typed = {&preset, &integrator, &dt, &engine, &precision};
-  return !settings.empty() || std::any_of(typed.begin(), typed.end(), [](auto* text) { return !text->empty(); });
+  return !settings.empty() || tolerance ||
+         std::any_of(typed.begin(), typed.end(), [](auto* text) { return !text->empty(); });
 }
 
-ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands) const {
+bool PresetArgument::sets(std::string_view key) const {
+  return std::any_of(settings.begin(), settings.end(),
+                     [&](const std::string& text) { return parse_setting(text).key == key; });
+}
+
+void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
+  const auto chosen = AutoStep::choose(resolved.preset);
+  if (!chosen)
+    throw UsageError("--dt auto: " + resolved.preset.integrator +
+                     " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
+                     "damping with --set k_d=…");
+  resolved.preset.dt = *chosen;
+}
+
+void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const {
+  if (!dt.empty() || sets("dt")) throw UsageError("--tolerance: chooses dt itself; leave out --dt and --set dt");
+  const ToleranceKeeps keeps{!integrator.empty() || sets("integrator"), !precision.empty() || sets("precision")};
+  const double shown = seconds.value_or(0);
+  try {
+    resolved.choice = std::make_shared<ToleranceChoice>(
+        choose_for_tolerance(resolved.preset, *tolerance, shown > 0 ? shown : 1, keeps, [] { return false; }));
+  } catch (const std::runtime_error& error) {
+    throw UsageError(std::string("--tolerance: ") + error.what());
+  }
+  resolved.preset = resolved.choice->preset;
+  std::cerr << "tyglab: --tolerance chose " << resolved.choice->words(*tolerance) << '\n';
+}
+
+ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands,
+                                       std::optional<double> seconds) const {
   ResolvedPreset resolved;
   resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
   resolved.preset = load_preset(resolved.source.file);
@@ -129,14 +167,8 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
     throw UsageError(error.what());
   }
   resolved.auto_dt = dt == automatic;
-  if (resolved.auto_dt) {
-    const auto chosen = AutoStep::choose(resolved.preset);
-    if (!chosen)
-      throw UsageError("--dt auto: " + resolved.preset.integrator +
-                       " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
-                       "damping with --set k_d=…");
-    resolved.preset.dt = *chosen;
-  }
+  if (tolerance) choose_by_tolerance(resolved, seconds);
+  if (resolved.auto_dt) choose_dt(resolved);
   resolved.threads = threads > 0 ? threads : processors();
   return resolved;
 }

@@ -3,13 +3,18 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/notation/preset.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
+
+struct ToleranceChoice;
 
 /// The names of the shipped presets, sorted.
 std::vector<std::string> shipped_presets();
@@ -31,29 +36,36 @@ struct ResolvedPreset {
   PresetSource source;
   int threads = 1;       ///< of the CPU engine, at most
   bool auto_dt = false;  ///< --dt auto: dt is the one that AutoStep chose, and is to be watched
+  std::shared_ptr<const ToleranceChoice> choice = {};  ///< --tolerance: what was chosen, and why; null: not asked
 };
 
 /// Says in a line on stderr if the picture that the preset names is not there: who does not draw it would not notice.
 void warn_of_missing_texture(const Preset& preset);
 
-/// PRESET, --set, --integrator, --dt, --engine, --precision and --threads as typed.
+/// PRESET, --set, --integrator, --dt, --tolerance, --engine, --precision and --threads as typed.
 struct PresetArgument {
   std::string preset;
   std::vector<std::string> settings;
   std::string integrator, dt, engine, precision;
-  int threads = 0;  ///< 0: as many as there are processors
+  std::optional<double> tolerance;  ///< m
+  int threads = 0;                  ///< 0: as many as there are processors
 
   /// Adds the argument and its options to a command. It must outlive the parsing.
   void add_to(CLI::App& command, bool required);
   /// Reads the preset (`fallback` where none was typed) and applies the settings: --set
   /// first, then the options of their own. Throws PresetError for the file, UsageError for a setting. `commands`: words
-  /// that might have been meant in place of the preset.
-  ResolvedPreset resolve(const std::string& fallback = {}, const std::vector<std::string>& commands = {}) const;
+  /// that might have been meant in place of the preset. A tolerance is tried on the first `seconds` of the motion,
+  /// where they are known, and what is chosen is said on stderr.
+  ResolvedPreset resolve(const std::string& fallback = {}, const std::vector<std::string>& commands = {},
+                         std::optional<double> seconds = {}) const;
   /// Whether anything of the scene was typed.
   bool typed() const;
 
  private:
   std::vector<Setting> all_settings() const;
+  bool sets(std::string_view key) const;
+  void choose_dt(ResolvedPreset& resolved) const;
+  void choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const;
 };
 
 }  // namespace tyglab

@@ -60,7 +60,7 @@ bool wants_sequence(const RenderOptions& options) {
 }
 
 int render(const RenderOptions& options) {
-  const ResolvedPreset scene = options.preset.resolve();
+  const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds);
   const std::string& label = scene.source.label;
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   const PictureSize size = parse_size(options.size);

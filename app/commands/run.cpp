@@ -11,6 +11,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/stepping.h"
+#include "core/analysis/tolerance.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
@@ -167,6 +168,21 @@ Json energy_json(const Simulation& simulation) {
   return json;
 }
 
+/// What --tolerance chose, and what else reached the error, cheapest first; null where it was not asked for.
+Json choice_json(const ToleranceChoice* choice) {
+  if (!choice) return nullptr;
+  Json reached = Json::array();
+  for (const ErrorPoint& point : choice->reached)
+    reached.push_back({{"integrator", point.integrator},
+                       {"precision", name_of(point.precision)},
+                       {"dt", point.dt},
+                       {"tolerance_m", point.tolerance > 0 ? Json(point.tolerance) : Json()},
+                       {"error_rms_m", point.error_rms_m},
+                       {"told", point.told},
+                       {"processor_seconds_per_second", point.cost}});
+  return {{"tried_s", choice->seconds}, {"agreement_rms_m", choice->agreement_rms_m}, {"reached", std::move(reached)}};
+}
+
 /// What a method that chooses its own steps did; null for others.
 Json inner_steps_json(const Engine& engine) {
   const InnerSteps inner = engine.inner_steps();
@@ -205,6 +221,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"features", features_json(simulation.engine())},
           {"solves", solves_json(simulation.engine())},
           {"inner_steps", inner_steps_json(simulation.engine())},
+          {"tolerance_choice", choice_json(scene.choice.get())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"energy", energy_json(simulation)},
@@ -235,7 +252,7 @@ std::string closing(const Json& summary, const std::string& hint) {
 }
 
 int run(const RunOptions& options) {
-  const ResolvedPreset scene = options.preset.resolve();
+  const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_missing_texture(scene.preset);
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   Outputs outputs(options, scene, steps);

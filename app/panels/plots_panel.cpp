@@ -1,7 +1,9 @@
 // The plots at the right, as cards: live forces, and y(t) of the one weight.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "app/panels/accuracy_card.h"
 #include "app/panels/curves.h"
 #include "app/panels/energy_card.h"
 #include "app/panels/imgui_compat.h"
@@ -232,12 +234,18 @@ void plots_panel(App& app, const Region& region) {
   const int cards = weight ? 2 : 1;
   const float column = ImGui::GetContentRegionAvail().y, least_plots = app.theme.px(260);
   // What stands at the foot takes what the plots can spare, the lowest card first.
-  const auto spared = [&](float wanted, float taken) {
-    return std::floor(std::max(std::min(wanted, column - taken - gap - least_plots), 0.f));
+  struct Foot {
+    float (*wanted)(const App&);
+    void (*draw)(App&, float height);
+    float height = 0;
   };
-  const float performance = spared(performance_card_height(app), 0);
-  const float below = performance > 0 ? performance + gap : 0, energy = spared(energy_card_height(app), below);
-  const float foot = below + (energy > 0 ? energy + gap : 0);
+  std::array foot_cards{Foot{performance_card_height, performance_card}, Foot{energy_card_height, energy_card},
+                        Foot{accuracy_card_height, accuracy_card}, Foot{stability_card_height, stability_card}};
+  float foot = 0;
+  for (Foot& card : foot_cards) {
+    card.height = std::floor(std::max(std::min(card.wanted(app), column - foot - gap - least_plots), 0.f));
+    if (card.height > 0) foot += card.height + gap;
+  }
   float available = column - foot;
   const bool tabs = cards > 1 && (available - gap * float(cards - 1)) / float(cards) < app.theme.px(240);
   if (tabs) {
@@ -254,14 +262,13 @@ void plots_panel(App& app, const Region& region) {
   if (plots.height_shown) height_card(app, std::floor(height));
   if (plots.height_shown && plots.forces_shown) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
   if (plots.forces_shown) force_card(app, std::floor(height));
-  const float left = ImGui::GetCursorScreenPos().x, lowest = region.at.y + region.size.y - margin;
-  if (energy > 0) {
-    ImGui::SetCursorScreenPos({left, lowest - below - energy});
-    energy_card(app, energy);
-  }
-  if (performance > 0) {
-    ImGui::SetCursorScreenPos({left, lowest - performance});
-    performance_card(app, performance);
+  const float left = ImGui::GetCursorScreenPos().x;
+  float lowest = region.at.y + region.size.y - margin;
+  for (const Foot& card : foot_cards) {
+    if (card.height <= 0) continue;
+    ImGui::SetCursorScreenPos({left, lowest - card.height});
+    card.draw(app, card.height);
+    lowest -= card.height + gap;
   }
   end_region();
 }

@@ -10,6 +10,7 @@
 #include "app/panels/fonts.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui_state.h"
+#include "app/sandbox/accuracy_watch.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
 #include "app/sandbox/figure.h"
@@ -40,6 +41,7 @@ struct App {
   Pacing pacing;
   Sleep sleep;
   StabilityWatch stability;
+  AccuracyWatch accuracy;
   Rewind rewind;
   Figure figure;
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's

@@ -114,6 +114,16 @@ Json energy(const App& app) {
   return json;
 }
 
+/// What the accuracy card knows; null while it is closed.
+Json accuracy(const App& app) {
+  const auto study = app.accuracy.study();
+  if (!study) return nullptr;
+  Json json = {{"seconds", study->reference.seconds}, {"points", study->points.size()}, {"done", study->done}};
+  const auto& present = study->present;
+  json["error_rms_m"] = present && std::isfinite(present->error_rms_m) ? Json(present->error_rms_m) : Json(nullptr);
+  return json;
+}
+
 int pinned_count(const App& app) {
   const Lattice& lattice = app.simulation->lattice();
   int count = 0;
@@ -144,6 +154,7 @@ void add_simulation(Json& json, const App& app) {
   json["dt_over_limit"] = dt_over_limit(app);
   json["auto_dt"] = app.auto_dt.has_value();
   json["energy"] = energy(app);
+  json["accuracy"] = accuracy(app);
   const auto next = app.building.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
   json["frames_while_building"] = app.building.frames_beside();

@@ -19,11 +19,12 @@ StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation
   const Scheme& method = scheme(preset.integrator);
   StabilityLimits limits{.of = preset, .now = {}};
   const std::array any{any_configuration(preset)};
-  limits.any = dt_crit(method, any);
+  limits.any = dt_crit(method, any), limits.fastest = any[0];
   limits.stiffness = stiffness_margin(method, any, preset.dt);
   if (cloth) {
     const std::array fastest{fastest_mode(*cloth, live_tolerance)};
     limits.now = dt_crit(method, fastest), limits.omega = fastest[0].omega();
+    limits.fastest = fastest[0];
   }
   return limits;
 }

@@ -5,6 +5,7 @@
 #include <future>
 #include <optional>
 
+#include "core/integrators/modes.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -19,6 +20,7 @@ struct StabilityLimits {
   std::optional<double>
       now;               ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
   double omega = 0;      ///< 1/s, of the fastest mode now, where `now` is there
+  Mode fastest{};        ///< that mode; where `now` is not there, what no mode in any configuration exceeds
   double stiffness = 0;  ///< by how much k_s and k_b can grow until dt reaches `any`
 };
 

@@ -78,7 +78,7 @@ class StressRun {
     return std::min(double(most_steps) - double(result_.steps), std::max(by_work, result_.steps == 0 ? 1.0 : 0.0));
   }
 
-  /// Makes steps; false once it has diverged, or its implicit solves have taken their time.
+  /// Makes steps; false once it has diverged, or what it takes to end a step has taken its time.
   bool advance(int steps) {
     const double particles = simulation_->lattice().size();
     const Scheme& method = scheme(simulation_->preset().integrator);
@@ -101,7 +101,7 @@ class StressRun {
         if (result_.status == StressStatus::bounded) result_.status = StressStatus::diverged;
         return false;
       }
-      if (products_ > most_products) return false;
+      if (products_ > most_products || work_ > most_particle_steps) return false;
     }
     return true;
   }

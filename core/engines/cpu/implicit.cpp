@@ -19,6 +19,7 @@ template <class R>
 void ImplicitSolver<R>::resize(const Cloth<R>& cloth) {
   if (rows_ == cloth.lattice.rows && stride_ == cloth.stride) return;
   rows_ = cloth.lattice.rows, stride_ = cloth.stride;
+  direct_from_ = std::numeric_limits<double>::infinity();
   for (Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
     field->resize(rows_ + 3, stride_);
@@ -32,7 +33,7 @@ std::size_t ImplicitSolver<R>::bytes() const {
   for (const Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
     total += field->bytes();
-  return total;
+  return total + matrix_.bytes() + right_side_.capacity() * sizeof(double);
 }
 
 template <class R>
@@ -69,11 +70,8 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   bool solved = norm == 0;
   for (int n = 0; n < most && !solved && std::isfinite(norm); ++n) {
     linearise(cloth, cloth.vector(position), dt, tears);
-    before_ = residual_;
-    const bool linear = conjugate_gradients(cloth);
+    if (!solve_linear(cloth, dt)) ++counts_.unconverged;
     ++counts_.newton;
-    if (!linear) ++counts_.unconverged;
-    std::swap(residual_, before_);
     if (most == 1) {  // a linearly implicit step, taken as it is
       const std::span<R> x = cloth.vector(position).all(), v = cloth.vector(velocity).all();
       for (std::size_t k = 0; k < v.size(); ++k) v[k] += step_.all()[k], x[k] = start_x_.all()[k] + R(dt) * v[k];
@@ -223,6 +221,90 @@ bool ImplicitSolver<R>::conjugate_gradients(const Cloth<R>& cloth) {
     if (!std::isfinite(now.squared)) return false;
   }
   return now.squared <= enough;
+}
+
+/// Solves A step_ = residual_, which it leaves as it is: by conjugate gradients; directly where those do not get there,
+/// and from then on for all that is as stiff. Returns whether it is solved.
+template <class R>
+bool ImplicitSolver<R>::solve_linear(const Cloth<R>& cloth, double dt) {
+  const Preset& p = cloth.preset;
+  const double stiffness = dt * dt * std::max(p.k_s, p.k_b) / p.m;
+  if (stiffness < direct_from_) {
+    before_ = residual_;
+    const bool solved = conjugate_gradients(cloth);
+    std::swap(residual_, before_);
+    if (solved || !factorises(cloth)) return solved;
+  }
+  const bool solved = solve_directly(cloth);
+  if (solved) direct_from_ = std::min(direct_from_, stiffness);
+  return solved;
+}
+
+/// Particles within which all springs of one reach, when particles are numbered along the shorter side.
+template <class R>
+int reach(const Cloth<R>& cloth) {
+  return 2 * std::min(cloth.lattice.rows, cloth.lattice.columns);
+}
+
+/// Whether a factorisation takes no more than about a second.
+template <class R>
+bool ImplicitSolver<R>::factorises(const Cloth<R>& cloth) const {
+  if (cloth.preset.kind == Kind::one_weight) return false;
+  return BandedCholesky::work(3.0 * cloth.lattice.size(), 3.0 * reach(cloth)) < 2e9;
+}
+
+/// A as a banded matrix, from what the springs have added to it.
+template <class R>
+void ImplicitSolver<R>::assemble(const Cloth<R>& cloth) {
+  const Lattice& lattice = cloth.lattice;
+  const bool along_rows = lattice.columns <= lattice.rows;
+  const auto first = [&](int i, int j) { return 3 * (along_rows ? i * lattice.columns + j : j * lattice.rows + i); };
+  const auto fixed = [&](int i, int j) {
+    return !cloth.fixed.empty() && cloth.fixed[std::size_t(i) * lattice.columns + j] != 0;
+  };
+  matrix_.begin(3 * lattice.size(), 3 * reach(cloth) + 2);
+  for (int n = 0; n < 3 * lattice.size(); ++n) matrix_.at(n, n) = mass_;
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j)
+      for (int d = 0; d < springs_of_a_particle; ++d) {
+        if (!lattice.has_spring(d, i, j)) continue;
+        const R* part = coefficients_.data() + i * coefficient_pitch(stride_) + d * spring_parts * stride_ + j +
+                        std::min(0, directions[d].dj);
+        const double a[3] = {double(part[0]), double(part[stride_]), double(part[2 * stride_])};
+        const double t = double(part[3 * stride_]);
+        const int oi = i + directions[d].di, oj = j + directions[d].dj;
+        const bool owner = !fixed(i, j), other = !fixed(oi, oj);
+        const int p = first(i, j), q = first(oi, oj);
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) {
+            const double add = a[r] * a[c] + (r == c ? t : 0);
+            if (owner && c <= r) matrix_.at(p + r, p + c) += add;
+            if (other && c <= r) matrix_.at(q + r, q + c) += add;
+            if (owner && other) matrix_.at(std::max(p, q) + r, std::min(p, q) + c) -= add;
+          }
+      }
+}
+
+template <class R>
+bool ImplicitSolver<R>::solve_directly(const Cloth<R>& cloth) {
+  assemble(cloth);
+  if (!matrix_.factor()) return false;
+  const Lattice& lattice = cloth.lattice;
+  const bool along_rows = lattice.columns <= lattice.rows;
+  right_side_.resize(3 * std::size_t(lattice.size()));
+  const auto each = [&](const auto& what) {
+    for (int i = 0; i < lattice.rows; ++i)
+      for (int j = 0; j < lattice.columns; ++j)
+        for (int c = 0; c < 3; ++c)
+          what(i, j, c, right_side_[3 * std::size_t(along_rows ? i * lattice.columns + j : j * lattice.rows + i) + c]);
+  };
+  each([&](int i, int j, int c, double& b) {
+    const bool fixed = !cloth.fixed.empty() && cloth.fixed[std::size_t(i) * lattice.columns + j] != 0;
+    b = fixed ? 0 : double(residual_.row(i)[j + c * stride_]);
+  });
+  matrix_.solve(right_side_);
+  each([&](int i, int j, int c, double& b) { step_.row(i)[j + c * stride_] = R(b); });
+  return true;
 }
 
 template class ImplicitSolver<float>;

@@ -1,5 +1,6 @@
 // Solves the implicit stage of a method: x = c_x + β dt v, v = c_v + β dt a(x, v), by Newton's method with line search,
-// its linear systems by preconditioned conjugate gradients that store no matrix (stiffness.h).
+// its linear systems by preconditioned conjugate gradients that store no matrix (stiffness.h), or, where those do not
+// get there, by a banded factorisation (banded.h).
 //
 // Stretch springs pull only, so their potential is convex; bending springs push, and a compressed one would make the
 // system indefinite: of its stiffness only the part along the spring is taken, which changes how quickly Newton's
@@ -8,8 +9,11 @@
 #pragma once
 
 #include <functional>
+#include <limits>
+#include <vector>
 
 #include "core/engines/cpu/band.h"
+#include "core/engines/cpu/banded.h"
 #include "core/engines/cpu/stiffness.h"
 #include "core/engines/engine.h"
 
@@ -35,7 +39,11 @@ class ImplicitSolver {
   void linearise(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears);
   void linearise_row(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears, int direction, int i);
   void invert_blocks(const Cloth<R>& cloth);
+  bool solve_linear(const Cloth<R>& cloth, double dt);
   bool conjugate_gradients(const Cloth<R>& cloth);
+  bool factorises(const Cloth<R>& cloth) const;
+  bool solve_directly(const Cloth<R>& cloth);
+  void assemble(const Cloth<R>& cloth);
   double multiply(const Cloth<R>& cloth);
   Residual update(const Cloth<R>& cloth, double alpha);
   double inner(const Field& a, const Field& b) const;
@@ -50,6 +58,9 @@ class ImplicitSolver {
   Field direction_, product_, preconditioned_;
   Array<R> blocks_;  ///< of the diagonal, then their inverses
   Array<R> coefficients_;
+  BandedCholesky matrix_;
+  std::vector<double> right_side_;
+  double direct_from_ = std::numeric_limits<double>::infinity();  ///< dt² k/m at which gradients have failed
   SolveCounts counts_;
 };
 

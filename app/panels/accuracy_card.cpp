@@ -1,0 +1,171 @@
+#include "app/panels/accuracy_card.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/panels/curves.h"
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/widgets.h"
+#include "core/integrators/amplification.h"
+
+namespace tyglab {
+namespace {
+
+constexpr const char* stability_heading = "Stability";
+constexpr const char* accuracy_heading = "Accuracy";
+constexpr float chart_at_1 = 210, words_at_1 = 40;  // pixels at scale 1
+constexpr double most_growth = 1.25;                // that the chart shows, a step
+
+/// Words over a chart, in what the card's height leaves.
+void words_and_chart(App& app, float height, const std::string& words, const Chart* chart) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = card_width(app), line = app.theme.px(words_at_1);
+  const ImFont& font = *app.fonts.small;
+  ImGui::GetWindowDrawList()->AddText(&font, font.FontSize, lo, app.theme.colors.text, words.data(),
+                                      words.data() + words.size(), width);
+  ImGui::Dummy({width, line});
+  const float rest = height - app.theme.px(card::head + card::foot) - line;
+  if (chart == nullptr || rest < app.theme.px(100)) return;
+  draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, {lo.x, lo.y + line}, {width, rest}, *chart);
+  ImGui::Dummy({width, rest});
+}
+
+std::string words_of(const char* format, double a, double b) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, a, b);
+  return text;
+}
+
+/// A vertical line from the chart's foot to its head.
+ChartSeries mark_at(const std::string& name, double x, ImU32 color, LineStyle line, double lo, double hi) {
+  return {name, {color, line, 1.6f}, true, 0, {x, x}, {lo, hi}};
+}
+
+std::string stability_sentence(const StabilityLimits& limits) {
+  const Scheme& method = scheme(limits.of.integrator);
+  if (projects(method)) return "XPBD projects positions: linear theory has no word for it.";
+  if (chooses_steps(method)) return "This method keeps its own steps within what is stable, as far as dt allows.";
+  const double h = limits.fastest.omega() * limits.of.dt;
+  const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
+  const double radius = spectral_radius(amplification(method, h, zeta));
+  const char* verdict = radius > 1 + 1e-9 ? "%.3g, where a swing grows %.4g-fold a step."
+                                          : "%.3g, where a swing keeps %.4g of its size a step.";
+  return std::string(limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ") +
+         words_of(verdict, h, radius);
+}
+
+}  // namespace
+
+Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
+  const Scheme& method = scheme(limits.of.integrator);
+  const Mode any = any_configuration(limits.of);
+  const double dt = limits.of.dt, now = limits.fastest.omega() * dt, bound = any.omega() * dt;
+  const double most = std::clamp(1.3 * std::max({now, bound, 2.5}), 1.0, 20.0);
+  Chart chart;
+  chart.padding = 0;
+  chart.x.title = "ω·dt", chart.y.title = "growth a step (spectral radius)";
+  chart.x.from_zero = true;
+  double least = 1;
+  const auto curve = [&](const std::string& name, LineStyle line, double damping) {
+    ChartSeries series{name, integrator_style(c, method.name), true, 0, {}, {}};
+    series.style.line = line;
+    constexpr int points = 160;
+    for (int n = 1; n <= points; ++n) {
+      const double h = most * n / points;
+      const double radius = spectral_radius(amplification(method, h, damping * h));
+      if (radius > most_growth) break;
+      series.x.push_back(h), series.y.push_back(radius);
+      least = std::min(least, radius);
+    }
+    chart.series.push_back(std::move(series));
+  };
+  // Damping weighs on a mode about as its stiffness does: ζ in proportion to ω, as the fastest mode has it.
+  const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
+  curve(std::string(method.title) + (zeta > 0 ? ", damped" : ""), LineStyle::solid, now > 0 ? zeta / now : 0);
+  if (zeta > 0) curve("undamped", LineStyle::dotted, 0);
+  chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
+  const double lo = least, hi = most_growth;
+  if (limits.now && now < most) chart.series.push_back(mark_at("cloth now", now, c.text, LineStyle::solid, lo, hi));
+  if (bound < most) chart.series.push_back(mark_at("at most", bound, c.warning, LineStyle::dashed, lo, hi));
+  return chart;
+}
+
+std::string accuracy_words(const AccuracyStudy& study) {
+  if (!study.problem.empty()) return "There is nothing to compare with: " + study.problem + ".";
+  if (!study.present) return "Measuring…";
+  const ErrorPoint& now = *study.present;
+  const std::string over = " over the " + short_number(rounded(study.reference.seconds, 2)) +
+                           " s from t = " + time_number(study.t, now.dt) + " s";
+  const std::string method(scheme(now.integrator).title);
+  if (!std::isfinite(now.error_rms_m)) return "As it is set, " + method + " diverges" + over + ".";
+  const double floor = 10 * study.reference.agreement_rms_m;
+  const std::string error = now.told
+                                ? "errs by " + short_number(rounded(now.error_rms_m, 2))
+                                : "errs by less than " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
+  return method + " " + error + " m (rms)" + over + " and takes " + short_number(rounded(now.cost, 2)) +
+         " s of processor a second.";
+}
+
+Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
+  Chart chart;
+  chart.padding = 0;
+  chart.x.title = "processor seconds for a simulated second", chart.x.log = true;
+  chart.y.title = "error, m (rms)", chart.y.log = true;
+  const auto put = [](ChartSeries& series, const ErrorPoint& point) {
+    if (std::isfinite(point.error_rms_m) && point.error_rms_m > 0 && point.told)
+      series.x.push_back(point.cost), series.y.push_back(point.error_rms_m);
+  };
+  for (std::size_t n = 0; n < study.points.size();) {
+    const std::string& name = study.points[n].integrator;
+    ChartSeries series{std::string(scheme(name).title), integrator_style(c, name), true, 2.5f, {}, {}};
+    for (; n < study.points.size() && study.points[n].integrator == name; ++n) put(series, study.points[n]);
+    if (!series.x.empty()) chart.series.push_back(std::move(series));
+  }
+  if (!study.present) return chart;
+  ChartSeries present{"as it is set", {c.text, LineStyle::solid, 1}, false, 6, {}, {}};
+  put(present, *study.present);
+  if (!present.x.empty()) chart.series.push_back(std::move(present));
+  return chart;
+}
+
+float stability_card_height(const App& app) {
+  return card_height(app, stability_heading, words_at_1 + chart_at_1);
+}
+
+void stability_card(App& app, float height) {
+  if (begin_card(app, stability_heading, height)) {
+    app.stability.poll(app);
+    if (const auto& limits = app.stability.limits()) {
+      const Scheme& method = scheme(limits->of.integrator);
+      const bool drawn = has_step_limit(method);
+      const Chart chart = drawn ? stability_chart(app.theme.colors, *limits) : Chart{};
+      words_and_chart(app, height, stability_sentence(*limits), drawn ? &chart : nullptr);
+    }
+  }
+  end_card(app);
+}
+
+float accuracy_card_height(const App& app) {
+  return card_height(app, accuracy_heading, words_at_1 + chart_at_1 + 50);
+}
+
+void accuracy_card(App& app, float height) {
+  if (begin_card(app, accuracy_heading, height)) {
+    app.accuracy.poll(app);
+    app.ui.accuracy_shown = true;
+    const auto study = app.accuracy.study();
+    if (app.simulation->lattice().size() > AccuracyWatch::largest) {
+      words_and_chart(app, height, "This cloth is too large to be judged beside the window.", nullptr);
+    } else if (study) {
+      const Chart chart = accuracy_chart(app.theme.colors, *study);
+      words_and_chart(app, height, accuracy_words(*study), study->present ? &chart : nullptr);
+    } else {
+      words_and_chart(app, height, "Measuring…", nullptr);
+    }
+  }
+  end_card(app);
+}
+
+}  // namespace tyglab

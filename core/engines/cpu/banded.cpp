@@ -1,0 +1,45 @@
+#include "core/engines/cpu/banded.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyglab::cpu {
+
+void BandedCholesky::begin(int size, int band) {
+  size_ = size, band_ = band;
+  elements_.assign(std::size_t(size) * (band + 1), 0.0);
+  column_.assign(std::size_t(band) + 1, 0.0);
+}
+
+bool BandedCholesky::factor() {
+  for (int k = 0; k < size_; ++k) {
+    const double pivot = at(k, k);
+    if (!(pivot > 0) || !std::isfinite(pivot)) return false;
+    const double root = std::sqrt(pivot);
+    at(k, k) = root;
+    const int below = std::min(band_, size_ - 1 - k);
+    for (int n = 1; n <= below; ++n) column_[n] = at(k + n, k) /= root;
+    // Each row takes its part of the outer product: both run through memory, so this is done in SIMD.
+    for (int n = 1; n <= below; ++n) {
+      const double factor = column_[n];
+      if (factor == 0) continue;
+      double* row = &at(k + n, k + 1);
+      for (int c = 0; c < n; ++c) row[c] -= factor * column_[c + 1];
+    }
+  }
+  return true;
+}
+
+void BandedCholesky::solve(std::span<double> b) const {
+  for (int k = 0; k < size_; ++k) {
+    double sum = b[k];
+    for (int c = std::max(0, k - band_); c < k; ++c) sum -= at(k, c) * b[c];
+    b[k] = sum / at(k, k);
+  }
+  for (int k = size_ - 1; k >= 0; --k) {
+    b[k] /= at(k, k);
+    for (int c = std::max(0, k - band_); c < k; ++c) b[c] -= at(k, c) * b[k];
+  }
+}
+
+}  // namespace tyglab::cpu

@@ -1,0 +1,72 @@
+// What the cards of accuracy and stability say and draw.
+#include "app/panels/accuracy_card.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/integrators/remedy.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+AccuracyStudy study_of(const Preset& preset) {
+  AccuracyStudy study;
+  study.of = preset;
+  study.reference.seconds = 0.25, study.reference.agreement_rms_m = 1e-9;
+  return study;
+}
+
+ErrorPoint point(const char* method, double error, double cost, bool told = true) {
+  return {method, Precision::float_, 0.001, 0, error, cost, told};
+}
+
+TEST_CASE("the accuracy card says what is known, and why where nothing is") {
+  AccuracyStudy study = study_of(test::cloth(8, 8, "verlet"));
+  CHECK(accuracy_words(study) == "Measuring…");
+  study.present = point("verlet", 2.13e-5, 0.0123);
+  CHECK(accuracy_words(study) ==
+        "Verlet errs by 2.1e-5 m (rms) over the 0.25 s from t = 0.000 s and takes 0.012 s of processor a second.");
+  study.present = point("verlet", 2e-9, 0.0123, false);
+  CHECK(accuracy_words(study).find("errs by less than 1e-8 m") != std::string::npos);
+  study.present = point("verlet", std::numeric_limits<double>::infinity(), 0.0123);
+  CHECK(accuracy_words(study).find("Verlet diverges") != std::string::npos);
+  study.problem = "it cannot be followed";
+  CHECK(accuracy_words(study).find("it cannot be followed") != std::string::npos);
+}
+
+TEST_CASE("its chart has a line for each method, and leaves out what cannot be told or diverged") {
+  AccuracyStudy study = study_of(test::cloth(8, 8, "verlet"));
+  study.points = {point("verlet", 1e-3, 0.1), point("verlet", 1e-4, 0.2), point("verlet", 1e-9, 0.4, false),
+                  point("rk4", std::numeric_limits<double>::infinity(), 0.3)};
+  study.present = point("verlet", 5e-4, 0.15);
+  const Chart chart = accuracy_chart(Tokens{}, study);
+  REQUIRE(chart.series.size() == 2);
+  CHECK(chart.series[0].name == "Verlet");
+  CHECK(chart.series[0].y == std::vector<double>{1e-3, 1e-4});
+  CHECK(chart.series[1].x == std::vector<double>{0.15});
+  CHECK_FALSE(chart.series[1].line);
+}
+
+TEST_CASE("the stability chart rises above 1 where the method breaks") {
+  Preset preset = test::cloth(8, 8, "verlet");
+  preset.k_d = 0;
+  StabilityLimits limits;
+  limits.of = preset;
+  limits.fastest = any_configuration(preset);
+  const Chart chart = stability_chart(Tokens{}, limits);
+  const ChartSeries& curve = chart.series.front();
+  const auto above = std::find_if(curve.y.begin(), curve.y.end(), [](double radius) { return radius > 1 + 1e-6; });
+  REQUIRE(above != curve.y.end());
+  CHECK(curve.x[std::size_t(above - curve.y.begin())] == doctest::Approx(2).epsilon(0.02));
+  const auto mark = std::find_if(chart.series.begin(), chart.series.end(),
+                                 [](const ChartSeries& series) { return series.name == "at most"; });
+  REQUIRE(mark != chart.series.end());
+  CHECK(mark->x.front() == doctest::Approx(2 * preset.dt / stable_dt(preset, "verlet")).epsilon(1e-3));
+}
+
+}  // namespace
+}  // namespace tyglab
