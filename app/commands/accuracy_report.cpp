@@ -148,6 +148,17 @@ Chart chart_of(const AccuracyResult& result) {
   return chart;
 }
 
+Json statistics_json(const MotionStatistics& row) {
+  Json json = {{"scene", row.scene}, {"integrator", row.integrator},
+               {"dt", row.dt},       {"from_s", row.from},
+               {"to_s", row.to},     {"status", row.diverged ? "diverged" : "ok"}};
+  if (row.diverged) return json;
+  json["mean_height_m"] = row.height.mean, json["mean_height_error_m"] = row.height.error;
+  json["kinetic_J"] = row.kinetic.mean, json["kinetic_error_J"] = row.kinetic.error;
+  json["energy_change_over_kinetic"] = row.change;
+  return json;
+}
+
 }  // namespace
 
 void print_scene(std::ostream& out, const AccuracyResult& result) {
@@ -194,7 +205,28 @@ void print_winners(std::ostream& out, const std::vector<AccuracyWinner>& winners
   }
 }
 
-Json accuracy_json(const std::vector<AccuracyResult>& results) {
+void print_statistics(std::ostream& out, const std::vector<MotionStatistics>& statistics) {
+  if (statistics.empty()) return;
+  const MotionStatistics& first = statistics.front();
+  char line[256];
+  std::snprintf(line, sizeof line,
+                "\n%s, beyond what can be predicted: means from %g to %g s, ± their standard error\n%-20s %9s  %-22s  "
+                "%-22s  %s\n",
+                first.scene.c_str(), first.from, first.to, "integrator", "dt, s", "mean height, m", "kinetic energy, J",
+                "energy change");
+  out << line;
+  for (const MotionStatistics& row : statistics) {
+    if (row.diverged) {
+      std::snprintf(line, sizeof line, "%-20s %9.3g  diverged\n", row.integrator.c_str(), row.dt);
+    } else {
+      std::snprintf(line, sizeof line, "%-20s %9.3g  %9.5f ± %-10.2g  %9.3e ± %-9.1e  %+.2g\n", row.integrator.c_str(),
+                    row.dt, row.height.mean, row.height.error, row.kinetic.mean, row.kinetic.error, row.change);
+    }
+    out << line;
+  }
+}
+
+Json accuracy_json(const std::vector<AccuracyResult>& results, const std::vector<MotionStatistics>& statistics) {
   Json runs = Json::array(), references = Json::object(), reached = Json::array(), summary = Json::array();
   for (const AccuracyResult& result : results) {
     for (const AccuracyRow& row : result.rows) runs.push_back(row_json(row));
@@ -206,6 +238,8 @@ Json accuracy_json(const std::vector<AccuracyResult>& results) {
   json["references"] = std::move(references);
   json["reached"] = std::move(reached);
   json["summary"] = std::move(summary);
+  json["statistics"] = Json::array();
+  for (const MotionStatistics& row : statistics) json["statistics"].push_back(statistics_json(row));
   return json;
 }
 

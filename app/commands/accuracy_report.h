@@ -7,6 +7,7 @@
 
 #include "app/charts/chart.h"
 #include "core/analysis/accuracy.h"
+#include "core/analysis/statistics.h"
 
 namespace tyglab {
 
@@ -22,7 +23,11 @@ void print_scene(std::ostream& out, const AccuracyResult& result);
 void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows, const Reference& reference);
 void print_winners(std::ostream& out, const std::vector<AccuracyWinner>& winners);
 
-nlohmann::ordered_json accuracy_json(const std::vector<AccuracyResult>& results);
+/// Means over time of a motion that no longer can be predicted, a line a method.
+void print_statistics(std::ostream& out, const std::vector<MotionStatistics>& statistics);
+
+nlohmann::ordered_json accuracy_json(const std::vector<AccuracyResult>& results,
+                                     const std::vector<MotionStatistics>& statistics);
 inline constexpr float accuracy_chart_height = 560;  ///< points: its legend takes some lines
 /// Error over run time, logarithmic both, a chart a scene.
 std::vector<Chart> accuracy_charts(const std::vector<AccuracyResult>& results);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/charts/chart.h"
+#include "app/panels/curves.h"
 #include "app/commands/bench_output.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
@@ -103,7 +104,7 @@ Chart boundary_chart(const std::vector<BoundaryRow>& rows, bool damped) {
     auto series =
         std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == p.integrator; });
     if (series == chart.series.end()) {
-      const auto style = series_style(dark_tokens(), int(chart.series.size()));
+      const auto style = integrator_style(dark_tokens(), p.integrator);
       series = chart.series.insert(series, {p.integrator, style, true, 0, {}, {}});
     }
     series->x.push_back(p.k_s), series->y.push_back(row.predicted / unit);

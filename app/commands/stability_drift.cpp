@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/charts/chart.h"
+#include "app/panels/curves.h"
 #include "app/commands/bench_output.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
@@ -77,7 +78,8 @@ Chart drift_chart(const std::vector<DriftRow>& rows, const std::string& scene, b
   chart.y = {"energy less that of the start, over that of the motion", rise, false, {}};
   for (const DriftRow& row : rows) {
     if (row.of.scene != scene || row.diverged_at > 0) continue;
-    ChartSeries series{name_of(row), series_style(dark_tokens(), int(chart.series.size())), true, 0, {}, {}};
+    ChartSeries series{name_of(row), integrator_style(dark_tokens(), row.of.preset.integrator), true, 0, {}, {}};
+    if (row.of.part_of_limit != 0.5) series.style.line = LineStyle::dotted;
     for (std::size_t n = 1; n < row.t.size(); ++n) {
       const double part = row.energy[n] / row.motion;
       if (!rise && std::abs(part) > shown) break;
