@@ -8,6 +8,7 @@
 #include "app/panels/slider.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/panels/zones.h"
 
 namespace tyglab {
 namespace {
@@ -130,6 +131,8 @@ void row_tooltip(App& app, const Line& line) {
   if (line.zero_is_off) facts += ", 0 is off";
   if (!line.equation.empty()) facts += " · equation (" + std::string(line.equation) + ")";
   wrapped(app, facts, c.quiet);
+  if (const auto& limits = app.stability.limits())
+    if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(app, words, c.text);
   if (line.effect == Effect::start) wrapped(app, "Counts at the next restart (R).", c.warning);
   ImGui::PushFont(app.fonts.small);
   wrapped(app,
@@ -190,7 +193,10 @@ void draw_line(App& app, const Line& line) {
     vector_cells(app, line, columns, slider_width);
   } else {
     const unsigned gesture = ImGui::GetID("slider");
-    const SliderResult slid = slider(app, scale_of(line, 0), line.value[0], slider_width, columns.height);
+    const SliderScale scale = scale_of(line, 0);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const SliderResult slid = slider(app, scale, line.value[0], slider_width, columns.height);
+    draw_zones(app, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
     if (app.report) report_control(app, line.key + ".slider");
     take(app, line, 0, slid, gesture);
     ImGui::SameLine(0, columns.gap);

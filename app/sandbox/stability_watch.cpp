@@ -12,15 +12,24 @@
 namespace tyglab {
 namespace {
 
+constexpr double reaches = 1e5;               // zones, to either side of a value: further than any slider
 constexpr double between_looks = 0.5;         // s, at a cloth in motion
 constexpr int largest_looked_at = 128 * 128;  // particles: to linearise more of them would be felt in the frame
 
 StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
   const Scheme& method = scheme(preset.integrator);
-  StabilityLimits limits{.of = preset, .now = {}};
+  StabilityLimits limits{.of = preset, .now = {}, .zones = {}};
   const std::array any{any_configuration(preset)};
   limits.any = dt_crit(method, any), limits.fastest = any[0];
   limits.stiffness = stiffness_margin(method, any, preset.dt);
+  const auto add_zones = [&](const ZonedConstant& constant) {
+    const double value = preset.*constant.field > 0 ? preset.*constant.field : Preset{}.*constant.field;
+    limits.zones.emplace(constant.key, stability_zones(preset, constant.field, value / reaches, value * reaches));
+  };
+  if (preset.kind == Kind::cloth)
+    std::for_each(zoned_cloth.begin(), zoned_cloth.end(), add_zones);
+  else
+    std::for_each(zoned_weight.begin(), zoned_weight.end(), add_zones);
   if (cloth) {
     const std::array fastest{fastest_mode(*cloth, live_tolerance)};
     limits.now = dt_crit(method, fastest), limits.omega = fastest[0].omega();

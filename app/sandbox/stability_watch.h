@@ -2,10 +2,15 @@
 // second.
 #pragma once
 
+#include <functional>
 #include <future>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/integrators/modes.h"
+#include "core/integrators/zones.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -22,6 +27,7 @@ struct StabilityLimits {
   double omega = 0;      ///< 1/s, of the fastest mode now, where `now` is there
   Mode fastest{};        ///< that mode; where `now` is not there, what no mode in any configuration exceeds
   double stiffness = 0;  ///< by how much k_s and k_b can grow until dt reaches `any`
+  std::map<std::string, std::vector<ZoneSpan>, std::less<>> zones;  ///< by the constant's key
 };
 
 class StabilityWatch {
