@@ -53,8 +53,8 @@ typedef struct {
 INLINE vec kept(int masked, maskv on, vec f) { return masked ? where(on, f) : f; }
 
 /// Force of a stretch spring with its damping, on its owner.
-INLINE vec stretched(const Constants* k, REAL minus_k_rest, vec x_ij, vec v_ij, int masked, maskv on) {
-  vec f = times(stretch_factor(k->k_s, minus_k_rest, dot3(x_ij, x_ij)), x_ij);
+INLINE vec stretched(const Constants* k, REAL minus_half, vec x_ij, vec v_ij, int masked, maskv on) {
+  vec f = times(stretch_factor(k->k_s, minus_half, dot3(x_ij, x_ij)), x_ij);
 #ifdef DAMPING
   f = plus_scaled(f, k->k_d, v_ij);
 #endif

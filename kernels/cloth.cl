@@ -58,7 +58,7 @@ enum {
 
 /// As DeviceConstants in device_constants.h.
 typedef struct {
-  REAL k_s, straight, diagonal;  // the last two: -k_s times the rest length
+  REAL k_s, straight, diagonal;  // the last two: -k_s times half of the rest length
   REAL k_b, bending, shortest2;  // shortest2: square of the length under which a spring has no direction
   REAL k_d;                      // divided by dt where velocities are kept as displacements
   REAL weight;                   // m g
@@ -109,33 +109,35 @@ INLINE vec where(maskv on, vec a) {
   return w;
 }
 
-/// 1/√a. For float, processors have an approximation of 11 or 14 bits, which a Newton step takes to 2 units in the last
-/// place; OpenCL's own rsqrt is as exact, and where there is no such instruction as fast. NaN for 0 and ∞ is allowed.
-INLINE realv inverse_root(realv a) {
+/// 2h/√a + c. For float, processors have an approximation of 1/√a to 11 or 14 bits, which a Newton step takes to 2 units
+/// in the last place, and for which twice h is what is wanted; OpenCL's own rsqrt is as exact, and where there is no such
+/// instruction as fast. NaN for 0 and ∞ is allowed.
+INLINE realv over_root(REAL h, realv a, REAL c) {
 #if defined(REAL_IS_DOUBLE)
-  return 1 / sqrt(a);
+  return (2 * h) / sqrt(a) + c;
 #elif WIDTH == 16 && defined(__AVX512F__)
   const realv y = __builtin_ia32_rsqrt14ps512_mask(a, a, (ushort)0xffff);
-  return ((realv)(0.5f) * y) * ((realv)(3) - (a * y) * y);
 #elif WIDTH == 8 && defined(__AVX__)
   const realv y = __builtin_ia32_rsqrtps256(a);
-  return ((realv)(0.5f) * y) * ((realv)(3) - (a * y) * y);
 #elif WIDTH == 4 && defined(__SSE__)
   const realv y = __builtin_ia32_rsqrtps(a);
-  return ((realv)(0.5f) * y) * ((realv)(3) - (a * y) * y);
 #else
-  return rsqrt(a);
+#define EXACT_ROOT
+  return (2 * h) * rsqrt(a) + c;
+#endif
+#if !defined(REAL_IS_DOUBLE) && !defined(EXACT_ROOT)
+  return (h * y) * ((realv)(3) - (a * y) * y) + c;
 #endif
 }
 
 /// factor · x_ij is F_s on particle i (2.5): pulls only; 0 for NaN.
-INLINE realv stretch_factor(REAL k, REAL minus_k_rest, realv r2) {
-  const realv a = minus_k_rest * inverse_root(r2) + k;
+INLINE realv stretch_factor(REAL k, REAL minus_half, realv r2) {
+  const realv a = over_root(minus_half, r2, k);
   return a > ZERO ? a : ZERO;
 }
 /// factor · x_ij is F_b on particle i (2.7, 2.8): pushes only; 0 for NaN and where the spring has no direction.
-INLINE realv bend_factor(REAL k, REAL minus_k_rest, REAL shortest2, realv r2) {
-  const realv a = minus_k_rest * inverse_root(r2) + k;
+INLINE realv bend_factor(REAL k, REAL minus_half, REAL shortest2, realv r2) {
+  const realv a = over_root(minus_half, r2, k);
   const realv push = a < ZERO ? a : ZERO;
   return r2 > (realv)(shortest2) ? push : ZERO;
 }

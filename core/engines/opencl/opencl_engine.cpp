@@ -73,9 +73,9 @@ template <class R>
 DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& sweep) const {
   const double scale = scheme_->keeps_displacement ? p.dt : 1;
   Constants k;
-  k.k_s = R(p.k_s), k.straight = R(-p.k_s * directions[0].rest * p.L),
-  k.diagonal = R(-p.k_s * directions[2].rest * p.L);
-  k.k_b = R(p.k_b), k.bending = R(-p.k_b * directions[4].rest * p.L);
+  k.k_s = R(p.k_s), k.straight = R(-p.k_s * directions[0].rest * p.L / 2),
+  k.diagonal = R(-p.k_s * directions[2].rest * p.L / 2);
+  k.k_b = R(p.k_b), k.bending = R(-p.k_b * directions[4].rest * p.L / 2);
   constexpr double shortest = 1e-9;  // as in spring-inl.h
   k.shortest2 = R(std::pow(shortest * directions[4].rest * p.L, 2));
   k.k_d = R(p.k_d * dt_to_the(p.dt, sweep.velocity_dt_power));
