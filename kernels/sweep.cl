@@ -1,11 +1,6 @@
 // What every sweep does beside its forces and its sums, which program_text.cpp writes for each method: where a
 // work-item's particles lie, what the hand feels, bodies, the watch over the largest way.
 
-/// Keeps the larger number. Read first, since it seldom grows and an atomic operation takes long.
-INLINE void keep_larger(volatile global uint* kept, uint bits) {
-  if (bits > *kept) atomic_max(kept, bits);
-}
-
 /// The bits of a number that is not negative, as a float not smaller than it; NaN and ∞ are larger than every number.
 INLINE uint float_bits(REAL a) {
 #ifdef REAL_IS_DOUBLE
@@ -47,11 +42,7 @@ INLINE BITS largest_lane(bitsv a) {
   barrier(CLK_LOCAL_MEM_FENCE);                                                                                 \
   atomic_max(&of_group, bits);                                                                                  \
   barrier(CLK_LOCAL_MEM_FENCE);                                                                                 \
-  if (get_local_id(0) == 0 && get_local_id(1) == 0) keep_larger(report + report_way, of_group)
-#else
-#define LOCAL_WATCH
-#define WATCH(bits) \
-  if (inside) keep_larger(report + report_way, bits)
+  if (get_local_id(0) == 0 && get_local_id(1) == 0) atomic_max(report + report_way, of_group)
 #endif
 
 /// The largest component of a particle's way, lane by lane, and of all lanes as a word of the report.

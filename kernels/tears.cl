@@ -34,7 +34,7 @@ INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, glo
     EXACT length2;
     if (overloaded(x + lane, x + to + lane, stride, k_s, rest, F_max, &length2)) {
       springs[lane] &= (uchar)~bit;
-      report[report_torn] = 1;
+      atomic_or(report + report_torn, 1);
     } else {
       left = fmax(left, (REAL)length2);
     }
@@ -42,23 +42,30 @@ INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, glo
   return left;
 }
 
-/// Breaks what is overloaded, and reports how long the springs are that are left. certain2: squares of lengths up to
-/// which rounding cannot matter.
+#define TEAR(di, dj, bit, rest, certain2) \
+  tear_direction(at, stride, mask_pitch, own, guard, report, di, dj, bit, k_s, rest, F_max, certain2)
+
+/// Breaks what is overloaded, and reports how long the springs are that are left. A row of work-items a row of
+/// particles; as few as keep the device busy, since they all report to the same words. certain…2: squares of lengths up
+/// to which rounding cannot matter.
 kernel void tear(global const REAL* x, global uchar* springs, global const uchar* guards, global uint* report, int slot,
-                 int stride, int mask_pitch, int rows, int columns, EXACT k_s, EXACT straight, EXACT diagonal, EXACT F_max,
-                 REAL certain_straight2, REAL certain_diagonal2) {
-  const int column = (int)get_global_id(0) * WIDTH, row = (int)get_global_id(1);
-  if (row >= rows || column >= columns) return;
+                 int stride, int mask_pitch, int rows, int columns, EXACT k_s, EXACT straight, EXACT diagonal,
+                 EXACT F_max, REAL certain_straight2, REAL certain_diagonal2) {
+  const int row = (int)get_global_id(1);
+  if (row >= rows) return;
   report += slot * report_words;
-  const int at = place(row, column, 3 * stride), mask_at = place(row, column, mask_pitch);
-  global uchar* own = springs + mask_at;
-  global const uchar* guard = guards + mask_at;
-  const REAL E = tear_direction(x + at, stride, mask_pitch, own, guard, report, 0, 1, bit_E, k_s, straight, F_max, certain_straight2);
-  const REAL S = tear_direction(x + at, stride, mask_pitch, own, guard, report, 1, 0, bit_S, k_s, straight, F_max, certain_straight2);
-  const REAL SE = tear_direction(x + at, stride, mask_pitch, own, guard, report, 1, 1, bit_SE, k_s, diagonal, F_max, certain_diagonal2);
-  const REAL SW = tear_direction(x + at, stride, mask_pitch, own, guard, report, 1, -1, bit_SW, k_s, diagonal, F_max, certain_diagonal2);
-  keep_larger(report + report_straight, float_bits(fmax(E, S)));
-  keep_larger(report + report_diagonal, float_bits(fmax(SE, SW)));
+  REAL straight2 = 0, diagonal2 = 0;
+  for (int column = (int)get_global_id(0) * WIDTH; column < columns; column += (int)get_global_size(0) * WIDTH) {
+    global const REAL* at = x + place(row, column, 3 * stride);
+    global uchar* own = springs + place(row, column, mask_pitch);
+    global const uchar* guard = guards + place(row, column, mask_pitch);
+    const REAL E = TEAR(0, 1, bit_E, straight, certain_straight2), S = TEAR(1, 0, bit_S, straight, certain_straight2);
+    const REAL SE = TEAR(1, 1, bit_SE, diagonal, certain_diagonal2);
+    const REAL SW = TEAR(1, -1, bit_SW, diagonal, certain_diagonal2);
+    straight2 = fmax(straight2, fmax(E, S)), diagonal2 = fmax(diagonal2, fmax(SE, SW));
+  }
+  atomic_max(report + report_straight, float_bits(straight2));
+  atomic_max(report + report_diagonal, float_bits(diagonal2));
 }
 
 /// Makes the masks that sweeps read from those of the stretch springs and of what is free: says which bending springs

@@ -143,12 +143,11 @@ void OpenClEngine<R>::plan_bands() {
 }
 
 template <class R>
-void OpenClEngine<R>::launch_blocks(const Kernel& kernel, int width) const {
-  const std::size_t blocks = std::size_t((lattice_.columns + width - 1) / width), rows = std::size_t(lattice_.rows);
+void OpenClEngine<R>::launch_rows(const Kernel& kernel, int columns) const {
   constexpr std::size_t group_columns = 32, group_rows = 4;
-  const std::size_t local[2] = {width == 1 ? group_columns : 1, width == 1 ? group_rows : 8};
+  const std::size_t local[2] = {columns == 1 ? 1 : group_columns, group_rows};
   const auto whole = [](std::size_t n, std::size_t groups_of) { return (n + groups_of - 1) / groups_of * groups_of; };
-  const std::size_t global[2] = {whole(blocks, local[0]), whole(rows, local[1])};
+  const std::size_t global[2] = {whole(std::size_t(columns), local[0]), whole(std::size_t(lattice_.rows), local[1])};
   check(clEnqueueNDRangeKernel(device_->queue(), kernel.get(), 2, nullptr, global, local, 0, nullptr, nullptr),
         "starting a kernel");
 }
@@ -162,7 +161,7 @@ void OpenClEngine<R>::launch_sweep(const Kernel& kernel, int at, const Constants
                 k, reports, hand, cl_int(slot), cl_int(held_.particle), bodies, cl_int(preset_.bodies.size()),
                 contact_list);
   if (width_ == 1) {
-    launch_blocks(kernel, 1);
+    launch_rows(kernel, lattice_.columns);
     return;
   }
   const std::size_t bands = std::size_t(bands_), one = 1;
@@ -323,7 +322,7 @@ void OpenClEngine<R>::upload_masks(const Tears& tears) {
   const cl_mem none = nullptr, from = state_.springs(), to = state_.masks();
   set_arguments(kernels_.derive_masks, 0, from, to, none, cl_int(0), cl_int(state_.mask_pitch()), cl_int(lattice_.rows),
                 cl_int(lattice_.columns));
-  launch_blocks(kernels_.derive_masks, 1);
+  launch_rows(kernels_.derive_masks, lattice_.columns);
   masks_stale_ = false, torn_ = tears.torn_count();
 }
 

@@ -65,8 +65,8 @@ class OpenClEngine final : public Engine {
   void upload_bodies_as();
   void read_contacts(std::uint32_t count);
 
-  /// A work-item for each block of particles, or for each particle.
-  void launch_blocks(const Kernel& kernel, int width) const;
+  /// So many work-items for each row.
+  void launch_rows(const Kernel& kernel, int columns) const;
   /// A sweep's, behind its vectors, and its work-items.
   void launch_sweep(const Kernel& kernel, int at, const Constants& constants, int slot, int levels) const;
   /// One sweep, or as many steps as there are levels of a method of one sweep.

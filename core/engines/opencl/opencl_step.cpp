@@ -24,11 +24,12 @@ void OpenClEngine<R>::enqueue_tear(int slot) {
                   B(straight), B(diagonal), B(preset_.F_max), certain(straight), certain(diagonal));
   };
   device_->facts().fp64 ? set(double()) : set(float());
-  launch_blocks(kernels_.tear, width_);
+  constexpr int of_card = 32;  // work-items a row
+  launch_rows(kernels_.tear, width_ == 1 ? of_card : 1);
   const cl_mem from = state_.springs(), to = state_.masks(), reports = reports_.get();
   set_arguments(kernels_.derive_masks, 0, from, to, reports, cl_int(slot), cl_int(state_.mask_pitch()),
                 cl_int(lattice_.rows), cl_int(lattice_.columns));
-  launch_blocks(kernels_.derive_masks, 1);
+  launch_rows(kernels_.derive_masks, lattice_.columns);
 }
 
 template <class R>

@@ -90,7 +90,7 @@ std::string band_text(const Wanted& wanted) {
   text += "    Carry carry = {{ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}};\n    bitsv most = 0;\n";
   text += "    for (int column = 0; column < columns; column += WIDTH) {\n    " +
           std::string(wanted.last ? "FIND_FORCE" : "FIND_FORCE_SLOWLY") + ";\n" + update_text(wanted) + "    }\n";
-  if (wanted.last) text += "    if (updates) keep_larger(report + report_way, way_word(most));\n";
+  if (wanted.last) text += "    if (updates) atomic_max(report + report_way, way_word(most));\n";
   return text + "  }\n";
 }
 
