@@ -40,7 +40,6 @@ tyglab_header(json nlohmann/json.hpp "nlohmann-json" nlohmann-json3-dev)
 tyglab_header(cli11 CLI/CLI.hpp "CLI11" libcli11-dev)
 tyglab_header(stb stb_image.h "stb" libstb-dev)
 tyglab_header(boost boost/numeric/odeint.hpp "Boost (Odeint, the integrators that bench accuracy compares with)" libboost-dev)
-tyglab_header(clhpp CL/opencl.hpp "The OpenCL C++ headers" opencl-clhpp-headers)
 
 find_package(Threads REQUIRED)
 

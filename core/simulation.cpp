@@ -148,7 +148,8 @@ void Simulation::change(const Preset& next) {
 
 /// Whether the state must be read and loaded anew: another engine or another method's vectors.
 bool Simulation::converts(const Preset& next) const {
-  return next.precision != preset_.precision || next.engine != preset_.engine || next.integrator != preset_.integrator;
+  return next.precision != preset_.precision || next.engine != preset_.engine ||
+         next.integrator != preset_.integrator || (next.engine == EngineKind::opencl && next.device != preset_.device);
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {

@@ -28,7 +28,9 @@ struct ThroughputOptions : BenchOptions {
 Json row_json(const ThroughputRow& row) {
   const Preset& p = row.of.preset;
   const double limit = std::max(row.register_limit_ns, row.memory_limit_ns);
+  const auto over = [&](double of) { return of > 0 ? Json(row.ns_per_particle_step / of) : Json(); };
   return {{"engine", name_of(p.engine)},
+          {"device", row.device},
           {"precision", name_of(p.precision)},
           {"integrator", p.integrator},
           {"threads", row.threads_used},
@@ -43,18 +45,19 @@ Json row_json(const ThroughputRow& row) {
           {"repeats", row.repeats},
           {"register_limit_ns", row.register_limit_ns},
           {"memory_limit_ns", row.memory_limit_ns},
-          {"over_register_limit", row.ns_per_particle_step / row.register_limit_ns},
-          {"over_higher_limit", row.ns_per_particle_step / limit},
+          {"over_register_limit", over(row.register_limit_ns)},
+          {"over_higher_limit", over(limit)},
           {"bytes_per_particle", row.bytes_per_particle}};
 }
 
 void print_row(std::ostream& out, const ThroughputRow& row) {
   const Preset& p = row.of.preset;
   std::array<char, 256> line;
-  std::snprintf(line.data(), line.size(), "%4d x %-4d  %-6s  %-14s  %7d  %8.2f  %7.2f  %7.2f  %6.2f  %6.1f  %s\n",
-                p.rows, p.columns, std::string(name_of(p.precision)).c_str(), p.integrator.c_str(), row.threads_used,
-                row.ns_per_particle_step, row.register_limit_ns, row.memory_limit_ns,
-                row.ns_per_particle_step / row.register_limit_ns, row.bytes_per_particle, row.of.variant.c_str());
+  std::snprintf(line.data(), line.size(), "%4d x %-4d  %-6s  %-6s  %-14s  %7d  %8.2f  %7.2f  %7.2f  %6.2f  %6.1f  %s\n",
+                p.rows, p.columns, std::string(name_of(p.engine)).c_str(), std::string(name_of(p.precision)).c_str(),
+                p.integrator.c_str(), row.threads_used, row.ns_per_particle_step, row.register_limit_ns,
+                row.memory_limit_ns, row.ns_per_particle_step / row.register_limit_ns, row.bytes_per_particle,
+                row.of.variant.c_str());
   out << line.data() << std::flush;
   flush_standard_output();  // which sees now, not after all rows, that nobody gets them
 }
@@ -82,6 +85,10 @@ Chart throughput_chart(const std::vector<ThroughputRow>& rows, int repeats) {
     const Preset& p = row.of.preset;
     if (!row.of.variant.empty() || row.threads_used < row.of.threads) continue;
     const std::string precision(name_of(p.precision));
+    if (p.engine == EngineKind::opencl) {
+      add("OpenCL, " + precision, row, row.ns_per_particle_step);
+      continue;
+    }
     add(p.integrator + ", " + precision + ", " + counted(row.threads_used, "thread"), row, row.ns_per_particle_step);
     if (row.threads_used == 1 && p.integrator == "verlet")
       add("arithmetic alone, " + precision, row, row.register_limit_ns);
@@ -98,7 +105,7 @@ int throughput(const ThroughputOptions& options) {
   const int threads = options.threads > 0 ? options.threads : processors();
   out << machine_line() << "\nns per particle and step: the median of " << counted(options.repeats, "run")
       << ", and the limits of this machine measured beside it\n\n"
-      << "      cloth  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n"
+      << "      cloth  engine  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n"
       << std::flush;
   Json json = Json::array();
   std::vector<ThroughputRow> rows;

@@ -6,26 +6,17 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <iostream>
-#include <sstream>
 
-#include "app/data_files.h"
 #include "core/engines/engine.h"
-#include "core/engines/opencl_devices.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
 
 namespace tyglab {
 namespace {
-
-std::string read_kernel(std::string_view name) {
-  std::ifstream in(data_file(name), std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 void print_cpu() {
   std::cout << "CPU engine (--engine cpu)\n";
@@ -44,23 +35,38 @@ std::string verdict(const OpenClProbe& probe) {
   return probe.problem.empty() ? "works (a test kernel was built, run and checked)" : "fails: " + probe.problem;
 }
 
-void print_device(const OpenClDevice& device) {
-  std::cout << "\nOpenCL device: " << device.name << "\n  platform: " << device.platform
-            << "\n  version: " << device.version << ", driver " << device.driver
-            << "\n  compute units: " << device.compute_units << ", memory: " << (device.memory_bytes >> 20)
-            << " MiB\n  float: " << verdict(device.float_) << "\n  double: " << verdict(device.double_)
-            << "\n  OpenGL: "
-            << (device.gl_sharing ? "can share a buffer (cl_khr_gl_sharing)"
-                                  : "no cl_khr_gl_sharing, so positions pass through main memory")
-            << '\n';
+/// How positions come to where OpenGL draws them.
+const char* sharing(const OpenClDevice& device) {
+  return device.shared_memory ? "positions are drawn from the device's own memory, without a copy on the way there"
+                              : "positions are read back once a frame, into main memory";
 }
 
-void print_opencl(const std::string& probe) {
-  const OpenClInventory inventory = find_opencl_devices(probe);
-  for (const OpenClDevice& device : inventory.devices) print_device(device);
+void print_device(const OpenClDevice& device, int number) {
+  const OpenClProbe single = probe_opencl_device(number, false), twice = probe_opencl_device(number, true);
+  std::cout << "\nOpenCL device " << number << ": " << device.name << " (--engine opencl:" << number
+            << ")\n  platform: " << device.platform << "\n  version: " << device.version << ", driver " << device.driver
+            << "\n  compute units: " << device.compute_units << ", memory: " << (device.memory_bytes >> 20)
+            << " MiB\n  float: " << verdict(single) << "\n  double: " << verdict(twice)
+            << "\n  OpenGL: " << sharing(device)
+            << (device.gl_sharing ? "; offers cl_khr_gl_sharing" : "; no cl_khr_gl_sharing") << '\n';
+}
+
+std::string names_of_methods(bool that_run) {
+  std::string names;
+  for (const Scheme& method : schemes())
+    if (runs_on_opencl(method) == that_run) names += (names.empty() ? "" : ", ") + std::string(method.name);
+  return names;
+}
+
+void print_opencl() {
+  const OpenClInventory inventory = opencl_devices();
+  for (int n = 0; n < int(inventory.devices.size()); ++n) print_device(inventory.devices[std::size_t(n)], n);
   if (inventory.devices.empty())
     std::cout << "\nNo OpenCL device was found" << (inventory.problem.empty() ? "" : " (" + inventory.problem + ")")
               << ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.\n";
+  else
+    std::cout << "\nOpenCL devices step with " << names_of_methods(true) << ".\nOnly the CPU engine has "
+              << names_of_methods(false) << ".\n";
 }
 
 /// What happens in the child: never returns. Only the parent speaks of Ctrl-C, which reaches both.
@@ -92,11 +98,9 @@ int in_child(const std::function<void()>& work) {
 
 int devices() {
   print_cpu();
-  const std::string probe = read_kernel("kernels/probe.cl");
-  if (const int signal = in_child([&] { print_opencl(probe); }))
+  if (const int signal = in_child(print_opencl))
     std::cout << "\nAn OpenCL driver of this system crashed (" << ::strsignal(signal)
               << ") when it was asked for its devices, so none can be used. Pocl does so where /sys is not mounted.\n";
-  std::cout << "\nThis version steps on the CPU engine; OpenCL devices are found and tested, but do not step yet.\n";
   return exit_done;
 }
 

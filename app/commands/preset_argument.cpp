@@ -1,7 +1,9 @@
 #include "app/commands/preset_argument.h"
 
 #include <algorithm>
+#include <charconv>
 #include <iostream>
+#include <system_error>
 
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
@@ -63,6 +65,18 @@ std::string known_integrators() {
   return list;
 }
 
+/// N of opencl:N.
+int device_number(const std::string& engine) {
+  const std::size_t colon = engine.find(':');
+  const char *first = engine.data() + colon + 1, *last = engine.data() + engine.size();
+  int number = -1;
+  const auto [end, error] = std::from_chars(first, last, number);
+  if (engine.substr(0, colon) != "opencl" || error != std::errc() || end != last || number < 0)
+    throw UsageError("--engine " + engine +
+                     ": allowed are cpu, opencl, and opencl:N with the number of a device (`tyglab devices`)");
+  return number;
+}
+
 }  // namespace
 
 void PresetArgument::add_to(CLI::App& command, bool required) {
@@ -95,8 +109,9 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
       ->transform(number_between(1e-12, 1, "m"));
   command
       .add_option("--engine", engine,
-                  "Where it runs: cpu, or opencl (this version finds OpenCL devices but does not step on them yet)")
-      ->type_name("cpu|opencl")
+                  "Where it runs: cpu, or opencl, on the first graphics card or else the first OpenCL device, or\n"
+                  "opencl:N on the device that `tyglab devices` gives that number")
+      ->type_name("cpu|opencl[:N]")
       ->check(not_empty());
   command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")
       ->type_name("float|double")
@@ -117,7 +132,7 @@ std::vector<Setting> PresetArgument::all_settings() const {
   };
   add("integrator", integrator);
   if (dt != automatic) add("dt", dt);
-  add("engine", engine);
+  add("engine", engine.substr(0, engine.find(':')));
   add("precision", precision);
   return all;
 }
@@ -166,6 +181,7 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
   } catch (const PresetError& error) {
     throw UsageError(error.what());
   }
+  if (engine.find(':') != std::string::npos) resolved.preset.device = device_number(engine);
   resolved.auto_dt = dt == automatic;
   if (tolerance) choose_by_tolerance(resolved, seconds);
   if (resolved.auto_dt) choose_dt(resolved);

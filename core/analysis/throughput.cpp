@@ -7,6 +7,7 @@
 
 #include "core/analysis/machine.h"
 #include "core/engines/cpu/register_limit.h"
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 
@@ -64,6 +65,13 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
     p.bodies[0].c = {0, 50, 0};
   });
   add("left column pinned", 128, 1, [](Preset& p) { p.pins.mode = Pins::Mode::left_column; });
+  // All of the device's compute units; beside the CPU engine with as many threads.
+  if (opencl_devices().devices.empty()) return cases;
+  const auto on_opencl = [](Preset& p) { p.engine = EngineKind::opencl; };
+  for (const int side : quick ? std::vector{512} : sides) {
+    add("", side, threads, on_opencl);
+    if (!quick) add("", side, threads, [&](Preset& p) { on_opencl(p), p.precision = Precision::double_; });
+  }
   return cases;
 }
 
@@ -87,8 +95,11 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   row.ns_per_particle_step = times[times.size() / 2];
   row.ns_lowest = times.front(), row.ns_highest = times.back();
   row.threads_used = simulation.engine().threads();
+  if (which.preset.engine == EngineKind::opencl) row.device = simulation.engine().name();
   if (row.threads_used < which.threads) row.of.variant = "too small for " + std::to_string(which.threads) + " threads";
   row.bytes_per_particle = double(simulation.engine().bytes()) / particles;
+  // The limits are this processor's, in so many threads.
+  if (row.threads_used > processors()) return row;
   row.register_limit_ns = cpu::register_limit_ns(which.preset.precision, 15) / row.threads_used;
   const std::size_t moved = std::size_t(particles) * 6 * (which.preset.precision == Precision::float_ ? 4 : 8);
   row.memory_limit_ns = memory_limit_ns(moved, row.threads_used, 5) / particles;

@@ -72,6 +72,7 @@ struct Preset {
   std::string integrator = "verlet";
   double dt = 0.001;
   EngineKind engine = EngineKind::cpu;
+  int device = -1;  ///< number of the OpenCL device, -1: the best; a choice of this machine, so no file holds it
   Precision precision = Precision::float_;
   double tolerance = 1e-5;
   int iterations = 10;

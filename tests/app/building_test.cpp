@@ -114,7 +114,7 @@ TEST_CASE("a restart is built beside the frames too, and an engine that is not t
   CHECK(app.simulation->steps() == 0);
   const Preset before = app.preset();
   Preset other = before;
-  other.engine = EngineKind::opencl;
+  other.engine = EngineKind::opencl, other.device = 99;
   apply_edit(app, edit::Change{other});
   wait(app);
   CHECK(app.preset() == before);

@@ -144,7 +144,11 @@ TEST_CASE("4: run and render diverge; what they had is written, and when, where 
 
 TEST_CASE("5: the engine asked for is not there") {
   const test::TemporaryFolder folder;
-  check_calls({{{"run", "denim", "--steps", "1", "--engine", "opencl", "--state", "s.csv"}, 5, "cpu"}}, folder.path());
+  check_calls(
+      {{{"run", "denim", "--steps", "1", "--engine", "opencl:99", "--state", "s.csv"}, 5, "cpu"},
+       {{"run", "denim", "--steps", "1", "--engine", "opencl", "--integrator", "xpbd", "--state", "s.csv"}, 5, "cpu"},
+       {{"run", "denim", "--steps", "1", "--engine", "cpu:0"}, 2, "opencl:N"}},
+      folder.path());
   CHECK_FALSE(fs::exists(folder / "s.csv"));
 }
 

@@ -360,6 +360,11 @@ std::string CpuEngine<R, Present>::name() const {
          (threads == 1 ? " thread" : " threads");
 }
 
+std::unique_ptr<Engine> make_cpu_engine(const Preset& preset, const Lattice& lattice, int threads) {
+  if (preset.precision == Precision::double_) return std::make_unique<CpuEngine<double>>(preset, lattice, threads);
+  return std::make_unique<CpuEngine<float>>(preset, lattice, threads);
+}
+
 #define TYGLAB_MAKE(R, present) template class CpuEngine<R, (present)>;
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE
@@ -378,14 +383,3 @@ std::unique_ptr<Engine> make_engine_without([[maybe_unused]] unsigned absent, [[
 }
 
 }  // namespace tyglab::cpu
-
-namespace tyglab {
-
-std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice, int threads) {
-  if (preset.engine == EngineKind::opencl)
-    throw EngineError("the OpenCL engine cannot step a cloth in this version; use --engine cpu");
-  if (preset.precision == Precision::double_) return std::make_unique<cpu::CpuEngine<double>>(preset, lattice, threads);
-  return std::make_unique<cpu::CpuEngine<float>>(preset, lattice, threads);
-}
-
-}  // namespace tyglab

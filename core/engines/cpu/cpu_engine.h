@@ -10,6 +10,7 @@
 #include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
 #include "core/engines/engine.h"
+#include "core/engines/fault.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::cpu {
@@ -40,12 +41,6 @@ class CpuEngine final : public Engine {
 
  private:
   using Field = RowField<R>;
-  struct Fault {
-    int i, j;
-    const char* quantity;
-    double value;
-    int di = 0, dj = 0;
-  };
   enum class End { none, fault, released, overtaken };
 
   static constexpr bool has(unsigned which) { return (Present & which) != 0; }
@@ -85,14 +80,9 @@ class CpuEngine final : public Engine {
   bool guarded(int i, int j) const {
     return !guards_.empty() && guards_[std::size_t(i) * cloth_.lattice.columns + j] != 0;
   }
-  /// Square of the distance from particle (i, j) to its neighbour in that direction, m².
-  double distance2(int i, int j, const Direction& to) const;
   /// Looks at every particle and spring; if all is well, says how much motion may pass before the next look.
   bool find_fault(const Tears& tears, Fault& fault);
-  bool finite(Fault& fault) const;
-  bool within_bounds(const Tears& tears, Fault& fault);
-  /// By how much any spring of a row in one direction may still grow, m; less than 0: `fault` is too long.
-  double growth_left(const Tears& tears, int direction, int i, Fault& fault) const;
+  StateView<R> view() const;
   /// The steps before say nothing any more of how long the next may be.
   void restart_control() { control_.restart(), knows_first_a_ = false; }
   /// Forgets how far particles may still move, and the backup: something else than their motion has changed.
@@ -153,5 +143,7 @@ class CpuEngine final : public Engine {
   double tear_motion_ = 0;  ///< m that particles may still move before a spring can be overloaded
   double free_motion_ = 0;  ///< m that particles may still move before springs must be measured again
 };
+
+std::unique_ptr<Engine> make_cpu_engine(const Preset& preset, const Lattice& lattice, int threads);
 
 }  // namespace tyglab::cpu

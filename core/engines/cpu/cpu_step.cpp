@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
 #include "core/engines/cpu/cpu_engine.h"
 #include "core/engines/cpu/row_distances.h"
@@ -11,39 +10,10 @@
 #include "core/forces/spring-inl.h"
 
 namespace tyglab::cpu {
-namespace {
-
-constexpr int steps_between_backups = 256;  // a copy of the state costs about a step's memory traffic: under 1 %
-template <class R>
-constexpr double rounding = 16 * double(std::numeric_limits<R>::epsilon());  // of a length computed in R, generously
-constexpr double longest_factor = 1000;  // a spring longer than that many rest lengths has diverged
-
-/// By how much a spring can grow where no component of a particle's way is larger: by both of its ends.
-double growth_of(double largest_way) {
-  return 2 * std::numbers::sqrt3 * largest_way;
-}
-
-/// Whether all of a row's values are numbers. Without a way out of the loop, so that the compiler can use SIMD.
-template <class R>
-bool finite_row(const RowField<R>& field, int i, int columns) {
-  int bad = 0;
-  for (int c = 0; c < 3; ++c) {
-    const R* row = field.row(i, c);
-    for (int j = 0; j < columns; ++j) bad |= int(!(std::abs(row[j]) <= std::numeric_limits<R>::max()));
-  }
-  return bad == 0;
-}
-
-}  // namespace
 
 template <class R, unsigned Present>
-double CpuEngine<R, Present>::distance2(int i, int j, const Direction& to) const {
-  double r2 = 0;
-  for (int c = 0; c < 3; ++c) {
-    const double d = double(cloth_.row(vector_x, i + to.di, c)[j + to.dj]) - double(cloth_.row(vector_x, i, c)[j]);
-    r2 += d * d;
-  }
-  return r2;
+StateView<R> CpuEngine<R, Present>::view() const {
+  return {cloth_.row(vector_x, 0, 0), cloth_.row(vector_v, 0, 0), cloth_.stride};
 }
 
 /// Breaks what is overloaded, and says by how much any other spring may still grow, m.
@@ -72,7 +42,7 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   double left = 0;
   for (int j = begin; j < end; ++j) {
     if (!tears.whole(d, i, j) || guarded(i, j) || guarded(i + dir.di, j + dir.dj)) continue;
-    const double r2 = distance2(i, j, dir);
+    const double r2 = distance2(view(), i, j, dir);
     if (HWY_NAMESPACE::stretch_tension(cloth_.preset.k_s, rest, r2) > cloth_.preset.F_max)
       tears.tear(d, i, j);
     else
@@ -82,70 +52,8 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
 }
 
 template <class R, unsigned Present>
-bool CpuEngine<R, Present>::finite(Fault& fault) const {
-  for (int i = 0; i < cloth_.lattice.rows; ++i) {
-    if (finite_row(cloth_.vector(vector_x), i, cloth_.lattice.columns) &&
-        finite_row(cloth_.vector(vector_v), i, cloth_.lattice.columns))
-      continue;
-    for (int j = 0; j < cloth_.lattice.columns; ++j)
-      for (int which : {vector_x, vector_v})
-        for (int c = 0; c < 3; ++c) {
-          const double value = cloth_.row(which, i, c)[j];
-          if (std::isfinite(value)) continue;
-          fault = {i, j, which == vector_x ? "position" : "velocity", value};
-          return false;
-        }
-  }
-  return true;
-}
-
-template <class R, unsigned Present>
-double CpuEngine<R, Present>::growth_left(const Tears& tears, int d, int i, Fault& fault) const {
-  const Direction& dir = directions[d];
-  const double bound = longest_factor * dir.rest * cloth_.preset.L;
-  const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
-  if (begin >= end) return bound;
-  // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be too long or torn.
-  const std::uint8_t* masks = tears.row(i);
-  if (masks == nullptr || std::all_of(masks + begin, masks + end, [&](auto mask) { return (mask >> d & 1) != 0; })) {
-    const R longest = longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
-                                      dir.di * cloth_.vector(vector_x).pitch() + dir.dj, begin, end);
-    const double left = bound - std::sqrt(double(longest)) * (1 + rounding<R>);
-    if (left >= 0) return left;
-  }
-  double slack = bound;
-  for (int j = begin; j < end; ++j) {
-    if (!tears.whole(d, i, j)) continue;
-    const double length = std::sqrt(distance2(i, j, dir));
-    if (bound - length < 0) fault = {i, j, "spring length", length, dir.di, dir.dj};
-    if (bound - length < 0) return bound - length;
-    slack = std::min(slack, bound - length);
-  }
-  return slack;
-}
-
-template <class R, unsigned Present>
-bool CpuEngine<R, Present>::within_bounds(const Tears& tears, Fault& fault) {
-  double slack = std::numeric_limits<double>::infinity();
-  if (cloth_.preset.kind == Kind::one_weight) {
-    const double bound = longest_factor * std::max(cloth_.preset.L, std::abs(cloth_.preset.offset));
-    const double away = std::abs(double(cloth_.row(vector_x, 0, 1)[0]) - cloth_.preset.x_0.y);
-    fault = {0, 0, "distance from x_0", away};
-    free_motion_ = bound - away;
-    return free_motion_ >= 0;
-  }
-  for (int d = 0; d < int(directions.size()); ++d)
-    for (int i = 0; i + directions[d].di < cloth_.lattice.rows; ++i) {
-      slack = std::min(slack, growth_left(tears, d, i, fault));
-      if (slack < 0) return false;
-    }
-  free_motion_ = slack;
-  return true;
-}
-
-template <class R, unsigned Present>
 bool CpuEngine<R, Present>::find_fault(const Tears& tears, Fault& fault) {
-  return !finite(fault) || !within_bounds(tears, fault);
+  return tyglab::find_fault(cloth_.preset, cloth_.lattice, tears, view(), fault, free_motion_);
 }
 
 /// Ends a step on one thread: says whether to go on.

@@ -1,0 +1,13 @@
+#include "core/engines/engine.h"
+
+#include "core/engines/cpu/cpu_engine.h"
+#include "core/engines/opencl/opencl_engine.h"
+
+namespace tyglab {
+
+std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice, int threads) {
+  if (preset.engine == EngineKind::opencl) return opencl::make_opencl_engine(preset, lattice);
+  return cpu::make_cpu_engine(preset, lattice, threads);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,49 @@
+// What ends a run: something that is not finite, a spring far too long. Shared by the engines; each looks only when the
+// way that particles have gone since the last look says that something might be wrong.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/cloth/lattice.h"
+#include "core/cloth/tears.h"
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+inline constexpr int steps_between_backups = 256;  ///< a copy of the state costs about a step's traffic: under 1 %
+
+struct Fault {
+  int i, j;
+  const char* quantity;
+  double value;
+  int di = 0, dj = 0;
+};
+
+/// An engine's x and v, rows as in row_field.h.
+template <class R>
+struct StateView {
+  const R *x, *v;
+  std::ptrdiff_t stride;
+  static const R* row(const R* field, std::ptrdiff_t stride, int i, int c) { return field + (3 * i + c) * stride; }
+  const R* x_row(int i, int c) const { return row(x, stride, i, c); }
+  const R* v_row(int i, int c) const { return row(v, stride, i, c); }
+};
+
+/// By how much a spring can grow where no component of a particle's way is larger: by both of its ends.
+double growth_of(double largest_way);
+
+/// Of a length computed in R, as a part of it, generously.
+template <class R>
+constexpr double rounding = sizeof(R) == 4 ? 16 * 0x1p-23 : 16 * 0x1p-52;
+
+/// Square of the distance from particle (i, j) to its neighbour in that direction, m².
+template <class R>
+double distance2(const StateView<R>& state, int i, int j, const Direction& to);
+
+/// Looks at every particle and spring; if all is well, says by how much any spring may still grow, m.
+template <class R>
+bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
+                Fault& fault, double& free_motion);
+
+}  // namespace tyglab

@@ -1,0 +1,15 @@
+// Arguments of kernels. Included by the files of this folder alone.
+#pragma once
+
+#include "core/engines/opencl/handles.h"
+
+namespace tyglab::opencl {
+
+/// Sets arguments one after the other from number `at` on; returns the next number.
+template <class... T>
+int set_arguments(const Kernel& kernel, int at, const T&... values) {
+  (check(clSetKernelArg(kernel.get(), cl_uint(at++), sizeof values, &values), "setting an argument"), ...);
+  return at;
+}
+
+}  // namespace tyglab::opencl

@@ -1,0 +1,57 @@
+// OpenCL devices: which there are, and one of them opened, with its queue and the programs built for it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/engines/opencl/handles.h"
+#include "core/engines/opencl/opencl_devices.h"
+
+namespace tyglab::opencl {
+
+/// A program for one device. Kernels belong to whoever makes them, since they hold arguments.
+class Program {
+ public:
+  explicit Program(ProgramHandle program) : program_(std::move(program)) {}
+  Kernel kernel(const char* name) const;
+
+ private:
+  ProgramHandle program_;
+};
+
+/// An opened device. All engines of one device share it; programs are built once for all of them.
+class Device {
+ public:
+  explicit Device(OpenClDevice facts, cl_device_id id);
+
+  const OpenClDevice& facts() const { return facts_; }
+  cl_context context() const { return context_.get(); }
+  cl_command_queue queue() const { return queue_.get(); }
+  /// How many numbers of that size a work-item should work on: what a processor's vectors hold; 1 on graphics cards.
+  int width(std::size_t bytes) const;
+  /// The program of that text and those build options, from memory, from disk or built. Throws EngineError with the
+  /// start of the compiler's log.
+  std::shared_ptr<const Program> program(const std::string& text, const std::string& options);
+  /// A buffer of zeros. Throws EngineError where there is no room for it.
+  Memory zeros(std::size_t bytes) const;
+
+ private:
+  ProgramHandle build(const std::string& text, const std::string& options, const std::string& key) const;
+
+  OpenClDevice facts_;
+  cl_device_id id_;
+  Context context_;
+  Queue queue_;
+  std::mutex mutex_;  ///< of programs_
+  std::map<std::string, std::shared_ptr<const Program>> programs_;
+};
+
+/// The device of that number among opencl_devices(); -1: the first graphics card, or else the first device. Throws
+/// EngineError, which says what to do.
+std::shared_ptr<Device> open_device(int number);
+
+}  // namespace tyglab::opencl

@@ -1,0 +1,48 @@
+// What kernels take by value and from buffers: the same structs as in kernels/cloth.cl and kernels/bodies.cl.
+#pragma once
+
+#include <cstdint>
+
+namespace tyglab::opencl {
+
+inline constexpr int most_coefficients = 16;  ///< of one sweep's sums
+
+/// Constants of cloth.cl.
+template <class R>
+struct DeviceConstants {
+  R k_s = 0, straight = 0, diagonal = 0;
+  R k_b = 0, bending = 0, shortest2 = 0;
+  R k_d = 0;
+  R weight = 0;
+  R wind[3] = {};
+  R smallest = 0;
+  R dt = 0, to_way = 0, to_velocity = 0;
+  R k = 0, middle = 0;
+  R c[most_coefficients] = {};
+};
+
+/// Body of bodies.cl; B is double where the device has it.
+template <class B>
+struct DeviceBody {
+  B c[3], r, y, friction, restitution;
+  B touch;
+  std::int32_t plane, unused;
+};
+
+/// Contact of bodies.cl.
+template <class B>
+struct DeviceContact {
+  B x[3], v[3];
+  std::int32_t particle, unused;
+};
+
+/// What a step reports.
+struct StepReport {
+  float way;  ///< the largest component of a particle's way, m; ∞ or NaN if something is not finite
+  std::uint32_t left_inside, contacts;
+  std::uint32_t torn;        ///< 1: a spring was torn
+  float straight, diagonal;  ///< squares of the longest springs that were left, m²
+  std::uint32_t unused[2];
+};
+
+}  // namespace tyglab::opencl

@@ -1,0 +1,41 @@
+// Which OpenCL devices there are, and what each can do. No OpenCL header, so that app may include it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+struct Scheme;
+
+struct OpenClDevice {
+  std::string platform, name, version, driver;
+  unsigned compute_units = 0;
+  std::uint64_t memory_bytes = 0;
+  bool fp64 = false;           ///< computes in double
+  bool processor = false;      ///< a CPU: its memory is the program's own
+  bool shared_memory = false;  ///< buffers are read where they are, without a copy
+  bool gl_sharing = false;     ///< cl_khr_gl_sharing: can use OpenGL's buffers
+};
+
+/// The devices of all platforms, in the order of their numbers (--engine opencl:NUMBER). Never throws for what a driver
+/// does; a driver that aborts takes the process along (`tyglab devices` asks in a process of its own).
+struct OpenClInventory {
+  std::vector<OpenClDevice> devices;
+  std::string problem;  ///< why there is none, if the loader said
+};
+OpenClInventory opencl_devices();
+
+/// Whether OpenCL devices run the method: explicit ones of fixed dt.
+bool runs_on_opencl(const Scheme& method);
+
+/// Whether the device really computes in one precision.
+struct OpenClProbe {
+  bool offered = false;  ///< the device says so
+  std::string problem;   ///< empty: the probe kernel was built and run, and its result was right
+};
+/// Builds and runs kernels/probe.cl on the device of that number, in float or in double. Never throws.
+OpenClProbe probe_opencl_device(int number, bool in_double);
+
+}  // namespace tyglab

@@ -1,0 +1,364 @@
+#include "core/engines/opencl/opencl_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/engines/opencl/arguments.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/opencl/program_text.h"
+#include "core/forces/contact.h"
+
+namespace tyglab::opencl {
+namespace {
+
+double dt_to_the(double dt, int n) {
+  double product = 1;
+  for (int k = std::abs(n); k > 0; --k) product *= dt;
+  return n < 0 ? 1 / product : product;
+}
+
+constexpr int idle_slot = steps_between_backups;  // that no step reports in
+
+template <class R>
+constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
+
+}  // namespace
+
+template <class R>
+OpenClEngine<R>::OpenClEngine(const Preset& preset, const Lattice& lattice, std::shared_ptr<Device> device, int width)
+    : device_(std::move(device)),
+      preset_(preset),
+      lattice_(lattice),
+      scheme_(&scheme(preset.integrator)),
+      state_(device_, lattice, scheme_->vectors),
+      width_(width > 0 ? width : device_->width(sizeof(R))),
+      kernels_(make_kernels(preset, false)),
+      options_(options(preset, false)) {
+  reports_ = device_->zeros((steps_between_backups + 1) * sizeof(StepReport));
+  hand_ = device_->zeros((steps_between_backups + 1) * 4 * sizeof(R));
+  guards_ = state_.mask_field();
+  plan_bands();
+  resolve();
+}
+
+template <class R>
+std::string OpenClEngine<R>::options(const Preset& p, bool contacts) const {
+  std::string text = std::string("-cl-std=CL1.2 -D REAL=") + real<R> + " -D WIDTH=" + std::to_string(width_);
+  if constexpr (sizeof(R) == 8) text += " -D REAL_IS_DOUBLE";
+  text += device_->facts().fp64 ? " -D BODY_REAL=double -D BODY_REAL_IS_DOUBLE" : " -D BODY_REAL=float";
+  if (p.k_d > 0) text += " -D DAMPING";
+  if (p.kind == Kind::one_weight) return text + " -D ONE_WEIGHT";
+  if (p.k_b > 0) text += " -D BENDING";
+  if (p.W != glm::dvec3(0)) text += " -D WIND";
+  if (meets_bodies(p)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
+  return text;
+}
+
+template <class R>
+typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& preset, bool contacts) const {
+  const auto program = device_->program(program_text(*scheme_), options(preset, contacts));
+  Kernels kernels;
+  for (std::size_t n = 0; n < scheme_->sweeps.size(); ++n)
+    kernels.sweeps.push_back(program->kernel(("sweep_" + std::to_string(n)).c_str()));
+  if (!scheme_->start.empty()) kernels.start = program->kernel("start");
+  kernels.accelerations = program->kernel("accelerations");
+  kernels.set_fixed = program->kernel("set_fixed");
+  kernels.combine = program->kernel("combine");
+  kernels.tear = program->kernel("tear");
+  kernels.derive_masks = program->kernel("derive_masks");
+  return kernels;
+}
+
+template <class R>
+DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& sweep) const {
+  const double scale = scheme_->keeps_displacement ? p.dt : 1;
+  Constants k;
+  k.k_s = R(p.k_s), k.straight = R(-p.k_s * directions[0].rest * p.L / 2),
+  k.diagonal = R(-p.k_s * directions[2].rest * p.L / 2);
+  k.k_b = R(p.k_b), k.bending = R(-p.k_b * directions[4].rest * p.L / 2);
+  constexpr double shortest = 1e-9;  // as in spring-inl.h
+  k.shortest2 = R(std::pow(shortest * directions[4].rest * p.L, 2));
+  k.k_d = R(p.k_d * dt_to_the(p.dt, sweep.velocity_dt_power));
+  k.weight = R(p.m * p.g);
+  for (int c = 0; c < 3; ++c) k.wind[c] = R(p.W[c] / 3);
+  k.smallest = std::numeric_limits<R>::min();
+  k.dt = R(p.dt), k.to_way = R(p.dt / scale), k.to_velocity = R(1 / scale);
+  k.k = R(p.k), k.middle = R(p.x_0.y);
+  int next = 0;
+  for (const Coefficient& c : coefficients(sweep.assignments))
+    k.c[next++] = R(c.factor * dt_to_the(p.dt, c.dt_power) / (c.of_force ? p.m : 1));
+  return k;
+}
+
+template <class R>
+void OpenClEngine<R>::resolve() {
+  sweeps_.clear();
+  for (const Sweep& sweep : scheme_->sweeps) sweeps_.push_back({&sweep, constants(preset_, sweep)});
+  upload_bodies();
+  measure_again();
+}
+
+template <class R>
+void OpenClEngine<R>::upload_bodies() {
+  if (!meets_bodies(preset_)) return;
+  device_->facts().fp64 ? upload_bodies_as<double>() : upload_bodies_as<float>();
+}
+
+template <class R>
+template <class B>
+void OpenClEngine<R>::upload_bodies_as() {
+  constexpr double epsilon = std::numeric_limits<R>::epsilon();
+  std::vector<DeviceBody<B>> list;
+  for (const Body& b : preset_.bodies) {
+    const bool plane = b.shape == Body::Shape::plane;
+    // Rounding of the quick test is left to the exact one, as in Band::touches.
+    const double reach = b.r + contact_tolerance(b, b.c, epsilon);
+    const R touch =
+        plane ? std::nextafter(R(b.y), std::numeric_limits<R>::max()) : R(reach * reach * (1 + 9 * epsilon));
+    list.push_back(
+        {{B(b.c.x), B(b.c.y), B(b.c.z)}, B(b.r), B(b.y), B(b.friction), B(b.restitution), B(touch), plane, 0});
+  }
+  const std::size_t bytes = list.size() * sizeof list[0];
+  cl_int code = CL_SUCCESS;
+  bodies_ =
+      Memory(clCreateBuffer(device_->context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR, bytes, list.data(), &code));
+  check(code, "allocating a buffer");
+}
+
+/// Bands for all compute units, and some more so that none waits long for the last; steps of a launch as many as a
+/// cache holds the rows of.
+template <class R>
+void OpenClEngine<R>::plan_bands() {
+  if (width_ == 1) return;
+  constexpr int least_rows = 16, most_levels = 8;
+  constexpr std::size_t cache = 256 << 10;
+  const int units = int(device_->facts().compute_units);
+  bands_ = std::clamp(lattice_.rows / least_rows, 1, units);
+  const std::size_t pitch = 3 * std::size_t(state_.stride());
+  const auto numbers = [&](int levels) { return (4 * (levels - 1) * scheme_->vectors + 3 * levels) * pitch + 64; };
+  levels_ = 1;
+  while (scheme_->sweeps.size() == 1 && levels_ < most_levels && numbers(levels_ + 1) * sizeof(R) <= cache) ++levels_;
+  band_numbers_ = numbers(levels_);
+  scratch_ = device_->zeros(std::size_t(bands_) * band_numbers_ * sizeof(R));
+}
+
+template <class R>
+void OpenClEngine<R>::launch_rows(const Kernel& kernel, int columns) const {
+  constexpr std::size_t group_columns = 32, group_rows = 4;
+  const std::size_t local[2] = {columns == 1 ? 1 : group_columns, group_rows};
+  const auto whole = [](std::size_t n, std::size_t groups_of) { return (n + groups_of - 1) / groups_of * groups_of; };
+  const std::size_t global[2] = {whole(std::size_t(columns), local[0]), whole(std::size_t(lattice_.rows), local[1])};
+  check(clEnqueueNDRangeKernel(device_->queue(), kernel.get(), 2, nullptr, global, local, 0, nullptr, nullptr),
+        "starting a kernel");
+}
+
+template <class R>
+void OpenClEngine<R>::launch_sweep(const Kernel& kernel, int at, const Constants& k, int slot, int levels) const {
+  const cl_mem masks = state_.masks(), reports = reports_.get(), hand = hand_.get(), bodies = bodies_.get(),
+               contact_list = contact_list_.get(), scratch = scratch_.get();
+  set_arguments(kernel, at, scratch, cl_int(bands_), cl_int(levels), cl_int(band_numbers_), masks,
+                cl_int(state_.stride()), cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns),
+                k, reports, hand, cl_int(slot), cl_int(held_.particle), bodies, cl_int(preset_.bodies.size()),
+                contact_list);
+  if (width_ == 1) {
+    launch_rows(kernel, lattice_.columns);
+    return;
+  }
+  const std::size_t bands = std::size_t(bands_), one = 1;
+  check(clEnqueueNDRangeKernel(device_->queue(), kernel.get(), 1, nullptr, &bands, &one, 0, nullptr, nullptr),
+        "starting a kernel");
+}
+
+template <class R>
+void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolved, int slot, int levels) {
+  const Sweep& sweep = *resolved.sweep;
+  std::vector<int> swapped;
+  int at = 0;
+  for (int n = 0; n < scheme_->vectors; ++n) {
+    const bool written = std::any_of(sweep.assignments.begin(), sweep.assignments.end(),
+                                     [n](const Assignment& assignment) { return assignment.target == n; });
+    // What others read while it is written stands twice: neighbours, and bands that make their neighbours' rows too.
+    const bool read = levels > 1 || n == sweep.position || (n == sweep.velocity && preset_.k_d > 0);
+    const cl_mem in = state_.vector(n), out = written && read ? state_.other(n) : in;
+    at = set_arguments(kernel, at, in, out);
+    if (out != in) swapped.push_back(n);
+  }
+  launch_sweep(kernel, at, resolved.constants, slot, levels);
+  for (const int n : swapped) state_.swap(n);
+}
+
+template <class R>
+void OpenClEngine<R>::accelerations() const {
+  if (!acceleration_) acceleration_ = state_.field();
+  const cl_mem x = state_.vector(vector_x), v = state_.vector(seen_velocity(*scheme_)), out = acceleration_.get();
+  Sweep sweep = look();
+  sweep.velocity_dt_power = scheme_->keeps_displacement ? -1 : 0;
+  const int at = set_arguments(kernels_.accelerations, 0, x, x, v, v, out, out);
+  launch_sweep(kernels_.accelerations, at, constants(preset_, sweep), idle_slot, 1);
+}
+
+template <class R>
+void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
+  state_.take_back();
+  const int columns = lattice_.columns;
+  R* const x = state_.map(state_.vector(vector_x), CL_MAP_READ | CL_MAP_WRITE);
+  R* const v = state_.map(state_.vector(vector_v), CL_MAP_READ | CL_MAP_WRITE);
+  Array<double> buffer(6 * std::size_t(columns));
+  const auto part = [&](int n) { return buffer.data() + std::ptrdiff_t(n) * columns; };
+  const StateRow row{{part(0), part(1), part(2)}, {part(3), part(4), part(5)}};
+  for (int i = 0; i < lattice_.rows; ++i) {
+    rows(i, row);
+    for (int c = 0; c < 3; ++c) {
+      const std::ptrdiff_t to = (3 * std::ptrdiff_t(i) + c) * state_.stride();
+      std::transform(row.x[c], row.x[c] + columns, x + to, [](double a) { return R(a); });
+      std::transform(row.v[c], row.v[c] + columns, v + to, [](double a) { return R(a); });
+    }
+  }
+  state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
+  upload_masks(tears);
+  if (!scheme_->start.empty()) {
+    // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
+    const Sweep start{vector_x, vector_v, 0, scheme_->start};
+    enqueue_sweep(kernels_.start, {&start, constants(preset_, start)}, idle_slot);
+  }
+  write_fixed_velocities();
+  measure_again();
+}
+
+template <class R>
+void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
+  const bool shifts = scheme_->lags && preset.dt != preset_.dt;
+  const std::string wanted = options(preset, notes_contacts_);
+  Kernels next;
+  if (wanted != options_) next = make_kernels(preset, notes_contacts_);
+  state_.take_back();
+  take_changes(tears);
+  State kept;
+  // What lags half a step depends on dt, and the velocity must stay.
+  if (shifts && !scheme_->keeps_displacement) read(kept, tears);
+  if (shifts && scheme_->keeps_displacement) {
+    // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
+    accelerations();
+    const cl_mem d = state_.vector(vector_v), a = acceleration_.get();
+    set_arguments(kernels_.combine, 0, d, a, R(preset.dt / preset_.dt), R(preset.dt * 0.5 * (preset_.dt - preset.dt)));
+    const std::size_t numbers = state_.numbers();
+    check(clEnqueueNDRangeKernel(device_->queue(), kernels_.combine.get(), 1, nullptr, &numbers, nullptr, 0, nullptr,
+                                 nullptr),
+          "starting a kernel");
+  }
+  if (wanted != options_) kernels_ = std::move(next), options_ = wanted;
+  preset_ = preset;
+  resolve();
+  if (!kept.x.x.empty()) Engine::load(kept, tears);
+}
+
+template <class R>
+void OpenClEngine<R>::note_contacts(bool on) {
+  notes_contacts_ = on;
+  contacts_.clear();
+  if (const std::string wanted = options(preset_, on); wanted != options_)
+    kernels_ = make_kernels(preset_, on), options_ = wanted;
+  if (on && !contact_list_) {
+    const std::size_t each = device_->facts().fp64 ? sizeof(DeviceContact<double>) : sizeof(DeviceContact<float>);
+    contact_list_ = device_->zeros(std::size_t(lattice_.size()) * each);
+  }
+}
+
+template <class R>
+void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
+  const bool same =
+      held.particle == held_.particle && std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
+  pinned_.assign(pinned.begin(), pinned.end());
+  held_ = held;
+  if (!same) {
+    masks_stale_ = true;
+    fixed_list_ = device_->zeros(std::max<std::size_t>(pinned_.size(), 1) * sizeof(int));
+    if (!pinned_.empty())
+      check(clEnqueueWriteBuffer(device_->queue(), fixed_list_.get(), CL_TRUE, 0, pinned_.size() * sizeof(int),
+                                 pinned_.data(), 0, nullptr, nullptr),
+            "writing to the device");
+    measure_again();
+  }
+  write_fixed_velocities();
+}
+
+/// Pinned particles and the held one have the velocity that they are given.
+template <class R>
+void OpenClEngine<R>::write_fixed_velocities() {
+  if (pinned_.empty() && held_.particle < 0) return;
+  state_.take_back();
+  const cl_mem v = state_.vector(vector_v), seen = state_.vector(seen_velocity(*scheme_)), list = fixed_list_.get();
+  const glm::dvec3 hand = held_.velocity * velocity_scale();
+  set_arguments(kernels_.set_fixed, 0, v, seen, list, cl_int(pinned_.size()), cl_int(held_.particle), R(hand.x),
+                R(hand.y), R(hand.z), cl_int(state_.stride()), cl_int(lattice_.columns));
+  const std::size_t items = pinned_.size() + 1;
+  check(clEnqueueNDRangeKernel(device_->queue(), kernels_.set_fixed.get(), 1, nullptr, &items, nullptr, 0, nullptr,
+                               nullptr),
+        "starting a kernel");
+}
+
+template <class R>
+void OpenClEngine<R>::upload_masks(const Tears& tears) {
+  std::vector<std::uint8_t> springs(std::size_t(lattice_.size())), guards(springs.size());
+  constexpr std::uint8_t bit_free = 64;  // as in cloth.cl
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int j = 0; j < lattice_.columns; ++j) {
+      std::uint8_t& mask = springs[std::size_t(i) * lattice_.columns + j];
+      mask = bit_free;
+      for (int d = 0; d < stretch_directions; ++d)
+        if (lattice_.has_spring(d, i, j) && tears.whole(d, i, j)) mask |= std::uint8_t(1 << d);
+    }
+  const auto fix = [&](int p) {
+    springs[std::size_t(p)] &= std::uint8_t(~bit_free);
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj)
+        if (const int i = p / lattice_.columns + di, j = p % lattice_.columns + dj; lattice_.contains(i, j))
+          guards[std::size_t(i) * lattice_.columns + j] = 1;
+  };
+  for (const int p : pinned_) fix(p);
+  if (held_.particle >= 0) fix(held_.particle);
+  state_.upload(springs, state_.springs());
+  state_.upload(guards, guards_.get());
+  const cl_mem none = nullptr, from = state_.springs(), to = state_.masks();
+  set_arguments(kernels_.derive_masks, 0, from, to, none, cl_int(0), cl_int(state_.mask_pitch()), cl_int(lattice_.rows),
+                cl_int(lattice_.columns));
+  launch_rows(kernels_.derive_masks, lattice_.columns);
+  masks_stale_ = false, torn_ = tears.torn_count();
+}
+
+template <class R>
+void OpenClEngine<R>::take_changes(const Tears& tears) {
+  if (!masks_stale_ && torn_ == tears.torn_count()) return;
+  upload_masks(tears);
+  since_backup_ = -1;
+}
+
+std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {
+  const Scheme& method = scheme(preset.integrator);
+  const char* why = is_implicit(method) ? "solves equations in every step"
+                    : projects(method)  ? "moves particles one after the other"
+                                        : "chooses its own steps";
+  if (!runs_on_opencl(method))
+    throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
+                      "; use --engine cpu, or an explicit integrator of fixed dt, such as verlet");
+  std::shared_ptr<Device> device = open_device(preset.device);
+  if (preset.precision == Precision::float_)
+    return std::make_unique<OpenClEngine<float>>(preset, lattice, std::move(device), width);
+  if (!device->facts().fp64)
+    throw EngineError("The OpenCL device " + device->facts().name +
+                      " does not compute in double; use --precision float or --engine cpu");
+  return std::make_unique<OpenClEngine<double>>(preset, lattice, std::move(device), width);
+}
+
+template class OpenClEngine<float>;
+template class OpenClEngine<double>;
+
+}  // namespace tyglab::opencl
+
+namespace tyglab {
+
+bool runs_on_opencl(const Scheme& method) {
+  return !is_implicit(method) && !projects(method) && !chooses_steps(method);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,135 @@
+// The OpenCL engine: runs every explicit scheme of fixed dt on an OpenCL device.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/engines/engine.h"
+#include "core/engines/fault.h"
+#include "core/engines/opencl/device_constants.h"
+#include "core/engines/opencl/device_state.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab::opencl {
+
+template <class R>
+class OpenClEngine final : public Engine {
+ public:
+  OpenClEngine(const Preset& preset, const Lattice& lattice, std::shared_ptr<Device> device, int width);
+
+  using Engine::load;
+  void load(const StateRows& rows, const Tears& tears) override;
+  void set_preset(const Preset& preset, const Tears& tears) override;
+  void set_fixed(std::span<const int> pinned, Held held) override;
+  Advance advance(int steps, Tears& tears) override;
+  void note_contacts(bool on) override;
+  std::vector<Contact> contacts() const override { return contacts_; }
+  void read(State& state, const Tears& tears) override;
+  void read_raw(State& state, const Tears& tears) override;
+  PositionView positions() const override;
+  StoredParticle stored(int i, int j) const override;
+  std::size_t bytes() const override;
+  int threads() const override { return int(device_->facts().compute_units); }
+  SolveCounts solves() const override { return {}; }
+  InnerSteps inner_steps() const override { return {}; }
+  std::vector<StepFeature> features() const override;
+  std::string name() const override;
+
+ private:
+  using Constants = DeviceConstants<R>;
+  /// The kernels of one set of features.
+  struct Kernels {
+    std::vector<Kernel> sweeps;
+    Kernel start, accelerations, set_fixed, combine, tear, derive_masks;
+  };
+  /// A sweep with its constants worked out.
+  struct Resolved {
+    const Sweep* sweep;
+    Constants constants;
+  };
+  enum class End { none, fault, released, overtaken };
+
+  bool tears_watched() const { return preset_.F_max > 0 && preset_.k_s > 0 && preset_.kind == Kind::cloth; }
+  bool meets_bodies(const Preset& preset) const { return !preset.bodies.empty() && preset.kind == Kind::cloth; }
+  double velocity_scale() const { return scheme_->keeps_displacement ? preset_.dt : 1; }
+  std::string options(const Preset& preset, bool contacts) const;
+  /// Kernels for a preset; throws and changes nothing if they do not build.
+  Kernels make_kernels(const Preset& preset, bool contacts) const;
+  Constants constants(const Preset& preset, const Sweep& sweep) const;
+  void resolve();
+  void upload_bodies();
+  template <class B>
+  void upload_bodies_as();
+  void read_contacts(std::uint32_t count);
+
+  /// So many work-items for each row.
+  void launch_rows(const Kernel& kernel, int columns) const;
+  /// A sweep's, behind its vectors, and its work-items.
+  void launch_sweep(const Kernel& kernel, int at, const Constants& constants, int slot, int levels) const;
+  /// One sweep, or as many steps as there are levels of a method of one sweep.
+  void enqueue_sweep(const Kernel& kernel, const Resolved& resolved, int slot, int levels = 1);
+  void plan_bands();
+  void enqueue_tear(int slot);
+  /// F/m now, into acceleration_.
+  void accelerations() const;
+  void write_fixed_velocities();
+  /// Brings masks, guards and backup up to date with what was changed from outside.
+  void take_changes(const Tears& tears);
+  void upload_masks(const Tears& tears);
+  void read_stored(State& state) const;
+
+  /// Forgets how far particles may still move: something else than their motion has changed.
+  void measure_again() {
+    free_motion_ = tear_motion_ = 0;
+    since_backup_ = -1;
+    growth_ = std::numeric_limits<double>::infinity();
+  }
+  int steps_in_batch(int left) const;
+  /// Makes that many steps, and reads what they report.
+  void make_steps(int count, bool tear_each);
+  /// Judges the steps made; returns those that count, and end_ says how they ended.
+  int judge(int count, bool tear_each, Tears& tears, Fault& fault);
+  bool releases(int step) const;
+  void tear_overloaded(Tears& tears);
+  double tear_slack(const StepReport& report) const;
+  void keep_backup(const Tears& tears);
+  void repeat(int steps, Tears& tears);
+
+  std::shared_ptr<Device> device_;
+  Preset preset_;
+  Lattice lattice_;
+  const Scheme* scheme_;
+  mutable DeviceState<R> state_;
+  std::vector<Resolved> sweeps_;
+  mutable Memory acceleration_;
+  int width_;                     ///< particles that a work-item works on at a time
+  int bands_ = 1, levels_ = 1;    ///< work-items of a sweep, and steps of a launch at most, where width_ is over 1
+  std::size_t band_numbers_ = 0;  ///< of a band's scratch
+  Memory scratch_;
+  mutable Kernels kernels_;
+  std::string options_;
+  Memory guards_, reports_, hand_, fixed_list_, bodies_, contact_list_;
+  std::vector<int> pinned_;
+  Held held_;
+  bool masks_stale_ = true, notes_contacts_ = false;
+  std::vector<Contact> contacts_;
+  std::vector<StepReport> report_;
+  std::vector<R> hand_forces_;  ///< of each step of the batch
+  Tears tears_backup_;
+  int since_backup_ = -1;  ///< steps; under 0: there is none
+  int torn_ = 0;           ///< springs, when a step was last made: cuts come from outside
+  double growth_ = 0, free_motion_ = 0, tear_motion_ = 0;  ///< as in the CPU engine, m
+  bool tears_often_ = false;                               ///< springs are looked at in every step
+  int left_inside_ = 0;
+  End end_ = End::none;
+  glm::dvec3 hand_force_{0};
+};
+
+/// Throws EngineError where there is no such device or it cannot run the preset. `width`: particles that a work-item
+/// works on at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
+std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width = 0);
+
+}  // namespace tyglab::opencl

@@ -1,0 +1,99 @@
+// What the host reads of an OpenCL engine.
+#include "core/engines/opencl/opencl_engine.h"
+
+namespace tyglab::opencl {
+
+template <class R>
+void OpenClEngine<R>::read_stored(State& state) const {
+  const std::size_t n = std::size_t(lattice_.size());
+  if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
+  const auto copy = [&](int vector, VectorField<double>& to, double divisor) {
+    const R* from = state_.host(vector);
+    Array<double>* components[] = {&to.x, &to.y, &to.z};
+    for (int i = 0; i < lattice_.rows; ++i)
+      for (int c = 0; c < 3; ++c) {
+        const R* row = StateView<R>::row(from, state_.stride(), i, c);
+        double* out = components[c]->data() + std::size_t(i) * lattice_.columns;
+        for (int j = 0; j < lattice_.columns; ++j) out[j] = double(row[j]) / divisor;
+      }
+  };
+  copy(vector_x, state.x, 1), copy(vector_v, state.v, velocity_scale());
+}
+
+template <class R>
+void OpenClEngine<R>::read(State& state, const Tears& tears) {
+  if (masks_stale_ || torn_ != tears.torn_count()) take_changes(tears);
+  read_stored(state);
+  if (!scheme_->lags) return;
+  accelerations();
+  R* const a = state_.map(acceleration_.get(), CL_MAP_READ);
+  const double half_dt = preset_.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
+  Array<double>* components[] = {&state.v.x, &state.v.y, &state.v.z};
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int c = 0; c < 3; ++c) {
+      const R* row = StateView<R>::row(a, state_.stride(), i, c);
+      double* v = components[c]->data() + std::size_t(i) * lattice_.columns;
+      for (int j = 0; j < lattice_.columns; ++j) v[j] += half_dt * row[j];
+    }
+  state_.unmap(acceleration_.get(), a);
+}
+
+template <class R>
+void OpenClEngine<R>::read_raw(State& state, const Tears& tears) {
+  if (scheme_->keeps_displacement)
+    read_stored(state);
+  else
+    read(state, tears);
+}
+
+template <class R>
+PositionView OpenClEngine<R>::positions() const {
+  PositionView view{lattice_.rows, lattice_.columns, 3 * state_.stride()};
+  const R* x = state_.host(vector_x);
+  for (int c = 0; c < 3; ++c) {
+    if constexpr (sizeof(R) == 4)
+      view.f[c] = StateView<R>::row(x, state_.stride(), 0, c);
+    else
+      view.d[c] = StateView<R>::row(x, state_.stride(), 0, c);
+  }
+  return view;
+}
+
+template <class R>
+StoredParticle OpenClEngine<R>::stored(int i, int j) const {
+  const auto at = [&](int vector) {
+    const R* from = state_.host(vector);
+    const auto component = [&](int c) { return double(StateView<R>::row(from, state_.stride(), i, c)[j]); };
+    return glm::dvec3(component(0), component(1), component(2));
+  };
+  const double scale = velocity_scale();
+  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lags ? preset_.dt / 2 : 0};
+}
+
+template <class R>
+std::size_t OpenClEngine<R>::bytes() const {
+  const std::size_t fields = acceleration_ ? state_.numbers() * sizeof(R) : 0;
+  return state_.bytes() + fields + std::size_t(lattice_.size());
+}
+
+template <class R>
+std::vector<StepFeature> OpenClEngine<R>::features() const {
+  const Preset& p = preset_;
+  const bool cloth = p.kind == Kind::cloth;
+  return {{"bending", cloth && p.k_b > 0}, {"damping", p.k_d > 0},       {"wind", cloth && p.W != glm::dvec3(0)},
+          {"bodies", meets_bodies(p)},     {"tearing", tears_watched()}, {"pins", !pinned_.empty()},
+          {"hand", held_.particle >= 0}};
+}
+
+template <class R>
+std::string OpenClEngine<R>::name() const {
+  const int units = threads();
+  return "OpenCL, " + device_->facts().name + ", " + std::to_string(units) +
+         (units == 1 ? " compute unit" : " compute units") +
+         (width_ > 1 ? ", vectors of " + std::to_string(width_) : std::string());
+}
+
+template class OpenClEngine<float>;
+template class OpenClEngine<double>;
+
+}  // namespace tyglab::opencl

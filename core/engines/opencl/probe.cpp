@@ -1,0 +1,57 @@
+// Whether a device really computes: a small kernel is built, run and its result checked.
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/engines/opencl/arguments.h"
+#include "core/engines/opencl/device.h"
+#include "core/engines/opencl/kernel_text.h"
+
+namespace tyglab {
+namespace opencl {
+namespace {
+
+/// Runs the probe on points whose neighbours lie 3, 4, 0 away. Returns what is wrong, or nothing.
+template <class T>
+std::string probe(Device& device, const char* options) {
+  const auto program = device.program(std::string(kernel_text("probe.cl")), options);
+  const Kernel kernel = program->kernel("probe");
+  constexpr int count = 1000;
+  std::vector<T> x(3 * count), lengths(count - 1);
+  for (int p = 0; p < count; ++p) x[p] = T(3 * p), x[count + p] = T(-4 * p), x[2 * count + p] = T(1);
+  const Memory in = device.zeros(x.size() * sizeof(T)), out = device.zeros(lengths.size() * sizeof(T));
+  check(clEnqueueWriteBuffer(device.queue(), in.get(), CL_TRUE, 0, x.size() * sizeof(T), x.data(), 0, nullptr, nullptr),
+        "writing to the device");
+  set_arguments(kernel, 0, in.get(), out.get(), cl_int(count));
+  const std::size_t items = count;
+  check(clEnqueueNDRangeKernel(device.queue(), kernel.get(), 1, nullptr, &items, nullptr, 0, nullptr, nullptr),
+        "starting a kernel");
+  check(clEnqueueReadBuffer(device.queue(), out.get(), CL_TRUE, 0, lengths.size() * sizeof(T), lengths.data(), 0,
+                            nullptr, nullptr),
+        "reading from the device");
+  // OpenCL allows sqrt an error of 3 units in the last place.
+  const T tolerance = 4 * 5 * std::numeric_limits<T>::epsilon();
+  for (const T length : lengths)
+    if (!(std::abs(length - T(5)) <= tolerance))
+      return "the test kernel gave " + std::to_string(length) + " where 5 is right";
+  return {};
+}
+
+}  // namespace
+}  // namespace opencl
+
+OpenClProbe probe_opencl_device(int number, bool in_double) {
+  OpenClProbe result{true, {}};
+  try {
+    const auto device = opencl::open_device(number);
+    result.offered = !in_double || device->facts().fp64;
+    if (!result.offered) return result;
+    result.problem = in_double ? opencl::probe<double>(*device, "-cl-std=CL1.2 -D REAL=double -D REAL_IS_DOUBLE")
+                               : opencl::probe<float>(*device, "-cl-std=CL1.2 -D REAL=float");
+  } catch (const EngineError& error) {
+    result.problem = error.what();
+  }
+  return result;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,93 @@
+// One particle a work-item, which gathers the forces on it from its twelve neighbours: for devices of many small
+// processors, where to compute a spring at both of its ends is quicker than to hand its force over.
+#if WIDTH == 1
+/// The block of particles that a work-item looks at: pointers to its first one.
+typedef struct {
+  global const REAL *x, *v;
+  global const uchar* mask;
+  int stride, mask_pitch;
+  int row, column;  // of the first
+} Block;
+
+/// Adds a stretch spring and its damping, to the particle di rows below and dj columns to the right.
+INLINE vec with_stretch(vec f, const Constants* k, const Block* b, vec x, vec v, int di, int dj, int masked, maskv on) {
+  const int to = di * 3 * b->stride + dj;
+  const vec x_ij = minus(load(b->x + to, b->stride), x);
+  realv factor = stretch_factor(k->k_s, di != 0 && dj != 0 ? k->diagonal : k->straight, dot3(x_ij, x_ij));
+  if (masked) factor = on ? factor : ZERO;
+  f = plus_times(f, factor, x_ij);
+#ifdef DAMPING
+  const vec v_ij = minus(load(b->v + to, b->stride), v);
+  f = masked ? plus_times(f, on ? (realv)(k->k_d) : ZERO, v_ij) : plus_scaled(f, k->k_d, v_ij);
+#endif
+  return f;
+}
+
+#ifdef BENDING
+INLINE vec with_bending(vec f, const Constants* k, const Block* b, vec x, int di, int dj, int masked, maskv on) {
+  const vec x_ij = minus(load(b->x + di * 3 * b->stride + dj, b->stride), x);
+  const realv factor = bend_factor(k->k_b, k->bending, k->shortest2, dot3(x_ij, x_ij));
+  return plus_times(f, masked ? (on ? factor : ZERO) : factor, x_ij);
+}
+#endif
+
+#ifdef WIND
+/// Adds the wind on the triangles of one of the quads that the particle is a corner of: the quad's upper left particle
+/// A stands di rows below and dj columns to the right of it (0 or -1). Even quads A B C E are split from A to E, odd
+/// ones from C to B (figure 2.7); the first triangle always has A and C, the second B and E.
+INLINE vec with_quad(vec f, const Constants* k, const Block* b, int di, int dj, int masked) {
+  global const REAL* at = b->x + di * 3 * b->stride + dj;
+  const vec A = load(at, b->stride), B = load(at + 1, b->stride), C = load(at + 3 * b->stride, b->stride),
+            E = load(at + 3 * b->stride + 1, b->stride);
+  const maskv odd = odd_quads(b->row + di + b->column + dj);
+  vec first = wind_on_corner(k, cross3(minus(C, A), pick(odd, minus(B, A), minus(E, C))));
+  vec second = wind_on_corner(k, cross3(minus(E, B), pick(odd, minus(E, C), minus(B, A))));
+  // A stands in both triangles of an even quad and in the first one of an odd quad, and so on.
+  const int first_always = dj == 0, both_if_odd = di != dj;
+  const maskv both = both_if_odd ? odd : ~odd;
+  maskv in_first = first_always ? (maskv)(-1) : both, in_second = first_always ? both : (maskv)(-1);
+  if (masked) {
+    global const uchar *own = b->mask + di * b->mask_pitch + dj, *below = own + b->mask_pitch;
+    const maskv own_E = has(1, own, bit_E), below_E = has(1, below, bit_E);
+    const maskv slant = choose(odd, has(1, own + 1, bit_SW), has(1, own, bit_SE));
+    in_first &= has(1, own, bit_S) & slant & choose(odd, own_E, below_E);
+    in_second &= has(1, own + 1, bit_S) & slant & choose(odd, below_E, own_E);
+  }
+  return plus(plus(f, where(in_first, first)), where(in_second, second));
+}
+#endif
+
+/// F_int + F_wind + F_g on the block's particles.
+INLINE vec force_on(const Constants* k, const Block* b, vec x, vec v, int masked) {
+  global const uchar* m = b->mask;
+  const int up = -b->mask_pitch;
+  vec f = {ZERO, ZERO, ZERO};
+#ifdef ONE_WEIGHT
+  f.y = -k->k * (x.y - k->middle) - k->k_d * v.y - k->weight;
+  return f;
+#else
+  f = with_stretch(f, k, b, x, v, 0, 1, masked, has(masked, m, bit_E));
+  f = with_stretch(f, k, b, x, v, 0, -1, masked, has(masked, m - 1, bit_E));
+  f = with_stretch(f, k, b, x, v, 1, 0, masked, has(masked, m, bit_S));
+  f = with_stretch(f, k, b, x, v, -1, 0, masked, has(masked, m + up, bit_S));
+  f = with_stretch(f, k, b, x, v, 1, 1, masked, has(masked, m, bit_SE));
+  f = with_stretch(f, k, b, x, v, -1, -1, masked, has(masked, m + up - 1, bit_SE));
+  f = with_stretch(f, k, b, x, v, 1, -1, masked, has(masked, m, bit_SW));
+  f = with_stretch(f, k, b, x, v, -1, 1, masked, has(masked, m + up + 1, bit_SW));
+#ifdef BENDING
+  f = with_bending(f, k, b, x, 0, 2, masked, has(masked, m, bit_EE));
+  f = with_bending(f, k, b, x, 0, -2, masked, has(masked, m - 2, bit_EE));
+  f = with_bending(f, k, b, x, 2, 0, masked, has(masked, m, bit_SS));
+  f = with_bending(f, k, b, x, -2, 0, masked, has(masked, m + 2 * up, bit_SS));
+#endif
+#ifdef WIND
+  f = with_quad(f, k, b, 0, 0, masked);
+  f = with_quad(f, k, b, 0, -1, masked);
+  f = with_quad(f, k, b, -1, 0, masked);
+  f = with_quad(f, k, b, -1, -1, masked);
+#endif
+  f.y -= (realv)(k->weight);
+  return f;
+#endif
+}
+#endif

@@ -1,0 +1,98 @@
+// Tearing: every spring is looked at, and torn, by the particle that owns it (lattice.h).
+
+#ifdef BODY_REAL_IS_DOUBLE
+#define EXACT double
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#else
+#define EXACT float
+#endif
+
+/// Whether the spring from one particle to another is overloaded; its tension as stretch_tension() has it.
+INLINE int overloaded(global const REAL* a, global const REAL* b, int stride, EXACT k_s, EXACT rest, EXACT F_max,
+                      EXACT* r2) {
+  EXACT sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const EXACT d = (EXACT)b[c * stride] - (EXACT)a[c * stride];
+    sum += d * d;
+  }
+  *r2 = sum;
+  return k_s * (sqrt(sum) - rest) > F_max;
+}
+
+/// Breaks the overloaded springs in one direction of a block's particles, unless one of their ends is guarded; returns
+/// the square of the longest of those left that could break.
+INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, global uchar* springs, global const uchar* guards, global uint* report, int di,
+                           int dj, int bit, EXACT k_s, EXACT rest, EXACT F_max, REAL certain2) {
+  const int to = di * 3 * stride + dj, mask_to = di * mask_pitch + dj;
+  const vec x_ij = minus(load(x + to, stride), load(x, stride));
+  const realv r2 = (LOAD_MASK(springs) & bit) != 0 ? dot3(x_ij, x_ij) : ZERO;
+  const REAL longest = JOIN(as_, REAL)(largest_lane(AS_BITS(r2)));
+  if (longest <= certain2) return longest;
+  REAL left = 0;
+  for (int lane = 0; lane < WIDTH; ++lane) {
+    if ((springs[lane] & bit) == 0 || guards[lane] || guards[mask_to + lane]) continue;
+    EXACT length2;
+    if (overloaded(x + lane, x + to + lane, stride, k_s, rest, F_max, &length2)) {
+      springs[lane] &= (uchar)~bit;
+      atomic_or(report + report_torn, 1);
+    } else {
+      left = fmax(left, (REAL)length2);
+    }
+  }
+  return left;
+}
+
+#define TEAR(di, dj, bit, rest, certain2) \
+  tear_direction(at, stride, mask_pitch, own, guard, report, di, dj, bit, k_s, rest, F_max, certain2)
+
+/// Breaks what is overloaded, and reports how long the springs are that are left. A row of work-items a row of
+/// particles; as few as keep the device busy, since they all report to the same words. certain…2: squares of lengths up
+/// to which rounding cannot matter.
+kernel void tear(global const REAL* x, global uchar* springs, global const uchar* guards, global uint* report, int slot,
+                 int stride, int mask_pitch, int rows, int columns, EXACT k_s, EXACT straight, EXACT diagonal,
+                 EXACT F_max, REAL certain_straight2, REAL certain_diagonal2) {
+  const int row = (int)get_global_id(1);
+  if (row >= rows) return;
+  report += slot * report_words;
+  REAL straight2 = 0, diagonal2 = 0;
+  for (int column = (int)get_global_id(0) * WIDTH; column < columns; column += (int)get_global_size(0) * WIDTH) {
+    global const REAL* at = x + place(row, column, 3 * stride);
+    global uchar* own = springs + place(row, column, mask_pitch);
+    global const uchar* guard = guards + place(row, column, mask_pitch);
+    const REAL E = TEAR(0, 1, bit_E, straight, certain_straight2), S = TEAR(1, 0, bit_S, straight, certain_straight2);
+    const REAL SE = TEAR(1, 1, bit_SE, diagonal, certain_diagonal2);
+    const REAL SW = TEAR(1, -1, bit_SW, diagonal, certain_diagonal2);
+    straight2 = fmax(straight2, fmax(E, S)), diagonal2 = fmax(diagonal2, fmax(SE, SW));
+  }
+  atomic_max(report + report_straight, float_bits(straight2));
+  atomic_max(report + report_diagonal, float_bits(diagonal2));
+}
+
+/// Makes the masks that sweeps read from those of the stretch springs and of what is free: says which bending springs
+/// live, and which particles have everything. A work-item a particle. `report`: of the look before; if that has torn
+/// nothing, nothing is done.
+kernel void derive_masks(global const uchar* springs, global uchar* masks, global const uint* report, int slot,
+                         int mask_pitch, int rows, int columns) {
+  const int j = (int)get_global_id(0), i = (int)get_global_id(1);
+  if (i >= rows || j >= columns || (report != 0 && report[slot * report_words + report_torn] == 0)) return;
+  const int at = place(i, j, mask_pitch);
+  global const uchar* own = springs + at;
+  const int stretch = bit_E | bit_S | bit_SE | bit_SW;
+  int mask = own[0];
+  if ((own[0] & own[1] & bit_E) != 0) mask |= bit_EE;
+  if ((own[0] & own[mask_pitch] & bit_S) != 0) mask |= bit_SS;
+#if WIDTH == 1
+  // Everything round it, whatever it reads of it.
+  int around = own[0];
+  for (int di = -2; di <= 1; ++di)
+    for (int dj = -2; dj <= 1; ++dj) around &= own[di * mask_pitch + dj] | ~stretch;
+  const int plain = (around & (stretch | bit_free)) == (stretch | bit_free);
+#else
+  // The springs and triangles that it looks at in its row (band.cl).
+  const int looked_at = bit_E | bit_S | bit_SE | bit_free;
+  const int plain = (own[0] & looked_at) == looked_at && (own[1] & (bit_S | bit_SW)) == (bit_S | bit_SW) &&
+                    (own[mask_pitch] & bit_E) != 0 && (mask & (bit_EE | bit_SS)) == (bit_EE | bit_SS);
+#endif
+  if (plain) mask |= bit_plain;
+  masks[at] = (uchar)mask;
+}

@@ -1,0 +1,288 @@
+// The OpenCL engine against the CPU engine: the same scenes, the same edits, states equal within rounding. Where there
+// is no OpenCL device the tests say so and have nothing to check; with one, pocl's on every processor, they check it.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/opencl/opencl_engine.h"
+#include "core/integrators/scheme.h"
+#include "core/simulation.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+/// Number of a device to test on; says so where there is none.
+bool device_there() {
+  static const OpenClInventory inventory = opencl_devices();
+  if (inventory.devices.empty()) MESSAGE("skipped: there is no OpenCL device here");
+  return !inventory.devices.empty();
+}
+
+double tolerance(Precision precision) {
+  return precision == Precision::float_ ? 2e-5 : 1e-11;
+}
+
+double distance(const State& a, const State& b) {
+  double largest = 0;
+  for (std::size_t p = 0; p < a.x.x.size(); ++p) {
+    const double d = glm::length(test::position(a, p) - test::position(b, p));
+    largest = d >= 0 ? std::max(largest, d) : std::numeric_limits<double>::infinity();
+  }
+  return largest;
+}
+
+/// The same scene on both engines.
+struct Pair {
+  explicit Pair(Preset preset) : cpu(preset), opencl((preset.engine = EngineKind::opencl, preset)) {}
+  void apply(const Edit& edit) { cpu.apply(edit), opencl.apply(edit); }
+  void change(const std::function<void(Preset&)>& what) {
+    for (Simulation* simulation : {&cpu, &opencl}) {
+      Preset next = simulation->preset();
+      what(next);
+      simulation->apply(edit::Change{next});
+    }
+  }
+  void advance(int steps) { cpu.advance(steps), opencl.advance(steps); }
+  void check() {
+    const Precision precision = cpu.preset().precision;
+    CHECK(opencl.steps() == cpu.steps());
+    CHECK(opencl.tears().torn_count() == cpu.tears().torn_count());
+    CHECK(opencl.left_inside() == cpu.left_inside());
+    CHECK(distance(opencl.read(), cpu.read()) <= tolerance(precision));
+    // Velocities are as exact as positions over a step of the shortest time in which something happens.
+    constexpr double shortest_time = 1e-3;
+    for (std::size_t p = 0; p < cpu.read().v.x.size(); ++p)
+      if (glm::length(test::velocity(opencl.read(), p) - test::velocity(cpu.read(), p)) >
+          tolerance(precision) / shortest_time)
+        FAIL_CHECK("the velocities of particle ", p, " differ");
+  }
+  Simulation cpu, opencl;
+};
+
+/// Everything that a sweep can have.
+Preset everything(Precision precision) {
+  Preset preset = test::cloth(33, 47);
+  preset.precision = precision;
+  preset.tilt_deg = 20;
+  preset.W = {0.001, 0.0005, 0.002};
+  preset.pins.mode = Pins::Mode::left_column;
+  preset.bodies = {Body{}, Body{.shape = Body::Shape::plane, .y = 0.668}};
+  preset.bodies[0].c = {0.05, 0.7, 0.4}, preset.bodies[0].r = 0.15;
+  preset.bodies[0].friction = 0.4;
+  // Who bounces in one step and not in the next goes elsewhere: with float's rounding that would decide.
+  preset.bodies[1].restitution = precision == Precision::double_ ? 0.5 : 0;
+  return preset;
+}
+
+TEST_CASE("every integrator that runs on OpenCL moves a cloth of any size as the CPU engine does") {
+  if (!device_there()) return;
+  for (const Scheme& method : schemes()) {
+    if (!runs_on_opencl(method)) continue;
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      for (const auto& [rows, columns] : {std::pair(3, 2), std::pair(17, 5), std::pair(33, 47), std::pair(64, 64)}) {
+        CAPTURE(std::string(method.name));
+        CAPTURE(int(precision));
+        CAPTURE(rows);
+        Preset preset = test::cloth(rows, columns, std::string(method.name));
+        preset.precision = precision;
+        Pair pair(preset);
+        pair.advance(100);
+        pair.check();
+      }
+    }
+  }
+}
+
+TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
+  if (!device_there()) return;
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    CAPTURE(int(precision));
+    Pair pair(everything(precision));
+    pair.advance(40);
+    pair.check();
+    pair.apply(edit::Grab{20, 30});
+    pair.apply(edit::MoveHand{{0.1, 1.1, 0.4}, 60});
+    pair.apply(edit::Cut{{{10, 20}, {10, 21}, {10, 22}, {11, 23}}});
+    pair.advance(30);
+    pair.check();
+    CHECK(glm::length(pair.opencl.hand_force() - pair.cpu.hand_force()) <= 1e-3 * glm::length(pair.cpu.hand_force()));
+    pair.apply(edit::Release{});
+    pair.apply(edit::Pin{5, 40, true});
+    pair.apply(edit::MoveBody{0, {0.05, 0.72, 0.4}});
+    pair.advance(30);
+    pair.check();
+  }
+}
+
+TEST_CASE("constants change while it moves, and switch features on and off") {
+  if (!device_there()) return;
+  for (const char* integrator : {"verlet", "velocity_verlet"}) {
+    CAPTURE(std::string(integrator));
+    Preset preset = test::cloth(20, 21, integrator);
+    Pair pair(preset);
+    pair.advance(20);
+    pair.change([](Preset& p) { p.dt /= 2; });
+    pair.advance(20);
+    pair.change([](Preset& p) { p.k_d = 0, p.k_b = 0, p.k_s = 80; });
+    pair.advance(20);
+    pair.change([](Preset& p) { p.k_d = 0.003, p.W = {0, 0, 0.002}; });
+    pair.advance(20);
+    pair.check();
+  }
+}
+
+TEST_CASE("the same springs tear, in the same steps") {
+  if (!device_there()) return;
+  for (const Precision precision : {Precision::float_, Precision::double_}) {
+    CAPTURE(int(precision));
+    Preset preset = test::cloth(40, 37);
+    preset.precision = precision;
+    preset.pins.mode = Pins::Mode::left_column;
+    preset.F_max = 0.06;
+    Pair pair(preset);
+    for (int n = 0; n < 12; ++n) {
+      pair.advance(15);
+      CHECK(pair.opencl.tears().torn_count() == pair.cpu.tears().torn_count());
+    }
+    CHECK(pair.cpu.tears().torn_count() > 5);
+    for (int i = 0; i < 40; ++i)
+      for (int j = 0; j < 37; ++j)
+        for (int d = 0; d < int(directions.size()); ++d)
+          if (preset.rows > i + directions[d].di)
+            if (pair.opencl.tears().whole(d, i, j) != pair.cpu.tears().whole(d, i, j))
+              FAIL_CHECK("spring ", d, " of (", i, ", ", j, ") differs");
+    pair.check();
+  }
+}
+
+TEST_CASE("divergence is found in the same step, and the state before it is kept") {
+  if (!device_there()) return;
+  for (const char* integrator : {"verlet", "euler", "rk4"}) {
+    CAPTURE(std::string(integrator));
+    Preset preset = test::cloth(19, 22, integrator);
+    preset.k_d = 0, preset.dt = 2e-3;
+    preset.k_s = 500;
+    Pair pair(preset);
+    while (!pair.cpu.divergence() && pair.cpu.steps() < 2000) pair.cpu.advance(100);
+    while (!pair.opencl.divergence() && pair.opencl.steps() < 2000) pair.opencl.advance(77);
+    REQUIRE(pair.cpu.divergence().has_value());
+    REQUIRE(pair.opencl.divergence().has_value());
+    CHECK(pair.opencl.divergence()->step == pair.cpu.divergence()->step);
+    CHECK(pair.opencl.divergence()->quantity == pair.cpu.divergence()->quantity);
+    CHECK(test::all_finite(pair.opencl.read()));
+  }
+}
+
+TEST_CASE("batches of steps give the bits of single steps, and every run the same") {
+  if (!device_there()) return;
+  Preset preset = everything(Precision::float_);
+  preset.engine = EngineKind::opencl;
+  preset.F_max = 0.02;
+  Simulation batches(preset), again(preset), single(preset);
+  batches.advance(130);
+  again.advance(130);
+  for (int n = 0; n < 130; ++n) single.advance(1);
+  CHECK(batches.tears().torn_count() > 0);
+  CHECK(batches.tears().torn_count() == single.tears().torn_count());
+  CHECK(test::identical(batches.read(), again.read()));
+  CHECK(test::identical(batches.read(), single.read()));
+}
+
+TEST_CASE("the hand lets go in the same step") {
+  if (!device_there()) return;
+  Preset preset = test::cloth(20, 20);
+  preset.F_release = 0.05;
+  Pair pair(preset);
+  int released[2] = {-1, -1};
+  Simulation* both[] = {&pair.cpu, &pair.opencl};
+  for (int which : {0, 1}) {
+    both[which]->apply(edit::Grab{15, 10});
+    both[which]->apply(edit::MoveHand{{0.5, 0.2, 0.5}, 200});
+    const Advance made = both[which]->advance(200);
+    if (made.released) released[which] = int(both[which]->steps());
+  }
+  CHECK(released[0] > 0);
+  CHECK(released[1] == released[0]);
+}
+
+TEST_CASE("work-items of one particle, as on graphics cards, and vectors of any width do the same") {
+  if (!device_there()) return;
+  const Preset preset = everything(Precision::float_);
+  const Lattice lattice = lattice_of(preset);
+  Preset on_cpu = preset;
+  Simulation cpu(on_cpu);
+  cpu.advance(60);
+  for (const int width : {1, 4, 8}) {
+    CAPTURE(width);
+    const auto engine = opencl::make_opencl_engine(preset, lattice, width);
+    Tears tears(lattice);
+    engine->set_fixed(particles_in(pinned_particles(preset)), {});
+    engine->load(start_rows(preset), tears);
+    engine->advance(60, tears);
+    State state;
+    engine->read(state, tears);
+    CHECK(distance(state, cpu.read()) <= tolerance(Precision::float_));
+  }
+}
+
+TEST_CASE("one weight, and the ledger with what bodies stop") {
+  if (!device_there()) return;
+  Pair weight(test::one_weight());
+  weight.advance(100);
+  weight.check();
+
+  Preset preset = everything(Precision::double_);
+  Pair pair(preset);
+  pair.cpu.keep_ledger(true), pair.opencl.keep_ledger(true);
+  pair.advance(50);
+  pair.check();
+  const auto contacts = [](Simulation& simulation) { return simulation.engine().contacts(); };
+  REQUIRE(contacts(pair.opencl).size() == contacts(pair.cpu).size());
+  CHECK(!contacts(pair.cpu).empty());
+  for (std::size_t n = 0; n < contacts(pair.cpu).size(); ++n) {
+    CHECK(contacts(pair.opencl)[n].particle == contacts(pair.cpu)[n].particle);
+    CHECK(glm::length(contacts(pair.opencl)[n].x - contacts(pair.cpu)[n].x) <= 1e-11);
+    CHECK(glm::length(contacts(pair.opencl)[n].v - contacts(pair.cpu)[n].v) <= 1e-8);
+  }
+}
+
+TEST_CASE("what does not run says so and how to go on") {
+  Preset preset = test::cloth(4, 4);
+  preset.engine = EngineKind::opencl;
+  preset.device = 99;
+  CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains("--engine cpu"), EngineError);
+  preset.device = -1;
+  if (!device_there()) return;
+  for (const char* integrator : {"implicit_euler", "dopri5", "xpbd"}) {
+    preset.integrator = integrator;
+    CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains(integrator), EngineError);
+  }
+}
+
+TEST_CASE("a simulation goes from one engine to the other and back") {
+  if (!device_there()) return;
+  Preset preset = test::cloth(20, 30);
+  Simulation both(preset), cpu(preset);
+  both.advance(30);
+  preset.engine = EngineKind::opencl;
+  both.apply(edit::Change{preset});
+  both.advance(30);
+  preset.engine = EngineKind::cpu;
+  both.apply(edit::Change{preset});
+  both.advance(30);
+  // Each time the state is read and loaded again, which is not exact where a method's velocity lags.
+  for (int n = 0; n < 3; ++n) {
+    if (n > 0) test::load(cpu, State(cpu.read()));
+    cpu.advance(30);
+  }
+  CHECK(both.steps() == 90);
+  CHECK(distance(both.read(), cpu.read()) <= tolerance(Precision::double_));
+}
+
+}  // namespace
+}  // namespace tyglab
