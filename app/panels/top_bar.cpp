@@ -7,6 +7,7 @@
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -155,6 +156,23 @@ void readings(App& app, float x, float end) {
   reading(app, x, end, "dt", short_number(app.preset().dt) + " s", "1.234e-4 s", c.text, "Time step, set at the left");
 }
 
+/// The devices of this machine, once one of them is in use: to ask drivers for them takes a moment, and some fail.
+void device_choices(App& app) {
+  if (app.ui.devices.empty())
+    for (const OpenClDevice& device : opencl_devices().devices) app.ui.devices.push_back(device.name);
+  if (app.ui.devices.size() < 2) return;
+  ImGui::Separator();
+  for (int n = 0; n < int(app.ui.devices.size()); ++n) {
+    ImGui::PushID(n);
+    if (ImGui::Selectable(app.ui.devices[std::size_t(n)].c_str(), app.wished().device == n)) {
+      Preset next = app.wished();
+      next.device = n;
+      app.propose(std::move(next));
+    }
+    ImGui::PopID();
+  }
+}
+
 void engine_combo(App& app, float width) {
   struct Choice {
     const char* label;
@@ -162,7 +180,9 @@ void engine_combo(App& app, float width) {
     Precision precision;
   };
   static constexpr Choice choices[] = {{"CPU · float", EngineKind::cpu, Precision::float_},
-                                       {"CPU · double", EngineKind::cpu, Precision::double_}};
+                                       {"CPU · double", EngineKind::cpu, Precision::double_},
+                                       {"OpenCL · float", EngineKind::opencl, Precision::float_},
+                                       {"OpenCL · double", EngineKind::opencl, Precision::double_}};
   const Preset& preset = app.wished();
   const char* shown = choices[0].label;
   for (const Choice& choice : choices)
@@ -177,6 +197,7 @@ void engine_combo(App& app, float width) {
       next.engine = choice.engine, next.precision = choice.precision;
       app.propose(std::move(next));
     }
+  if (preset.engine == EngineKind::opencl) device_choices(app);
   end_combo();
 }
 

@@ -91,13 +91,14 @@ struct Ui {
   bool help = false;
   bool panels = true;  ///< Tab hides them all
   bool force_arrows = true;
-  bool energy_shown = false;    ///< the ledger's card is open
-  bool accuracy_shown = false;  ///< the accuracy card is open
-  double arrow_scale = 0;       ///< N for the longest arrow, smoothed
-  double now = 0;               ///< s since the window opened
-  double draw_by = 0;           ///< when the next frame is wanted though nothing moves (a tooltip, a cursor, a message)
-  double last_change = 0;       ///< when constants changed last, to tell gestures apart
-  unsigned hovered = 0;         ///< what the pointer rests on, for tooltips
+  std::vector<std::string> devices;  ///< OpenCL's, by name, once one is in use
+  bool energy_shown = false;         ///< the ledger's card is open
+  bool accuracy_shown = false;       ///< the accuracy card is open
+  double arrow_scale = 0;            ///< N for the longest arrow, smoothed
+  double now = 0;                    ///< s since the window opened
+  double draw_by = 0;      ///< when the next frame is wanted though nothing moves (a tooltip, a cursor, a message)
+  double last_change = 0;  ///< when constants changed last, to tell gestures apart
+  unsigned hovered = 0;    ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
   glm::vec2 tooltip_size{0};      ///< of the last tooltip, pixels

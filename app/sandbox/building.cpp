@@ -31,11 +31,16 @@ double particles(const Preset& preset) {
 
 Preset rebased(const Preset& before, const Preset& after, const Preset& present) {
   const auto tree = [](const Preset& preset) { return Json::parse(preset_to_json(preset)); };
-  return parse_preset(rebased(tree(before), tree(after), tree(present)).dump(), "the constants");
+  Preset next = parse_preset(rebased(tree(before), tree(after), tree(present)).dump(), "the constants");
+  next.device = after.device;  // in no file
+  return next;
 }
 
 bool takes_long(const App& app, const Preset& preset) {
-  return !app.scripted && particles(preset) >= many_particles;
+  if (app.scripted) return false;
+  // A device's first programs take the compiler seconds.
+  const bool to_device = preset.engine == EngineKind::opencl && app.preset().engine != EngineKind::opencl;
+  return particles(preset) >= many_particles || to_device;
 }
 
 bool takes_long(const App& app, const Edit& edit) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "app/commands/interrupt.h"
+#include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
@@ -58,6 +59,7 @@ class Sandbox {
   void take_dropped_files();
   void rescale();
   void simulate(double real_seconds);
+  void fall_back(const std::string& why);
   void draw_cloth();
   void draw_panels();
   void present();
@@ -233,6 +235,17 @@ void Sandbox::simulate(double real_seconds) {
   if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none);
 }
 
+/// The device is gone: the CPU engine goes on from the last state that is kept.
+void Sandbox::fall_back(const std::string& why) {
+  Preset next = app_.preset();
+  if (next.engine == EngineKind::cpu) throw EngineError(why);
+  next.engine = EngineKind::cpu;
+  auto simulation = std::make_unique<Simulation>(next, app_.threads);
+  if (const Snapshot* then = app_.rewind.before(*simulation, app_.simulation->time(), 0)) simulation->restore(*then);
+  app_.messages.error(why + " The CPU engine goes on from t = " + time_number(simulation->time(), next.dt) + " s.");
+  swap_in(app_, std::move(simulation));
+}
+
 void Sandbox::draw_cloth() {
   const glm::ivec2 window = window_.size(), framebuffer = window_.framebuffer_size();
   const glm::vec2 magnified = window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1);
@@ -323,7 +336,11 @@ void Sandbox::frame_parts() {
   apply_requests(app_);
   handle_pointer(app_);
   if (app_.toggle_full_screen) window_.toggle_full_screen(), app_.toggle_full_screen = false;
-  simulate(elapsed);
+  try {
+    simulate(elapsed);
+  } catch (const EngineError& error) {
+    fall_back(error.what());
+  }
   app_.costs.add_steps(app_.steps_made);
   sample(app_);
   draw_cloth();
