@@ -7,12 +7,12 @@
 #include <memory>
 
 #include "app/charts/chart.h"
-#include "app/panels/curves.h"
 #include "app/commands/bench_output.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/stability.h"
+#include "app/panels/curves.h"
 #include "core/analysis/boundary.h"
 #include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"

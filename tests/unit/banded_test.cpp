@@ -17,7 +17,7 @@ namespace {
 TEST_CASE("a banded system is solved to rounding, at the ends of the matrix too") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1, 1);
-  for (const auto &[size, band] : {std::pair{1, 4}, {3, 2}, {40, 7}, {97, 31}, {30, 64}}) {
+  for (const auto& [size, band] : {std::pair{1, 4}, {3, 2}, {40, 7}, {97, 31}, {30, 64}}) {
     CAPTURE(size);
     CAPTURE(band);
     std::vector<double> full(std::size_t(size) * size, 0), x(size), b(size, 0);
@@ -48,7 +48,7 @@ TEST_CASE("a matrix that is not positive definite is refused") {
 
 TEST_CASE("linear systems that conjugate gradients do not solve are solved directly") {
   for (const Precision precision : {Precision::float_, Precision::double_})
-    for (const auto &[rows, columns] : {std::pair{24, 9}, {9, 24}}) {
+    for (const auto& [rows, columns] : {std::pair{24, 9}, {9, 24}}) {
       CAPTURE(rows);
       Preset preset = test::cloth(rows, columns, "implicit_euler");
       preset.k_s = 1e8, preset.k_b = 1e5, preset.dt = 1.0 / 60, preset.precision = precision;
