@@ -92,8 +92,9 @@ void Simulation::build(const Preset& preset) {
 
 /// Makes the engine for these constants; throws EngineError and leaves everything as it was.
 void Simulation::renew_engine(const Preset& next, const Lattice& lattice) {
-  engine_ = make_engine(next, lattice, threads_);
-  engine_->note_contacts(watch_.has_value());
+  auto engine = make_engine(next, lattice, threads_);
+  engine->note_contacts(watch_.has_value());
+  engine_ = std::move(engine);
   lattice_ = lattice;
   preset_ = next;
 }

@@ -57,7 +57,8 @@ INLINE uint way_word(bitsv ways) {
 #endif
 }
 
-/// The lanes that are pinned, held or beyond the row's end; their force is measured for the hand, then 0.
+/// The lanes that are pinned, held or beyond the row's end; their force is measured for the hand, then 0. `held` is -1
+/// in rows that belong to another band: there the force is not complete.
 INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec* f, int held, global REAL* hand) {
   const maskv fixed = (LOAD_MASK(mask) & bit_free) == 0;
   const int lane = held - (row * columns + column);
@@ -128,7 +129,8 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
   global REAL* to = from + (vectors) * level_rows * pitch;                                                          \
   global REAL* ring = scratch + ((levels - 1) * (vectors) * level_rows + level * ring_rows) * pitch
 #define IN(n, in, further_down)                                                                                     \
-  (level == 0 ? in + place(row + further_down, 0, pitch) : from + ((n) * level_rows + ((row + further_down) & 3)) * pitch)
+  (level == 0 ? in + place(row + further_down, 0, pitch)                                                            \
+              : from + ((n) * level_rows + ((row + further_down) & 3)) * pitch)
 #define OUT(n, out) (level == levels - 1 ? out + place(row, 0, pitch) : to + ((n) * level_rows + (row & 3)) * pitch)
 #define RING(further_down) (ring + (row + further_down) % ring_rows * pitch)
 #define FIND_FORCE                                                                                                  \
@@ -138,13 +140,13 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
     F = force_in_row(k, &r, column, 0, &carry);                                                                     \
   } else {                                                                                                          \
     F = force_in_row(k, &r, column, 1, &carry);                                                                     \
-    fixed = fix(r.mask + column, row, column, columns, &F, held, hands + 4 * (slot + level));                       \
+    fixed = fix(r.mask + column, row, column, columns, &F, own ? held : -1, hands + 4 * (slot + level));            \
   }                                                                                                                 \
   TAKE_BLOCK
 /// The same with less code, which takes less time to build: for kernels that run seldom.
 #define FIND_FORCE_SLOWLY                                                                                           \
   vec F = force_in_row(k, &r, column, 1, &carry);                                                                   \
-  fix(r.mask + column, row, column, columns, &F, held, hands + 4 * (slot + level));                                 \
+  fix(r.mask + column, row, column, columns, &F, own ? held : -1, hands + 4 * (slot + level));                      \
   TAKE_BLOCK
 #define TAKE_BLOCK                                                                                                  \
   if (!updates) continue;                                                                                           \

@@ -21,8 +21,9 @@ INLINE int overloaded(global const REAL* a, global const REAL* b, int stride, EX
 
 /// Breaks the overloaded springs in one direction of a block's particles, unless one of their ends is guarded; returns
 /// the square of the longest of those left that could break.
-INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, global uchar* springs, global const uchar* guards, global uint* report, int di,
-                           int dj, int bit, EXACT k_s, EXACT rest, EXACT F_max, REAL certain2) {
+INLINE REAL tear_direction(global const REAL* x, int stride, int mask_pitch, global uchar* springs,
+                           global const uchar* guards, global uint* report, int di, int dj, int bit, EXACT k_s,
+                           EXACT rest, EXACT F_max, REAL certain2) {
   const int to = di * 3 * stride + dj, mask_to = di * mask_pitch + dj;
   const vec x_ij = minus(load(x + to, stride), load(x, stride));
   const realv r2 = (LOAD_MASK(springs) & bit) != 0 ? dot3(x_ij, x_ij) : ZERO;

@@ -99,6 +99,9 @@ std::string accuracy_words(const AccuracyStudy& study) {
   const std::string over = " over the " + short_number(rounded(study.reference.seconds, 2)) +
                            " s from t = " + time_number(study.t, now.dt) + " s";
   const std::string method(scheme(now.integrator).title);
+  if (!chooses_steps(scheme(now.integrator)) && now.dt < 0.9 * study.of.dt)
+    return "This cloth can be followed closely for " + short_number(rounded(study.reference.seconds, 2)) +
+           " s in the time there is: too short to judge a dt of " + short_number(study.of.dt) + " s.";
   if (!std::isfinite(now.error_rms_m)) return "As it is set, " + method + " diverges" + over + ".";
   const double floor = 10 * study.reference.agreement_rms_m;
   const std::string error = now.told
@@ -123,7 +126,7 @@ Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
     for (; n < study.points.size() && study.points[n].integrator == name; ++n) put(series, study.points[n]);
     if (!series.x.empty()) chart.series.push_back(std::move(series));
   }
-  if (!study.present) return chart;
+  if (!study.present || (study.present->tolerance == 0 && study.present->dt < 0.9 * study.of.dt)) return chart;
   ChartSeries present{"as it is set", {c.text, LineStyle::solid, 1}, false, 6, {}, {}};
   put(present, *study.present);
   if (!present.x.empty()) chart.series.push_back(std::move(present));

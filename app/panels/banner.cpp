@@ -93,6 +93,7 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";
+  implicit.engine = EngineKind::cpu;  // no other has it
   retry("Implicit Euler", implicit, "a method that linear theory gives no largest dt");
 }
 

@@ -58,7 +58,9 @@ void AccuracyWatch::work(Shared& shared, const StudyStart& start) {
   try {
     const StudyReference reference = study_reference(start, window, effort, stop);
     const ErrorPoint present = measure_point(start, reference, stop);
-    tell([&](AccuracyStudy& study) { study.reference = reference, study.present = present; });
+    StudyReference shown = reference;
+    shown.track.clear();  // not for people, and copied in every frame
+    tell([&](AccuracyStudy& study) { study.reference = std::move(shown), study.present = present; });
     for (const char* method : methods) {
       StudyStart other = start;
       other.preset.integrator = method;

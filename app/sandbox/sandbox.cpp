@@ -243,6 +243,7 @@ void Sandbox::fall_back(const std::string& why) {
   auto simulation = std::make_unique<Simulation>(next, app_.threads);
   if (const Snapshot* then = app_.rewind.before(*simulation, app_.simulation->time(), 0)) simulation->restore(*then);
   app_.messages.error(why + " The CPU engine goes on from t = " + time_number(simulation->time(), next.dt) + " s.");
+  app_.tool.kind = Tool::Kind::none;
   swap_in(app_, std::move(simulation));
 }
 

@@ -34,14 +34,18 @@ double evaluations_of(const Scheme& scheme, const Preset& preset) {
 
 /// The simulation with those settings, at the start of the study.
 std::unique_ptr<Simulation> begin(const StudyStart& start, const Preset& preset) {
-  auto simulation = std::make_unique<Simulation>(preset);
+  Preset on_cpu = preset;
+  on_cpu.engine = EngineKind::cpu;  // the only one that has every method, and whose time is this thread's
+  auto simulation = std::make_unique<Simulation>(on_cpu);
   if (start.from) simulation->restore(*start.from);
   return simulation;
 }
 
 /// Makes `steps` steps in short pieces, so that a stop is soon heard.
 void advance(Simulation& simulation, int steps, const Stop& stop) {
-  const int portion = std::max(1, int(1e6 / double(simulation.lattice().size())));
+  const Preset& preset = simulation.preset();
+  const double a_step = particles(preset) * evaluations_of(scheme(preset.integrator), preset);
+  const int portion = is_implicit(scheme(preset.integrator)) ? 1 : std::max(1, int(1e6 / a_step));
   for (int left = steps; left > 0 && !simulation.divergence(); left -= portion) {
     if (stop()) throw Stopped();
     simulation.advance(std::min(left, portion));
@@ -80,8 +84,13 @@ StudyReference study_reference(const StudyStart& start, double seconds, const St
   const double a_second = 3 * particles(preset) * double(scheme(preset.integrator).sweeps.size()) / coarse;
   seconds = std::min(seconds, effort.reference / a_second);
   // Comparing where the present dt ends its steps judges the settings as they are.
+  constexpr double patience = 4;  // times the effort, for a long dt
   const double whole = accuracy_samples * start.preset.dt;
-  seconds = whole <= seconds ? whole * std::floor(seconds / whole) : std::max(seconds, accuracy_samples * coarse);
+  if (whole <= patience * seconds) {
+    seconds = whole * std::max(1.0, std::floor(seconds / whole));
+  } else {
+    seconds = std::max(seconds, accuracy_samples * coarse);
+  }
   StudyReference reference{.seconds = seconds, .track = {}, .method = preset.integrator};
   int steps = 0;
   preset.dt = whole_dt(seconds, coarse, steps);
@@ -98,7 +107,7 @@ ErrorPoint measure_point(const StudyStart& start, const StudyReference& referenc
   const bool chooses = chooses_steps(scheme(preset.integrator));
   int steps = 1;
   preset.dt = whole_dt(reference.seconds, chooses ? reference.seconds : preset.dt, steps);
-  ErrorPoint point{preset.integrator, preset.precision, start.preset.dt, chooses ? preset.tolerance : 0};
+  ErrorPoint point{preset.integrator, preset.precision, preset.dt, chooses ? preset.tolerance : 0};
   double took = std::numeric_limits<double>::infinity();
   for (int run = 0; run < (took < short_run ? 3 : 1); ++run) {
     const auto of = begin(start, preset);

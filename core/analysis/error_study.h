@@ -1,5 +1,6 @@
 // How large an error is made of the motion at hand, by the present settings and by others: short runs from one state,
-// held against finer ones. What `--tolerance` chooses from, and what the sandbox's accuracy card shows.
+// held against finer ones, all on the CPU engine. What `--tolerance` chooses from, and what the sandbox's accuracy card
+// shows.
 #pragma once
 
 #include <optional>
@@ -21,7 +22,8 @@ struct StudyStart {
 struct ErrorPoint {
   std::string integrator;
   Precision precision = Precision::double_;
-  double dt = 0;           ///< s; of methods that choose their own steps the mean of those
+  double dt = 0;           ///< s, as it was measured: of which whole steps lie between the times of comparison; of
+                           ///< methods that choose their own steps the mean of those
   double tolerance = 0;    ///< m; of those methods
   double error_rms_m = 0;  ///< over all particles, at the times of comparison; infinite where the run diverged
   double cost = 0;         ///< processor seconds on one thread for a simulated second

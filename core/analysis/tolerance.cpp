@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 #include "core/notation/words.h"
 
@@ -86,6 +88,8 @@ ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, dou
   const StudyReference reference = judge(start, tolerance, seconds, stop);
   std::vector<std::string> methods(candidates.begin(), candidates.end());
   if (keeps.integrator) methods = {preset.integrator};
+  if (preset.engine == EngineKind::opencl)
+    std::erase_if(methods, [](const std::string& name) { return !runs_on_opencl(scheme(name)); });
   ErrorPoint least;
   least.error_rms_m = std::numeric_limits<double>::infinity();
   std::vector<Found> found;

@@ -119,6 +119,38 @@ TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
   }
 }
 
+TEST_CASE("the hand feels the same force wherever it holds, on the border of two bands too") {
+  if (!device_there()) return;
+  for (const int row : {12, 13, 14, 15, 16, 17}) {
+    CAPTURE(row);
+    Pair pair(everything(Precision::double_));
+    pair.apply(edit::Grab{row, 30});
+    pair.apply(edit::MoveHand{{0.1, 1.0, 0.4}, 60});
+    for (int n = 0; n < 9; ++n) {
+      pair.advance(1 + n);
+      CHECK(glm::length(pair.opencl.hand_force() - pair.cpu.hand_force()) <= 1e-6 * glm::length(pair.cpu.hand_force()));
+    }
+    pair.check();
+  }
+}
+
+TEST_CASE("steps that are made again, up to the one in which the hand lets go, know its present velocity") {
+  if (!device_there()) return;
+  Preset preset = test::cloth(33, 21);
+  preset.precision = Precision::double_, preset.F_release = 3;
+  Pair pair(preset);
+  const glm::dvec3 at = pair.cpu.positions().at(20, 10);
+  pair.apply(edit::Grab{20, 10});
+  pair.apply(edit::MoveHand{at + glm::dvec3(0.001, 0, 0), 40});
+  pair.advance(40);
+  REQUIRE(pair.cpu.held());
+  pair.apply(edit::MoveHand{at + glm::dvec3(0, 0.3, 0.5), 150});
+  for (Simulation* simulation : {&pair.cpu, &pair.opencl})
+    while (simulation->held() && simulation->steps() < 240) simulation->advance(240 - int(simulation->steps()));
+  CHECK(!pair.cpu.held());
+  pair.check();
+}
+
 TEST_CASE("constants change while it moves, and switch features on and off") {
   if (!device_there()) return;
   for (const char* integrator : {"verlet", "velocity_verlet"}) {

@@ -19,7 +19,6 @@ template <class R>
 void ImplicitSolver<R>::resize(const Cloth<R>& cloth) {
   if (rows_ == cloth.lattice.rows && stride_ == cloth.stride) return;
   rows_ = cloth.lattice.rows, stride_ = cloth.stride;
-  direct_from_ = std::numeric_limits<double>::infinity();
   for (Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
     field->resize(rows_ + 3, stride_);
@@ -62,6 +61,7 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
                               const Accelerations& accelerations) {
   resize(cloth);
   start_x_ = cloth.vector(position), start_v_ = cloth.vector(velocity);
+  direct_ = false;  // every stage tries anew: a repeated step must give the same bits
   const int most = cloth.preset.iterations;
   const double first = evaluate(cloth, position, velocity, dt, accelerations);
   // A step that moves nothing by more than the last digits of a position cannot be bettered.
@@ -70,7 +70,7 @@ void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   bool solved = norm == 0;
   for (int n = 0; n < most && !solved && std::isfinite(norm); ++n) {
     linearise(cloth, cloth.vector(position), dt, tears);
-    if (!solve_linear(cloth, dt)) ++counts_.unconverged;
+    if (!solve_linear(cloth)) ++counts_.unconverged;
     ++counts_.newton;
     if (most == 1) {  // a linearly implicit step, taken as it is
       const std::span<R> x = cloth.vector(position).all(), v = cloth.vector(velocity).all();
@@ -224,20 +224,16 @@ bool ImplicitSolver<R>::conjugate_gradients(const Cloth<R>& cloth) {
 }
 
 /// Solves A step_ = residual_, which it leaves as it is: by conjugate gradients; directly where those do not get there,
-/// and from then on for all that is as stiff. Returns whether it is solved.
+/// and from then on in this stage. Returns whether it is solved.
 template <class R>
-bool ImplicitSolver<R>::solve_linear(const Cloth<R>& cloth, double dt) {
-  const Preset& p = cloth.preset;
-  const double stiffness = dt * dt * std::max(p.k_s, p.k_b) / p.m;
-  if (stiffness < direct_from_) {
-    before_ = residual_;
-    const bool solved = conjugate_gradients(cloth);
-    std::swap(residual_, before_);
-    if (solved || !factorises(cloth)) return solved;
-  }
-  const bool solved = solve_directly(cloth);
-  if (solved) direct_from_ = std::min(direct_from_, stiffness);
-  return solved;
+bool ImplicitSolver<R>::solve_linear(const Cloth<R>& cloth) {
+  if (direct_ && solve_directly(cloth)) return true;
+  before_ = residual_;
+  const bool solved = conjugate_gradients(cloth);
+  std::swap(residual_, before_);
+  if (solved) return true;
+  direct_ = !direct_ && factorises(cloth) && solve_directly(cloth);
+  return direct_;
 }
 
 /// Particles within which all springs of one reach, when particles are numbered along the shorter side.

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "core/engines/cpu/band.h"
@@ -39,7 +38,7 @@ class ImplicitSolver {
   void linearise(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears);
   void linearise_row(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears, int direction, int i);
   void invert_blocks(const Cloth<R>& cloth);
-  bool solve_linear(const Cloth<R>& cloth, double dt);
+  bool solve_linear(const Cloth<R>& cloth);
   bool conjugate_gradients(const Cloth<R>& cloth);
   bool factorises(const Cloth<R>& cloth) const;
   bool solve_directly(const Cloth<R>& cloth);
@@ -60,7 +59,7 @@ class ImplicitSolver {
   Array<R> coefficients_;
   BandedCholesky matrix_;
   std::vector<double> right_side_;
-  double direct_from_ = std::numeric_limits<double>::infinity();  ///< dt² k/m at which gradients have failed
+  bool direct_ = false;  ///< gradients have failed in this stage
   SolveCounts counts_;
 };
 

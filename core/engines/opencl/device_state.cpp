@@ -49,7 +49,6 @@ R* DeviceState<R>::map(cl_mem field, cl_map_flags how) const {
   void* at =
       clEnqueueMapBuffer(device_->queue(), field, CL_TRUE, how, 0, numbers_ * sizeof(R), 0, nullptr, nullptr, &code);
   check(code, "reading from the device");
-  if (!device_->facts().shared_memory) copied_ += numbers_ * sizeof(R);
   return static_cast<R*>(at) + lead();
 }
 

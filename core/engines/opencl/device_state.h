@@ -54,8 +54,6 @@ class DeviceState {
   void keep_backup();
   void restore();
   std::size_t bytes() const;
-  /// Bytes of vectors that went through the host's memory so far.
-  std::uint64_t copied() const { return copied_; }
 
  private:
   struct Vector {
@@ -71,7 +69,6 @@ class DeviceState {
   std::size_t numbers_, mask_bytes_;
   mutable std::mutex mutex_;  ///< of the views
   mutable std::vector<Vector> vectors_;
-  mutable std::uint64_t copied_ = 0;
   Memory masks_, springs_;
 };
 

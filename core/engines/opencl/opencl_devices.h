@@ -20,7 +20,7 @@ struct OpenClDevice {
 };
 
 /// The devices of all platforms, in the order of their numbers (--engine opencl:NUMBER). Never throws for what a driver
-/// does; a driver that aborts takes the process along (`tyglab devices` asks in a process of its own).
+/// does; one that ends the process which asks is asked by a child first, and then counts as none.
 struct OpenClInventory {
   std::vector<OpenClDevice> devices;
   std::string problem;  ///< why there is none, if the loader said

@@ -254,14 +254,14 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
 
 template <class R>
 void OpenClEngine<R>::note_contacts(bool on) {
-  notes_contacts_ = on;
-  contacts_.clear();
-  if (const std::string wanted = options(preset_, on); wanted != options_)
-    kernels_ = make_kernels(preset_, on), options_ = wanted;
   if (on && !contact_list_) {
     const std::size_t each = device_->facts().fp64 ? sizeof(DeviceContact<double>) : sizeof(DeviceContact<float>);
     contact_list_ = device_->zeros(std::size_t(lattice_.size()) * each);
   }
+  if (const std::string wanted = options(preset_, on); wanted != options_)
+    kernels_ = make_kernels(preset_, on), options_ = wanted;
+  notes_contacts_ = on;
+  contacts_.clear();
 }
 
 template <class R>
@@ -277,8 +277,8 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
       check(clEnqueueWriteBuffer(device_->queue(), fixed_list_.get(), CL_TRUE, 0, pinned_.size() * sizeof(int),
                                  pinned_.data(), 0, nullptr, nullptr),
             "writing to the device");
-    measure_again();
   }
+  measure_again();  // the backup holds the hand's old velocity
   write_fixed_velocities();
 }
 

@@ -114,6 +114,7 @@ int OpenClEngine<R>::judge(int count, bool tear_each, Tears& tears, Fault& fault
     }
     if (tear) tear_overloaded(tears);
     const StateView<R> now{state_.host(vector_x), state_.host(vector_v), state_.stride()};
+    if (tear_each && torn) state_.download(tears), torn = false;  // what has been torn is no fault
     if (look && find_fault(preset_, lattice_, tears, now, fault, free_motion_)) {
       end_ = End::fault;
       return n;
