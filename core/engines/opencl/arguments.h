@@ -8,6 +8,8 @@ namespace tyglab::opencl {
 /// Sets arguments one after the other from number `at` on; returns the next number.
 template <class... T>
 int set_arguments(const Kernel& kernel, int at, const T&... values) {
+  // Buffers are arguments as their handles, which are pointers.
+  // NOLINTNEXTLINE(bugprone-sizeof-expression)
   (check(clSetKernelArg(kernel.get(), cl_uint(at++), sizeof values, &values), "setting an argument"), ...);
   return at;
 }
