@@ -37,8 +37,9 @@ std::string verdict(const OpenClProbe& probe) {
 
 /// How positions come to where OpenGL draws them.
 const char* sharing(const OpenClDevice& device) {
-  return device.shared_memory ? "positions are drawn from the device's own memory, without a copy on the way there"
-                              : "positions are read back once a frame, into main memory";
+  return device.shared_memory
+             ? "positions are read where the device writes them, and copied into a buffer of OpenGL's when they moved"
+             : "positions are read back into main memory, and copied into a buffer of OpenGL's, when they moved";
 }
 
 void print_device(const OpenClDevice& device, int number) {
