@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <optional>
 
+#include "core/energy/auto_step.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
-#include "core/notation/words.h"
 
 namespace tyglab {
 namespace {
@@ -56,7 +56,7 @@ std::optional<Found> find(StudyStart start, const StudyReference& reference, dou
     if (point.tolerance > 0) {
       found.preset.tolerance = point.tolerance;
     } else {
-      found.preset.dt = point.dt;
+      found.preset.dt = std::max(two_digits_below(point.dt), 1e-7);  // at most what was measured
     }
     return found;
   }
@@ -64,15 +64,17 @@ std::optional<Found> find(StudyStart start, const StudyReference& reference, dou
 }
 
 std::string settings_of(const ErrorPoint& point) {
-  const std::string step = point.tolerance > 0 ? "tolerance = " + number(point.tolerance) + " m"
-                                               : "dt = " + shortest_number(point.dt) + " s";
+  const std::string step =
+      point.tolerance > 0 ? "tolerance = " + number(point.tolerance) + " m" : "dt = " + number(point.dt) + " s";
   return point.integrator + ", " + step + ", " + std::string(name_of(point.precision));
 }
 
 }  // namespace
 
 std::string ToleranceChoice::words(double tolerance) const {
-  std::string text = settings_of(chosen) + ": errs by " + (chosen.told ? "" : "less than ") +
+  ErrorPoint used = chosen;
+  if (used.tolerance == 0) used.dt = preset.dt;
+  std::string text = settings_of(used) + ": errs by " + (chosen.told ? "" : "less than ") +
                      number(chosen.told ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
                      " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) +
                      " m were asked for, and takes " + number(chosen.cost) +
