@@ -16,7 +16,6 @@ namespace {
 constexpr const char* stability_heading = "Stability";
 constexpr const char* accuracy_heading = "Accuracy";
 constexpr float chart_at_1 = 210, words_at_1 = 40;  // pixels at scale 1
-constexpr double most_growth = 1.25;                // that the chart shows, a step
 
 /// Words over a chart, in what the card's height leaves.
 void words_and_chart(App& app, float height, const std::string& words, const Chart* chart) {
@@ -60,35 +59,26 @@ std::string stability_sentence(const StabilityLimits& limits) {
 
 Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
   const Scheme& method = scheme(limits.of.integrator);
-  const Mode any = any_configuration(limits.of);
-  const double dt = limits.of.dt, now = limits.fastest.omega() * dt, bound = any.omega() * dt;
-  const double most = std::clamp(1.3 * std::max({now, bound, 2.5}), 1.0, 20.0);
+  const double dt = limits.of.dt, now = limits.fastest.omega() * dt, bound = any_configuration(limits.of).omega() * dt;
   Chart chart;
   chart.padding = 0;
   chart.x.title = "ω·dt", chart.y.title = "growth a step (spectral radius)";
   chart.x.from_zero = true;
-  double least = 1;
-  const auto curve = [&](const std::string& name, LineStyle line, double damping) {
-    ChartSeries series{name, integrator_style(c, method.name), true, 0, {}, {}};
+  double least = 1, most = 0, hi = 1;
+  const auto curve = [&](const std::string& name, LineStyle line, const GrowthCurve& of) {
+    ChartSeries series{name, integrator_style(c, method.name), true, 0, of.h, of.radius};
     series.style.line = line;
-    constexpr int points = 160;
-    for (int n = 1; n <= points; ++n) {
-      const double h = most * n / points;
-      const double radius = spectral_radius(amplification(method, h, damping * h));
-      if (radius > most_growth) break;
-      series.x.push_back(h), series.y.push_back(radius);
-      least = std::min(least, radius);
-    }
+    for (const double radius : of.radius) least = std::min(least, radius), hi = std::max(hi, radius);
+    if (!of.h.empty()) most = std::max(most, of.h.back());
     chart.series.push_back(std::move(series));
   };
-  // Damping weighs on a mode about as its stiffness does: ζ in proportion to ω, as the fastest mode has it.
-  const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
-  curve(std::string(method.title) + (zeta > 0 ? ", damped" : ""), LineStyle::solid, now > 0 ? zeta / now : 0);
-  if (zeta > 0) curve("undamped", LineStyle::dotted, 0);
+  const bool damped = !limits.undamped.h.empty();
+  curve(std::string(method.title) + (damped ? ", damped" : ""), LineStyle::solid, limits.damped);
+  if (damped) curve("undamped", LineStyle::dotted, limits.undamped);
+  most = std::max({most, now, bound});
   chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
-  const double lo = least, hi = most_growth;
-  if (limits.now && now < most) chart.series.push_back(mark_at("cloth now", now, c.text, LineStyle::solid, lo, hi));
-  if (bound < most) chart.series.push_back(mark_at("at most", bound, c.warning, LineStyle::dashed, lo, hi));
+  if (limits.now) chart.series.push_back(mark_at("cloth now", now, c.text, LineStyle::solid, least, hi));
+  chart.series.push_back(mark_at("at most", bound, c.warning, LineStyle::dashed, least, hi));
   return chart;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/sandbox/app.h"
 #include "core/analysis/frequency.h"
+#include "core/integrators/amplification.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {
@@ -16,9 +17,18 @@ constexpr double reaches = 1e5;               // zones, to either side of a valu
 constexpr double between_looks = 0.5;         // s, at a cloth in motion
 constexpr int largest_looked_at = 128 * 128;  // particles: to linearise more of them would be felt in the frame
 
+/// What the stability card draws: here, since it takes longer than the rest of a frame.
+void add_curves(StabilityLimits& limits, const Scheme& method) {
+  const double dt = limits.of.dt, now = limits.fastest.omega() * dt;
+  const double most = std::clamp(1.3 * std::max({now, any_configuration(limits.of).omega() * dt, 2.5}), 1.0, 20.0);
+  const double zeta_over_h = now > 0 ? limits.fastest.damping * dt / (2 * now * now) : 0;
+  limits.damped = growth_curve(method, most, zeta_over_h);
+  if (zeta_over_h > 0) limits.undamped = growth_curve(method, most, 0);
+}
+
 StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
   const Scheme& method = scheme(preset.integrator);
-  StabilityLimits limits{.of = preset, .now = {}, .zones = {}};
+  StabilityLimits limits{.of = preset, .now = {}, .damped = {}, .undamped = {}, .zones = {}};
   const std::array any{any_configuration(preset)};
   limits.any = dt_crit(method, any), limits.fastest = any[0];
   limits.stiffness = stiffness_margin(method, any, preset.dt);
@@ -35,10 +45,23 @@ StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation
     limits.now = dt_crit(method, fastest), limits.omega = fastest[0].omega();
     limits.fastest = fastest[0];
   }
+  if (has_step_limit(method)) add_curves(limits, method);
   return limits;
 }
 
 }  // namespace
+
+GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h) {
+  constexpr int points = 160;
+  constexpr double most_growth = 1.25;
+  GrowthCurve curve;
+  for (int n = 1; n <= points; ++n) {
+    const double h = most_h * n / points, radius = spectral_radius(amplification(method, h, zeta_over_h * h));
+    if (radius > most_growth) break;
+    curve.h.push_back(h), curve.radius.push_back(radius);
+  }
+  return curve;
+}
 
 void StabilityWatch::poll(App& app) {
   if (work_.valid()) {

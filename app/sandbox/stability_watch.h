@@ -16,6 +16,14 @@
 namespace tyglab {
 
 struct App;
+struct Scheme;
+
+/// Growth of a mode per step, as a spectral radius, over ω·dt; ends where it grows by a quarter a step.
+struct GrowthCurve {
+  std::vector<double> h, radius;
+};
+/// ζ in proportion to ω, as damping weighs on modes about as their stiffness does: ζ = `zeta_over_h` ω·dt.
+GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h);
 
 /// Limits of the present method by linear theory (core/analysis/frequency.h). dt in s: 0 where none is stable, infinity
 /// where none is too large.
@@ -27,6 +35,7 @@ struct StabilityLimits {
   double omega = 0;      ///< 1/s, of the fastest mode now, where `now` is there
   Mode fastest{};        ///< that mode; where `now` is not there, what no mode in any configuration exceeds
   double stiffness = 0;  ///< by how much k_s and k_b can grow until dt reaches `any`
+  GrowthCurve damped, undamped;  ///< the method's growth, for modes damped as the fastest is, and without damping
   std::map<std::string, std::vector<ZoneSpan>, std::less<>> zones;  ///< by the constant's key
 };
 
