@@ -13,6 +13,8 @@
 #include "app/sandbox/accuracy_watch.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
+#include "app/sandbox/cloth_views.h"
+#include "app/sandbox/copies.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
@@ -50,6 +52,8 @@ struct App {
   bool told_unconverged = false;    ///< that an implicit method's solves do not reach their tolerance, likewise
 
   std::unique_ptr<ClothRenderer> renderer;
+  ClothViews views;
+  Copies copies;
   Camera camera;
   ViewOptions view;
   Viewport viewport;

@@ -26,7 +26,7 @@ void spell_pins_as_saved(App& app) {
   if (app.preset().pins == saved.pins || !same_pins(app.preset(), saved)) return;
   Preset next = app.preset();
   next.pins = saved.pins;
-  app.simulation->apply(edit::Change{next});
+  apply_to_all(app, edit::Change{next});
 }
 
 /// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
@@ -52,7 +52,7 @@ void change_present(App& app, const Preset& before, const Preset& next) {
   const edit::Change change{rebased(before, next, app.preset())};
   if (app.building.holds_present() || change.preset == app.preset() || app.simulation->rebuilds(change)) return;
   const Preset old = app.preset();
-  app.simulation->apply(change);
+  apply_to_all(app, change);
   follow_up(app, old);
 }
 
@@ -111,6 +111,7 @@ bool rewind(App& app) {
   const double t = app.simulation->time();
   if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) return false;
   app.rewind.go_back(*app.simulation, t, rewinds_s);
+  copies_resume(app);
   app.tool.kind = Tool::Kind::none;
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();
   app.pacing.restart_measure();
@@ -175,6 +176,7 @@ void single_step(App& app) {
   if (app.building.holds_present()) return;
   move_hand(app, 1);
   app.steps_made += app.simulation->advance(1).steps;
+  copies_follow(app, 0);
 }
 
 void change_text_size(App& app, double factor) {
@@ -303,6 +305,14 @@ void apply(App& app, const request::LoadTexture& what) {
   apply_edit(app, edit::Change{next});
 }
 
+void apply(App& app, const request::AddCopy& what) {
+  add_copy(app, what.differences, what.as_reference);
+}
+
+void apply(App& app, const request::RemoveCopy& what) {
+  remove_copy(app, what.index);
+}
+
 void apply(App& app, const request::Quit& what) {
   if (!what.confirmed && !app.scripted && unsaved(app)) {
     ask(app, Dialog::Kind::unsaved, "The changes of " + app.preset().name + " have not been saved.",
@@ -343,6 +353,11 @@ void follow_up(App& app, const Preset& before) {
   app.pacing.forget_cost();
 }
 
+void apply_to_all(App& app, const Edit& edit) {
+  app.simulation->apply(edit);
+  copies_apply(app, edit);
+}
+
 bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
   try {
     if (const auto* change = std::get_if<edit::Change>(&edit))
@@ -350,7 +365,7 @@ bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
     if (!take_texture(app, edit)) return false;
     if (const auto taken = build_beside(app, edit, gesture)) return *taken;
     const Preset before = app.preset();
-    app.simulation->apply(edit);
+    apply_to_all(app, edit);
     if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
     if (before == app.preset()) return true;
     record(app, before, app.preset(), gesture);
