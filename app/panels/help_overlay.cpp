@@ -31,6 +31,7 @@ constexpr Entry keys[] = {
     {"1 to 5", "the five views"},
     {"F", "frames the cloth"},
     {"M", "maps which k_s and dt are stable"},
+    {"I", "looks inside a step of the picked particle"},
     {"Tab", "hides the panels"},
     {"F1 · F11", "this help · full screen"},
     {"Ctrl+O · Ctrl+S", "opens · saves a preset"},

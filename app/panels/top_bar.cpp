@@ -44,6 +44,8 @@ void document_menu(App& app) {
     app.settings.layout.right = !app.settings.layout.right;
   if (ImGui::MenuItem("Map of k_s and dt", "M", app.settings.layout.map)) app.command(Command::toggle_map);
   report_control(app, "map");
+  if (ImGui::MenuItem("Inside a step", "I", app.settings.layout.inside)) app.command(Command::toggle_inside);
+  report_control(app, "inside");
   if (ImGui::MenuItem("Hints", nullptr, app.settings.layout.status))
     app.settings.layout.status = !app.settings.layout.status;
   item("All panels", "Tab", Command::toggle_panels);

@@ -95,6 +95,7 @@ struct Ui {
   std::vector<std::string> devices;  ///< OpenCL's, by name, once one is in use
   bool energy_shown = false;         ///< the ledger's card is open
   bool accuracy_shown = false;       ///< the accuracy card is open
+  bool inside_shown = false;         ///< a step written out is in sight
   bool map_shown = false;            ///< the map of stiffness against dt is in sight
   double arrow_scale = 0;            ///< N for the longest arrow, smoothed
   double now = 0;                    ///< s since the window opened

@@ -165,10 +165,11 @@ void follow_constants(App& app, Preset& next) {
   if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
 }
 
-void toggle_map(App& app) {
+/// Shows or hides one of the plots' cards that are not always there.
+void toggle_plot(App& app, bool Layout::*card) {
   Layout& layout = app.settings.layout;
-  layout.map = !layout.map;
-  if (layout.map) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
+  layout.*card = !(layout.*card);
+  if (layout.*card) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
 }
 
 void open_export(App& app, CsvSource source) {
@@ -244,7 +245,9 @@ void apply(App& app, const request::Do& what) {
       app.ui.panels = !app.ui.panels;
       return;
     case Command::toggle_map:
-      return toggle_map(app);
+      return toggle_plot(app, &Layout::map);
+    case Command::toggle_inside:
+      return toggle_plot(app, &Layout::inside);
     case Command::export_map:
       return open_export(app, CsvSource::map);
     case Command::export_copies:

@@ -32,6 +32,7 @@ enum class Command {
   toggle_help,
   toggle_panels,
   toggle_map,
+  toggle_inside,
   export_map,
   export_copies,
   full_screen,

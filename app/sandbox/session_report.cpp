@@ -142,6 +142,16 @@ Json copies(const App& app) {
   return list;
 }
 
+/// The step that is written out; null where none is.
+Json inside(const App& app) {
+  const StepTrace* trace = app.inside.shown();
+  if (trace == nullptr) return nullptr;
+  return {{"site", {trace->i, trace->j}},
+          {"evaluations", trace->stages.size()},
+          {"springs", trace->stages.front().springs.size()},
+          {"x", vector(trace->x_engine)}};
+}
+
 int pinned_count(const App& app) {
   const Lattice& lattice = app.simulation->lattice();
   int count = 0;
@@ -187,6 +197,8 @@ void add_simulation(Json& json, const App& app) {
   json["torn_springs"] = simulation.tears().torn_count();
   json["pinned"] = pinned_count(app);
   json["picked"] = site(app.picked);
+  json["picked_x"] = app.picked ? vector(simulation.positions().at(app.picked->i, app.picked->j)) : Json(nullptr);
+  json["inside"] = inside(app);
   json["held"] = held(app);
   json["view"] = app.preset().mode;
 }

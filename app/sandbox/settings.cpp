@@ -74,6 +74,7 @@ Layout layout_from(const Section& from) {
   from.take("right", layout.right);
   from.take("status", layout.status);
   from.take("map", layout.map);
+  from.take("inside", layout.inside);
   from.take("folded", layout.folded);
   layout.left_width = std::clamp(layout.left_width, 200.f, 900.f);
   layout.right_width = std::clamp(layout.right_width, 200.f, 1200.f);
@@ -132,8 +133,13 @@ Json to_json(const Settings& settings) {
   json["ui_scale"] = settings.ui_scale;
   json["plot_log"] = settings.plot_log;
   const Layout& layout = settings.layout;
-  json["layout"] = {{"left_width", layout.left_width}, {"right_width", layout.right_width}, {"left", layout.left},
-                    {"right", layout.right},           {"status", layout.status},           {"map", layout.map},
+  json["layout"] = {{"left_width", layout.left_width},
+                    {"right_width", layout.right_width},
+                    {"left", layout.left},
+                    {"right", layout.right},
+                    {"status", layout.status},
+                    {"map", layout.map},
+                    {"inside", layout.inside},
                     {"folded", layout.folded}};
   if (settings.session)
     json["session"] = {{"label", settings.session->label},
