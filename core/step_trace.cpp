@@ -160,10 +160,11 @@ StepTrace trace_step(const Simulation& simulation, int i, int j) {
     for (const Sweep& sweep : method.sweeps) trace.stages.push_back(patch.sweep(sweep));
   else
     trace.stages.push_back(patch.beginning());
-  trace.x_traced = patch.middle(vector_x);
+  trace.x_after = patch.middle(vector_x);
+  if (trace.whole) return trace;
   const auto next = simulation.rebuilt(edit::Change{preset});
   next->advance(1);
-  trace.x_engine = next->positions().at(i, j);
+  trace.x_after = next->positions().at(i, j);
   return trace;
 }
 

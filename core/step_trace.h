@@ -44,8 +44,7 @@ struct StepTrace {
   bool whole = false;               ///< the stages are all of the step; else it solves, projects or chooses steps
   std::vector<TracedStage> stages;  ///< where not whole: the beginning alone
   glm::dvec3 x{0}, v{0};            ///< before the step, as the method holds them
-  glm::dvec3 x_traced{0};           ///< after it, by the stages; of use where whole
-  glm::dvec3 x_engine{0};           ///< after it, as the engine makes it: other number, bodies
+  glm::dvec3 x_after{0};            ///< after it: by the stages, or where these are not whole by a copy that makes it
 };
 
 /// What a method calls a state vector: "x", "v", "d"; stages "x*", "v*", sums that grow "X", "V".

@@ -143,16 +143,14 @@ void result(App& app, const StepTrace& trace) {
   if (!trace.whole)
     words(app,
           "This method solves equations, projects, or chooses its own steps, so its step is no sum of these numbers. "
-          "The engine's result:",
+          "It leads to:",
           c.quiet);
-  line(app, "x, new", components(trace.x_engine) + " m", c.text);
-  if (!trace.whole) return;
-  const double apart = glm::length(trace.x_engine - trace.x_traced);
-  words(app,
-        apart == 0 ? "The engine makes the very same."
-                   : "The engine differs by " + steady_number(apart) +
-                         " m: it rounds otherwise, and bodies correct it after the step.",
-        c.quiet);
+  line(app, "x, new", components(trace.x_after) + " m", c.text);
+  if (trace.whole)
+    words(app,
+          "Worked out in double from the method's own table. The engine rounds each sum to the precision that is set, "
+          "and bodies correct position and velocity after it.",
+          c.quiet);
 }
 
 std::string step_heading(const StepTrace& trace) {
@@ -187,12 +185,14 @@ void inside_step(App& app, ImVec2 size) {
                  app.theme.colors.text);
   }
   gui::begin_child("step", size);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, app.theme.px(1)));
   words(app, step_heading(*trace), app.theme.colors.text);
   if (app.pacing.playing) words(app, "Space pauses, then → makes one step at a time.", app.theme.colors.quiet);
   if (trace->fixed) words(app, "It is pinned or held: no force moves it.", app.theme.colors.warning);
   ImGui::Dummy({0, app.theme.px(4)});
   for (std::size_t n = 0; n < trace->stages.size(); ++n) stage_text(app, *trace, n);
   result(app, *trace);
+  ImGui::PopStyleVar();
   ImGui::EndChild();
 }
 

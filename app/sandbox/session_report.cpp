@@ -149,7 +149,7 @@ Json inside(const App& app) {
   return {{"site", {trace->i, trace->j}},
           {"evaluations", trace->stages.size()},
           {"springs", trace->stages.front().springs.size()},
-          {"x", vector(trace->x_engine)}};
+          {"x", vector(trace->x_after)}};
 }
 
 int pinned_count(const App& app) {

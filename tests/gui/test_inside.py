@@ -20,7 +20,9 @@ def step(stage):
     stage.keep("verlet")
     before = report["steps"]
     sandbox.key("Right")
-    report = sandbox.wait(lambda r: r["steps"] == before + 1 and r["picked_x"] == foretold, "the step as foretold")
+    report = sandbox.wait(lambda r: r["steps"] == before + 1, "the step")
+    apart = max(abs(a - b) for a, b in zip(report["picked_x"], foretold))
+    check(apart < 1e-12, f"it comes out as foretold, not {apart} m beside it")
     check(report["inside"]["x"] != foretold, "and the next one")
     sandbox.move(*centre(sandbox.control("plots.close_inside")))
     sandbox.click_control("plots.close_inside")

@@ -36,7 +36,8 @@ TEST_CASE("a step that is written out ends where the engine's step ends") {
     simulation.advance(1);
     const glm::dvec3 made = simulation.positions().at(middle, middle);
     CAPTURE(std::string(method.name));
-    if (trace.whole) CHECK(glm::length(trace.x_traced - made) < 1e-13);
+    // One that solves is made by a copy, which begins from the velocities that are shown: not to the last digit.
+    CHECK(glm::length(trace.x_after - made) < (trace.whole ? 1e-13 : 1e-7));
   }
 }
 
@@ -72,8 +73,7 @@ TEST_CASE("what is pinned feels forces but none moves it; torn springs are gone"
   const StepTrace trace = trace_step(simulation, middle, middle);
   CHECK(trace.fixed);
   CHECK(glm::length(trace.stages.front().a) == 0);
-  CHECK(trace.x_traced == trace.x);
-  CHECK(trace.x_engine == trace.x);
+  CHECK(trace.x_after == trace.x);
   CHECK(trace.stages.front().springs.size() == 8);  // three upwards, and the bending spring that needs one of them
 }
 
