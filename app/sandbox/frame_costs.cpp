@@ -70,6 +70,7 @@ std::string FrameCosts::json(int width, int height, const std::string& engine, c
   report["own_cpu_ms_per_frame"] =
       of(Part::frame) - of(Part::simulate) - of(Part::draw_cloth) - of(Part::ui_draw) - of(Part::swap);
   report["times_run"] = counts;
+  report["copied_bytes_per_frame"] = drawn_ > 0 ? double(copied_) / double(drawn_) : 0;
   nlohmann::ordered_json start;
   double before = 0;
   for (std::size_t k = 0; k < start_names.size(); ++k) {

@@ -42,7 +42,7 @@ struct First {
 class Sandbox {
  public:
   explicit Sandbox(const SandboxOptions& options);
-  ~Sandbox() { app_.renderer.reset(); }  // while the window's context lives
+  ~Sandbox() { app_.simulation.reset(), app_.renderer.reset(); }  // while the window's context lives
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
   int run();
@@ -266,6 +266,7 @@ void Sandbox::draw_cloth() {
   if (same) return;
   app_.renderer->update(*app_.simulation, app_.view);
   {
+  if (!app_.building.holds_present()) app_.renderer->lend_memory(*app_.simulation);
     const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
     app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
   }
@@ -275,6 +276,7 @@ void Sandbox::draw_cloth() {
   app_.costs.add(Part::shadow, work.shadow);
   drawn_revision_ = app_.simulation->revision();
   drawn_camera_ = app_.camera, drawn_view_ = app_.view, drawn_size_ = size;
+  if (work.moved) app_.costs.add_copied(work.copied);
   app_.redraw_cloth = false;
 }
 

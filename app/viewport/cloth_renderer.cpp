@@ -64,6 +64,7 @@ struct ClothRenderer::Parts {
   // What update() saw last.
   const Simulation* simulation = nullptr;
   std::uint64_t revision = 0, tear_revision = 0;
+  std::uint64_t engine_copied = 0;
 
   void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
   void take_preset(const Preset& next);
@@ -105,6 +106,10 @@ std::optional<std::string> ClothRenderer::set_texture(const ClothPicture& pictur
   return std::nullopt;
 }
 
+void ClothRenderer::lend_memory(Simulation& simulation) {
+  parts_->mesh.lend(simulation.engine());
+}
+
 void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   Parts& p = *parts_;
   // Another simulation may stand where the last one stood, with the same count of changes.
@@ -114,9 +119,12 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   p.simulation = &simulation;
   p.revision = simulation.revision();
   p.tear_revision = simulation.tear_revision();
-  const ClothScene scene{simulation.positions(), simulation.lattice(), simulation.tears(), simulation.preset(),
+  const ClothScene scene{simulation.engine().shown(), simulation.lattice(), simulation.tears(), simulation.preset(),
                          [&](int i, int j) { return simulation.pinned(i, j); }};
   p.take(scene, options, moved, topology_changed);
+  const std::uint64_t copied = simulation.engine().copied();
+  p.work.copied += copied - std::min(copied, p.engine_copied);
+  p.engine_copied = copied;
 }
 
 void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, bool topology_changed) {
@@ -129,6 +137,7 @@ void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& opti
   every = options.every;
   if (every > 1) {
     drawn.take(scene, every, moved, topology_changed);
+    if (moved) work.copied += drawn.bytes();
     mesh.update(drawn.scene(scene), options, moved, topology_changed, work);
   } else {
     mesh.update(scene, options, moved, topology_changed, work);
@@ -373,6 +382,7 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   if (options.ground) p.draw_ground(options);
   if (!p.one_weight()) p.draw_blended(options);
   p.target.resolve();
+  p.mesh.drawn();
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, 0);
