@@ -12,6 +12,7 @@
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
+#include "app/sandbox/preparing.h"
 #include "app/sandbox/sampling.h"
 #include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
@@ -108,6 +109,7 @@ void Sandbox::start_preset() {
   First first = first_.get();
   if (!first.fallback.empty()) app_.messages.warning(first.fallback);
   app_.simulation = std::move(first.simulation);
+  app_.building.prepare_programs = prepare_programs;
   begin_document(app_, first_document(), first.picture);
   if (options_.auto_dt) app_.auto_dt.emplace();
 }
@@ -264,9 +266,9 @@ void Sandbox::draw_cloth() {
   const bool same = app_.simulation->revision() == drawn_revision_ && app_.camera == drawn_camera_ &&
                     app_.view == drawn_view_ && size == drawn_size_ && !app_.redraw_cloth;
   if (same) return;
+  if (!app_.building.holds_present()) app_.renderer->lend_memory(*app_.simulation);
   app_.renderer->update(*app_.simulation, app_.view);
   {
-  if (!app_.building.holds_present()) app_.renderer->lend_memory(*app_.simulation);
     const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
     app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
   }
@@ -274,9 +276,9 @@ void Sandbox::draw_cloth() {
   app_.costs.add(Part::normals, work.normals);
   app_.costs.add(Part::upload, work.upload);
   app_.costs.add(Part::shadow, work.shadow);
+  if (work.moved) app_.costs.add_copied(work.copied);
   drawn_revision_ = app_.simulation->revision();
   drawn_camera_ = app_.camera, drawn_view_ = app_.view, drawn_size_ = size;
-  if (work.moved) app_.costs.add_copied(work.copied);
   app_.redraw_cloth = false;
 }
 

@@ -1,7 +1,9 @@
-"""A large cloth is built beside the frames: the window goes on meanwhile."""
+"""What takes long is built beside the frames: the window goes on meanwhile."""
 
 import json
 import os
+import subprocess
+import tempfile
 
 from cases import case, check, main
 
@@ -35,6 +37,27 @@ def frames_go_on(stage):
     check(report["preset"]["cloth"]["rows"] == LARGE and report["building"] is None, "it is the one that was asked for")
     check(not report["unsaved"], "as it stands in its file")
     stage.keep("large")
+
+
+@case
+def programs(stage):
+    """bending that is switched on on an OpenCL device comes with its program, and the cloth goes on until then"""
+    on_device = ("hanging", "--engine", "opencl", "--set", "k_b=0")
+    if subprocess.run([stage.tyglab, "run", *on_device, "--steps", "1"], capture_output=True).returncode != 0:
+        print("not tested: there is no OpenCL device here", flush=True)
+        return
+    with tempfile.TemporaryDirectory() as nothing_built:
+        os.environ["POCL_CACHE_DIR"] = os.environ["XDG_CACHE_HOME"] = nothing_built
+        sandbox = stage.start(*on_device)
+        sandbox.wait(lambda r: r["t"] > 0.05, "the cloth to move on the device")
+        before = sandbox.type_value("k_b", "3")
+        report = sandbox.wait(lambda r: r["preset"]["forces"]["k_b"] == 3, "bending")
+        check(report["frames_while_building"] >= 3, f"{report['frames_while_building']} frames were drawn meanwhile")
+        check(report["t"] > before["t"] and report["building"] is None, "the cloth went on")
+        check(not report["messages"], f"nothing was to be said, but: {report['messages']}")
+        stage.keep("programs")
+        sandbox.close()
+    del os.environ["POCL_CACHE_DIR"], os.environ["XDG_CACHE_HOME"]
 
 
 if __name__ == "__main__":
