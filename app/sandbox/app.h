@@ -13,6 +13,9 @@
 #include "app/sandbox/accuracy_watch.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
+#include "app/sandbox/cloth_views.h"
+#include "app/sandbox/copies.h"
+#include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
@@ -38,6 +41,7 @@ struct App {
   Document document;
   History history;
   Building building;
+  EngineSearch engine_search;
   Pacing pacing;
   Sleep sleep;
   StabilityWatch stability;
@@ -50,6 +54,8 @@ struct App {
   bool told_unconverged = false;    ///< that an implicit method's solves do not reach their tolerance, likewise
 
   std::unique_ptr<ClothRenderer> renderer;
+  ClothViews views;
+  Copies copies;
   Camera camera;
   ViewOptions view;
   Viewport viewport;

@@ -54,6 +54,7 @@ bool takes_long(const App& app, const Edit& edit) {
 
 void swap_in(App& app, std::unique_ptr<Simulation> simulation) {
   app.simulation.swap(simulation);
+  copies_resume(app);
   if (simulation != nullptr) app.building.dispose(std::move(simulation));
   app.sleep = Sleep{};
   app.redraw_cloth = true;  // its count of changes may be that of the last one
@@ -135,7 +136,7 @@ void Building::take(App& app, std::unique_ptr<Simulation> made, const BuildOrder
   const edit::Change change{order.target};
   if (order.programs) {
     const Preset before = app.preset();
-    app.simulation->apply(change);
+    apply_to_all(app, change);
     follow_up(app, before);
     return;
   }
@@ -152,7 +153,7 @@ void Building::go_on(App& app) {
   if (!next_->programs || needs_programs(app, change.preset)) return start(app);
   next_.reset();
   const Preset before = app.preset();
-  app.simulation->apply(change);
+  apply_to_all(app, change);
   follow_up(app, before);
 }
 

@@ -26,7 +26,7 @@ void spell_pins_as_saved(App& app) {
   if (app.preset().pins == saved.pins || !same_pins(app.preset(), saved)) return;
   Preset next = app.preset();
   next.pins = saved.pins;
-  app.simulation->apply(edit::Change{next});
+  apply_to_all(app, edit::Change{next});
 }
 
 /// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
@@ -53,7 +53,7 @@ void change_present(App& app, const Preset& before, const Preset& next) {
   if (app.building.holds_present() || change.preset == app.preset()) return;
   if (app.simulation->rebuilds(change) || needs_programs(app, change.preset)) return;
   const Preset old = app.preset();
-  app.simulation->apply(change);
+  apply_to_all(app, change);
   follow_up(app, old);
 }
 
@@ -116,6 +116,7 @@ bool rewind(App& app) {
   const double t = app.simulation->time();
   if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) return false;
   app.rewind.go_back(*app.simulation, t, rewinds_s);
+  copies_resume(app);
   app.tool.kind = Tool::Kind::none;
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();
   app.pacing.restart_measure();
@@ -180,6 +181,7 @@ void single_step(App& app) {
   if (app.building.holds_present()) return;
   move_hand(app, 1);
   app.steps_made += app.simulation->advance(1).steps;
+  copies_follow(app, 0);
 }
 
 void change_text_size(App& app, double factor) {
@@ -205,6 +207,8 @@ void apply(App& app, const request::Do& what) {
       return;
     case Command::toggle_auto:
       return toggle_auto(app);
+    case Command::choose_engine:
+      return app.engine_search.begin(app);
     case Command::toggle_play:
       app.pacing.playing = !app.pacing.playing, app.pacing.restart_measure();
       return;
@@ -308,6 +312,14 @@ void apply(App& app, const request::LoadTexture& what) {
   apply_edit(app, edit::Change{next});
 }
 
+void apply(App& app, const request::AddCopy& what) {
+  add_copy(app, what.differences, what.as_reference);
+}
+
+void apply(App& app, const request::RemoveCopy& what) {
+  remove_copy(app, what.index);
+}
+
 void apply(App& app, const request::Quit& what) {
   if (!what.confirmed && !app.scripted && unsaved(app)) {
     ask(app, Dialog::Kind::unsaved, "The changes of " + app.preset().name + " have not been saved.",
@@ -348,6 +360,11 @@ void follow_up(App& app, const Preset& before) {
   app.pacing.forget_cost();
 }
 
+void apply_to_all(App& app, const Edit& edit) {
+  app.simulation->apply(edit);
+  copies_apply(app, edit);
+}
+
 bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
   try {
     if (const auto* change = std::get_if<edit::Change>(&edit))
@@ -355,7 +372,7 @@ bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
     if (!take_texture(app, edit)) return false;
     if (const auto taken = build_beside(app, edit, gesture)) return *taken;
     const Preset before = app.preset();
-    app.simulation->apply(edit);
+    apply_to_all(app, edit);
     if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
     if (before == app.preset()) return true;
     record(app, before, app.preset(), gesture);

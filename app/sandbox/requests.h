@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/edit.h"
 
@@ -15,8 +16,9 @@ enum class Command {
   reset_constants,   ///< to the preset's, motion stays
   reset_everything,  ///< the preset, its start, the camera
   undo_and_restart,
-  rewind,       ///< a second back
-  toggle_auto,  ///< dt chosen and watched by the program
+  rewind,         ///< a second back
+  toggle_auto,    ///< dt chosen and watched by the program
+  choose_engine,  ///< measured by the program
   toggle_play,
   step,
   undo,
@@ -68,13 +70,22 @@ struct WriteCsv {
 struct LoadTexture {
   std::string name;  ///< shipped name or path
 };
+/// A copy that moves in lockstep, with these settings instead of the present ones ("k_s=80").
+struct AddCopy {
+  std::vector<std::string> differences;
+  bool as_reference = false;
+};
+struct RemoveCopy {
+  std::size_t index;
+};
 struct Quit {
   bool confirmed = false;
 };
 }  // namespace request
 
-using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
-                             request::LoadTexture, request::Retry, request::Quit>;
+using Request =
+    std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
+                 request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy, request::Quit>;
 
 struct App;
 /// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.
@@ -83,6 +94,9 @@ void apply_requests(App& app);
 void watch_dt(App& app);
 /// Applies one edit at once (the pointer's tools). Returns whether it was taken.
 bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
+/// Gives an edit to the cloth and its copies, with no more checks or traces than they make themselves. Throws as
+/// Simulation::apply.
+void apply_to_all(App& app, const Edit& edit);
 /// What follows where the cloth of these constants has given way to the present one.
 void follow_up(App& app, const Preset& before);
 /// Whether the present constants differ from those of the file (the view apart).

@@ -16,7 +16,6 @@
 #include "app/sandbox/sampling.h"
 #include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
-#include "app/viewport/drawn_cloth.h"
 #include "app/viewport/graphics_error.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
@@ -30,7 +29,6 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double settle_time = 0.3;          // s after an event
 constexpr double gesture_end = 0.6;          // s without a change
-constexpr double calm_stretch = 5;           // rest lengths; what is longer is not drawn of a diverged cloth
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
 
 /// The cloth that is shown first.
@@ -43,7 +41,10 @@ struct First {
 class Sandbox {
  public:
   explicit Sandbox(const SandboxOptions& options);
-  ~Sandbox() { app_.simulation.reset(), app_.renderer.reset(); }  // while the window's context lives
+  ~Sandbox() {  // while the window's context lives; first who works in its memory
+    app_.copies.lockstep.clear(), app_.simulation.reset();
+    app_.views = {}, app_.renderer.reset();
+  }
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
   int run();
@@ -78,10 +79,6 @@ class Sandbox {
   double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
   Image last_picture_;
-  std::uint64_t drawn_revision_ = ~0ull;
-  Camera drawn_camera_;
-  ViewOptions drawn_view_;
-  glm::ivec2 drawn_size_{0};
 };
 
 Sandbox::Sandbox(const SandboxOptions& options)
@@ -127,9 +124,10 @@ Document Sandbox::first_document() {
 }
 
 bool Sandbox::idle() const {
-  const bool still = !app_.pacing.playing || app_.simulation->divergence().has_value() || app_.asleep();
-  return still && !app_.scripted && !app_.building.in_work() && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ &&
-         app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
+  const bool over = app_.simulation->divergence().has_value() && !app_.copies.lockstep.alive();
+  const bool still = !app_.pacing.playing || over || app_.asleep();
+  return still && !app_.scripted && !app_.building.in_work() && !app_.engine_search.in_work() && busy_frames_ <= 0 &&
+         glfwGetTime() >= settle_until_ && app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
@@ -190,9 +188,13 @@ void Sandbox::simulate(double real_seconds) {
   app_.sleep.begin(simulation);
   if (const bool wanted = app_.ui.energy_shown || app_.auto_dt; wanted != simulation.ledger().has_value())
     simulation.keep_ledger(wanted);
-  if (!app_.pacing.playing || simulation.divergence() || app_.asleep() || app_.building.holds_present()) return;
-  app_.rewind.look(simulation);
+  if (!app_.pacing.playing || app_.asleep() || app_.building.holds_present() || app_.engine_search.in_work()) return;
   const double dt = app_.preset().dt;
+  if (simulation.divergence()) {
+    if (app_.copies.lockstep.alive()) app_.steps_made += copies_go_on(app_, app_.pacing.due(real_seconds, dt));
+    return;
+  }
+  app_.rewind.look(simulation);
   const int due = app_.pacing.due(real_seconds, dt);
   move_hand(app_, due);
   const auto start = std::chrono::steady_clock::now();
@@ -209,8 +211,10 @@ void Sandbox::simulate(double real_seconds) {
     const double cost = app_.pacing.step_cost_s();
     const bool cutting = app_.tool.kind == Tool::Kind::cut;
     const int piece = cost > 0 && !cutting ? std::clamp(int(0.25 * app_.pacing.budget_s / cost), 1, due - made) : 1;
+    const double before = spent();
     const Advance advance = simulation.advance(piece);
     made += advance.steps;
+    copies_follow(app_, spent() - before);
     cut_between_steps(app_);
     if (advance.left_inside > 0 && !app_.told_left_inside) {
       app_.messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
@@ -234,7 +238,7 @@ void Sandbox::simulate(double real_seconds) {
   app_.pacing.made(made, dt, spent());
   app_.steps_made += made;
   if (app_.auto_dt && !simulation.divergence()) watch_dt(app_);
-  if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none);
+  if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none || !app_.copies.lockstep.empty());
 }
 
 /// The device is gone: the CPU engine goes on from the last state that is kept.
@@ -251,35 +255,7 @@ void Sandbox::fall_back(const std::string& why) {
 
 void Sandbox::draw_cloth() {
   const glm::ivec2 window = window_.size(), framebuffer = window_.framebuffer_size();
-  const glm::vec2 magnified = window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1);
-  const glm::vec2 shown = app_.viewport.size();
-  const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
-  if (app_.wants_framing && shown.x > 1) {
-    app_.camera = scene_camera(app_.preset(), shown.x / shown.y);
-    app_.wants_framing = false;
-  }
-  app_.view.mode = app_.preset().mode;
-  app_.view.line_width = app_.theme.scale * 1.6f;
-  app_.view.point_size = app_.theme.scale * 9;
-  app_.view.longest_edge = app_.simulation->divergence() ? float(calm_stretch * app_.preset().L) : 0.f;
-  app_.view.every = drawn_every(app_.simulation->lattice(), size.x, size.y);
-  const bool same = app_.simulation->revision() == drawn_revision_ && app_.camera == drawn_camera_ &&
-                    app_.view == drawn_view_ && size == drawn_size_ && !app_.redraw_cloth;
-  if (same) return;
-  if (!app_.building.holds_present()) app_.renderer->lend_memory(*app_.simulation);
-  app_.renderer->update(*app_.simulation, app_.view);
-  {
-    const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
-    app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
-  }
-  const RenderWork work = app_.renderer->take_work();
-  app_.costs.add(Part::normals, work.normals);
-  app_.costs.add(Part::upload, work.upload);
-  app_.costs.add(Part::shadow, work.shadow);
-  if (work.moved) app_.costs.add_copied(work.copied);
-  drawn_revision_ = app_.simulation->revision();
-  drawn_camera_ = app_.camera, drawn_view_ = app_.view, drawn_size_ = size;
-  app_.redraw_cloth = false;
+  app_.views.draw(app_, window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1));
 }
 
 void Sandbox::draw_panels() {
@@ -337,6 +313,7 @@ void Sandbox::frame_parts() {
   rescale();
   take_dropped_files();
   app_.building.poll(app_);
+  app_.engine_search.poll(app_);
   handle_keys(app_);
   apply_requests(app_);
   handle_pointer(app_);

@@ -13,8 +13,8 @@ namespace tyglab {
 struct Layout {
   float left_width = 320, right_width = 344;  ///< at scale 1
   bool left = true, right = true, status = true;
-  std::set<std::string> folded{"Start", "Stability", "Accuracy", "Energy",
-                               "Performance"};  ///< sections that are closed
+  std::set<std::string> folded{"Start",  "Stability", "Accuracy",
+                               "Copies", "Energy",    "Performance"};  ///< sections that are closed
   bool operator==(const Layout&) const = default;
 };
 

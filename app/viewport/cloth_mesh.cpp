@@ -125,7 +125,7 @@ std::size_t ClothMesh::bytes() const {
   std::size_t total = (converted_.capacity() + normals_.capacity()) * sizeof(float);
   for (const gl::Buffer* buffer : {&position_buffer_, &normal_buffer_}) total += std::size_t(buffer->bytes());
   for (const IndexList& list : lists_) total += std::size_t(list.buffer.bytes());
-  return total + lent_.bytes() + mapped_normals_.bytes();
+  return total + mapped_normals_.bytes();
 }
 
 /// Copies a vector of every particle.

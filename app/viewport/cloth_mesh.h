@@ -17,6 +17,9 @@ namespace tyglab {
 
 class ClothMesh {
  public:
+  /// `loans`: of the window.
+  explicit ClothMesh(std::shared_ptr<PositionLoans> loans) : lent_(std::move(loans)) {}
+
   /// The index lists, each made when a view first needs it and thrown away with the topology.
   enum class List { triangles, straight, diagonal, bending, outlines, connections, particles, pins, count };
 
@@ -33,7 +36,7 @@ class ClothMesh {
 
   const Bounds& bounds() const { return bounds_; }
   int stride() const { return stride_; }
-  /// Of all buffers here, on either side of the bus.
+  /// Of all buffers here but lent ones, on either side of the bus.
   std::size_t bytes() const;
   const Lattice& lattice() const { return lattice_; }
 

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/stopwatch.h"
@@ -65,8 +66,16 @@ struct RenderWork {
   Duration normals, upload;
   Duration shadow;     ///< a part of draw()
   bool moved = false;  ///< the cloth had moved
-  std::size_t copied =
-      0;  ///< bytes of positions and normals that the program copied: 0 where OpenGL draws them in place
+  /// Bytes of positions and normals that the program copied: 0 where OpenGL draws them in place.
+  std::size_t copied = 0;
+};
+
+class ClothRenderer;
+
+/// Another cloth, drawn as lines over the picture of the first.
+struct Ghost {
+  const ClothRenderer* cloth = nullptr;  ///< updated with view 4
+  glm::vec3 colour{1};
 };
 
 class ClothRenderer {
@@ -74,6 +83,8 @@ class ClothRenderer {
   /// Needs a current OpenGL 3.3 context whose functions are loaded. Throws GraphicsError (with the compiler's log) and
   /// DataFileError.
   ClothRenderer();
+  /// For a second cloth with the same picture: shares shaders and texture with the first.
+  explicit ClothRenderer(const ClothRenderer& sibling);
   ~ClothRenderer();
 
   /// Takes a picture as the cloth's texture. A bad file gives a sentence about it, and the old texture stays.
@@ -82,7 +93,7 @@ class ClothRenderer {
   std::optional<std::string> set_texture(const ClothPicture& picture);
 
   /// Lends the simulation's engine memory of OpenGL's, if it can use it, so that its positions need not be copied. The
-  /// engine steps no more once the renderer is gone. Not while another thread reads the simulation.
+  /// engine steps no more once this renderer and its siblings are gone. Not while another thread reads the simulation.
   void lend_memory(Simulation& simulation);
   /// Uploads what changed since the last call and what this view needs: nothing where nothing moved, normals only in
   /// lit views, index lists only after tears or a change of view.
@@ -91,18 +102,20 @@ class ClothRenderer {
   void update(const ClothScene& scene, const ViewOptions& options, bool topology_changed);
 
   /// Draws into its own multisampled target of that size (pixels) and resolves it. Restores framebuffer and viewport.
-  void draw(const Camera& camera, const ViewOptions& options, int width, int height);
+  void draw(const Camera& camera, const ViewOptions& options, int width, int height,
+            std::span<const Ghost> ghosts = {});
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
   /// What was done since the last call.
   RenderWork take_work();
-  /// Of the buffers that grow with the cloth.
+  /// Of the buffers that grow with the cloth, and what is lent to siblings' engines too.
   std::size_t bytes() const;
   /// What was drawn last.
   Image pixels() const;
 
  private:
+  struct Shared;
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -4,11 +4,11 @@
 
 namespace tyglab {
 
-void LentPositions::lend(Engine& engine) {
+void PositionLoans::lend(Engine& engine) {
   const std::size_t wanted = engine.wants_memory();
   if (wanted == 0 || no_room_ || !gl::MappedBuffer::available()) return;
   try {
-    auto loan = std::unique_ptr<Loan>(new Loan{{PositionMemory::count, wanted}, std::make_shared<PositionMemory>()});
+    auto loan = std::shared_ptr<Loan>(new Loan{{PositionMemory::count, wanted}, std::make_shared<PositionMemory>()});
     for (int n = 0; n < PositionMemory::count; ++n) loan->memory->slots[std::size_t(n)] = loan->buffer.slot(n);
     loan->memory->bytes = loan->buffer.slot_bytes();
     if (engine.take_memory(loan->memory)) loans_.push_back(std::move(loan));
@@ -17,36 +17,39 @@ void LentPositions::lend(Engine& engine) {
   }
 }
 
-std::optional<VertexSource> LentPositions::show(const float* positions) {
-  Loan* next = nullptr;
-  std::optional<std::size_t> offset;
+std::shared_ptr<PositionLoans::Loan> PositionLoans::find(const float* positions) const {
   for (const auto& loan : loans_)
-    if (const auto at = loan->buffer.offset_of(positions)) next = loan.get(), offset = at;
-  const int slot = next != nullptr ? next->buffer.slot_of(positions) : -1;
-  if (shown_ != nullptr && (shown_ != next || shown_->memory->shown != slot)) {
-    shown_->buffer.wait(shown_->memory->shown);
-    shown_->memory->shown = -1;
-  }
-  shown_ = next;
-  if (next != nullptr) next->memory->shown = slot;
-  give_back(next);
-  return next != nullptr ? std::optional(VertexSource{next->buffer.id(), *offset}) : std::nullopt;
+    if (loan->buffer.offset_of(positions)) return loan;
+  return nullptr;
 }
 
-void LentPositions::drawn() {
-  if (shown_ != nullptr) shown_->buffer.drawn(shown_->memory->shown);
-}
-
-/// Frees the memory of engines that are gone.
-void LentPositions::give_back(Loan* but) {
-  std::erase_if(loans_, [but](const auto& loan) { return loan.get() != but && loan->memory.use_count() == 1; });
+void PositionLoans::take_back() {
+  std::erase_if(loans_, [](const auto& loan) { return loan.use_count() == 1 && loan->memory.use_count() == 1; });
   std::atomic_thread_fence(std::memory_order_acquire);  // the engine may have ended in another thread
 }
 
-std::size_t LentPositions::bytes() const {
+std::size_t PositionLoans::bytes() const {
   std::size_t total = 0;
   for (const auto& loan : loans_) total += loan->buffer.bytes();
   return total;
+}
+
+std::optional<VertexSource> LentPositions::show(const float* positions) {
+  auto next = loans_->find(positions);
+  const int slot = next ? next->buffer.slot_of(positions) : -1;
+  if (shown_ && (shown_ != next || shown_->memory->shown != slot)) {
+    shown_->buffer.wait(shown_->memory->shown);
+    shown_->memory->shown = -1;
+  }
+  shown_ = std::move(next);
+  loans_->take_back();
+  if (!shown_) return std::nullopt;
+  shown_->memory->shown = slot;
+  return VertexSource{shown_->buffer.id(), *shown_->buffer.offset_of(positions)};
+}
+
+void LentPositions::drawn() {
+  if (shown_) shown_->buffer.drawn(shown_->memory->shown);
 }
 
 float* MappedNormals::next(std::size_t bytes) {

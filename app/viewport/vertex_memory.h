@@ -16,28 +16,41 @@ struct VertexSource {
   std::size_t offset = 0;
 };
 
-/// Lends engines memory of vertex buffers, and sees that they do not write what is being drawn.
-class LentPositions {
+/// Memory of vertex buffers that is lent to engines, of all cloths of a window. It stays until the engine is gone, even
+/// where the cloth is not drawn any more.
+class PositionLoans {
  public:
+  struct Loan {
+    gl::MappedBuffer buffer;
+    std::shared_ptr<PositionMemory> memory;
+  };
   /// Lends memory to an engine that wants some, where OpenGL has such buffers; otherwise its positions are copied.
   void lend(Engine& engine);
+  /// The loan that these positions lie in; null: none.
+  std::shared_ptr<Loan> find(const float* positions) const;
+  /// Frees the memory of engines that are gone, unless it is drawn.
+  void take_back();
+  std::size_t bytes() const;
+
+ private:
+  std::vector<std::shared_ptr<Loan>> loans_;
+  bool no_room_ = false;
+};
+
+/// A cloth's positions in lent memory: sees that its engine does not write what is being drawn.
+class LentPositions {
+ public:
+  explicit LentPositions(std::shared_ptr<PositionLoans> loans) : loans_(std::move(loans)) {}
+  void lend(Engine& engine) { loans_->lend(engine); }
   /// Where positions lie that are to be drawn next, if they are in lent memory: they stay as they are until others are
   /// shown.
   std::optional<VertexSource> show(const float* positions);
   /// What is shown has been drawn.
   void drawn();
-  std::size_t bytes() const;
 
  private:
-  struct Loan {
-    gl::MappedBuffer buffer;
-    std::shared_ptr<PositionMemory> memory;
-  };
-  void give_back(Loan* but);
-
-  std::vector<std::unique_ptr<Loan>> loans_;
-  Loan* shown_ = nullptr;
-  bool no_room_ = false;
+  std::shared_ptr<PositionLoans> loans_;
+  std::shared_ptr<PositionLoans::Loan> shown_;
 };
 
 /// Memory for normals, beside lent positions.

@@ -37,6 +37,13 @@ class Stage {
   }
   const Image& picture() const { return picture_; }
   ClothRenderer& sharing() { return sharing_; }
+  /// Lends the simulation a sibling's memory, draws it, and lets the sibling go.
+  void draw_once_by_a_sibling(Simulation& simulation) {
+    ClothRenderer sibling(sharing_);
+    sibling.lend_memory(simulation);
+    draw(sibling, simulation);
+    CHECK(sibling.take_work().copied == 0);
+  }
 
  private:
   const Image& draw(ClothRenderer& renderer, Simulation& simulation) {
@@ -94,6 +101,16 @@ TEST_CASE(
   CHECK(stage.copied_for(simulation, 1) > 0);
   change([](Preset& p) { p.engine = EngineKind::opencl; });
   CHECK(stage.copied_for(simulation, 1) == 0);
+}
+
+TEST_CASE("an engine goes on in its memory where the renderer that drew it is gone") {
+  if (!test::device_there()) return;
+  Stage stage;
+  Simulation plain(scene(EngineKind::opencl, Precision::float_)), lent(plain.preset());
+  stage.draw_once_by_a_sibling(lent);
+  plain.advance(50), lent.advance(50);
+  CHECK(lent.read().x.y == plain.read().x.y);
+  CHECK(stage.copied_for(lent, 1) == 0);
 }
 
 TEST_CASE("the memory of engines that are gone is given back") {

@@ -60,5 +60,21 @@ def programs(stage):
     del os.environ["POCL_CACHE_DIR"], os.environ["XDG_CACHE_HOME"]
 
 
+@case
+def automatic(stage):
+    """"Automatic" in the engine's menu takes the engine that is quickest, and says why"""
+    sandbox = stage.start("hanging")
+    sandbox.click_control("top.engine")
+    sandbox.control("menu.automatic_engine")
+    stage.keep("menu")
+    sandbox.click_control("menu.automatic_engine")
+    report = sandbox.wait(lambda r: any(text.startswith("Automatic: ") for text in r["messages"]), "a choice")
+    stage.keep("chosen")
+    why = next(text for text in report["messages"] if text.startswith("Automatic: "))
+    chosen = "cpu" if why.startswith("Automatic: the CPU engine") else "opencl"
+    report = sandbox.wait(lambda r: r["preset"]["solver"]["engine"] == chosen and r["building"] is None, f"engine {chosen}")
+    sandbox.wait(lambda r: r["t"] > report["t"], "the cloth to go on")
+
+
 if __name__ == "__main__":
     main()
