@@ -60,6 +60,31 @@ def programs(stage):
     del os.environ["POCL_CACHE_DIR"], os.environ["XDG_CACHE_HOME"]
 
 
+def costs(sandbox, engine):
+    """What --time-report says of some frames on an engine; None where it is not there."""
+    out = os.path.join(sandbox.own.name, f"{engine}.json")
+    done = subprocess.run([sandbox.tyglab, "hanging", "--engine", engine, "--frames", "20", "--time-report", out],
+                          env=sandbox.environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        return None
+    with open(out) as file:
+        return json.load(file)
+
+
+@case
+def copied(stage):
+    """the time report tells what is copied for drawing: nothing where a processor's kernels write OpenGL's memory"""
+    sandbox = stage.start("hanging", "--engine", "opencl")
+    sandbox.wait(lambda r: "plots.Performance" in r["controls"], "the Performance card")
+    sandbox.click_control("plots.Performance")
+    sandbox.later(5)
+    stage.keep("performance")
+    check(costs(sandbox, "cpu")["copied_bytes_per_frame"] > 32 * 32 * 24, "the CPU engine's positions and normals are")
+    on_device = costs(sandbox, "opencl")
+    if "OpenCL" in on_device["engine"]:
+        check(on_device["copied_bytes_per_frame"] == 0, f"{on_device['copied_bytes_per_frame']} bytes a frame are copied")
+
+
 @case
 def automatic(stage):
     """"Automatic" in the engine's menu takes the engine that is quickest, and says why"""
