@@ -30,6 +30,7 @@ constexpr Entry keys[] = {
     {"R or Backspace", "restarts the motion, keeps the constants"},
     {"1 to 5", "the five views"},
     {"F", "frames the cloth"},
+    {"M", "maps which k_s and dt are stable"},
     {"Tab", "hides the panels"},
     {"F1 · F11", "this help · full screen"},
     {"Ctrl+O · Ctrl+S", "opens · saves a preset"},

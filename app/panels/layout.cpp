@@ -64,7 +64,7 @@ void draw_layout(App& app, ImVec2 window) {
   if (left + app.theme.px(140) > window.x) left = 0;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;
-  app.ui.accuracy_shown = app.copies.shown = false;
+  app.ui.accuracy_shown = app.ui.map_shown = app.copies.shown = false;
 
   viewport_panel(app, {{left, top}, {window.x - left - right, height}});
   if (panels) top_bar(app, {{0, 0}, {window.x, top}});

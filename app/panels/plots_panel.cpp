@@ -8,6 +8,7 @@
 #include "app/panels/curves.h"
 #include "app/panels/energy_card.h"
 #include "app/panels/imgui_compat.h"
+#include "app/panels/map_card.h"
 #include "app/panels/panels.h"
 #include "app/panels/performance.h"
 #include "app/panels/plot.h"
@@ -209,11 +210,37 @@ struct PlotCard {
   void (*draw)(App&, float height);
 };
 
+/// A button in a card's head, the n-th from the right; the cursor stays.
+bool head_button(App& app, const Region& inner, int n, const char* id, const char* glyph, const char* word,
+                 const char* tip) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = app.theme.px(22);
+  ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side - float(n) * (side + app.theme.px(4)), inner.at.y});
+  const bool clicked = quiet_button(app, id, glyph, word, tip);
+  report_control(app, id);
+  ImGui::SetCursorScreenPos(at);
+  return clicked;
+}
+
 void copies_plot_card(App& app, float height) {
   const bool energy = app.copies.plotted == Copies::Quantity::energy;
   const Card card(app, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
                   energy ? "J" : "m, log", height);
+  if (head_button(app, card.inner(), 0, "csv_copies", icon::download, "CSV",
+                  "Write what the plot holds as a CSV file…"))
+    app.command(Command::export_copies);
   copies_plot(app, card.inner().size);
+}
+
+void map_plot_card(App& app, float height) {
+  const bool weight = app.preset().kind == Kind::one_weight;
+  const Card card(app, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
+                  app.map.busy() ? "measuring" : "", height);
+  const Region& inner = card.inner();
+  if (head_button(app, inner, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
+  if (head_button(app, inner, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
+    app.command(Command::export_map);
+  stability_map(app, inner.size);
 }
 
 std::vector<PlotCard> plot_cards(const App& app) {
@@ -221,6 +248,7 @@ std::vector<PlotCard> plot_cards(const App& app) {
   if (app.preset().kind == Kind::one_weight) cards.push_back({"Height", height_card});
   cards.push_back({"Forces", force_card});
   if (!app.copies.lockstep.empty()) cards.push_back({"Copies", copies_plot_card});
+  if (app.settings.layout.map) cards.push_back({"Map", map_plot_card});
   return cards;
 }
 
@@ -254,7 +282,8 @@ void plots_panel(App& app, const Region& region) {
   Plots& plots = app.ui.plots;
   const float margin = app.theme.px(12), gap = app.theme.px(12);
   if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
-  const float column = ImGui::GetContentRegionAvail().y, least_plots = app.theme.px(260);
+  const float column = ImGui::GetContentRegionAvail().y,
+              least_plots = app.theme.px(app.settings.layout.map ? 340.f : 260.f);
   std::array foot_cards{FootCard{performance_card_height, performance_card}, FootCard{energy_card_height, energy_card},
                         FootCard{accuracy_card_height, accuracy_card}, FootCard{stability_card_height, stability_card},
                         FootCard{copies_card_height, copies_card}};

@@ -42,6 +42,8 @@ void document_menu(App& app) {
     app.settings.layout.left = !app.settings.layout.left;
   if (ImGui::MenuItem("Plots", nullptr, app.settings.layout.right))
     app.settings.layout.right = !app.settings.layout.right;
+  if (ImGui::MenuItem("Map of k_s and dt", "M", app.settings.layout.map)) app.command(Command::toggle_map);
+  report_control(app, "map");
   if (ImGui::MenuItem("Hints", nullptr, app.settings.layout.status))
     app.settings.layout.status = !app.settings.layout.status;
   item("All panels", "Tab", Command::toggle_panels);

@@ -20,6 +20,7 @@
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
 #include "app/sandbox/input.h"
+#include "app/sandbox/map_watch.h"
 #include "app/sandbox/messages.h"
 #include "app/sandbox/pointer.h"
 #include "app/sandbox/requests.h"
@@ -46,6 +47,7 @@ struct App {
   Sleep sleep;
   StabilityWatch stability;
   AccuracyWatch accuracy;
+  MapWatch map;
   Rewind rewind;
   Figure figure;
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's

@@ -14,8 +14,6 @@
 namespace tyglab {
 namespace {
 
-constexpr int last_tab = 99;  // of the plots: the copies'
-
 void say(App& app, const std::vector<std::string>& gone) {
   for (const std::string& sentence : gone) app.messages.warning(sentence);
   if (gone.empty()) return;
@@ -100,7 +98,7 @@ void add_copy(App& app, const std::vector<std::string>& differences, bool as_ref
   copies.forget();
   app.tool.kind = Tool::Kind::none;  // all have been loaded anew, and the hand has let go
   app.settings.layout.folded.erase("Copies");
-  app.ui.plots.tab = last_tab;
+  app.ui.plots.tab = Plots::newest;
   app.wants_framing |= !copies.overlaid;
   app.redraw_cloth = true;
 }

@@ -22,7 +22,7 @@ struct Shortcut {
   bool repeats = false;
 };
 
-constexpr std::array<Shortcut, 28> shortcuts{{
+constexpr std::array<Shortcut, 29> shortcuts{{
     {GLFW_KEY_SPACE, 0, Command::toggle_play},
     {GLFW_KEY_RIGHT, 0, Command::step, true},
     {GLFW_KEY_O, 0, Command::step, true},
@@ -32,6 +32,7 @@ constexpr std::array<Shortcut, 28> shortcuts{{
     {GLFW_KEY_F1, 0, Command::toggle_help},
     {GLFW_KEY_TAB, 0, Command::toggle_panels},
     {GLFW_KEY_F, 0, Command::frame_cloth},
+    {GLFW_KEY_M, 0, Command::toggle_map},
     {GLFW_KEY_F11, 0, Command::full_screen},
     {GLFW_KEY_S, control, Command::save},
     {GLFW_KEY_S, control | shift, Command::save_as},

@@ -5,11 +5,11 @@
 #include <new>
 
 #include "app/data_files.h"
-#include "app/panels/curves.h"
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
+#include "app/sandbox/exports.h"
 #include "core/cloth/start.h"
 #include "core/notation/preset_io.h"
 
@@ -170,6 +170,17 @@ void follow_constants(App& app, Preset& next) {
   if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
 }
 
+void toggle_map(App& app) {
+  Layout& layout = app.settings.layout;
+  layout.map = !layout.map;
+  if (layout.map) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
+}
+
+void open_export(App& app, CsvSource source) {
+  app.ui.dialog.csv = source;
+  open_dialog(app, Dialog::Kind::export_csv);
+}
+
 void reset_everything(App& app) {
   take_back(app, app.document.saved);
   restart(app);
@@ -230,17 +241,21 @@ void apply(App& app, const request::Do& what) {
     case Command::load_texture_dialog:
       return open_dialog(app, Dialog::Kind::texture);
     case Command::export_forces:
-      app.ui.dialog.height = false;
-      return open_dialog(app, Dialog::Kind::export_csv);
+      return open_export(app, CsvSource::forces);
     case Command::export_height:
-      app.ui.dialog.height = true;
-      return open_dialog(app, Dialog::Kind::export_csv);
+      return open_export(app, CsvSource::height);
     case Command::toggle_help:
       app.ui.help = !app.ui.help;
       return;
     case Command::toggle_panels:
       app.ui.panels = !app.ui.panels;
       return;
+    case Command::toggle_map:
+      return toggle_map(app);
+    case Command::export_map:
+      return open_export(app, CsvSource::map);
+    case Command::export_copies:
+      return open_export(app, CsvSource::copies);
     case Command::full_screen:
       app.toggle_full_screen = true;
       return;
@@ -296,10 +311,8 @@ bool apply(App& app, const request::SavePreset& what) {
 }
 
 void apply(App& app, const request::WriteCsv& what) {
-  const Series& series = what.height ? app.ui.plots.height : app.ui.plots.forces;
-  const std::vector<std::string> names = what.height ? height_column_names() : force_column_names();
   try {
-    write_atomically(what.file, series.csv(names, "tyglab series, t in s, preset hash " + preset_hash(app.preset())));
+    write_atomically(what.file, csv_export(what.source).text(app));
     app.messages.note("Wrote " + what.file.string());
   } catch (const OutputError& error) {
     app.messages.error(error.what());

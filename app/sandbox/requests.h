@@ -32,12 +32,18 @@ enum class Command {
   export_height,
   toggle_help,
   toggle_panels,
+  toggle_map,
+  export_map,
+  export_copies,
   full_screen,
   larger_text,
   smaller_text,
   normal_text,
   quit,
 };
+
+/// What a CSV file is written from (exports.h), in its order.
+enum class CsvSource { forces, height, map, copies };
 
 namespace request {
 /// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.
@@ -65,7 +71,7 @@ struct SavePreset {
 };
 struct WriteCsv {
   std::filesystem::path file;
-  bool height = false;  ///< y(t) of the one weight, otherwise the forces
+  CsvSource source = CsvSource::forces;
 };
 struct LoadTexture {
   std::string name;  ///< shipped name or path

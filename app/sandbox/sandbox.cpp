@@ -328,6 +328,7 @@ void Sandbox::frame_parts() {
   draw_cloth();
   draw_panels();
   if (!app_.ui.accuracy_shown) app_.accuracy.drop();
+  if (!app_.ui.map_shown) app_.map.drop();
   present();
   const bool quiet = !ImGui::IsAnyItemActive() && app_.tool.kind == Tool::Kind::none;
   if (quiet && now - app_.ui.last_change > gesture_end) app_.history.end_gesture();

@@ -174,6 +174,8 @@ void add_simulation(Json& json, const App& app) {
   json["energy"] = energy(app);
   json["accuracy"] = accuracy(app);
   json["copies"] = copies(app);
+  const auto map = app.map.findings();
+  json["map_cells"] = map ? Json(map->cells.size()) : Json(nullptr);
   json["copies_reference"] = app.copies.reference;
   const auto next = app.building.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
