@@ -73,16 +73,21 @@ Simulation::Simulation(const Simulation& from)
       tear_revision_(from.tear_revision_),
       watch_(from.watch_) {}
 
-void Simulation::build(const Preset& preset) {
-  renew_engine(preset, lattice_of(preset));  // first: it alone can fail
-  tears_ = Tears(lattice_);
-  pinned_mask_ = pinned_particles(preset_);
+void Simulation::build(const Preset& next) {
+  const Lattice lattice = lattice_of(next);
+  Tears whole(lattice);
+  std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
+  const Fixed fixed{particles_in(pinned_mask), {}};
+  engine_ = made_engine(next, lattice, fixed, start_rows(next), whole);
+  preset_ = next;
+  pinned_ = fixed.pinned;
+  lattice_ = lattice;
+  tears_ = std::move(whole);
+  pinned_mask_ = std::move(pinned_mask);
   held_ = {};
   hand_steps_left_ = 0;
   hand_force_ = {};
   left_inside_ = 0;
-  update_fixed();
-  engine_->load(start_rows(preset_), tears_);
   steps_ = steps_at_dt_ = 0;
   time_at_dt_ = 0;
   divergence_.reset();
@@ -90,13 +95,14 @@ void Simulation::build(const Preset& preset) {
   if (watch_) keep_ledger(true);
 }
 
-/// Makes the engine for these constants; throws EngineError and leaves everything as it was.
-void Simulation::renew_engine(const Preset& next, const Lattice& lattice) {
+/// An engine for these constants with that state. Throws EngineError; the present engine goes on then.
+std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
+                                                const StateRows& rows, const Tears& tears) const {
   auto engine = make_engine(next, lattice, threads_);
   engine->note_contacts(watch_.has_value());
-  engine_ = std::move(engine);
-  lattice_ = lattice;
-  preset_ = next;
+  engine->set_fixed(fixed.pinned, fixed.held);
+  engine->load(rows, tears);
+  return engine;
 }
 
 double Simulation::time() const {
@@ -154,11 +160,9 @@ bool Simulation::converts(const Preset& next) const {
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {
-  const double now = time();
-  renew_engine(next, lattice_);
-  time_at_dt_ = now, steps_at_dt_ = steps_;
-  engine_->set_fixed(pinned_, held_);
-  engine_->load(state, tears_);
+  engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_);
+  rebase_time();
+  preset_ = next;
 }
 
 void Simulation::take_pins(const Preset& old) {
@@ -203,12 +207,15 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
 /// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
 /// the hand stay.
 void Simulation::restart_untouched(const Preset& next) {
-  renew_engine(next, lattice_);
+  std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
+  const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
+  const Fixed fixed{particles_in(pinned_mask), held};
+  engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_);
+  preset_ = next;
   divergence_.reset();
-  pinned_mask_ = pinned_particles(preset_);
-  if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
-  update_fixed();
-  engine_->load(start_rows(preset_), tears_);
+  pinned_mask_ = std::move(pinned_mask);
+  pinned_ = fixed.pinned;
+  held_ = held;
 }
 
 void Simulation::grab(const edit::Grab& e) {

@@ -107,8 +107,14 @@ class Simulation {
  private:
   /// A copy of all but the engine and what is read of it.
   Simulation(const Simulation& from);
-  void build(const Preset& preset);
-  void renew_engine(const Preset& next, const Lattice& lattice);
+  void build(const Preset& next);
+  /// Particles that do not move freely.
+  struct Fixed {
+    std::vector<int> pinned;
+    Held held;
+  };
+  std::unique_ptr<Engine> made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
+                                      const StateRows& rows, const Tears& tears) const;
   bool converts(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins(const Preset& old);

@@ -172,3 +172,11 @@ kernel void combine(global REAL* d, global const REAL* a, REAL keep, REAL add) {
   const int n = (int)get_global_id(0);
   d[n] = keep * d[n] + add * a[n];
 }
+
+#ifdef REAL_IS_DOUBLE
+/// The same numbers in float, for who draws: eight a work-item.
+kernel void to_float(global const REAL* x, global float* out) {
+  const size_t n = get_global_id(0);
+  vstore8(convert_float8(vload8(n, x)), n, out);
+}
+#endif

@@ -9,6 +9,9 @@
 #include <functional>
 #include <iostream>
 
+#include "app/viewport/graphics_error.h"
+#include "app/viewport/headless_context.h"
+#include "app/viewport/mapped_buffer.h"
 #include "core/engines/engine.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
@@ -27,7 +30,7 @@ void print_cpu() {
     std::cout << "  " << name_of(precision) << ": " << make_engine(preset, {preset.rows, preset.columns}, 1)->name()
               << '\n';
   }
-  std::cout << "  OpenGL: positions are copied into a buffer when they moved\n";
+  std::cout << "  OpenGL: positions are copied into its vertex buffer in every frame in which they moved\n";
 }
 
 std::string verdict(const OpenClProbe& probe) {
@@ -35,11 +38,26 @@ std::string verdict(const OpenClProbe& probe) {
   return probe.problem.empty() ? "works (a test kernel was built, run and checked)" : "fails: " + probe.problem;
 }
 
+/// Whether OpenGL here, without a window, lends memory of its own.
+bool opengl_lends_memory() {
+  try {
+    const HeadlessContext context;
+    return gl::MappedBuffer::available();
+  } catch (const GraphicsError&) {
+    return false;
+  }
+}
+
 /// How positions come to where OpenGL draws them.
-const char* sharing(const OpenClDevice& device) {
-  return device.shared_memory
-             ? "positions are read where the device writes them, and copied into a buffer of OpenGL's when they moved"
-             : "positions are read back into main memory, and copied into a buffer of OpenGL's, when they moved";
+std::string sharing(const OpenClDevice& device, int number) {
+  static const bool lends = opengl_lends_memory();
+  if (opencl_works_in_place(number))
+    return lends ? "kernels write into its vertex buffer (ARB_buffer_storage), and nothing is copied"
+                 : "positions are copied once in every frame in which they moved, since OpenGL has no "
+                   "ARB_buffer_storage here";
+  return std::string("positions are read back and copied in every frame in which they moved; ") +
+         (device.gl_sharing ? "the device offers cl_khr_gl_sharing, which Tyglab does not use yet"
+                            : "the device offers no cl_khr_gl_sharing");
 }
 
 void print_device(const OpenClDevice& device, int number) {
@@ -48,8 +66,7 @@ void print_device(const OpenClDevice& device, int number) {
             << ")\n  platform: " << device.platform << "\n  version: " << device.version << ", driver " << device.driver
             << "\n  compute units: " << device.compute_units << ", memory: " << (device.memory_bytes >> 20)
             << " MiB\n  float: " << verdict(single) << "\n  double: " << verdict(twice)
-            << "\n  OpenGL: " << sharing(device)
-            << (device.gl_sharing ? "; offers cl_khr_gl_sharing" : "; no cl_khr_gl_sharing") << '\n';
+            << "\n  OpenGL: " << sharing(device, number) << '\n';
 }
 
 std::string names_of_methods(bool that_run) {

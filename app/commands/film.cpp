@@ -15,6 +15,7 @@ Film::Film(const Preset& preset, int view, PictureSize size)
 }
 
 void Film::shoot(Simulation& simulation, const std::filesystem::path& file) {
+  renderer_.lend_memory(simulation);
   renderer_.update(simulation, options_);
   renderer_.draw(camera_, options_, size_.width, size_.height);
   write_png(file, renderer_.pixels());

@@ -7,6 +7,7 @@
 
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
+#include "core/analysis/engine_choice.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/tolerance.h"
 #include "core/energy/auto_step.h"
@@ -73,7 +74,7 @@ int device_number(const std::string& engine) {
   const auto [end, error] = std::from_chars(first, last, number);
   if (engine.substr(0, colon) != "opencl" || error != std::errc() || end != last || number < 0)
     throw UsageError("--engine " + engine +
-                     ": allowed are cpu, opencl, and opencl:N with the number of a device (`tyglab devices`)");
+                     ": allowed are cpu, opencl, auto, and opencl:N with the number of a device (`tyglab devices`)");
   return number;
 }
 
@@ -110,8 +111,9 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
   command
       .add_option("--engine", engine,
                   "Where it runs: cpu, or opencl, on the first graphics card or else the first OpenCL device, or\n"
-                  "opencl:N on the device that `tyglab devices` gives that number")
-      ->type_name("cpu|opencl[:N]")
+                  "opencl:N on the device that `tyglab devices` gives that number; or auto: the one that is quickest\n"
+                  "in short runs of this scene, whose times are kept")
+      ->type_name("cpu|opencl[:N]|auto")
       ->check(not_empty());
   command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")
       ->type_name("float|double")
@@ -132,7 +134,7 @@ std::vector<Setting> PresetArgument::all_settings() const {
   };
   add("integrator", integrator);
   if (dt != automatic) add("dt", dt);
-  add("engine", engine.substr(0, engine.find(':')));
+  if (engine != automatic) add("engine", engine.substr(0, engine.find(':')));
   add("precision", precision);
   return all;
 }
@@ -155,6 +157,13 @@ void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
                      " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
                      "damping with --set k_d=…");
   resolved.preset.dt = *chosen;
+}
+
+void PresetArgument::choose_engine(ResolvedPreset& resolved) const {
+  if (sets("engine")) throw UsageError("--engine auto: chooses the engine itself; leave out --set engine");
+  resolved.engine_choice = std::make_shared<EngineChoice>(tyglab::choose_engine(resolved.preset, resolved.threads));
+  resolved.preset.engine = resolved.engine_choice->engine, resolved.preset.device = resolved.engine_choice->device;
+  std::cerr << "tyglab: --engine auto chose " << resolved.engine_choice->why << ".\n";
 }
 
 void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const {
@@ -186,6 +195,7 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
   if (tolerance) choose_by_tolerance(resolved, seconds);
   if (resolved.auto_dt) choose_dt(resolved);
   resolved.threads = threads > 0 ? threads : processors();
+  if (engine == automatic) choose_engine(resolved);
   return resolved;
 }
 

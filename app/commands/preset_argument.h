@@ -14,6 +14,7 @@
 
 namespace tyglab {
 
+struct EngineChoice;
 struct ToleranceChoice;
 
 /// The names of the shipped presets, sorted.
@@ -36,7 +37,8 @@ struct ResolvedPreset {
   PresetSource source;
   int threads = 1;       ///< of the CPU engine, at most
   bool auto_dt = false;  ///< --dt auto: dt is the one that AutoStep chose, and is to be watched
-  std::shared_ptr<const ToleranceChoice> choice = {};  ///< --tolerance: what was chosen, and why; null: not asked
+  std::shared_ptr<const ToleranceChoice> choice = {};      ///< --tolerance: what was chosen, and why; null: not asked
+  std::shared_ptr<const EngineChoice> engine_choice = {};  ///< --engine auto, likewise
 };
 
 /// Says in a line on stderr if the picture that the preset names is not there: who does not draw it would not notice.
@@ -55,7 +57,7 @@ struct PresetArgument {
   /// Reads the preset (`fallback` where none was typed) and applies the settings: --set
   /// first, then the options of their own. Throws PresetError for the file, UsageError for a setting. `commands`: words
   /// that might have been meant in place of the preset. A tolerance is tried on the first `seconds` of the motion,
-  /// where they are known, and what is chosen is said on stderr.
+  /// where they are known, and what is chosen, as of --engine auto, is said on stderr.
   ResolvedPreset resolve(const std::string& fallback = {}, const std::vector<std::string>& commands = {},
                          std::optional<double> seconds = {}) const;
   /// Whether anything of the scene was typed.
@@ -65,6 +67,7 @@ struct PresetArgument {
   std::vector<Setting> all_settings() const;
   bool sets(std::string_view key) const;
   void choose_dt(ResolvedPreset& resolved) const;
+  void choose_engine(ResolvedPreset& resolved) const;
   void choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const;
 };
 

@@ -11,6 +11,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/stepping.h"
+#include "core/analysis/engine_choice.h"
 #include "core/analysis/tolerance.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
@@ -183,6 +184,18 @@ Json choice_json(const ToleranceChoice* choice) {
   return {{"tried_s", choice->seconds}, {"agreement_rms_m", choice->agreement_rms_m}, {"reached", std::move(reached)}};
 }
 
+/// What --engine auto chose, and why; null where it was not asked.
+Json engine_choice_json(const EngineChoice* choice) {
+  if (!choice) return nullptr;
+  Json times = Json::array();
+  for (const EngineTime& time : choice->times)
+    times.push_back({{"engine", name_of(time.engine)},
+                     {"device", time.device < 0 ? Json(nullptr) : Json(time.device)},
+                     {"name", time.name},
+                     {"ns_per_particle_step", time.ns > 0 ? Json(time.ns) : Json(nullptr)}});
+  return {{"why", choice->why}, {"measured_now", choice->measured}, {"times", std::move(times)}};
+}
+
 /// What a method that chooses its own steps did; null for others.
 Json inner_steps_json(const Engine& engine) {
   const InnerSteps inner = engine.inner_steps();
@@ -222,6 +235,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"solves", solves_json(simulation.engine())},
           {"inner_steps", inner_steps_json(simulation.engine())},
           {"tolerance_choice", choice_json(scene.choice.get())},
+          {"engine_choice", engine_choice_json(scene.engine_choice.get())},
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"energy", energy_json(simulation)},

@@ -62,7 +62,9 @@ constexpr Feature features[] = {
      Spent::frame, Part::sample},
     {"normals", "Only views 1 and 3 have light.", [](const App& a) { return cloth(a) && a.view.lit(); }, Spent::frame,
      Part::normals},
-    {"upload", "Positions (and normals) go to the graphics card when something moved.",
+    {"upload",
+     "Positions (and normals) are copied for drawing when something moved; where the device writes them into "
+     "OpenGL's memory, nothing is.",
      [](const App& a) { return cloth(a); }, Spent::frame, Part::upload},
     {"shadow", "Drawn anew when something moved.", [](const App& a) { return a.view.shadows; }, Spent::frame,
      Part::shadow},
@@ -165,6 +167,8 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   }
   facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
+  const std::size_t copied = app.costs.last_copied();
+  facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B, shared memory"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
   facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});

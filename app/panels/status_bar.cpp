@@ -37,7 +37,11 @@ void status_bar(App& app, const Region& region) {
   const float y = std::round(region.at.y + (region.size.y - font.FontSize) / 2), margin = app.theme.px(16);
   char facts[128] = "";
   const Lattice& lattice = app.simulation->lattice();
-  if (const auto next = app.building.lattice()) {
+  if (app.engine_search.in_work()) {
+    std::snprintf(facts, sizeof facts, "Measuring the engines …");
+  } else if (app.building.programs()) {
+    std::snprintf(facts, sizeof facts, "Building the device's program …");
+  } else if (const auto next = app.building.lattice()) {
     std::snprintf(facts, sizeof facts, "Building %d × %d …", next->rows, next->columns);
   } else if (app.preset().kind == Kind::cloth) {
     const int torn = app.simulation->tears().torn_count();

@@ -201,6 +201,9 @@ void engine_combo(App& app, float width) {
       next.engine = choice.engine, next.precision = choice.precision;
       app.propose(std::move(next));
     }
+  if (ImGui::Selectable("Automatic")) app.command(Command::choose_engine);
+  report_control(app, "automatic_engine");
+  tooltip(app, gui::item_id(), "Takes the engine that is quickest with this scene, in this precision: by short runs.");
   if (preset.engine == EngineKind::opencl) device_choices(app);
   end_combo();
 }

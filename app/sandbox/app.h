@@ -15,6 +15,7 @@
 #include "app/sandbox/clock.h"
 #include "app/sandbox/cloth_views.h"
 #include "app/sandbox/copies.h"
+#include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
@@ -42,6 +43,7 @@ struct App {
   Document document;
   History history;
   Building building;
+  EngineSearch engine_search;
   Pacing pacing;
   Sleep sleep;
   StabilityWatch stability;

@@ -36,16 +36,20 @@ Preset rebased(const Preset& before, const Preset& after, const Preset& present)
   return next;
 }
 
+bool needs_programs(const App& app, const Preset& preset) {
+  if (preset.engine != EngineKind::opencl || app.scripted) return false;
+  const bool same_device = app.preset().engine == EngineKind::opencl && app.preset().device == preset.device;
+  return !same_device || (app.building.prepare_programs && !app.simulation->engine().ready_for(preset));
+}
+
 bool takes_long(const App& app, const Preset& preset) {
-  if (app.scripted) return false;
-  // A device's first programs take the compiler seconds.
-  const bool to_device = preset.engine == EngineKind::opencl && app.preset().engine != EngineKind::opencl;
-  return particles(preset) >= many_particles || to_device;
+  return !app.scripted && (particles(preset) >= many_particles || needs_programs(app, preset));
 }
 
 bool takes_long(const App& app, const Edit& edit) {
   const auto* change = std::get_if<edit::Change>(&edit);
-  return takes_long(app, change != nullptr ? change->preset : app.preset()) && app.simulation->rebuilds(edit);
+  const Preset& preset = change != nullptr ? change->preset : app.preset();
+  return app.simulation->rebuilds(edit) ? takes_long(app, preset) : change != nullptr && needs_programs(app, preset);
 }
 
 void swap_in(App& app, std::unique_ptr<Simulation> simulation) {
@@ -67,10 +71,15 @@ void Building::start(const App& app) {
   making_ = std::move(*next_);
   next_.reset();
   dropped_ = false;
-  work_ = std::async(std::launch::async, [order = *making_, present = app.simulation.get(), threads = app.threads] {
-    if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
-    return present->rebuilt(edit::Change{order.target});
-  });
+  const auto prepare = needs_programs(app, making_->target) ? prepare_programs : nullptr;
+  work_ = std::async(std::launch::async,
+                     [prepare, order = *making_, present = app.simulation.get(),
+                      threads = app.threads]() -> std::unique_ptr<Simulation> {
+                       if (prepare) prepare(order.target);
+                       if (order.programs) return nullptr;
+                       if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
+                       return present->rebuilt(edit::Change{order.target});
+                     });
 }
 
 void Building::rename(const std::string& name) {
@@ -119,17 +128,29 @@ void Building::finish(App& app) {
     if (next_) start(app);
     return;
   }
-  if (!(order.target == made->preset())) made->apply(edit::Change{order.target});  // it has been renamed
-  take_built(app, std::move(made), order);
+  take(app, std::move(made), order);
   if (next_) go_on(app);
+}
+
+void Building::take(App& app, std::unique_ptr<Simulation> made, const BuildOrder& order) {
+  const edit::Change change{order.target};
+  if (order.programs) {
+    const Preset before = app.preset();
+    apply_to_all(app, change);
+    follow_up(app, before);
+    return;
+  }
+  if (!(order.target == made->preset())) made->apply(change);  // it has been renamed
+  take_built(app, std::move(made), order);
 }
 
 /// From what has just been taken to what has been asked for since.
 void Building::go_on(App& app) {
   const edit::Change change{next_->target};
-  next_->fresh = false;
   if (change.preset == app.preset()) return next_.reset();
-  if (app.simulation->rebuilds(change)) return start(app);
+  next_->programs = !app.simulation->rebuilds(change);
+  next_->fresh = next_->programs;
+  if (!next_->programs || needs_programs(app, change.preset)) return start(app);
   next_.reset();
   const Preset before = app.preset();
   apply_to_all(app, change);
@@ -137,7 +158,7 @@ void Building::go_on(App& app) {
 }
 
 void Building::dispose(std::unique_ptr<Simulation> simulation) {
-  if (simulation->lattice().size() < many_particles) return;
+  if (simulation == nullptr || simulation->lattice().size() < many_particles) return;
   disposal_ = std::async(std::launch::async, [gone = std::move(simulation)]() mutable { gone.reset(); });
 }
 

@@ -1,9 +1,10 @@
 // Cloths that take longer to build than a frame lasts are built beside it, in a thread of their own; the present one
-// goes on meanwhile.
+// goes on meanwhile. So are the programs of OpenCL devices.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -29,10 +30,14 @@ struct BuildOrder {
   bool fresh = true;  ///< at its start; otherwise with the state of the present cloth, which must not change meanwhile
   bool restarts = false;             ///< a restart asked for it
   std::optional<Document> document;  ///< of a preset that is opened
+  bool programs = false;  ///< the present cloth is to have these constants, once programs have been built for them
 };
 
 class Building {
  public:
+  /// Builds the programs that the preset's device needs, beside the frames. None: they are built when they are needed.
+  std::function<void(const Preset&)> prepare_programs;
+
   bool in_work() const { return making_.has_value(); }
   /// Whether the present cloth is being read, so that it may neither step nor change.
   bool holds_present() const { return making_ && !making_->fresh; }
@@ -44,6 +49,8 @@ class Building {
   std::optional<Lattice> lattice() const {
     return wish() != nullptr ? std::optional(lattice_of(wish()->target)) : std::nullopt;
   }
+  /// Whether programs alone are built for it.
+  bool programs() const { return wish() != nullptr && wish()->programs; }
   /// Whether what has been asked for is a restart, or a preset that is opened.
   bool restarts() const { return wish() != nullptr && wish()->restarts; }
   bool opens() const { return wish() != nullptr && wish()->document.has_value(); }
@@ -66,6 +73,7 @@ class Building {
   bool of_use(const BuildOrder& made) const;
   void start(const App& app);
   void finish(App& app);
+  void take(App& app, std::unique_ptr<Simulation> made, const BuildOrder& order);
   void go_on(App& app);
   void give_up(App& app, const std::string& why);
 
@@ -80,6 +88,8 @@ class Building {
 
 /// Of the preset's cloth.
 double particles(const Preset& preset);
+/// Whether an OpenCL device must build programs before the present cloth has these constants.
+bool needs_programs(const App& app, const Preset& preset);
 /// Whether an edit takes so long that it is to be built beside the frames.
 bool takes_long(const App& app, const Edit& edit);
 /// The same of a preset that is opened.

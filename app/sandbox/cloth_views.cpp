@@ -29,6 +29,13 @@ ViewOptions view_of(const App& app, const Simulation& cloth, glm::ivec2 size) {
   return view;
 }
 
+void count(FrameCosts& costs, const RenderWork& work) {
+  costs.add(Part::normals, work.normals);
+  costs.add(Part::upload, work.upload);
+  costs.add(Part::shadow, work.shadow);
+  if (work.moved) costs.add_copied(work.copied);
+}
+
 }  // namespace
 
 ClothRenderer& ClothViews::renderer(App& app, int tile) {
@@ -55,6 +62,7 @@ bool ClothViews::take_ghosts(App& app, glm::ivec2 size) {
       view.every = std::max(view.every, std::max(cloth.lattice().rows, cloth.lattice().columns) / ghost_lines);
       ClothRenderer& its = renderer(app, n + 1);
       its.update(cloth, view);
+      count(app.costs, its.take_work());
       ghosts.push_back({&its, rgb(style_of_cloth(app, n).color)});
       revisions.push_back(cloth.revision());
     }
@@ -68,20 +76,19 @@ void ClothViews::draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_m
   const Drawn now{&cloth, cloth.revision(), app.camera, view_of(app, cloth, size), size};
   if (now == drawn_[std::size_t(tile)] && !app.redraw_cloth && !ghosts_moved) return;
   ClothRenderer& its = renderer(app, tile);
+  if (tile > 0 || !app.building.holds_present()) its.lend_memory(cloth);
   its.update(cloth, now.view);
   {
     const FrameCosts::Timer timer(app.costs, Part::draw_cloth);
     its.draw(app.camera, now.view, size.x, size.y, ghosts_);
   }
-  const RenderWork work = its.take_work();
-  app.costs.add(Part::normals, work.normals);
-  app.costs.add(Part::upload, work.upload);
-  app.costs.add(Part::shadow, work.shadow);
+  count(app.costs, its.take_work());
   drawn_[std::size_t(tile)] = now;
 }
 
 void ClothViews::draw(App& app, glm::vec2 magnified) {
   const glm::vec2 shown = app.viewport.size();
+  if (shown.x < 1) return;  // the layout has not been made yet
   const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
   if (app.wants_framing && shown.x > 1) {
     app.camera = scene_camera(app.preset(), shown.x / shown.y);

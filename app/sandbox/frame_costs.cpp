@@ -44,6 +44,8 @@ void FrameCosts::end_frame() {
     sum_[k].wall_s += now_[k].wall_s, sum_[k].cpu_s += now_[k].cpu_s;
   }
   now_ = {};
+  if (copied_now_) last_copied_ = *copied_now_, copied_ += *copied_now_, ++moved_;
+  copied_now_.reset();
 }
 
 std::string FrameCosts::json(int width, int height, const std::string& engine, const std::string& preset) const {
@@ -70,6 +72,7 @@ std::string FrameCosts::json(int width, int height, const std::string& engine, c
   report["own_cpu_ms_per_frame"] =
       of(Part::frame) - of(Part::simulate) - of(Part::draw_cloth) - of(Part::ui_draw) - of(Part::swap);
   report["times_run"] = counts;
+  report["copied_bytes_per_frame"] = moved_ > 0 ? double(copied_) / double(moved_) : 0;
   nlohmann::ordered_json start;
   double before = 0;
   for (std::size_t k = 0; k < start_names.size(); ++k) {

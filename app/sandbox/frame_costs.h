@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -40,12 +41,16 @@ class FrameCosts {
   /// That part of the start is over.
   void started(StartPart part);
   void add_steps(std::int64_t steps) { steps_ += steps; }
+  /// Bytes that were copied to draw a cloth that had moved.
+  void add_copied(std::size_t bytes) { copied_now_ = copied_now_.value_or(0) + bytes; }
+  /// Of the last such frame.
+  std::size_t last_copied() const { return last_copied_; }
   /// Closes the frame: what its parts took joins the means.
   void end_frame();
   /// Milliseconds a frame, over about the last second; 0 once a part has not run for a while.
   double recent_ms(Part part) const { return recent_ms_[std::size_t(part)]; }
-  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, what the
-  /// start took by part, frames, steps, size of the window.
+  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, bytes
+  /// copied in a frame in which the cloth had moved, what the start took by part, frames, steps, size of the window.
   std::string json(int width, int height, const std::string& engine, const std::string& preset) const;
 
  private:
@@ -54,6 +59,9 @@ class FrameCosts {
   std::array<double, part_names.size()> recent_ms_{};
   std::array<std::int64_t, part_names.size()> counts_{};
   std::int64_t frames_ = 0, steps_ = 0;
+  std::optional<std::size_t> copied_now_;  ///< of this frame; none: nothing had moved
+  std::size_t last_copied_ = 0, copied_ = 0;
+  std::int64_t moved_ = 0;                              ///< frames in which the cloth had moved
   std::array<double, start_names.size()> started_s_{};  ///< since the program began
 };
 

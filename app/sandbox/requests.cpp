@@ -50,7 +50,8 @@ void record(App& app, const Preset& before, const Preset& now, unsigned gesture)
 /// What changes while another cloth is in work is felt at once where that is quick.
 void change_present(App& app, const Preset& before, const Preset& next) {
   const edit::Change change{rebased(before, next, app.preset())};
-  if (app.building.holds_present() || change.preset == app.preset() || app.simulation->rebuilds(change)) return;
+  if (app.building.holds_present() || change.preset == app.preset()) return;
+  if (app.simulation->rebuilds(change) || needs_programs(app, change.preset)) return;
   const Preset old = app.preset();
   apply_to_all(app, change);
   follow_up(app, old);
@@ -69,7 +70,9 @@ bool goes_beside(const App& app, const Edit& edit) {
   const Building& building = app.building;
   if (building.holds_present()) return true;
   if (building.wished() == nullptr) return takes_long(app, edit);
-  return building.restarts() || app.simulation->rebuilds(edit);
+  const auto* change = std::get_if<edit::Change>(&edit);
+  return building.restarts() || app.simulation->rebuilds(edit) ||
+         (change != nullptr && needs_programs(app, change->preset));
 }
 
 /// Sees to an edit that takes long, or that comes while another cloth is in work: says whether it was taken. Nothing:
@@ -93,7 +96,9 @@ std::optional<bool> build_beside(App& app, const Edit& edit, unsigned gesture) {
   BuildOrder order;
   order.target = next;
   order.restarts = restarts || building.restarts();
-  order.fresh = order.restarts || lattice_of(next) != app.simulation->lattice() || next.kind != app.preset().kind;
+  order.programs = !order.restarts && !app.simulation->rebuilds(edit);
+  order.fresh = order.programs || order.restarts || lattice_of(next) != app.simulation->lattice() ||
+                next.kind != app.preset().kind;
   building.order(app, std::move(order), history);
   return true;
 }
@@ -214,6 +219,8 @@ void apply(App& app, const request::Do& what) {
       return;
     case Command::toggle_auto:
       return toggle_auto(app);
+    case Command::choose_engine:
+      return app.engine_search.begin(app);
     case Command::toggle_play:
       app.pacing.playing = !app.pacing.playing, app.pacing.restart_measure();
       return;

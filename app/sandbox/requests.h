@@ -16,8 +16,9 @@ enum class Command {
   reset_constants,   ///< to the preset's, motion stays
   reset_everything,  ///< the preset, its start, the camera
   undo_and_restart,
-  rewind,       ///< a second back
-  toggle_auto,  ///< dt chosen and watched by the program
+  rewind,         ///< a second back
+  toggle_auto,    ///< dt chosen and watched by the program
+  choose_engine,  ///< measured by the program
   toggle_play,
   step,
   undo,

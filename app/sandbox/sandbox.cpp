@@ -12,6 +12,7 @@
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
+#include "app/sandbox/preparing.h"
 #include "app/sandbox/sampling.h"
 #include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
@@ -40,7 +41,10 @@ struct First {
 class Sandbox {
  public:
   explicit Sandbox(const SandboxOptions& options);
-  ~Sandbox() { app_.views = {}, app_.renderer.reset(); }  // while the window's context lives
+  ~Sandbox() {  // while the window's context lives; first who works in its memory
+    app_.copies.lockstep.clear(), app_.simulation.reset();
+    app_.views = {}, app_.renderer.reset();
+  }
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
   int run();
@@ -102,6 +106,7 @@ void Sandbox::start_preset() {
   First first = first_.get();
   if (!first.fallback.empty()) app_.messages.warning(first.fallback);
   app_.simulation = std::move(first.simulation);
+  app_.building.prepare_programs = prepare_programs;
   begin_document(app_, first_document(), first.picture);
   if (options_.auto_dt) app_.auto_dt.emplace();
 }
@@ -121,8 +126,8 @@ Document Sandbox::first_document() {
 bool Sandbox::idle() const {
   const bool over = app_.simulation->divergence().has_value() && !app_.copies.lockstep.alive();
   const bool still = !app_.pacing.playing || over || app_.asleep();
-  return still && !app_.scripted && !app_.building.in_work() && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ &&
-         app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
+  return still && !app_.scripted && !app_.building.in_work() && !app_.engine_search.in_work() && busy_frames_ <= 0 &&
+         glfwGetTime() >= settle_until_ && app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
@@ -183,7 +188,7 @@ void Sandbox::simulate(double real_seconds) {
   app_.sleep.begin(simulation);
   if (const bool wanted = app_.ui.energy_shown || app_.auto_dt; wanted != simulation.ledger().has_value())
     simulation.keep_ledger(wanted);
-  if (!app_.pacing.playing || app_.asleep() || app_.building.holds_present()) return;
+  if (!app_.pacing.playing || app_.asleep() || app_.building.holds_present() || app_.engine_search.in_work()) return;
   const double dt = app_.preset().dt;
   if (simulation.divergence()) {
     if (app_.copies.lockstep.alive()) app_.steps_made += copies_go_on(app_, app_.pacing.due(real_seconds, dt));
@@ -308,6 +313,7 @@ void Sandbox::frame_parts() {
   rescale();
   take_dropped_files();
   app_.building.poll(app_);
+  app_.engine_search.poll(app_);
   handle_keys(app_);
   apply_requests(app_);
   handle_pointer(app_);

@@ -76,49 +76,71 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   }
   glBindVertexArray(array_.id());
   const bool needs_normals = options.lit() && (moved || !normals_ready_);
-  take_positions(view, moved);
-  if (needs_normals) {
-    const Stopwatch watch(work.normals);
-    make_normals(scene);
+  take_positions(view, moved, work);
+  if (moved) {
+    const auto lent = lent_.show(floats_.data);
+    in_place_ = lent.has_value();
+    set_attributes(0, lent ? *lent : copied(position_buffer_, floats_.data, work));
+    work.moved = true;
   }
+  if (needs_normals) set_attributes(3, make_normals(scene, work));
   normals_ready_ = needs_normals || (normals_ready_ && !moved);
   const Stopwatch watch(work.upload);
-  if (moved) set_attributes(0, position_buffer_, floats_.data);
-  if (needs_normals) set_attributes(3, normal_buffer_, normals_.data());
   for (int list = 0; list < int(List::count); ++list) {
     if (needs(options, List(list))) prepare(List(list), scene);
   }
   glBindVertexArray(0);
 }
 
-void ClothMesh::take_positions(const PositionView& view, bool moved) {
+void ClothMesh::take_positions(const PositionView& view, bool moved, RenderWork& work) {
   floats_ = {view.rows, view.columns, view.stride / 3, view.f[0]};
   if (view.f[0] == nullptr) {
     converted_.resize(floats_.size());
-    if (moved)
+    if (moved) {
       std::transform(view.d[0], view.d[0] + converted_.size(), converted_.begin(), [](double v) { return float(v); });
+      work.copied += converted_.size() * sizeof(float);
+    }
     floats_.data = converted_.data();
   }
   if (moved) bounds_ = finite_bounds(floats_);
 }
 
-void ClothMesh::make_normals(const ClothScene& scene) {
-  if (!beside_tears_) beside_tears_ = particles_beside_tears(lattice_, stride_, scene.tears);
-  compute_normals(floats_, scene.tears, *beside_tears_, normals_);
+/// Computes them where they are drawn, or else copies them there.
+VertexSource ClothMesh::make_normals(const ClothScene& scene, RenderWork& work) {
+  float* in_place = in_place_ ? mapped_normals_.next(floats_.size() * sizeof(float)) : nullptr;
+  if (in_place == nullptr) mapped_normals_.free(), normals_.resize(floats_.size());
+  {
+    const Stopwatch watch(work.normals);
+    if (!beside_tears_) beside_tears_ = particles_beside_tears(lattice_, stride_, scene.tears);
+    compute_normals(floats_, scene.tears, *beside_tears_, in_place != nullptr ? in_place : normals_.data());
+  }
+  return in_place != nullptr ? mapped_normals_.source() : copied(normal_buffer_, normals_.data(), work);
+}
+
+void ClothMesh::drawn() {
+  lent_.drawn(), mapped_normals_.drawn();
 }
 
 std::size_t ClothMesh::bytes() const {
   std::size_t total = (converted_.capacity() + normals_.capacity()) * sizeof(float);
   for (const gl::Buffer* buffer : {&position_buffer_, &normal_buffer_}) total += std::size_t(buffer->bytes());
   for (const IndexList& list : lists_) total += std::size_t(list.buffer.bytes());
-  return total;
+  return total + mapped_normals_.bytes();
 }
 
-/// Writes a vector of every particle, and names its components `first` to `first` + 2 for the shaders.
-void ClothMesh::set_attributes(GLuint first, gl::Buffer& buffer, const float* data) {
-  buffer.write(GL_ARRAY_BUFFER, data, floats_.size() * sizeof(float));
+/// Copies a vector of every particle.
+VertexSource ClothMesh::copied(gl::Buffer& to, const float* data, RenderWork& work) const {
+  const Stopwatch watch(work.upload);
+  to.write(GL_ARRAY_BUFFER, data, floats_.size() * sizeof(float));
+  work.copied += floats_.size() * sizeof(float);
+  return {to.id(), 0};
+}
+
+/// Names the components of a vector of every particle `first` to `first` + 2 for the shaders.
+void ClothMesh::set_attributes(GLuint first, const VertexSource& source) const {
+  glBindBuffer(GL_ARRAY_BUFFER, source.buffer);
   for (GLuint c = 0; c < 3; ++c) {
-    const std::size_t offset = c * std::size_t(floats_.component) * sizeof(float);
+    const std::size_t offset = source.offset + c * std::size_t(floats_.component) * sizeof(float);
     glVertexAttribPointer(first + c, 1, GL_FLOAT, GL_FALSE, 0, reinterpret_cast<const void*>(offset));
     glEnableVertexAttribArray(first + c);
   }

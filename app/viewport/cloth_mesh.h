@@ -1,4 +1,5 @@
-// The cloth's buffers: positions straight from the solver's arrays, normals where a view is lit, and index lists.
+// The cloth's buffers: positions where the engine writes them or copied from its arrays, normals where a view is lit,
+// and index lists.
 #pragma once
 
 #include <array>
@@ -9,25 +10,33 @@
 #include "app/viewport/cloth_renderer.h"
 #include "app/viewport/cloth_topology.h"
 #include "app/viewport/gl_objects.h"
+#include "app/viewport/vertex_memory.h"
 #include "app/viewport/vertex_normals.h"
 
 namespace tyglab {
 
 class ClothMesh {
  public:
+  /// `loans`: of the window.
+  explicit ClothMesh(std::shared_ptr<PositionLoans> loans) : lent_(std::move(loans)) {}
+
   /// The index lists, each made when a view first needs it and thrown away with the topology.
   enum class List { triangles, straight, diagonal, bending, outlines, connections, particles, pins, count };
 
+  /// Lends an engine memory to keep its positions in, so that they need not be copied.
+  void lend(Engine& engine) { lent_.lend(engine); }
   /// Uploads positions if `moved` and whatever else this view lacks.
   void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed, RenderWork& work);
   /// Draws a list that update() was asked for: GL_TRIANGLES, GL_LINES or GL_POINTS.
   void draw(List list, GLenum primitive) const;
   /// Draws one particle as a point.
   void draw_particle(int i, int j) const;
+  /// All that is drawn of this picture has been.
+  void drawn();
 
   const Bounds& bounds() const { return bounds_; }
   int stride() const { return stride_; }
-  /// Of all buffers here, on either side of the bus.
+  /// Of all buffers here but lent ones, on either side of the bus.
   std::size_t bytes() const;
   const Lattice& lattice() const { return lattice_; }
 
@@ -37,13 +46,17 @@ class ClothMesh {
     GLsizei count = 0;
     bool ready = false;
   };
-  void take_positions(const PositionView& positions, bool moved);
-  void make_normals(const ClothScene& scene);
+  void take_positions(const PositionView& positions, bool moved, RenderWork& work);
+  VertexSource make_normals(const ClothScene& scene, RenderWork& work);
   void prepare(List list, const ClothScene& scene);
-  void set_attributes(GLuint first, gl::Buffer& buffer, const float* data);
+  VertexSource copied(gl::Buffer& to, const float* data, RenderWork& work) const;
+  void set_attributes(GLuint first, const VertexSource& source) const;
 
   gl::VertexArray array_;
-  gl::Buffer position_buffer_, normal_buffer_;
+  gl::Buffer position_buffer_, normal_buffer_;  ///< of what is copied
+  LentPositions lent_;
+  MappedNormals mapped_normals_;
+  bool in_place_ = false;  ///< positions are drawn from lent memory
   std::array<IndexList, int(List::count)> lists_;
   std::vector<float> converted_;  ///< of a solver in double
   FloatRows floats_;              ///< valid during update() alone

@@ -47,11 +47,12 @@ struct ClothRenderer::Shared {
   gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
   ClothTexture texture;
   SolidMesh sphere{sphere_geometry(64, 40)};
+  std::shared_ptr<PositionLoans> loans = std::make_shared<PositionLoans>();
 };
 
 struct ClothRenderer::Parts {
   std::shared_ptr<Shared> shared;
-  ClothMesh mesh;
+  ClothMesh mesh{shared->loans};
   DrawnCloth drawn;  ///< where not every particle is
   int every = 1;
   SolidMesh spring, hanger, rest_line, equilibrium_line;
@@ -69,6 +70,7 @@ struct ClothRenderer::Parts {
   // What update() saw last.
   const Simulation* simulation = nullptr;
   std::uint64_t revision = 0, tear_revision = 0;
+  std::uint64_t engine_copied = 0;
 
   explicit Parts(std::shared_ptr<Shared> with) : shared(std::move(with)) {}
   void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
@@ -113,6 +115,10 @@ std::optional<std::string> ClothRenderer::set_texture(const ClothPicture& pictur
   return std::nullopt;
 }
 
+void ClothRenderer::lend_memory(Simulation& simulation) {
+  parts_->mesh.lend(simulation.engine());
+}
+
 void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   Parts& p = *parts_;
   // Another simulation may stand where the last one stood, with the same count of changes.
@@ -122,9 +128,12 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   p.simulation = &simulation;
   p.revision = simulation.revision();
   p.tear_revision = simulation.tear_revision();
-  const ClothScene scene{simulation.positions(), simulation.lattice(), simulation.tears(), simulation.preset(),
+  const ClothScene scene{simulation.engine().shown(), simulation.lattice(), simulation.tears(), simulation.preset(),
                          [&](int i, int j) { return simulation.pinned(i, j); }};
   p.take(scene, options, moved, topology_changed);
+  const std::uint64_t copied = simulation.engine().copied();
+  p.work.copied += copied - std::min(copied, p.engine_copied);
+  p.engine_copied = copied;
 }
 
 void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, bool topology_changed) {
@@ -137,6 +146,7 @@ void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& opti
   every = options.every;
   if (every > 1) {
     drawn.take(scene, every, moved, topology_changed);
+    if (moved) work.copied += drawn.bytes();
     mesh.update(drawn.scene(scene), options, moved, topology_changed, work);
   } else {
     mesh.update(scene, options, moved, topology_changed, work);
@@ -398,6 +408,8 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   if (!p.one_weight()) p.draw_blended(options);
   for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.colour, options.line_width);
   p.target.resolve();
+  p.mesh.drawn();
+  for (const Ghost& ghost : ghosts) ghost.cloth->parts_->mesh.drawn();
 
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, 0);
@@ -411,7 +423,7 @@ RenderWork ClothRenderer::take_work() {
   return std::exchange(parts_->work, {});
 }
 std::size_t ClothRenderer::bytes() const {
-  return parts_->mesh.bytes() + parts_->drawn.bytes();
+  return parts_->mesh.bytes() + parts_->drawn.bytes() + parts_->shared->loans->bytes();
 }
 Image ClothRenderer::pixels() const {
   return parts_->target.pixels();

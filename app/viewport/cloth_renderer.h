@@ -64,7 +64,10 @@ struct ClothScene {
 /// What updates and drawings took; 0: it was skipped.
 struct RenderWork {
   Duration normals, upload;
-  Duration shadow;  ///< a part of draw()
+  Duration shadow;     ///< a part of draw()
+  bool moved = false;  ///< the cloth had moved
+  /// Bytes of positions and normals that the program copied: 0 where OpenGL draws them in place.
+  std::size_t copied = 0;
 };
 
 class ClothRenderer;
@@ -89,6 +92,9 @@ class ClothRenderer {
   /// The same of a picture that has been read already.
   std::optional<std::string> set_texture(const ClothPicture& picture);
 
+  /// Lends the simulation's engine memory of OpenGL's, if it can use it, so that its positions need not be copied. The
+  /// engine steps no more once this renderer and its siblings are gone. Not while another thread reads the simulation.
+  void lend_memory(Simulation& simulation);
   /// Uploads what changed since the last call and what this view needs: nothing where nothing moved, normals only in
   /// lit views, index lists only after tears or a change of view.
   void update(Simulation& simulation, const ViewOptions& options);
@@ -103,7 +109,7 @@ class ClothRenderer {
   unsigned texture_id() const;
   /// What was done since the last call.
   RenderWork take_work();
-  /// Of the buffers that grow with the cloth.
+  /// Of the buffers that grow with the cloth, and what is lent to siblings' engines too.
   std::size_t bytes() const;
   /// What was drawn last.
   Image pixels() const;

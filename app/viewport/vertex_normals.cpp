@@ -53,8 +53,7 @@ glm::vec3 normal_from_triangles(const FloatRows& p, const Tears& tears, int i, i
 }  // namespace
 
 void compute_normals(const FloatRows& p, const Tears& tears, std::span<const std::uint32_t> beside_tears,
-                     std::vector<float>& normals) {
-  normals.resize(p.size());
+                     float* normals) {
   const std::size_t y = std::size_t(p.component), z = 2 * y;
   const auto set = [&](std::size_t index, glm::vec3 n) {
     normals[index] = n.x, normals[index + y] = n.y, normals[index + z] = n.z;
@@ -62,7 +61,7 @@ void compute_normals(const FloatRows& p, const Tears& tears, std::span<const std
   for (int i = 0; i < p.rows; ++i) {
     const RowPointers above = row(p, std::max(i - 1, 0)), below = row(p, std::min(i + 1, p.rows - 1)), here = row(p, i);
     const std::size_t start = std::size_t(i) * p.stride();
-    float* to = normals.data() + start;
+    float* to = normals + start;
     inner_row(above, below, here, p.columns, to, to + y, to + z);
     for (const int j : {0, p.columns - 1}) {
       const glm::vec3 down = position(below, j) - position(above, j);

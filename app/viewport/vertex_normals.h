@@ -22,8 +22,8 @@ struct FloatRows {
 
 /// Normals on the front side, not of unit length: the cross product of the differences to the neighbours down and along
 /// the row. Those of `beside_tears` are the sum over their whole triangles instead, so that the other side of a tear
-/// does not count; without a whole triangle (0, 0, 1). `normals` are laid out as the positions are.
+/// does not count; without a whole triangle (0, 0, 1). `normals` are laid out as the positions are, and only written.
 void compute_normals(const FloatRows& positions, const Tears& tears, std::span<const std::uint32_t> beside_tears,
-                     std::vector<float>& normals);
+                     float* normals);
 
 }  // namespace tyglab

@@ -12,6 +12,7 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
+#include "core/engines/position_memory.h"
 #include "core/integrators/step_control.h"
 #include "core/notation/preset.h"
 
@@ -100,6 +101,9 @@ class Engine {
   void load(const State& state, const Tears& tears) { load(rows_of(state, positions().columns), tears); }
   /// Takes new constants, integrator, dt, bodies. The lattice and the precision are the same. Velocities are kept.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
+  /// Whether set_preset() would be quick. Otherwise a program must be built for what the preset has, which takes
+  /// seconds, unless it has been built for another engine and is kept.
+  virtual bool ready_for(const Preset&) const { return true; }
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
   /// Up to `steps` steps; ends early on divergence or release of the hand. `tears` is updated by tearing.
   virtual Advance advance(int steps, Tears& tears) = 0;
@@ -113,6 +117,16 @@ class Engine {
   /// What state files show: as read(), but for Verlet the backward velocity d/dt.
   virtual void read_raw(State& state, const Tears& tears) = 0;
   virtual PositionView positions() const = 0;
+  /// Bytes of each slot of the memory that it would keep its positions in, so that they can be drawn where they lie; 0:
+  /// none, since it has such memory already or has no use for it.
+  virtual std::size_t wants_memory() const { return 0; }
+  /// Keeps its positions, or what shown() says of them, in that memory from now on, and asks for none any more. Returns
+  /// false where the device cannot do so after all; nothing is changed then. Not while another thread reads.
+  virtual bool take_memory(std::shared_ptr<PositionMemory>) { return false; }
+  /// The positions for who draws them: as positions(), but in float in the memory that was taken, if any was.
+  virtual PositionView shown() { return positions(); }
+  /// Bytes of positions and velocities that have been copied from a device into main memory, for whoever looked.
+  virtual std::uint64_t copied() const { return 0; }
   /// One particle as the method holds it. Nothing but the particles' own arrays is looked at, so it may be called
   /// while another thread reads.
   virtual StoredParticle stored(int i, int j) const = 0;

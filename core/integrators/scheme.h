@@ -3,6 +3,7 @@
 // in each engine runs them all; a new scheme is one row in schemes.cpp.
 #pragma once
 
+#include <cstdlib>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -14,6 +15,13 @@ namespace tyglab {
 inline constexpr int vector_x = 0;
 inline constexpr int vector_v = 1;
 inline constexpr int acceleration = -1;  ///< stands for a(x, v) of the sweep in a term
+
+/// dt to a small power, which may be negative.
+inline double power(double dt, int n) {
+  double product = 1;
+  for (int k = std::abs(n); k > 0; --k) product *= dt;
+  return n < 0 ? 1 / product : product;
+}
 
 /// factor · dt^dt_power · vector
 struct Term {

@@ -1,10 +1,12 @@
 // Large cloths are built beside the frames: the present one goes on, and what is asked for meanwhile is not lost.
 #include <doctest/doctest.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
 #include "app/sandbox/app.h"
+#include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab {
@@ -120,6 +122,77 @@ TEST_CASE("a restart is built beside the frames too, and an engine that is not t
   CHECK(app.preset() == before);
   CHECK_FALSE(app.history.can_undo());
   CHECK(app.messages.list().size() == 1);
+}
+
+/// A cloth on an OpenCL device whose compiler waits until it may go on.
+struct SlowCompiler {
+  explicit SlowCompiler(const Preset& preset) : app(app_with(preset)) {
+    app.building.prepare_programs = [this](const Preset&) {
+      ++builds;
+      while (!may_go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    app.simulation->advance(3);
+  }
+  void change(double Preset::*constant, double to) {
+    Preset next = app.wished();
+    next.*constant = to;
+    apply_edit(app, edit::Change{next});
+  }
+  std::atomic<bool> may_go_on = false;
+  std::atomic<int> builds = 0;
+  App app;
+};
+
+TEST_CASE("a feature that a device builds a program for is switched on beside the frames") {
+  if (!test::device_there()) return;
+  Preset without = test::cloth(20, 20);
+  without.engine = EngineKind::opencl;
+  without.k_b = 0, without.k_d = 0;
+  SlowCompiler slow(without);
+  App& app = slow.app;
+  slow.change(&Preset::k_b, 1);
+  CHECK(app.building.programs());
+  CHECK_FALSE(app.building.holds_present());
+  CHECK(app.preset().k_b == 0);
+  CHECK(app.wished().k_b == 1);
+  app.simulation->advance(2);  // the old program goes on
+  slow.change(&Preset::k_s, 77);
+  slow.change(&Preset::k_b, 2);
+  CHECK(app.preset().k_s == 77);  // which needs no program
+  CHECK(app.preset().k_b == 0);
+  slow.may_go_on = true;
+  wait(app);
+  CHECK(app.preset().k_b == 2);
+  CHECK(app.preset().k_s == 77);
+  CHECK(slow.builds == 1);
+  CHECK(app.simulation->steps() == 5);
+  app.simulation->advance(1);
+  for (const double k_b : {0.0, 3.0}) {  // both programs are there now
+    slow.change(&Preset::k_b, k_b);
+    CHECK_FALSE(app.building.in_work());
+    CHECK(app.preset().k_b == k_b);
+  }
+}
+
+TEST_CASE("who takes the feature back meanwhile waits for nothing, and two features come one after the other") {
+  if (!test::device_there()) return;
+  Preset without = test::cloth(20, 20, "velocity_verlet");
+  without.engine = EngineKind::opencl;
+  without.k_b = 0, without.k_d = 0;
+  SlowCompiler slow(without);
+  App& app = slow.app;
+  slow.change(&Preset::k_b, 1);
+  slow.change(&Preset::k_b, 0);
+  CHECK(app.building.wished() == nullptr);
+  CHECK(app.preset() == without);
+  slow.change(&Preset::k_b, 1);
+  slow.change(&Preset::k_d, 0.001);
+  CHECK(app.preset() == without);
+  slow.may_go_on = true;
+  wait(app);
+  CHECK(app.preset().k_b == 1);
+  CHECK(app.preset().k_d == 0.001);
+  CHECK(app.simulation->steps() == 3);
 }
 
 TEST_CASE("a change is carried over to other constants alone") {

@@ -147,7 +147,8 @@ TEST_CASE("5: the engine asked for is not there") {
   check_calls(
       {{{"run", "denim", "--steps", "1", "--engine", "opencl:99", "--state", "s.csv"}, 5, "cpu"},
        {{"run", "denim", "--steps", "1", "--engine", "opencl", "--integrator", "xpbd", "--state", "s.csv"}, 5, "cpu"},
-       {{"run", "denim", "--steps", "1", "--engine", "cpu:0"}, 2, "opencl:N"}},
+       {{"run", "denim", "--steps", "1", "--engine", "cpu:0"}, 2, "opencl:N"},
+       {{"run", "denim", "--steps", "1", "--engine", "auto", "--set", "engine=cpu"}, 2, "--set engine"}},
       folder.path());
   CHECK_FALSE(fs::exists(folder / "s.csv"));
 }

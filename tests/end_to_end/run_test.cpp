@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
 
 #include "core/notation/preset_io.h"
 #include "tests/oracle/oracle.h"
@@ -39,6 +40,18 @@ TEST_CASE("tyglab run denim --precision double --steps 200 equals the oracle's s
   }
   CHECK(largest < 1e-10);
   CHECK(largest_velocity < 1e-6);
+}
+
+TEST_CASE("--engine auto says what it chose and why, to people and to programs") {
+  const test::TemporaryFolder folder;
+  const auto outcome = good(folder.path(), {"run", "hanging", "--steps", "5", "--engine", "auto", "--json", "r.json"});
+  CHECK(outcome.err.find("--engine auto chose ") != std::string::npos);
+  const auto json = nlohmann::json::parse(test::read_file(folder / "r.json"));
+  const std::string why = json["engine_choice"]["why"];
+  CHECK(outcome.err.find(why) != std::string::npos);
+  CHECK(why.starts_with(json["engine"] == "cpu" ? "the CPU engine" : "OpenCL on "));
+  good(folder.path(), {"run", "hanging", "--steps", "5", "--json", "r.json"});
+  CHECK(nlohmann::json::parse(test::read_file(folder / "r.json"))["engine_choice"].is_null());
 }
 
 TEST_CASE("a run twice writes the same bytes, and from any folder") {

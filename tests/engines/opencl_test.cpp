@@ -1,5 +1,5 @@
 // The OpenCL engine against the CPU engine: the same scenes, the same edits, states equal within rounding. Where there
-// is no OpenCL device the tests say so and have nothing to check; with one, pocl's on every processor, they check it.
+// is no OpenCL device one line says so and nothing is checked; with one, pocl's on every processor, they check it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,17 +11,11 @@
 #include "core/engines/opencl/opencl_engine.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
+#include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab {
 namespace {
-
-/// Number of a device to test on; says so where there is none.
-bool device_there() {
-  static const OpenClInventory inventory = opencl_devices();
-  if (inventory.devices.empty()) MESSAGE("skipped: there is no OpenCL device here");
-  return !inventory.devices.empty();
-}
 
 double tolerance(Precision precision) {
   return precision == Precision::float_ ? 2e-5 : 1e-11;
@@ -80,7 +74,7 @@ Preset everything(Precision precision) {
 }
 
 TEST_CASE("every integrator that runs on OpenCL moves a cloth of any size as the CPU engine does") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const Scheme& method : schemes()) {
     if (!runs_on_opencl(method)) continue;
     for (const Precision precision : {Precision::float_, Precision::double_}) {
@@ -99,7 +93,7 @@ TEST_CASE("every integrator that runs on OpenCL moves a cloth of any size as the
 }
 
 TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
     Pair pair(everything(precision));
@@ -120,7 +114,7 @@ TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
 }
 
 TEST_CASE("the hand feels the same force wherever it holds, on the border of two bands too") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const int row : {12, 13, 14, 15, 16, 17}) {
     CAPTURE(row);
     Pair pair(everything(Precision::double_));
@@ -135,7 +129,7 @@ TEST_CASE("the hand feels the same force wherever it holds, on the border of two
 }
 
 TEST_CASE("steps that are made again, up to the one in which the hand lets go, know its present velocity") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   Preset preset = test::cloth(33, 21);
   preset.precision = Precision::double_, preset.F_release = 3;
   Pair pair(preset);
@@ -152,7 +146,7 @@ TEST_CASE("steps that are made again, up to the one in which the hand lets go, k
 }
 
 TEST_CASE("constants change while it moves, and switch features on and off") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const char* integrator : {"verlet", "velocity_verlet"}) {
     CAPTURE(std::string(integrator));
     Preset preset = test::cloth(20, 21, integrator);
@@ -169,7 +163,7 @@ TEST_CASE("constants change while it moves, and switch features on and off") {
 }
 
 TEST_CASE("the same springs tear, in the same steps") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
     Preset preset = test::cloth(40, 37);
@@ -193,7 +187,7 @@ TEST_CASE("the same springs tear, in the same steps") {
 }
 
 TEST_CASE("divergence is found in the same step, and the state before it is kept") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const char* integrator : {"verlet", "euler", "rk4"}) {
     CAPTURE(std::string(integrator));
     Preset preset = test::cloth(19, 22, integrator);
@@ -211,7 +205,7 @@ TEST_CASE("divergence is found in the same step, and the state before it is kept
 }
 
 TEST_CASE("batches of steps give the bits of single steps, and every run the same") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   Preset preset = everything(Precision::float_);
   preset.engine = EngineKind::opencl;
   preset.F_max = 0.02;
@@ -226,7 +220,7 @@ TEST_CASE("batches of steps give the bits of single steps, and every run the sam
 }
 
 TEST_CASE("the hand lets go in the same step") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   Preset preset = test::cloth(20, 20);
   preset.F_release = 0.05;
   Pair pair(preset);
@@ -243,7 +237,7 @@ TEST_CASE("the hand lets go in the same step") {
 }
 
 TEST_CASE("work-items of one particle, as on graphics cards, and vectors of any width do the same") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   const Preset preset = everything(Precision::float_);
   const Lattice lattice = lattice_of(preset);
   Preset on_cpu = preset;
@@ -263,7 +257,7 @@ TEST_CASE("work-items of one particle, as on graphics cards, and vectors of any 
 }
 
 TEST_CASE("one weight, and the ledger with what bodies stop") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   Pair weight(test::one_weight());
   weight.advance(100);
   weight.check();
@@ -289,7 +283,7 @@ TEST_CASE("what does not run says so and how to go on") {
   preset.device = 99;
   CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains("--engine cpu"), EngineError);
   preset.device = -1;
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   for (const char* integrator : {"implicit_euler", "dopri5", "xpbd"}) {
     preset.integrator = integrator;
     CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains(integrator), EngineError);
@@ -297,7 +291,7 @@ TEST_CASE("what does not run says so and how to go on") {
 }
 
 TEST_CASE("a simulation goes from one engine to the other and back") {
-  if (!device_there()) return;
+  if (!test::device_there()) return;
   Preset preset = test::cloth(20, 30);
   Simulation both(preset), cpu(preset);
   both.advance(30);

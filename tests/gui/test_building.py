@@ -1,7 +1,9 @@
-"""A large cloth is built beside the frames: the window goes on meanwhile."""
+"""What takes long is built beside the frames: the window goes on meanwhile."""
 
 import json
 import os
+import subprocess
+import tempfile
 
 from cases import case, check, main
 
@@ -35,6 +37,68 @@ def frames_go_on(stage):
     check(report["preset"]["cloth"]["rows"] == LARGE and report["building"] is None, "it is the one that was asked for")
     check(not report["unsaved"], "as it stands in its file")
     stage.keep("large")
+
+
+@case
+def programs(stage):
+    """bending that is switched on on an OpenCL device comes with its program, and the cloth goes on until then"""
+    on_device = ("hanging", "--engine", "opencl", "--set", "k_b=0")
+    if subprocess.run([stage.tyglab, "run", *on_device, "--steps", "1"], capture_output=True).returncode != 0:
+        print("not tested: there is no OpenCL device here", flush=True)
+        return
+    with tempfile.TemporaryDirectory() as nothing_built:
+        os.environ["POCL_CACHE_DIR"] = os.environ["XDG_CACHE_HOME"] = nothing_built
+        sandbox = stage.start(*on_device)
+        sandbox.wait(lambda r: r["t"] > 0.05, "the cloth to move on the device")
+        before = sandbox.type_value("k_b", "3")
+        report = sandbox.wait(lambda r: r["preset"]["forces"]["k_b"] == 3, "bending")
+        check(report["frames_while_building"] >= 3, f"{report['frames_while_building']} frames were drawn meanwhile")
+        check(report["t"] > before["t"] and report["building"] is None, "the cloth went on")
+        check(not report["messages"], f"nothing was to be said, but: {report['messages']}")
+        stage.keep("programs")
+        sandbox.close()
+    del os.environ["POCL_CACHE_DIR"], os.environ["XDG_CACHE_HOME"]
+
+
+def costs(sandbox, engine):
+    """What --time-report says of some frames on an engine; None where it is not there."""
+    out = os.path.join(sandbox.own.name, f"{engine}.json")
+    done = subprocess.run([sandbox.tyglab, "hanging", "--engine", engine, "--frames", "20", "--time-report", out],
+                          env=sandbox.environment, capture_output=True, text=True)
+    if done.returncode != 0:
+        return None
+    with open(out) as file:
+        return json.load(file)
+
+
+@case
+def copied(stage):
+    """the time report tells what is copied for drawing: nothing where a processor's kernels write OpenGL's memory"""
+    sandbox = stage.start("hanging", "--engine", "opencl")
+    sandbox.wait(lambda r: "plots.Performance" in r["controls"], "the Performance card")
+    sandbox.click_control("plots.Performance")
+    sandbox.later(5)
+    stage.keep("performance")
+    check(costs(sandbox, "cpu")["copied_bytes_per_frame"] >= 32 * 32 * 24, "the CPU engine's positions and normals are")
+    on_device = costs(sandbox, "opencl")
+    if "OpenCL" in on_device["engine"]:
+        check(on_device["copied_bytes_per_frame"] == 0, f"{on_device['copied_bytes_per_frame']} bytes a frame are copied")
+
+
+@case
+def automatic(stage):
+    """"Automatic" in the engine's menu takes the engine that is quickest, and says why"""
+    sandbox = stage.start("hanging")
+    sandbox.click_control("top.engine")
+    sandbox.control("menu.automatic_engine")
+    stage.keep("menu")
+    sandbox.click_control("menu.automatic_engine")
+    report = sandbox.wait(lambda r: any(text.startswith("Automatic: ") for text in r["messages"]), "a choice")
+    stage.keep("chosen")
+    why = next(text for text in report["messages"] if text.startswith("Automatic: "))
+    chosen = "cpu" if why.startswith("Automatic: the CPU engine") else "opencl"
+    report = sandbox.wait(lambda r: r["preset"]["solver"]["engine"] == chosen and r["building"] is None, f"engine {chosen}")
+    sandbox.wait(lambda r: r["t"] > report["t"], "the cloth to go on")
 
 
 if __name__ == "__main__":

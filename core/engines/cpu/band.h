@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <span>
 #include <vector>
 
@@ -31,13 +30,6 @@ struct ResolvedEstimate {
   };
   std::vector<Share> shares;
 };
-
-/// dt to a small power, which may be negative.
-inline double power(double dt, int n) {
-  double product = 1;
-  for (int k = std::abs(n); k > 0; --k) product *= dt;
-  return n < 0 ? 1 / product : product;
-}
 
 /// A sweep with its coefficients worked out for one dt and m: acceleration terms multiply forces, so they hold 1/m.
 struct ResolvedSweep {

@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/engines/opencl/program_cache.h"
+#include "core/engines/opencl/disk_cache.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -175,17 +175,30 @@ int Device::width(std::size_t bytes) const {
 std::shared_ptr<const Program> Device::program(const std::string& text, const std::string& options) {
   const std::string key = facts_.platform + '\n' + facts_.name + '\n' + facts_.version + '\n' + facts_.driver + '\n' +
                           options + '\n' + text;
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto known = programs_.find(key); known != programs_.end()) return known->second;
+  }
+  auto made = std::make_shared<const Program>(build(text, options, key));  // nobody who has one waits for it
   const std::lock_guard lock(mutex_);
-  auto& known = programs_[key];
-  if (!known) known = std::make_shared<const Program>(build(text, options, key));
-  return known;
+  return programs_.emplace(key, std::move(made)).first->second;
+}
+
+void Device::note_run(const std::string& program) {
+  const std::lock_guard lock(mutex_);
+  run_.insert(program);
+}
+
+bool Device::has_run(const std::string& program) {
+  const std::lock_guard lock(mutex_);
+  return run_.count(program) > 0;
 }
 
 ProgramHandle Device::build(const std::string& text, const std::string& options, const std::string& key) const {
   cl_int code = CL_SUCCESS, loaded = CL_SUCCESS;
   // Pocl keeps what it has built by itself, and to be asked for it makes it build every kernel a second time.
   const bool caches = facts_.platform != "Portable Computing Language";
-  if (const std::string binary = caches ? cached_program(key) : ""; !binary.empty()) {
+  if (const std::string binary = caches ? kept_on_disk(key) : ""; !binary.empty()) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(binary.data());
     const std::size_t size = binary.size();
     ProgramHandle program(clCreateProgramWithBinary(context_.get(), 1, &id_, &size, &bytes, &loaded, &code));
@@ -212,7 +225,7 @@ ProgramHandle Device::build(const std::string& text, const std::string& options,
   std::string binary(size, '\0');
   auto* bytes = reinterpret_cast<unsigned char*>(binary.data());
   if (size > 0 && clGetProgramInfo(program.get(), CL_PROGRAM_BINARIES, sizeof bytes, &bytes, nullptr) == CL_SUCCESS)
-    cache_program(key, binary);
+    keep_on_disk(key, binary);
   return program;
 }
 
@@ -227,6 +240,16 @@ Memory Device::zeros(std::size_t bytes) const {
   check(clEnqueueFillBuffer(queue_.get(), memory.get(), &zero, sizeof zero, 0, whole, 0, nullptr, nullptr),
         "clearing a buffer");
   return memory;
+}
+
+Memory Device::in_place(void* memory, std::size_t bytes) const {
+  cl_int code = CL_SUCCESS;
+  Memory buffer(clCreateBuffer(context_.get(), CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, memory, &code));
+  if (code != CL_SUCCESS) return {};
+  void* at = clEnqueueMapBuffer(queue_.get(), buffer.get(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr, nullptr, &code);
+  if (code != CL_SUCCESS) return {};
+  clEnqueueUnmapMemObject(queue_.get(), buffer.get(), at, 0, nullptr, nullptr);
+  return facts_.processor && at == memory ? std::move(buffer) : Memory();
 }
 
 std::shared_ptr<Device> open_device(int number) {

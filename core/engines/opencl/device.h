@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,8 +37,13 @@ class Device {
   /// The program of that text and those build options, from memory, from disk or built. Throws EngineError with the
   /// start of the compiler's log.
   std::shared_ptr<const Program> program(const std::string& text, const std::string& options);
+  /// Notes that a program of that name has made steps here: drivers build kernels when they are first used.
+  void note_run(const std::string& program);
+  bool has_run(const std::string& program);
   /// A buffer of zeros. Throws EngineError where there is no room for it.
   Memory zeros(std::size_t bytes) const;
+  /// A buffer that is the program's own memory, which must outlive it; none where the device would work on a copy.
+  Memory in_place(void* memory, std::size_t bytes) const;
 
  private:
   ProgramHandle build(const std::string& text, const std::string& options, const std::string& key) const;
@@ -46,8 +52,9 @@ class Device {
   cl_device_id id_;
   Context context_;
   Queue queue_;
-  std::mutex mutex_;  ///< of programs_
+  std::mutex mutex_;  ///< of what follows
   std::map<std::string, std::shared_ptr<const Program>> programs_;
+  std::set<std::string> run_;
 };
 
 /// The device of that number among opencl_devices(); -1: the first graphics card, or else the first device. Throws

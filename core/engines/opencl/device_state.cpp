@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/engines/cpu/row_field.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -20,27 +21,33 @@ DeviceState<R>::DeviceState(std::shared_ptr<Device> device, const Lattice& latti
       numbers_((std::size_t(lattice.rows) + 5) * 3 * std::size_t(stride_) + 32),
       mask_bytes_((std::size_t(lattice.rows) + 5) * std::size_t(mask_pitch_)),
       vectors_(std::size_t(vectors)) {
-  for (Vector& vector : vectors_) vector.now = field(), vector.backup = field();
+  for (Vector& vector : vectors_) vector.now.memory = field(), vector.backup = field();
   masks_ = mask_field(), springs_ = mask_field();
 }
 
 template <class R>
 DeviceState<R>::~DeviceState() {
   clFinish(device_->queue());
-  for (Vector& vector : vectors_)
-    if (vector.host != nullptr) unmap(vector.now.get(), const_cast<R*>(vector.host));
+  take_back();
 }
 
 template <class R>
 cl_mem DeviceState<R>::other(int n) {
   Vector& vector = vectors_[std::size_t(n)];
-  if (!vector.other) vector.other = field();
-  return vector.other.get();
+  if (!vector.other.memory) vector.other.memory = field();
+  if (vector.other.slot >= 0 && vector.other.slot == lent_->shown) std::swap(vector.other, spare_);
+  return vector.other.memory.get();
 }
 
 template <class R>
 void DeviceState<R>::swap(int n) {
   std::swap(vectors_[std::size_t(n)].now, vectors_[std::size_t(n)].other);
+}
+
+template <class R>
+cl_mem DeviceState<R>::overwritten(int n) {
+  if (lent(n)) other(n), swap(n);
+  return vector(n);
 }
 
 template <class R>
@@ -61,17 +68,61 @@ template <class R>
 const R* DeviceState<R>::host(int n) const {
   const std::lock_guard lock(mutex_);
   Vector& vector = vectors_[std::size_t(n)];
-  if (vector.host == nullptr) vector.host = map(vector.now.get(), CL_MAP_READ);
-  return vector.host;
+  if (vector.host != nullptr) return vector.host;
+  if (!device_->facts().shared_memory) copied_ += numbers_ * sizeof(R);
+  return vector.host = map(vector.now.memory.get(), CL_MAP_READ);
 }
 
 template <class R>
 void DeviceState<R>::take_back() {
   const std::lock_guard lock(mutex_);
   for (Vector& vector : vectors_) {
-    if (vector.host != nullptr) unmap(vector.now.get(), const_cast<R*>(vector.host));
+    if (vector.host != nullptr) unmap(vector.now.memory.get(), const_cast<R*>(vector.host));
     vector.host = nullptr;
   }
+  if (floats_host_ != nullptr)
+    clEnqueueUnmapMemObject(device_->queue(), floats_[std::size_t(floats_slot_)].get(), floats_host_, 0, nullptr,
+                            nullptr);
+  floats_host_ = nullptr;
+}
+
+template <class R>
+bool DeviceState<R>::take_memory(std::shared_ptr<PositionMemory> memory) {
+  std::array<Memory, PositionMemory::count> slots;
+  for (std::size_t n = 0; n < slots.size(); ++n)
+    if (!(slots[n] = device_->in_place(memory->slots[n], slot_bytes()))) return false;
+  take_back();
+  if constexpr (std::is_same_v<R, float>) {
+    Vector& x = vectors_[vector_x];
+    copy(x.now.memory.get(), slots[0].get());
+    check(clFinish(device_->queue()), "copying the state");
+    x.now = {std::move(slots[0]), 0}, x.other = {std::move(slots[1]), 1}, spare_ = {std::move(slots[2]), 2};
+  } else {
+    floats_ = std::move(slots);
+  }
+  lent_ = std::move(memory);
+  return true;
+}
+
+template <class R>
+cl_mem DeviceState<R>::stale_floats() {
+  if (!floats_[0] || floats_host_ != nullptr) return nullptr;
+  floats_slot_ = lent_->shown == 0 ? 1 : 0;
+  return floats_[std::size_t(floats_slot_)].get();
+}
+
+template <class R>
+const float* DeviceState<R>::floats() {
+  if (!floats_[0]) return nullptr;
+  const std::lock_guard lock(mutex_);
+  if (floats_host_ == nullptr) {
+    cl_int code = CL_SUCCESS;
+    floats_host_ =
+        static_cast<float*>(clEnqueueMapBuffer(device_->queue(), floats_[std::size_t(floats_slot_)].get(), CL_TRUE,
+                                               CL_MAP_READ, 0, slot_bytes(), 0, nullptr, nullptr, &code));
+    check(code, "reading from the device");
+  }
+  return floats_host_ + lead();
 }
 
 template <class R>
@@ -108,19 +159,21 @@ void DeviceState<R>::copy(cl_mem from, cl_mem to) const {
 
 template <class R>
 void DeviceState<R>::keep_backup() {
-  for (Vector& vector : vectors_) copy(vector.now.get(), vector.backup.get());
+  for (Vector& vector : vectors_) copy(vector.now.memory.get(), vector.backup.get());
 }
 
 template <class R>
 void DeviceState<R>::restore() {
   take_back();
-  for (Vector& vector : vectors_) copy(vector.backup.get(), vector.now.get());
+  for (int n = 0; n < int(vectors_.size()); ++n) copy(vectors_[std::size_t(n)].backup.get(), overwritten(n));
 }
 
 template <class R>
 std::size_t DeviceState<R>::bytes() const {
   std::size_t fields = 0;
-  for (const Vector& vector : vectors_) fields += vector.other ? 3 : 2;
+  for (const Vector& vector : vectors_)  // lent memory is its owner's
+    for (const Memory* memory : {&vector.now.memory, &vector.other.memory, &vector.backup})
+      fields += *memory && (memory == &vector.backup || vector.now.slot < 0) ? 1 : 0;
   return fields * numbers_ * sizeof(R) + 2 * mask_bytes_;
 }
 

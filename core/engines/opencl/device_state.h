@@ -1,6 +1,7 @@
 // The arrays of a cloth on a device: state vectors with their backup, masks; and what of them the host looks at.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include "core/cloth/lattice.h"
 #include "core/cloth/tears.h"
 #include "core/engines/opencl/device.h"
+#include "core/engines/position_memory.h"
 
 namespace tyglab::opencl {
 
@@ -26,10 +28,14 @@ class DeviceState {
   int mask_pitch() const { return mask_pitch_; }
   /// Numbers in one vector, all rows and margins.
   std::size_t numbers() const { return numbers_; }
-  cl_mem vector(int n) const { return vectors_[std::size_t(n)].now.get(); }
+  cl_mem vector(int n) const { return vectors_[std::size_t(n)].now.memory.get(); }
   /// Where a sweep that reads the vector's neighbours writes it; swap() then makes it the vector.
   cl_mem other(int n);
   void swap(int n);
+  /// Whether the vector is in lent memory, where it must never be written in place: it may be shown.
+  bool lent(int n) const { return vectors_[std::size_t(n)].now.slot >= 0; }
+  /// The vector, to be overwritten as a whole.
+  cl_mem overwritten(int n);
   cl_mem masks() const { return masks_.get(); }
   cl_mem springs() const { return springs_.get(); }
   /// Zeros of the size of a vector, for what is used between steps.
@@ -44,6 +50,18 @@ class DeviceState {
   void unmap(cl_mem field, R* at) const;
   /// Ends all views: kernels may write again.
   void take_back();
+  /// Bytes that were copied for views.
+  std::uint64_t copied() const { return copied_; }
+
+  std::size_t slot_bytes() const { return numbers_ * sizeof(float); }
+  /// Moves the positions into that memory; in double it keeps a copy of them in float there, for who draws. False where
+  /// the device would not write there itself; nothing is changed then.
+  bool take_memory(std::shared_ptr<PositionMemory> memory);
+  /// In double, where the positions in float are to be written; null where they stand there already, or where there is
+  /// no lent memory.
+  cl_mem stale_floats();
+  /// In double, the positions in float, of row 0, until take_back(); null without lent memory.
+  const float* floats();
 
   /// Masks of the host, one byte a particle, to a mask field.
   void upload(std::span<const std::uint8_t> bytes, cl_mem to) const;
@@ -56,8 +74,14 @@ class DeviceState {
   std::size_t bytes() const;
 
  private:
+  /// A field that may be a slot of lent memory.
+  struct Place {
+    Memory memory;
+    int slot = -1;
+  };
   struct Vector {
-    Memory now, other, backup;
+    Place now, other;
+    Memory backup;
     const R* host = nullptr;
   };
   std::size_t lead() const { return 2 * 3 * std::size_t(stride_) + 16; }
@@ -67,6 +91,12 @@ class DeviceState {
   Lattice lattice_;
   int stride_, mask_pitch_;
   std::size_t numbers_, mask_bytes_;
+  std::shared_ptr<PositionMemory> lent_;
+  Place spare_;                   ///< of a lent memory's three slots the one that x and its other do not use
+  std::array<Memory, 3> floats_;  ///< in double: its slots
+  int floats_slot_ = -1;          ///< of them the one that holds the positions
+  float* floats_host_ = nullptr;
+  mutable std::uint64_t copied_ = 0;
   mutable std::mutex mutex_;  ///< of the views
   mutable std::vector<Vector> vectors_;
   Memory masks_, springs_;

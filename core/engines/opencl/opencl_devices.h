@@ -38,4 +38,8 @@ struct OpenClProbe {
 /// Builds and runs kernels/probe.cl on the device of that number, in float or in double. Never throws.
 OpenClProbe probe_opencl_device(int number, bool in_double);
 
+/// Whether the device of that number works in memory that it is given, so that it can write into OpenGL's: processors
+/// do. Never throws.
+bool opencl_works_in_place(int number);
+
 }  // namespace tyglab

@@ -11,12 +11,6 @@
 namespace tyglab::opencl {
 namespace {
 
-double dt_to_the(double dt, int n) {
-  double product = 1;
-  for (int k = std::abs(n); k > 0; --k) product *= dt;
-  return n < 0 ? 1 / product : product;
-}
-
 constexpr int idle_slot = steps_between_backups;  // that no step reports in
 
 template <class R>
@@ -66,6 +60,7 @@ typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& pr
   kernels.combine = program->kernel("combine");
   kernels.tear = program->kernel("tear");
   kernels.derive_masks = program->kernel("derive_masks");
+  if constexpr (std::is_same_v<R, double>) kernels.to_float = program->kernel("to_float");
   return kernels;
 }
 
@@ -78,7 +73,7 @@ DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& swee
   k.k_b = R(p.k_b), k.bending = R(-p.k_b * directions[4].rest * p.L / 2);
   constexpr double shortest = 1e-9;  // as in spring-inl.h
   k.shortest2 = R(std::pow(shortest * directions[4].rest * p.L, 2));
-  k.k_d = R(p.k_d * dt_to_the(p.dt, sweep.velocity_dt_power));
+  k.k_d = R(p.k_d * power(p.dt, sweep.velocity_dt_power));
   k.weight = R(p.m * p.g);
   for (int c = 0; c < 3; ++c) k.wind[c] = R(p.W[c] / 3);
   k.smallest = std::numeric_limits<R>::min();
@@ -86,7 +81,7 @@ DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& swee
   k.k = R(p.k), k.middle = R(p.x_0.y);
   int next = 0;
   for (const Coefficient& c : coefficients(sweep.assignments))
-    k.c[next++] = R(c.factor * dt_to_the(p.dt, c.dt_power) / (c.of_force ? p.m : 1));
+    k.c[next++] = R(c.factor * power(p.dt, c.dt_power) / (c.of_force ? p.m : 1));
   return k;
 }
 
@@ -177,8 +172,9 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
   for (int n = 0; n < scheme_->vectors; ++n) {
     const bool written = std::any_of(sweep.assignments.begin(), sweep.assignments.end(),
                                      [n](const Assignment& assignment) { return assignment.target == n; });
-    // What others read while it is written stands twice: neighbours, and bands that make their neighbours' rows too.
-    const bool read = levels > 1 || n == sweep.position || (n == sweep.velocity && preset_.k_d > 0);
+    // What others read while it is written stands twice: neighbours, bands that make their neighbours' rows too, and
+    // who draws.
+    const bool read = levels > 1 || n == sweep.position || (n == sweep.velocity && preset_.k_d > 0) || state_.lent(n);
     const cl_mem in = state_.vector(n), out = written && read ? state_.other(n) : in;
     at = set_arguments(kernel, at, in, out);
     if (out != in) swapped.push_back(n);
@@ -201,7 +197,7 @@ template <class R>
 void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
   state_.take_back();
   const int columns = lattice_.columns;
-  R* const x = state_.map(state_.vector(vector_x), CL_MAP_READ | CL_MAP_WRITE);
+  R* const x = state_.map(state_.overwritten(vector_x), CL_MAP_READ | CL_MAP_WRITE);
   R* const v = state_.map(state_.vector(vector_v), CL_MAP_READ | CL_MAP_WRITE);
   Array<double> buffer(6 * std::size_t(columns));
   const auto part = [&](int n) { return buffer.data() + std::ptrdiff_t(n) * columns; };
@@ -246,10 +242,17 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
                                  nullptr),
           "starting a kernel");
   }
-  if (wanted != options_) kernels_ = std::move(next), options_ = wanted;
+  if (wanted != options_) kernels_ = std::move(next), options_ = wanted, noted_run_ = false;
   preset_ = preset;
   resolve();
   if (!kept.x.x.empty()) Engine::load(kept, tears);
+}
+
+template <class R>
+bool OpenClEngine<R>::ready_for(const Preset& preset) const {
+  if (preset.integrator != preset_.integrator || preset.precision != preset_.precision) return false;
+  const std::string wanted = options(preset, notes_contacts_);
+  return wanted == options_ || device_->has_run(preset.integrator + wanted);
 }
 
 template <class R>
@@ -259,7 +262,7 @@ void OpenClEngine<R>::note_contacts(bool on) {
     contact_list_ = device_->zeros(std::size_t(lattice_.size()) * each);
   }
   if (const std::string wanted = options(preset_, on); wanted != options_)
-    kernels_ = make_kernels(preset_, on), options_ = wanted;
+    kernels_ = make_kernels(preset_, on), options_ = wanted, noted_run_ = false;
   notes_contacts_ = on;
   contacts_.clear();
 }

@@ -23,6 +23,7 @@ class OpenClEngine final : public Engine {
   using Engine::load;
   void load(const StateRows& rows, const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
+  bool ready_for(const Preset& preset) const override;
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override;
@@ -30,6 +31,10 @@ class OpenClEngine final : public Engine {
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
+  std::size_t wants_memory() const override;
+  bool take_memory(std::shared_ptr<PositionMemory> memory) override;
+  PositionView shown() override;
+  std::uint64_t copied() const override { return state_.copied(); }
   StoredParticle stored(int i, int j) const override;
   std::size_t bytes() const override;
   int threads() const override { return int(device_->facts().compute_units); }
@@ -43,7 +48,7 @@ class OpenClEngine final : public Engine {
   /// The kernels of one set of features.
   struct Kernels {
     std::vector<Kernel> sweeps;
-    Kernel start, accelerations, set_fixed, combine, tear, derive_masks;
+    Kernel start, accelerations, set_fixed, combine, tear, derive_masks, to_float;
   };
   /// A sweep with its constants worked out.
   struct Resolved {
@@ -115,6 +120,8 @@ class OpenClEngine final : public Engine {
   std::vector<int> pinned_;
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;
+  bool asked_for_memory_ = false;  ///< it has some, or cannot use it
+  bool noted_run_ = false;         ///< that the present kernels have made steps
   std::vector<Contact> contacts_;
   std::vector<StepReport> report_;
   std::vector<R> hand_forces_;  ///< of each step of the batch

@@ -1,4 +1,5 @@
 // What the host reads of an OpenCL engine.
+#include "core/engines/opencl/arguments.h"
 #include "core/engines/opencl/opencl_engine.h"
 
 namespace tyglab::opencl {
@@ -56,6 +57,36 @@ PositionView OpenClEngine<R>::positions() const {
     else
       view.d[c] = StateView<R>::row(x, state_.stride(), 0, c);
   }
+  return view;
+}
+
+template <class R>
+std::size_t OpenClEngine<R>::wants_memory() const {
+  return asked_for_memory_ || !device_->facts().processor ? 0 : state_.slot_bytes();
+}
+
+template <class R>
+bool OpenClEngine<R>::take_memory(std::shared_ptr<PositionMemory> memory) {
+  asked_for_memory_ = true;
+  return state_.take_memory(std::move(memory));
+}
+
+template <class R>
+PositionView OpenClEngine<R>::shown() {
+  if constexpr (std::is_same_v<R, float>) return positions();
+  if (const cl_mem to = state_.stale_floats(); to != nullptr) {
+    constexpr std::size_t each = 8;  // numbers of a work-item
+    const std::size_t items = state_.numbers() / each;
+    const cl_mem from = state_.vector(vector_x);
+    set_arguments(kernels_.to_float, 0, from, to);
+    check(clEnqueueNDRangeKernel(device_->queue(), kernels_.to_float.get(), 1, nullptr, &items, nullptr, 0, nullptr,
+                                 nullptr),
+          "starting a kernel");
+  }
+  const float* x = state_.floats();
+  if (x == nullptr) return positions();
+  PositionView view{lattice_.rows, lattice_.columns, 3 * state_.stride()};
+  for (int c = 0; c < 3; ++c) view.f[c] = StateView<float>::row(x, state_.stride(), 0, c);
   return view;
 }
 

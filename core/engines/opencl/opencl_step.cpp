@@ -49,6 +49,7 @@ void OpenClEngine<R>::make_steps(int count, bool tear_each) {
   report_.resize(std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, bytes, report_.data(), 0, nullptr, nullptr),
         "making a step");
+  if (!noted_run_) device_->note_run(preset_.integrator + options_), noted_run_ = true;
   if (held_.particle < 0) return;
   hand_forces_.resize(4 * std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), hand_.get(), CL_TRUE, 0, hand_forces_.size() * sizeof(R),

@@ -1,6 +1,8 @@
 // Whether a device really computes: a small kernel is built, run and its result checked.
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/engines/opencl/arguments.h"
@@ -39,6 +41,16 @@ std::string probe(Device& device, const char* options) {
 
 }  // namespace
 }  // namespace opencl
+
+bool opencl_works_in_place(int number) {
+  constexpr std::size_t page = PositionMemory::page;
+  const std::unique_ptr<void, decltype(&std::free)> memory(std::aligned_alloc(page, page), &std::free);
+  try {
+    return bool(opencl::open_device(number)->in_place(memory.get(), page));
+  } catch (const EngineError&) {
+    return false;
+  }
+}
 
 OpenClProbe probe_opencl_device(int number, bool in_double) {
   OpenClProbe result{true, {}};

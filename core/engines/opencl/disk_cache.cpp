@@ -1,4 +1,4 @@
-#include "core/engines/opencl/program_cache.h"
+#include "core/engines/opencl/disk_cache.h"
 
 #include <unistd.h>
 
@@ -20,7 +20,7 @@ std::uint64_t fnv1a(const std::string& text, std::uint64_t hash) {
   return hash;
 }
 
-/// Where a program of that key is kept; empty: nowhere.
+/// Where what has that key is kept; empty: nowhere.
 fs::path file_of(const std::string& key) {
   const char *xdg = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
   fs::path folder;
@@ -32,7 +32,7 @@ fs::path file_of(const std::string& key) {
     return {};
   std::array<char, 48> name{};
   // Two seeds: 128 bits, so that two keys do not meet.
-  std::snprintf(name.data(), name.size(), "%016llx%016llx.clbin",
+  std::snprintf(name.data(), name.size(), "%016llx%016llx.bin",
                 static_cast<unsigned long long>(fnv1a(key, 0xcbf29ce484222325u)),
                 static_cast<unsigned long long>(fnv1a(key, 0x9e3779b97f4a7c15u)));
   return folder / "tyglab" / name.data();
@@ -40,7 +40,7 @@ fs::path file_of(const std::string& key) {
 
 }  // namespace
 
-std::string cached_program(const std::string& key) {
+std::string kept_on_disk(const std::string& key) {
   const fs::path file = file_of(key);
   if (file.empty()) return {};
   std::ifstream in(file, std::ios::binary);
@@ -49,13 +49,13 @@ std::string cached_program(const std::string& key) {
   return text.str();
 }
 
-void cache_program(const std::string& key, const std::string& binary) {
+void keep_on_disk(const std::string& key, const std::string& content) {
   const fs::path file = file_of(key);
   std::error_code error;
   if (file.empty() || (fs::create_directories(file.parent_path(), error), error)) return;
   const fs::path beside = file.string() + "." + std::to_string(::getpid());
   std::ofstream out(beside, std::ios::binary);
-  out.write(binary.data(), std::streamsize(binary.size()));
+  out.write(content.data(), std::streamsize(content.size()));
   out.close();
   if (out) fs::rename(beside, file, error);
   if (!out || error) fs::remove(beside, error);
