@@ -3,6 +3,7 @@
 #include <charconv>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "app/commands/preset_argument.h"
 #include "app/labs/lab.h"
@@ -33,6 +34,17 @@ std::string_view trimmed(std::string_view text) {
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin, end - begin + 1);
 }
 
+/// A formula is broken before its equals sign, and nowhere within its sums and products.
+std::string with_whole_terms(std::string text) {
+  constexpr std::string_view space = "\u00a0";
+  for (const std::string_view sign : {"−", "+", "·"})
+    for (std::size_t at = 0; (at = text.find(" " + std::string(sign) + " ", at)) != std::string::npos; ++at)
+      text.replace(at, sign.size() + 2, std::string(space) + std::string(sign) + std::string(space));
+  for (std::size_t at = 0; (at = text.find(" = ", at)) != std::string::npos; ++at)
+    text.replace(at, 3, " =" + std::string(space));
+  return text;
+}
+
 /// Without the signs of Markdown that the card does not set: `code` and **strong**.
 std::string without_marks(std::string_view text) {
   std::string plain;
@@ -44,7 +56,7 @@ std::string without_marks(std::string_view text) {
     }
     plain += text[k];
   }
-  return plain;
+  return with_whole_terms(std::move(plain));
 }
 
 std::vector<std::string> words_in(std::string_view text) {

@@ -27,16 +27,6 @@ std::vector<fs::path> lab_files(const fs::path& folder) {
   return files;
 }
 
-void read_labs(LabState& labs, const fs::path& folder) {
-  for (const fs::path& file : lab_files(folder)) {
-    try {
-      labs.list.push_back(load_lab(file));
-    } catch (const LabError& error) {
-      labs.problems.emplace_back(error.what());
-    }
-  }
-}
-
 /// Whether a step asks for something of the one before.
 bool looks_back(const LabStep& step) {
   const auto back = [](const Condition& c) { return c.right.before || c.name == "apart"; };
@@ -137,11 +127,25 @@ void complete(App& app, LabRun& run) {
 
 }  // namespace
 
+std::vector<Lab> read_labs(std::vector<std::string>& problems) {
+  std::vector<fs::path> files = lab_files(data_folder() / "labs");
+  if (const fs::path own = config_folder(); !own.empty())
+    for (const fs::path& file : lab_files(own / "labs")) files.push_back(file);
+  std::vector<Lab> labs;
+  for (const fs::path& file : files) {
+    try {
+      labs.push_back(load_lab(file));
+    } catch (const LabError& error) {
+      problems.emplace_back(error.what());
+    }
+  }
+  return labs;
+}
+
 const std::vector<Lab>& find_labs(App& app) {
   LabState& labs = app.labs;
   if (std::exchange(labs.looked, true)) return labs.list;
-  read_labs(labs, data_folder() / "labs");
-  if (const fs::path own = config_folder(); !own.empty()) read_labs(labs, own / "labs");
+  labs.list = read_labs(labs.problems);
   for (const std::string& problem : labs.problems) app.messages.warning(problem);
   return labs.list;
 }

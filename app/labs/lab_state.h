@@ -53,8 +53,10 @@ struct LabState {
   bool enter = false;          ///< Enter was pressed in the prediction's field
 };
 
-/// The labs that come with the program and those of the user's folder, read at the first call; what is wrong in one is
-/// said in a message.
+/// The labs that come with the program and those of the user's folder; `problems`: why files were refused.
+std::vector<Lab> read_labs(std::vector<std::string>& problems);
+
+/// The same, read at the first call; what is wrong in one is said in a message.
 const std::vector<Lab>& find_labs(App& app);
 /// How many of the lab's steps are done, as it is remembered.
 int steps_done(const App& app, const Lab& lab);

@@ -15,16 +15,38 @@
 namespace tyglab {
 namespace {
 
-constexpr float header_at_1 = 46, two_columns_from = 520;  // pixels at scale 1
+constexpr float header_at_1 = 46;  // pixels at scale 1
 
+/// Small capitals over a part; what is above keeps its distance, what is below stands close.
 void small_head(App& app, const char* text, ImU32 color) {
+  if (ImGui::GetCursorPosY() > app.theme.px(4)) ImGui::Dummy({0, app.theme.px(2)});
   ImGui::PushFont(app.fonts.small);
   wrapped(app, text, color);
   ImGui::PopFont();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - app.theme.px(3));
+}
+
+/// Text broken at its spaces alone, where Dear ImGui would also break within 0.001.
+void set_text(App& app, std::string_view text, ImU32 color) {
+  const ImFont& font = *app.fonts.text;
+  const float width = ImGui::GetContentRegionAvail().x;
+  std::string lines, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string longer = (line.empty() ? "" : line + " ") + std::string(text.substr(at, end - at));
+    if (!line.empty() && text_width(font, longer) > width) {
+      lines += line + "\n";
+      line = text.substr(at, end - at);
+    } else {
+      line = longer;
+    }
+    at = end + 1;
+  }
+  wrapped(app, lines + line, color);
 }
 
 void paragraphs_of(App& app, const Paragraphs& text, ImU32 color) {
-  for (const std::string& paragraph : text) wrapped(app, paragraph, color);
+  for (const std::string& paragraph : text) set_text(app, paragraph, color);
 }
 
 /// A line with an icon before it (or a sign, where the icon font is missing), in which words say the same.
@@ -33,7 +55,7 @@ void marked_line(App& app, const char* glyph, const char* sign, ImU32 color, con
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   draw_text(*ImGui::GetWindowDrawList(), *app.fonts.text, lo, color, icon_or(app.fonts, glyph, sign));
   ImGui::Indent(app.theme.px(22));
-  wrapped(app, text, text_color);
+  set_text(app, text, text_color);
   ImGui::Unindent(app.theme.px(22));
 }
 
@@ -41,20 +63,17 @@ std::string with_unit(double value, std::string_view unit) {
   return short_number(value) + (unit.empty() ? "" : " " + std::string(unit));
 }
 
-/// What was predicted, as a sentence.
-std::string predicted_words(const Prediction& asked, const StepRecord& record) {
-  if (!asked.choices.empty()) return asked.choices[std::size_t(record.chosen)];
-  return with_unit(typed_number(record.typed).value_or(0), asked.unit);
-}
-
-/// Whether it came true, once the step is done.
+/// What was predicted, and, once the step is done, whether it came true.
 void verdict(App& app, const Prediction& asked, const StepRecord& record) {
   const Tokens& c = app.theme.colors;
-  const std::string said = predicted_words(asked, record);
+  const bool number = asked.choices.empty();
+  const std::string said = number ? with_unit(typed_number(record.typed).value_or(0), asked.unit)
+                                  : asked.choices[std::size_t(record.chosen)];
   if (!record.done) return marked_line(app, icon::right, ">", c.accent, "You predict: " + said, c.text);
-  if (record.right) return marked_line(app, icon::check, "+", c.good, "You predicted " + said + ": right.", c.text);
-  const std::string answer = asked.choices.empty() ? with_unit(record.answer, asked.unit) : asked.choices[asked.right];
-  marked_line(app, icon::close, "x", c.warning, "You predicted " + said + ". It is: " + answer, c.text);
+  if (record.right) return marked_line(app, icon::check, "+", c.good, "You were right: " + said, c.text);
+  const std::string answer = number ? with_unit(record.answer, asked.unit) : asked.choices[asked.right];
+  marked_line(app, icon::close, "x", c.warning, "You predicted: " + said, c.text);
+  marked_line(app, icon::check, "+", c.good, "It is: " + answer, c.text);
 }
 
 void number_field(App& app, const Prediction& asked, StepRecord& record) {
@@ -76,6 +95,7 @@ void number_field(App& app, const Prediction& asked, StepRecord& record) {
 
 void choice_list(App& app, const Prediction& asked, StepRecord& record) {
   const Tokens& c = app.theme.colors;
+  bool clicked = false;
   for (int k = 0; k < int(asked.choices.size()); ++k) {
     ImGui::PushID(k);
     const bool chosen = record.chosen == k;
@@ -84,7 +104,7 @@ void choice_list(App& app, const Prediction& asked, StepRecord& record) {
     const ImFont& font = *app.fonts.text;
     const std::string& words = asked.choices[std::size_t(k)];
     const float height = font.CalcTextSizeA(font.FontSize, 1e9f, width - indent - pad, words.c_str()).y + 2 * pad;
-    if (ImGui::InvisibleButton("choice", {width, height})) record.chosen = k;
+    if (ImGui::InvisibleButton("choice", {width, height})) record.chosen = k, clicked = true;
     report_control(app, "choice." + std::to_string(k + 1));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (chosen || ImGui::IsItemHovered())
@@ -98,12 +118,13 @@ void choice_list(App& app, const Prediction& asked, StepRecord& record) {
     ImGui::PopID();
   }
   if (text_button(app, "Predict", true, record.chosen >= 0)) predict(app);
+  if (clicked) ImGui::SetScrollHereY(1);  // the button may stand below the column's edge
 }
 
 void prediction_part(App& app, const LabStep& step, StepRecord& record) {
   if (!step.prediction) return;
   small_head(app, "PREDICT", app.theme.colors.accent);
-  wrapped(app, step.prediction->question, app.theme.colors.text);
+  set_text(app, step.prediction->question, app.theme.colors.text);
   if (record.predicted) return verdict(app, *step.prediction, record);
   step.prediction->choices.empty() ? number_field(app, *step.prediction, record)
                                    : choice_list(app, *step.prediction, record);
@@ -138,7 +159,6 @@ void doing_part(App& app, const LabStep& step, const StepRecord& record) {
                        "This machine has no OpenCL device, so there is nothing to do here; read on.", c.text);
   if (!step.todo.empty()) small_head(app, "DO", c.accent), paragraphs_of(app, step.todo, c.text);
   if (step.checks.empty()) return;
-  ImGui::Dummy({0, app.theme.px(2)});
   small_head(app, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
   for (std::size_t k = 0; k < step.checks.size(); ++k)
     check_line(app, step.checks[k], k < record.checks.size() ? record.checks[k] : CheckState::open, record.done);
@@ -146,7 +166,6 @@ void doing_part(App& app, const LabStep& step, const StepRecord& record) {
 
 void explanation_part(App& app, LabRun& run) {
   if (!run.record().done || run.now().explanation.empty()) return;
-  ImGui::Dummy({0, app.theme.px(2)});
   if (std::exchange(run.show_explanation, false)) ImGui::SetScrollHereY(0);
   small_head(app, "WHY", app.theme.colors.accent);
   paragraphs_of(app, run.now().explanation, app.theme.colors.text);
@@ -206,12 +225,12 @@ void lab_header(App& app, LabRun& run, const Region& region) {
   const float middle = region.at.y + app.theme.px(24), margin = app.theme.px(16);
   float x = region.at.x + margin;
   const float baseline = baseline_at(app.fonts, middle);
-  char place[32];
-  std::snprintf(place, sizeof place, "Step %zu of %zu", run.step + 1, run.lab.steps.size());
-  const float least = text_width(*app.fonts.small, place) + app.theme.px(10);
-  const std::string title = fitted(*app.fonts.title, run.now().title, end - x - least);
+  const std::string title = fitted(*app.fonts.title, run.now().title, end - x);
   draw_on_baseline(draw, *app.fonts.title, {x, baseline}, c.text, title);
   x += text_width(*app.fonts.title, title) + app.theme.px(10);
+  char place[32];
+  std::snprintf(place, sizeof place, "Step %zu of %zu", run.step + 1, run.lab.steps.size());
+  if (x + text_width(*app.fonts.small, place) > end) return;
   const std::string full = std::string(place) + " · " + run.lab.title;
   draw_on_baseline(draw, *app.fonts.small, {x, baseline}, c.quiet, fitted(*app.fonts.small, full, end - x));
 }
@@ -220,7 +239,7 @@ void lab_header(App& app, LabRun& run, const Region& region) {
 
 float lab_panel_height(const App& app, float available) {
   if (!app.labs.run) return 0;
-  return std::round(std::min(app.theme.px(250), 0.45f * available));
+  return std::round(std::min(app.theme.px(290), 0.45f * available));
 }
 
 void lab_panel(App& app, const Region& region) {
@@ -232,7 +251,7 @@ void lab_panel(App& app, const Region& region) {
   const float margin = app.theme.px(16), gap = app.theme.px(20), top = region.at.y + app.theme.px(header_at_1);
   const float left = region.at.x + margin, width = region.size.x - margin - app.theme.px(8);
   const float height = region.at.y + region.size.y - top - app.theme.px(4);
-  const bool two = width > app.theme.px(two_columns_from);
+  const bool two = region.size.x >= app.theme.px(lab_two_columns);
   const float column = two ? std::floor((width - gap) / 2) : width;
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
   begin_lab_column(app, ("read" + id).c_str(), left, top, {column, height});

@@ -107,16 +107,17 @@ void add_views(std::vector<PaletteEntry>& list) {
                     proposing([k](Preset& next) { next.mode = k + 1; })});
 }
 
+/// The kind of thing stands before its name, unless all are of one.
 void palette_row(App& app, const PaletteEntry& entry, bool chosen, float width) {
   const Tokens& c = app.theme.colors;
-  const float height = app.theme.px(28), padding = app.theme.px(10), group = app.theme.px(84);
+  const float height = app.theme.px(28), padding = app.theme.px(10), group = app.ui.palette.labs ? 0 : app.theme.px(84);
   const ImVec2 lo = ImGui::GetItemRectMin(), hi{lo.x + width, lo.y + height};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (chosen) draw.AddRectFilled(lo, hi, mixed(c.field, c.accent, 0.3f), app.theme.px(5));
   const float baseline = baseline_at(app.fonts, lo.y + height / 2);
   const ImFont &text = *app.fonts.text, &small = *app.fonts.small;
   const float keys = text_width(small, entry.keys), right = hi.x - padding - keys;
-  draw_on_baseline(draw, small, {lo.x + padding, baseline}, c.quiet, entry.group);
+  if (group > 0) draw_on_baseline(draw, small, {lo.x + padding, baseline}, c.quiet, entry.group);
   draw_on_baseline(draw, text, {lo.x + padding + group, baseline}, c.text,
                    fitted(text, entry.title, right - padding - lo.x - padding - group));
   draw_on_baseline(draw, small, {right, baseline}, chosen ? c.text : c.quiet, entry.keys);
@@ -166,15 +167,18 @@ void palette_contents(App& app, float height) {
   CommandPalette& palette = app.ui.palette;
   palette_field(app);
   const std::vector<int> found = matching(palette.entries, palette.text);
+  ImGui::Dummy({0, app.theme.px(4)});
   if (palette.narrowed != palette.text) palette.narrowed = palette.text, palette.selected = 0;
   const bool moved = palette.go != 0;
   palette.selected = std::clamp(palette.selected + std::exchange(palette.go, 0), 0, std::max(int(found.size()) - 1, 0));
-  const int clicked = palette_list(app, found, height, moved);
+  const float rows = float(std::max(int(found.size()), 1)) * app.theme.px(30);
+  const int clicked = palette_list(app, found, std::min(height, rows), moved);
   // Enter counts once the field has been shown all that was typed before it.
   const bool enter = palette.enter && !app.input.unread;
   if (enter) palette.enter = false;
   if (clicked >= 0) return act(app, clicked);
   if (enter && !found.empty()) act(app, found[std::size_t(palette.selected)]);
+  palette.opening = enter && found.empty();  // Enter has taken the keys from the field
 }
 
 }  // namespace

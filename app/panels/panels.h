@@ -43,6 +43,8 @@ void help_overlay(App& app);
 /// The lab in work, below the viewport; its height is 0 where there is none.
 void lab_panel(App& app, const Region& region);
 float lab_panel_height(const App& app, float available);
+/// From this width on (pixels at scale 1) it has two columns.
+inline constexpr float lab_two_columns = 544;
 
 /// Starts a region as a fixed window with the given ground.
 bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding);

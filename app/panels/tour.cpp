@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
 
 namespace tyglab {
@@ -114,8 +115,10 @@ void tour_contents(App& app) {
   if (!last) ImGui::SameLine();
   char place[32];
   std::snprintf(place, sizeof place, "%d of %d", card + 1, int(stops.size()));
-  ImGui::AlignTextToFramePadding();
-  wrapped(app, place, c.quiet);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.text,
+                   {at.x + app.theme.px(4), baseline_at(app.fonts, at.y + app.theme.px(15))}, c.quiet, place);
+  ImGui::Dummy({text_width(*app.fonts.text, place), app.theme.px(30)});
 }
 
 }  // namespace
