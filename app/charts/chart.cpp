@@ -1,7 +1,9 @@
 #include "app/charts/chart.h"
 
 #include <array>
+#include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "app/panels/symbol.h"
 
@@ -29,10 +31,27 @@ Range range_of(const ChartAxis& axis, const std::vector<ChartSeries>& all, std::
     return {{first - half, last + half, false}, axis.ticks};
   }
   if (least > most) least = 0.1, most = 1;
+  if (axis.span) std::tie(least, most) = *axis.span;
   const PlotRange range = axis.log ? log_range(least, most, 16) : linear_range(least, most, axis.from_zero);
   std::vector<double> ticks = range.ticks;
   if (axis.log) std::reverse(ticks.begin(), ticks.end());
-  return {{range.lo, range.hi, axis.log}, labelled(ticks)};
+  if (!axis.span) return {{range.lo, range.hi, axis.log}, labelled(ticks)};
+  std::erase_if(ticks, [&](double at) { return at < least || at > most; });
+  return {{least, most, axis.log}, labelled(ticks)};
+}
+
+void draw_cell(const PlotPaint& paint, const PlotAxes& axes, const ChartCell& cell) {
+  const ImVec2 lo{axes.px(cell.x_lo), axes.py(cell.y_hi)}, hi{axes.px(cell.x_hi), axes.py(cell.y_lo)};
+  paint.draw.AddRectFilled(lo, hi, cell.color);
+  if (!cell.hatched) return;
+  paint.draw.PushClipRect(lo, hi, true);
+  const float tall = hi.y - lo.y, apart = paint.theme.px(6);
+  // From one origin, so that the lines of neighbouring cells meet.
+  const float first = std::floor((lo.x + lo.y) / apart) * apart;
+  for (float sum = first; sum < hi.x + hi.y; sum += apart)
+    paint.draw.AddLine({sum - lo.y, lo.y}, {sum - lo.y - tall, hi.y}, faded(paint.theme.colors.ground, 0.55f),
+                       paint.theme.px(1.2f));
+  paint.draw.PopClipRect();
 }
 
 /// Lays the names out in lines; draws them if `paint_it`. Returns the height that they take.
@@ -66,7 +85,7 @@ CurveStyle series_style(const Tokens& c, int k) {
   return {colors[std::size_t(k) % colors.size()], lines[std::size_t(k) / colors.size() % lines.size()], 1.8f};
 }
 
-void draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& chart) {
+PlotAxes draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& chart) {
   const Theme& theme = paint.theme;
   const Fonts& fonts = paint.fonts;
   const Tokens& c = theme.colors;
@@ -95,11 +114,13 @@ void draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& cha
             c.text, chart.x.title);
   paint.draw.PushClipRect({axes.lo.x - theme.px(4), axes.lo.y - theme.px(4)},
                           {axes.hi.x + theme.px(4), axes.hi.y + theme.px(4)}, true);
+  for (const ChartCell& cell : chart.cells) draw_cell(paint, axes, cell);
   for (const ChartSeries& series : chart.series)
     draw_curve(paint, axes, {series.name, series.style, series.x, series.y, series.line, series.marks}, 0,
                series.x.size());
   paint.draw.PopClipRect();
   legend(paint, {lo.x, hi.y - legend_height}, hi.x - lo.x, chart, true);
+  return axes;
 }
 
 }  // namespace tyglab

@@ -16,6 +16,14 @@ struct ChartAxis {
   bool from_zero = false;  ///< a linear axis begins at 0
   std::vector<PlotTick>
       ticks;  ///< in place of worked-out ones: the axis then holds them, and half a step on either side
+  std::optional<std::pair<double, double>> span = {};  ///< exactly this, in place of what holds the series
+};
+
+/// A filled rectangle under the curves; `hatched` too where its colour alone would say something bad.
+struct ChartCell {
+  double x_lo, x_hi, y_lo, y_hi;
+  ImU32 color;
+  bool hatched = false;
 };
 
 struct ChartSeries {
@@ -31,14 +39,16 @@ struct Chart {
   std::string note;  ///< a quiet line under the title
   ChartAxis x, y;
   std::vector<ChartSeries> series;
+  std::vector<ChartCell> cells = {};
   float padding = 20;  ///< on all sides, at scale 1
 };
 
 /// A colour and a line style for the k-th of many series, the same in every chart; alike only eight apart.
 CurveStyle series_style(const Tokens& colors, int k);
 
-/// Draws a chart into the rectangle: title, the plot, and as many lines of legend as it needs.
-void draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& chart);
+/// Draws a chart into the rectangle: title, the plot, and as many lines of legend as it needs. Returns where values are
+/// in it.
+PlotAxes draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart& chart);
 
 inline constexpr float chart_width = 640, chart_height = 400;  ///< points at scale 1
 

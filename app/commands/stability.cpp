@@ -10,6 +10,7 @@ void add_stability_command(CLI::App& program, Action& action) {
   add_stability_boundary(*stability, action);
   add_stability_drift(*stability, action);
   add_stability_stress(*stability, action);
+  add_stability_map(*stability, action);
 }
 
 }  // namespace tyglab

@@ -11,5 +11,6 @@ void add_stability_command(CLI::App& program, Action& action);
 void add_stability_boundary(CLI::App& stability, Action& action);
 void add_stability_drift(CLI::App& stability, Action& action);
 void add_stability_stress(CLI::App& stability, Action& action);
+void add_stability_map(CLI::App& stability, Action& action);
 
 }  // namespace tyglab

@@ -17,6 +17,8 @@
 namespace tyglab {
 namespace {
 
+constexpr float least_banner = 380;  // pixels at scale 1, of the width
+
 /// Height of text wrapped to a width.
 float wrapped_height(const ImFont& font, const std::string& text, float width) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, width, text.data(), text.data() + text.size()).y;
@@ -150,7 +152,9 @@ void banner(App& app) {
   const auto& divergence = app.simulation->divergence();
   if (!divergence) return;
   const Tokens& c = app.theme.colors;
-  const glm::vec2 size = app.viewport.size();
+  // In the original's picture where it has room for it, so that its copies can still be seen.
+  const bool roomy = app.viewport.size().x >= app.theme.px(least_banner);
+  const glm::vec2 size = roomy ? app.viewport.size() : app.viewport.whole();
   const float width = std::min(app.theme.px(600), size.x - app.theme.px(32)), padding = app.theme.px(16);
   const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
@@ -163,7 +167,7 @@ void banner(App& app) {
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
   const ImVec2 lo{std::round(app.viewport.box.lo.x + (size.x - width) / 2),
-                  app.viewport.box.hi.y - height - app.theme.px(20)};
+                  app.viewport.box.lo.y + size.y - height - app.theme.px(20)};
   const ImVec2 hi{lo.x + width, lo.y + height};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(8));
@@ -186,7 +190,7 @@ void message_list(App& app) {
   const Tokens& c = app.theme.colors;
   const ImFont& font = *app.fonts.text;
   const float padding = app.theme.px(12), icon_width = app.theme.px(24), close = app.theme.px(22);
-  const float most = std::min(app.theme.px(460), app.viewport.size().x - app.theme.px(32));
+  const float most = std::min(app.theme.px(460), app.viewport.whole().x - app.theme.px(32));
   float y = app.viewport.box.lo.y + app.theme.px(52);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto& list = app.messages.list();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "app/panels/numbers.h"
@@ -144,6 +145,35 @@ void row_tooltip(App& app, const Line& line) {
   end_tooltip(app);
 }
 
+/// "Add a copy with k_s = …": half, double, or what is typed.
+void copy_items(App& app, const Line& line) {
+  if (line.components != 1 || line.effect == Effect::rebuild || line.effect == Effect::start ||
+      line.effect == Effect::view)
+    return;
+  const auto add = [&](double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "=%.17g", rounded(value, 6));
+    app.request(request::AddCopy{{line.key + text}});
+  };
+  ImGui::Separator();
+  for (const double factor : {0.5, 2.0}) {
+    const double value = line.integer ? std::round(factor * line.value[0]) : factor * line.value[0];
+    if (value == line.value[0] || value < line.min || value > line.max) continue;
+    if (ImGui::MenuItem(("Add a copy with " + line.key + " = " + short_number(value)).c_str())) add(value);
+    report_control(app, factor < 1 ? "copy_half" : "copy_double");
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(("Add a copy with " + line.key + " =").c_str());
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(app.theme.px(88));
+  char typed[40] = "";
+  if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    app.request(request::AddCopy{{line.key + "=" + typed}});
+    ImGui::CloseCurrentPopup();
+  }
+  report_control(app, "copy_value");
+}
+
 void row_menu(App& app, const Line& line, ImVec2 lo, ImVec2 hi) {
   if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(lo, hi) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
     ImGui::OpenPopup("row menu");
@@ -152,6 +182,7 @@ void row_menu(App& app, const Line& line, ImVec2 lo, ImVec2 hi) {
       ImGui::MenuItem(("Reset to the preset's " + all_values(line, line.saved)).c_str(), "double-click"))
     line.set(line.saved, 0);
   if (ImGui::MenuItem(("To the default " + all_values(line, line.standard)).c_str())) line.set(line.standard, 0);
+  copy_items(app, line);
   end_menu();
 }
 

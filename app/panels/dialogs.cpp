@@ -12,6 +12,7 @@
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
 #include "app/sandbox/document.h"
+#include "app/sandbox/exports.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -241,14 +242,14 @@ void save_preset_dialog(App& app) {
 
 void csv_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
-  title(app, dialog.height ? "Write the height of the weight as CSV" : "Write the forces as CSV");
+  title(app, csv_export(dialog.csv).title);
   wrapped(app,
           "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
           app.theme.colors.quiet);
   label(app, "File");
   if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Write")) return;
-  const request::WriteCsv write{path_of(dialog.path), dialog.height};
+  const request::WriteCsv write{path_of(dialog.path), dialog.csv};
   close(app);
   app.request(write);
 }
@@ -351,7 +352,7 @@ void open_dialog(App& app, DialogKind kind) {
     dialog.path_follows = true;
   } else if (kind == DialogKind::export_csv) {
     std::error_code ignored;
-    set(dialog.path, (fs::current_path(ignored) / (dialog.height ? "height.csv" : "forces.csv")).string());
+    set(dialog.path, (fs::current_path(ignored) / csv_export(dialog.csv).file).string());
   }
 }
 

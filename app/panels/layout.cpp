@@ -66,7 +66,7 @@ void draw_layout(App& app, ImVec2 window) {
   if (left + app.theme.px(140) > window.x) left = 0;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;
-  app.ui.accuracy_shown = false;
+  app.ui.accuracy_shown = app.ui.map_shown = app.copies.shown = false;
 
   const float lab = panels ? lab_panel_height(app, height) : 0, middle = window.x - left - right;
   // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll.

@@ -16,17 +16,17 @@ ImVec2 vec(glm::vec2 v) {
   return {v.x, v.y};
 }
 
-/// Pixel in the window of a particle, if it is before the camera.
-std::optional<ImVec2> on_screen(const App& app, glm::dvec3 world) {
+/// Pixel in the window of a place in a picture, if it is before the camera.
+std::optional<ImVec2> on_screen(const App& app, int tile, glm::dvec3 world) {
   const auto pixel = app.camera.project(world, app.viewport.size());
   if (!pixel || !std::isfinite(pixel->x) || !std::isfinite(pixel->y) || std::abs(pixel->x) > 1e5f ||
       std::abs(pixel->y) > 1e5f)
     return std::nullopt;
-  return vec(*pixel + app.viewport.box.lo);
+  return vec(*pixel + app.viewport.origin(tile));
 }
 
-std::optional<ImVec2> particle_on_screen(App& app, Pins::Site site) {
-  return on_screen(app, app.simulation->positions().at(site.i, site.j));
+std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site) {
+  return on_screen(app, tile, cloth_in_tile(app, tile).positions().at(site.i, site.j));
 }
 
 void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {
@@ -65,9 +65,10 @@ void arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, std::string_view 
   draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, key, app.theme.colors.text);
 }
 
-/// F_s, F_b, F_d, F_g to one scale: the longest takes about 90 pixels. The scale moves slowly, so that growth is seen.
-void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
-  const ParticleReadout r = app.simulation->particle(app.picked->i, app.picked->j);
+/// F_s, F_b, F_d, F_g to one scale: the longest of the original's takes about 90 pixels. The scale moves slowly, so
+/// that growth is seen.
+void force_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from) {
+  const ParticleReadout r = cloth_in_tile(app, tile).particle(app.picked->i, app.picked->j);
   const std::pair<std::string_view, glm::dvec3> forces[] = {
       {"F_s", r.F_s}, {"F_b", r.F_b}, {"F_d", r.F_d}, {"F_g", r.F_g}};
   double longest = 0;
@@ -76,26 +77,30 @@ void force_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   double& scale = app.ui.arrow_scale;
   // The scale follows within half a second, and at once where arrows would leave the picture or vanish.
   const double follow = 1 - std::exp(-double(ImGui::GetIO().DeltaTime) / 0.5);
-  const bool far = longest > 3 * scale || longest < scale / 20;
-  scale = far ? longest : scale + follow * (longest - scale);
-  if (std::abs(longest - scale) > 0.01 * scale) app.ui.draw_by = app.ui.now;
+  if (tile == 0 || scale <= 0) {
+    const bool far = longest > 3 * scale || longest < scale / 20;
+    scale = far ? longest : scale + follow * (longest - scale);
+    if (std::abs(longest - scale) > 0.01 * scale) app.ui.draw_by = app.ui.now;
+  }
   const double depth = glm::dot(r.x - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
   const double metres_per_pixel = 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y;
   std::vector<ImVec2> labels;
   for (const auto& [key, force] : forces) {
     const double pixels = std::min(glm::length(force) / scale, 1.6) * app.theme.px(90);
     if (pixels < 1) continue;
-    if (const auto to = on_screen(app, r.x + glm::normalize(force) * pixels * metres_per_pixel))
+    if (const auto to = on_screen(app, tile, r.x + glm::normalize(force) * pixels * metres_per_pixel))
       arrow(app, draw, from, *to, key, labels);
   }
 }
 
 void picked(App& app, ImDrawList& draw) {
   if (!app.picked || app.preset().kind != Kind::cloth) return;
-  const auto at = particle_on_screen(app, *app.picked);
-  if (!at) return;
-  if (app.ui.force_arrows && !app.simulation->divergence()) force_arrows(app, draw, *at);
-  ring(app, draw, *at, 7, app.theme.colors.text, 2);
+  for (int tile = 0; tile < app.copies.tiles(); ++tile) {
+    const auto at = particle_on_screen(app, tile, *app.picked);
+    if (!at) continue;
+    if (app.ui.force_arrows && !cloth_in_tile(app, tile).divergence()) force_arrows(app, draw, tile, *at);
+    ring(app, draw, *at, 7, app.theme.colors.text, 2);
+  }
 }
 
 /// The pointer with its tool, and the particle that it would take.
@@ -113,7 +118,7 @@ void pointer(App& app, ImDrawList& draw) {
     }
     case Tool::Kind::grab:
       if (const auto held = app.simulation->held())
-        if (const auto at = particle_on_screen(app, *held)) {
+        if (const auto at = particle_on_screen(app, app.tool.tile, *held)) {
           if (std::hypot(at->x - mouse.x, at->y - mouse.y) > r)
             draw.AddLine(*at, mouse, faded(c.accent, 0.8f), app.theme.px(1.5f));
           ring(app, draw, *at, 10, c.accent, 2.5f);
@@ -135,7 +140,7 @@ void pointer(App& app, ImDrawList& draw) {
     return;
   }
   if (const auto site = particle_under_pointer(app))
-    if (const auto at = particle_on_screen(app, *site)) {
+    if (const auto at = particle_on_screen(app, app.viewport.tile_at(app.input.at), *site)) {
       const bool pinned = app.simulation->pinned(site->i, site->j);
       ring(app, draw, *at, 5, pinned ? c.warning : c.accent, 2);
     }

@@ -34,6 +34,8 @@ bool of_use(const App& app, Command command) {
       return app.history.can_redo();
     case Command::export_height:
       return app.preset().kind == Kind::one_weight;
+    case Command::export_copies:
+      return !app.copies.lockstep.empty();
     case Command::open_palette:
       return false;  // it is open
     default:

@@ -140,4 +140,22 @@ float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve
   return ImGui::GetIO().MouseWheel;
 }
 
+const char* why_empty(const App& app) {
+  if (app.simulation->divergence()) return "Restart to see curves";
+  return app.pacing.playing ? "Waiting for the first step" : "Press Space to run";
+}
+
+PlotFrame time_frame(const App& app, const Series& series, bool log, std::string_view unit,
+                     std::string_view when_empty) {
+  const double now = series.empty() ? app.simulation->time() : series.t().back();
+  const double length = series.empty() ? 0 : now - series.t().front();
+  const double window = app.ui.plots.window_s.value_or(length <= 2 ? 2 : length <= 5 ? 5 : 10);
+  const double end = std::max(now, window);
+  return {.x_min = end - window, .x_max = end, .log = log, .from_zero = true, .unit = unit, .when_empty = when_empty};
+}
+
+void zoom_time(App& app, const PlotFrame& frame, float wheel) {
+  if (wheel != 0) app.ui.plots.window_s = std::clamp((frame.x_max - frame.x_min) * std::pow(0.8, wheel), 0.1, 120.0);
+}
+
 }  // namespace tyglab

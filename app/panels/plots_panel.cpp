@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "app/panels/accuracy_card.h"
+#include "app/panels/copies_card.h"
 #include "app/panels/curves.h"
 #include "app/panels/energy_card.h"
 #include "app/panels/imgui_compat.h"
+#include "app/panels/map_card.h"
 #include "app/panels/panels.h"
 #include "app/panels/performance.h"
 #include "app/panels/plot.h"
@@ -45,24 +47,6 @@ class Card {
   Region inner_;
 };
 
-const char* why_empty(const App& app) {
-  if (app.simulation->divergence()) return "Restart to see curves";
-  return app.pacing.playing ? "Waiting for the first step" : "Press Space to run";
-}
-
-/// The simulated time that a plot shows, s: what the wheel has set, or else as little as holds the curve, up to ten.
-double window_for(const Plots& plots, double length) {
-  if (plots.window_s) return *plots.window_s;
-  return length <= 2 ? 2 : length <= 5 ? 5 : 10;
-}
-
-PlotFrame frame_of(App& app, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
-  const double now = series.empty() ? app.simulation->time() : series.t().back();
-  const double window = window_for(app.ui.plots, series.empty() ? 0 : now - series.t().front());
-  const double end = std::max(now, window);
-  return {.x_min = end - window, .x_max = end, .log = log, .from_zero = true, .unit = unit, .when_empty = when_empty};
-}
-
 /// Clickable names of the curves; the rows that they take are `measure`d first.
 float legend(App& app, const Region& place, bool measure) {
   Plots& plots = app.ui.plots;
@@ -92,10 +76,6 @@ float legend(App& app, const Region& place, bool measure) {
     x += width + gap;
   }
   return y + line - place.at.y;
-}
-
-void zoom_time(App& app, const PlotFrame& frame, float wheel) {
-  if (wheel != 0) app.ui.plots.window_s = std::clamp((frame.x_max - frame.x_min) * std::pow(0.8, wheel), 0.1, 120.0);
 }
 
 void force_controls(App& app, const Region& inner) {
@@ -156,7 +136,7 @@ void force_card(App& app, float height) {
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   const bool no_particle = plots.source == Source::particle && !app.picked;
   const PlotFrame frame =
-      frame_of(app, plots.forces, plots.log, "N", no_particle ? "Right-click a particle to pick it" : why_empty(app));
+      time_frame(app, plots.forces, plots.log, "N", no_particle ? "Right-click a particle to pick it" : why_empty(app));
   if (plot_height > app.theme.px(24))
     zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, plot_height}, curves, frame));
   legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
@@ -219,9 +199,81 @@ void height_card(App& app, float height) {
   }
   const float head = side + app.theme.px(6);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  PlotFrame frame = frame_of(app, plots.height, false, "m", why_empty(app));
+  PlotFrame frame = time_frame(app, plots.height, false, "m", why_empty(app));
   frame.from_zero = false;
   zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, curves, frame));
+}
+
+/// A plot of the column: as a card where all have room, otherwise behind a tab.
+struct PlotCard {
+  const char* tab;
+  void (*draw)(App&, float height);
+};
+
+/// A button in a card's head, the n-th from the right; the cursor stays.
+bool head_button(App& app, const Region& inner, int n, const char* id, const char* glyph, const char* word,
+                 const char* tip) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float side = app.theme.px(22);
+  ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side - float(n) * (side + app.theme.px(4)), inner.at.y});
+  const bool clicked = quiet_button(app, id, glyph, word, tip);
+  report_control(app, id);
+  ImGui::SetCursorScreenPos(at);
+  return clicked;
+}
+
+void copies_plot_card(App& app, float height) {
+  const bool energy = app.copies.plotted == Copies::Quantity::energy;
+  const Card card(app, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
+                  energy ? "J" : "m, log", height);
+  if (head_button(app, card.inner(), 0, "csv_copies", icon::download, "CSV",
+                  "Write what the plot holds as a CSV file…"))
+    app.command(Command::export_copies);
+  copies_plot(app, card.inner().size);
+}
+
+void map_plot_card(App& app, float height) {
+  const bool weight = app.preset().kind == Kind::one_weight;
+  const Card card(app, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
+                  app.map.busy() ? "measuring" : "", height);
+  const Region& inner = card.inner();
+  if (head_button(app, inner, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
+  if (head_button(app, inner, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
+    app.command(Command::export_map);
+  stability_map(app, inner.size);
+}
+
+std::vector<PlotCard> plot_cards(const App& app) {
+  std::vector<PlotCard> cards;
+  if (app.preset().kind == Kind::one_weight) cards.push_back({"Height", height_card});
+  cards.push_back({"Forces", force_card});
+  if (!app.copies.lockstep.empty()) cards.push_back({"Copies", copies_plot_card});
+  if (app.settings.layout.map) cards.push_back({"Map", map_plot_card});
+  return cards;
+}
+
+/// What stands at the foot takes what the plots can spare, the lowest card first.
+struct FootCard {
+  float (*wanted)(const App&);
+  void (*draw)(App&, float height);
+  float height = 0;
+};
+
+/// Which of the plots are shown in a column of that height, and how high each is.
+float choose_plots(App& app, std::vector<PlotCard>& cards, float available, float gap) {
+  const auto count = float(cards.size());
+  const float each = (available - gap * (count - 1)) / count;
+  if (cards.size() == 1)  // does not need the whole column: a plot much taller than wide is hard to read
+    return std::max(0.6f * available, std::min(available, app.theme.px(420)));
+  if (each >= app.theme.px(240)) return each;
+  Plots& plots = app.ui.plots;
+  std::vector<const char*> names;
+  for (const PlotCard& card : cards) names.push_back(card.tab);
+  plots.tab = std::clamp(plots.tab, 0, int(cards.size()) - 1);
+  if (const int k = segments(app, "cards", names.data(), int(names.size()), plots.tab); k >= 0) plots.tab = k;
+  report_control(app, "cards");
+  cards = {cards[std::size_t(plots.tab)]};
+  return available - app.theme.px(26) - ImGui::GetStyle().ItemSpacing.y;
 }
 
 }  // namespace
@@ -230,41 +282,27 @@ void plots_panel(App& app, const Region& region) {
   Plots& plots = app.ui.plots;
   const float margin = app.theme.px(12), gap = app.theme.px(12);
   if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
-  const bool weight = app.preset().kind == Kind::one_weight;
-  const int cards = weight ? 2 : 1;
-  const float column = ImGui::GetContentRegionAvail().y, least_plots = app.theme.px(260);
-  // What stands at the foot takes what the plots can spare, the lowest card first.
-  struct Foot {
-    float (*wanted)(const App&);
-    void (*draw)(App&, float height);
-    float height = 0;
-  };
-  std::array foot_cards{Foot{performance_card_height, performance_card}, Foot{energy_card_height, energy_card},
-                        Foot{accuracy_card_height, accuracy_card}, Foot{stability_card_height, stability_card}};
+  const float column = ImGui::GetContentRegionAvail().y,
+              least_plots = app.theme.px(app.settings.layout.map ? 340.f : 260.f);
+  std::array foot_cards{FootCard{performance_card_height, performance_card}, FootCard{energy_card_height, energy_card},
+                        FootCard{accuracy_card_height, accuracy_card}, FootCard{stability_card_height, stability_card},
+                        FootCard{copies_card_height, copies_card}};
   float foot = 0;
-  for (Foot& card : foot_cards) {
+  for (FootCard& card : foot_cards) {
     card.height = std::floor(std::max(std::min(card.wanted(app), column - foot - gap - least_plots), 0.f));
     if (card.height > 0) foot += card.height + gap;
   }
-  float available = column - foot;
-  const bool tabs = cards > 1 && (available - gap * float(cards - 1)) / float(cards) < app.theme.px(240);
-  if (tabs) {
-    static constexpr const char* names[] = {"Height", "Forces"};
-    if (const int k = segments(app, "cards", names, 2, plots.tab); k >= 0) plots.tab = k;
-    available -= app.theme.px(26) + ImGui::GetStyle().ItemSpacing.y;
+  std::vector<PlotCard> cards = plot_cards(app);
+  const float height = choose_plots(app, cards, column - foot, gap);
+  for (const PlotCard& card : cards) {
+    plots.height_shown |= card.draw == height_card;
+    plots.forces_shown |= card.draw == force_card;
+    if (&card != cards.data()) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
+    card.draw(app, std::floor(height));
   }
-  // One card alone does not need the whole column: a plot much taller than wide is hard to read.
-  const float height = tabs         ? available
-                       : cards == 1 ? std::max(0.6f * available, std::min(available, app.theme.px(420)))
-                                    : (available - gap * float(cards - 1)) / float(cards);
-  plots.height_shown = weight && (!tabs || plots.tab == 0);
-  plots.forces_shown = !weight || !tabs || plots.tab == 1;
-  if (plots.height_shown) height_card(app, std::floor(height));
-  if (plots.height_shown && plots.forces_shown) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
-  if (plots.forces_shown) force_card(app, std::floor(height));
   const float left = ImGui::GetCursorScreenPos().x;
   float lowest = region.at.y + region.size.y - margin;
-  for (const Foot& card : foot_cards) {
+  for (const FootCard& card : foot_cards) {
     if (card.height <= 0) continue;
     ImGui::SetCursorScreenPos({left, lowest - card.height});
     card.draw(app, card.height);

@@ -48,6 +48,9 @@ void document_menu(App& app) {
     app.settings.layout.left = !app.settings.layout.left;
   if (ImGui::MenuItem("Plots", nullptr, app.settings.layout.right))
     app.settings.layout.right = !app.settings.layout.right;
+  if (ImGui::MenuItem(row_of(Command::toggle_map).name, row_of(Command::toggle_map).keys, app.settings.layout.map))
+    app.command(Command::toggle_map);
+  report_control(app, "map");
   if (ImGui::MenuItem("Hints", nullptr, app.settings.layout.status))
     app.settings.layout.status = !app.settings.layout.status;
   item(Command::toggle_panels);

@@ -44,8 +44,9 @@ struct Plots {
   Source source = Source::particle;
   bool paused = false;
   bool log = false;
-  std::optional<double> window_s;  ///< simulated time shown, once the wheel has set it; until then it grows
-  int tab = 0;                     ///< the card shown where only one has room
+  std::optional<double> window_s;    ///< simulated time shown, once the wheel has set it; until then it grows
+  static constexpr int newest = 99;  ///< as a tab: the last one
+  int tab = 0;                       ///< the card shown where only one has room
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
   Series height{5};  ///< of the weight, then by the curves of Figure
@@ -68,7 +69,7 @@ struct Dialog {
   bool enter = false;           ///< Enter was pressed in this frame
   bool path_follows = false;    ///< the path is made from the name until it is edited
   bool overwrite = false;       ///< the file exists, and the user is asked
-  bool height = false;          ///< of export_csv
+  CsvSource csv{};              ///< of export_csv
   std::optional<Request> then;  ///< of a question: what follows a yes
   std::string question;
   struct Entry {
@@ -131,6 +132,7 @@ struct Ui {
   std::vector<std::string> devices;  ///< OpenCL's, by name, once one is in use
   bool energy_shown = false;         ///< the ledger's card is open
   bool accuracy_shown = false;       ///< the accuracy card is open
+  bool map_shown = false;            ///< the map of stiffness against dt is in sight
   double arrow_scale = 0;            ///< N for the longest arrow, smoothed
   double now = 0;                    ///< s since the window opened
   double draw_by = 0;      ///< when the next frame is wanted though nothing moves (a tooltip, a cursor, a message)

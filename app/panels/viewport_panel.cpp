@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
@@ -47,18 +48,59 @@ void view_buttons(App& app, const Region& region) {
   cover_viewport(app, at, ImGui::GetItemRectMax());
 }
 
+/// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged.
+void cloth_names(App& app, ImDrawList& draw) {
+  const Copies& copies = app.copies;
+  if (copies.lockstep.empty()) return;
+  const Tokens& c = app.theme.colors;
+  const ImFont& font = *app.fonts.text;
+  const float pad = app.theme.px(8), sample = app.theme.px(24), height = font.FontSize + pad;
+  const glm::vec2 size = app.viewport.size();
+  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) {
+    const auto& divergence = cloth_of(app, n).divergence();
+    std::string name = name_of_cloth(app, n);
+    if (n == copies.reference) name += " · reference";
+    if (divergence) name += " · diverged at t = " + time_number(divergence->t, cloth_of(app, n).preset().dt) + " s";
+    name = fitted(font, name, size.x - sample - 5 * pad);
+    const float line = copies.overlaid ? height * float(int(copies.lockstep.size()) - 1 - n) : 0;
+    const glm::vec2 at = app.viewport.origin(copies.overlaid ? 0 : n + 1) + glm::vec2(2 * pad, size.y - 2 * pad);
+    const ImVec2 lo{std::round(at.x), std::round(at.y - line - height)};
+    const float middle = std::round(lo.y + height / 2);
+    draw.AddRectFilled(lo, {lo.x + sample + 3 * pad + text_width(font, name), lo.y + height}, faded(c.ground, 0.75f),
+                       app.theme.px(6));
+    const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
+    draw_styled_line(draw, ends, 2, style_of_cloth(app, n), app.theme.scale);
+    draw_text(draw, font, {lo.x + 2 * pad + sample, std::round(middle - font.FontSize / 2)},
+              divergence ? c.danger : c.text, name);
+  }
+}
+
+/// The cloth's picture, and those of its copies beside it.
+void pictures(App& app, ImDrawList& draw) {
+  const glm::vec2 size = app.viewport.size();
+  for (int tile = 0; tile < app.copies.tiles(); ++tile) {
+    const glm::vec2 lo = app.viewport.origin(tile), hi = lo + size;
+    draw.AddImage(gui::texture(app.views.picture(app, tile)), {lo.x, lo.y}, {hi.x, hi.y}, {0, 1}, {1, 0});
+    // What is left of a diverged cloth steps back, so that what is said of it is what one sees.
+    if (cloth_in_tile(app, tile).divergence())
+      draw.AddRectFilled({lo.x, lo.y}, {hi.x, hi.y}, faded(app.theme.colors.ground, 0.35f));
+    if (tile == 0) continue;
+    if (tile % app.viewport.columns > 0) draw.AddLine({lo.x, lo.y}, {lo.x, hi.y}, app.theme.colors.line);
+    if (tile >= app.viewport.columns) draw.AddLine({lo.x, lo.y}, {hi.x, lo.y}, app.theme.colors.line);
+  }
+}
+
 }  // namespace
 
 void viewport_panel(App& app, const Region& region) {
   app.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}};
+  app.viewport.divide(app.copies.tiles());
   app.viewport.covers.clear();
   if (!begin_region("viewport", region, app.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 hi{region.at.x + region.size.x, region.at.y + region.size.y};
-  draw.AddImage(gui::texture(app.renderer->texture_id()), region.at, hi, {0, 1}, {1, 0});
-  // What is left of a diverged cloth steps back, so that the banner is what one sees.
-  if (app.simulation->divergence()) draw.AddRectFilled(region.at, hi, faded(app.theme.colors.ground, 0.35f));
+  pictures(app, draw);
   viewport_overlay(app);
+  cloth_names(app, draw);
   if (app.wished().kind == Kind::cloth) view_buttons(app, region);
   message_list(app);
   banner(app);

@@ -2,14 +2,12 @@
 // methods, made beside the frames at low priority while the accuracy card is open, and dropped when it closes.
 #pragma once
 
-#include <atomic>
-#include <future>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/sandbox/background.h"
 #include "core/analysis/error_study.h"
 
 namespace tyglab {
@@ -32,11 +30,6 @@ class AccuracyWatch {
   static constexpr int largest = 256 * 256;  ///< particles that are judged beside the window
   static constexpr double window = 0.25;     ///< s of motion, where it does not take too long
 
-  AccuracyWatch() = default;
-  AccuracyWatch(AccuracyWatch&&) = default;
-  AccuracyWatch& operator=(AccuracyWatch&&) = default;
-  ~AccuracyWatch() { drop(); }
-
   /// Called in every frame that shows the card: begins a study where constants have changed, or the cloth has moved on
   /// since the last.
   void poll(App& app);
@@ -46,19 +39,14 @@ class AccuracyWatch {
   std::optional<AccuracyStudy> study() const;
 
  private:
-  struct Shared {
-    std::mutex mutex;
-    AccuracyStudy study;
-    std::atomic<bool> stop = false;
-  };
+  using Work = Background<AccuracyStudy>;
   void begin(App& app);
-  static void work(Shared& shared, const StudyStart& start);
-  bool busy() const;
+  static void work(Work::Shared& shared, const StudyStart& start);
 
-  std::shared_ptr<Shared> shared_, shown_;  ///< the newest, and the last that has something to show
-  std::future<void> work_;
-  double begun_ = -1;    ///< s, as the window counts
-  double changed_ = -1;  ///< when the constants last differed from those of the study
+  Work work_;
+  std::shared_ptr<Work::Shared> shown_;  ///< the last that has something to show
+  double begun_ = -1;                    ///< s, as the window counts
+  double changed_ = -1;                  ///< when the constants last differed from those of the study
 };
 
 }  // namespace tyglab

@@ -14,10 +14,13 @@
 #include "app/sandbox/accuracy_watch.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
+#include "app/sandbox/cloth_views.h"
+#include "app/sandbox/copies.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
 #include "app/sandbox/input.h"
+#include "app/sandbox/map_watch.h"
 #include "app/sandbox/messages.h"
 #include "app/sandbox/pointer.h"
 #include "app/sandbox/requests.h"
@@ -43,6 +46,7 @@ struct App {
   Sleep sleep;
   StabilityWatch stability;
   AccuracyWatch accuracy;
+  MapWatch map;
   Rewind rewind;
   Figure figure;
   LabState labs;
@@ -52,6 +56,8 @@ struct App {
   bool told_unconverged = false;    ///< that an implicit method's solves do not reach their tolerance, likewise
 
   std::unique_ptr<ClothRenderer> renderer;
+  ClothViews views;
+  Copies copies;
   Camera camera;
   ViewOptions view;
   Viewport viewport;

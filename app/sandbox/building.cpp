@@ -50,6 +50,7 @@ bool takes_long(const App& app, const Edit& edit) {
 
 void swap_in(App& app, std::unique_ptr<Simulation> simulation) {
   app.simulation.swap(simulation);
+  copies_resume(app);
   if (simulation != nullptr) app.building.dispose(std::move(simulation));
   app.sleep = Sleep{};
   app.redraw_cloth = true;  // its count of changes may be that of the last one
@@ -131,7 +132,7 @@ void Building::go_on(App& app) {
   if (app.simulation->rebuilds(change)) return start(app);
   next_.reset();
   const Preset before = app.preset();
-  app.simulation->apply(change);
+  apply_to_all(app, change);
   follow_up(app, before);
 }
 

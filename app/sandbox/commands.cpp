@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 28> rows{{
+  static const std::array<CommandRow, 31> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -40,6 +40,12 @@ std::span<const CommandRow> command_rows() {
       {Command::choose_lab, "Labs…", "Ctrl+L", {{GLFW_KEY_L, control}}, "chooses a lab", "lessons exercises course"},
       {Command::leave_lab, "Leave the lab", "", {}, "", "quit end"},
       {Command::toggle_panels, "All panels", "Tab", {{GLFW_KEY_TAB, 0}}, "hides the panels", "show"},
+      {Command::toggle_map,
+       "Map of k_s and dt",
+       "M",
+       {{GLFW_KEY_M, 0}},
+       "maps which k_s and dt are stable",
+       "stability card"},
       {Command::full_screen, "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window"},
       {Command::open_dialog, "Open…", "Ctrl+O", {{GLFW_KEY_O, control}}, "opens a preset", "file load"},
       {Command::save, "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write"},
@@ -70,6 +76,8 @@ std::span<const CommandRow> command_rows() {
       {Command::load_texture_dialog, "Take a picture as texture…", "", {}, "", "image cloth"},
       {Command::export_forces, "Write the forces as CSV…", "", {}, "", "export plot series"},
       {Command::export_height, "Write the height of the weight as CSV…", "", {}, "", "export plot series"},
+      {Command::export_map, "Write the map as CSV…", "", {}, "", "export stability"},
+      {Command::export_copies, "Write the copies' distances as CSV…", "", {}, "", "export lockstep"},
       {Command::larger_text,
        "Larger text",
        "Ctrl++",

@@ -105,7 +105,7 @@ bool save_document_as(App& app, const std::filesystem::path& file, const std::st
     return false;
   }
   app.building.rename(name);
-  if (!app.building.holds_present()) app.simulation->apply(edit::Change{preset});
+  if (!app.building.holds_present()) apply_to_all(app, edit::Change{preset});
   app.document = {preset, file.stem().string(), file};
   app.messages.note("Saved " + file.string());
   return true;

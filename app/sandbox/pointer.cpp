@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "app/sandbox/app.h"
 #include "app/sandbox/window.h"
@@ -21,8 +22,8 @@ float reach(const App& app) {
   return app.theme.px(24);
 }
 
-std::optional<Pins::Site> nearest_site(App& app, glm::vec2 at, bool free_only) {
-  Simulation& simulation = *app.simulation;
+std::optional<Pins::Site> nearest_site(App& app, int tile, glm::vec2 at, bool free_only) {
+  Simulation& simulation = cloth_in_tile(app, tile);
   const auto skip = [&](int i, int j) { return free_only && simulation.pinned(i, j); };
   const auto hit = nearest_particle(simulation.positions(), app.camera, at, app.viewport.size(), reach(app), skip);
   if (!hit) return std::nullopt;
@@ -30,25 +31,25 @@ std::optional<Pins::Site> nearest_site(App& app, glm::vec2 at, bool free_only) {
 }
 
 /// The body that a press means: one that no cloth hangs in front of. Cloth that rests on it does not hide it.
-std::optional<int> body_pressed(App& app, glm::vec2 at) {
+std::optional<int> body_pressed(App& app, int tile, glm::vec2 at) {
   const std::vector<Body>& bodies = app.preset().bodies;
   const auto body = body_under(bodies, app.camera, at, app.viewport.size());
   if (!body) return std::nullopt;
-  const auto site = nearest_site(app, at, false);
+  const auto site = nearest_site(app, tile, at, false);
   if (!site) return body;
   const glm::dvec3 eye(app.camera.eye());
   const glm::dvec3 ray = app.camera.ray(at, app.viewport.size()), to_centre = bodies[*body].c - eye;
   const double along = glm::dot(ray, to_centre), r = bodies[*body].r;
   const double half_chord2 = r * r - (glm::dot(to_centre, to_centre) - along * along);
   const double surface = along - std::sqrt(std::max(0.0, half_chord2));
-  const double particle = glm::dot(ray, app.simulation->positions().at(site->i, site->j) - eye);
+  const double particle = glm::dot(ray, cloth_in_tile(app, tile).positions().at(site->i, site->j) - eye);
   const double resting = std::max(3 * app.preset().L, 0.15 * r);
   return particle > surface - resting ? body : std::nullopt;
 }
 
 void start_left(App& app, glm::vec2 at) {
   Tool& tool = app.tool;
-  if (const auto body = body_pressed(app, at)) {
+  if (const auto body = body_pressed(app, tool.tile, at)) {
     tool.kind = ToolKind::body;
     tool.body = *body;
     tool.body_plane = app.preset().bodies[*body].c;
@@ -67,8 +68,10 @@ bool follows_click(const App& app, const PointerEvent& event, glm::vec2 at) {
          glm::length(at - tool.last_press) <= app.theme.px(double_click_slack);
 }
 
-void start(App& app, const PointerEvent& event, glm::vec2 at) {
+void start(App& app, const PointerEvent& event) {
   Tool& tool = app.tool;
+  tool.tile = app.viewport.tile_at(event.at);
+  const glm::vec2 at = event.at - app.viewport.origin(tool.tile);
   tool.button = event.button;
   tool.press = tool.at = at;
   tool.press_time = event.time;
@@ -81,13 +84,13 @@ void start(App& app, const PointerEvent& event, glm::vec2 at) {
     tool.kind = ToolKind::right;
     tool.second_press = follows_click(app, event, at);
     // A swinging cloth has carried the particle away by now: the one that was clicked first is meant.
-    tool.site = tool.second_press ? tool.last_site : nearest_site(app, at, false);
+    tool.site = tool.second_press ? tool.last_site : nearest_site(app, tool.tile, at, false);
   }
 }
 
 void start_grab(App& app) {
   Tool& tool = app.tool;
-  const auto site = nearest_site(app, tool.press, true);
+  const auto site = nearest_site(app, tool.tile, tool.press, true);
   if (!site || !apply_edit(app, edit::Grab{site->i, site->j})) {
     tool.kind = ToolKind::none;
     return;
@@ -157,8 +160,8 @@ void cut(App& app) {
   std::vector<Pins::Site> sites;
   if (tool.path.size() == 1) tool.path.push_back(tool.path.front());
   for (std::size_t k = 1; k < tool.path.size(); ++k)
-    for (const Pins::Site& site : particles_near_path(app.simulation->positions(), app.camera, tool.path[k - 1],
-                                                      tool.path[k], app.viewport.size(), reach(app)))
+    for (const Pins::Site& site : particles_near_path(cloth_in_tile(app, tool.tile).positions(), app.camera,
+                                                      tool.path[k - 1], tool.path[k], app.viewport.size(), reach(app)))
       if (std::find(sites.begin(), sites.end(), site) == sites.end()) sites.push_back(site);
   tool.path = {tool.at};
   if (!sites.empty()) apply_edit(app, edit::Cut{std::move(sites)});
@@ -189,19 +192,40 @@ void hold(App& app) {
     tool.kind = ToolKind::none;
     return;
   }
-  const glm::dvec3 through = app.simulation->positions().at(held->i, held->j);
+  const glm::dvec3 through = cloth_in_tile(app, tool.tile).positions().at(held->i, held->j);
   tool.hand = app.camera.unproject_in_camera_plane(tool.at, through, app.viewport.size());
 }
 
 }  // namespace
 
+int Viewport::tile_at(glm::vec2 p) const {
+  const glm::vec2 inside = (p - box.lo) / glm::max(size(), glm::vec2(1));
+  return std::clamp(int(inside.y), 0, rows - 1) * columns + std::clamp(int(inside.x), 0, columns - 1);
+}
+
+void Viewport::divide(int pictures) {
+  // The division whose pictures are nearest to square.
+  const glm::vec2 whole = box.hi - box.lo;
+  float best = std::numeric_limits<float>::infinity();
+  for (int across = 1; across <= pictures; ++across) {
+    const int down = (pictures + across - 1) / across;
+    if (across * down - pictures >= across) continue;  // an empty row
+    const float shape = std::abs(std::log(whole.x / float(across) / std::max(whole.y / float(down), 1.f)));
+    if (shape < best) best = shape, columns = across, rows = down;
+  }
+}
+
+Simulation& cloth_in_tile(App& app, int tile) {
+  return cloth_of(app, tile < app.copies.tiles() ? tile - 1 : Copies::original);
+}
+
 void handle_pointer(App& app) {
   Tool& tool = app.tool;
   for (const PointerEvent& event : app.input.pointer) {
-    const glm::vec2 at = event.at - app.viewport.box.lo;
+    const glm::vec2 at = event.at - app.viewport.origin(tool.tile);
     switch (event.type) {
       case PointerEvent::Type::press:
-        if (tool.kind == ToolKind::none && app.viewport.takes(event.at)) start(app, event, at);
+        if (tool.kind == ToolKind::none && app.viewport.takes(event.at)) start(app, event);
         break;
       case PointerEvent::Type::move:
         drag(app, at);
@@ -222,12 +246,14 @@ void handle_pointer(App& app) {
 
 std::optional<Pins::Site> particle_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return std::nullopt;
-  return nearest_site(app, app.input.at - app.viewport.box.lo, false);
+  const int tile = app.viewport.tile_at(app.input.at);
+  return nearest_site(app, tile, app.input.at - app.viewport.origin(tile), false);
 }
 
 bool body_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
-  return body_pressed(app, app.input.at - app.viewport.box.lo).has_value();
+  const int tile = app.viewport.tile_at(app.input.at);
+  return body_pressed(app, tile, app.input.at - app.viewport.origin(tile)).has_value();
 }
 
 void cut_between_steps(App& app) {

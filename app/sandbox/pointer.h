@@ -13,6 +13,7 @@
 namespace tyglab {
 
 struct App;
+class Simulation;
 
 /// Where the viewport is in the window, and what lies over it.
 struct Viewport {
@@ -21,9 +22,18 @@ struct Viewport {
     bool contains(glm::vec2 p) const { return p.x >= lo.x && p.y >= lo.y && p.x < hi.x && p.y < hi.y; }
   };
   Box box;
-  std::vector<Box> covers;  ///< buttons and banners over it: presses there are theirs
-  bool blocked = false;     ///< a menu or dialog is open: every press is its own
-  glm::vec2 size() const { return box.hi - box.lo; }
+  int columns = 1, rows = 1;  ///< pictures of one camera side by side: the cloth's, then its copies', row by row
+  std::vector<Box> covers;    ///< buttons and banners over it: presses there are theirs
+  bool blocked = false;       ///< a menu or dialog is open: every press is its own
+  glm::vec2 whole() const { return box.hi - box.lo; }
+  /// Of one picture.
+  glm::vec2 size() const { return whole() / glm::vec2(columns, rows); }
+  /// Where the n-th picture begins, pixels in the window.
+  glm::vec2 origin(int tile) const { return box.lo + size() * glm::vec2(tile % columns, tile / columns); }
+  /// The picture under a pixel of the window; the nearest one where none is.
+  int tile_at(glm::vec2 p) const;
+  /// Divides the viewport for so many pictures.
+  void divide(int pictures);
   bool takes(glm::vec2 p) const {
     if (blocked || !box.contains(p)) return false;
     for (const Box& cover : covers)
@@ -37,7 +47,8 @@ struct Tool {
   enum class Kind { none, orbit, pan, right, grab, cut, body };
   Kind kind = Kind::none;     ///< right: the right button is down and has not moved yet
   int button = 0;             ///< that ends it
-  glm::vec2 press{0}, at{0};  ///< pixels in the viewport
+  int tile = 0;               ///< the picture that was pressed
+  glm::vec2 press{0}, at{0};  ///< pixels in that picture
   double press_time = 0;
   std::vector<glm::vec2> path;  ///< the pointer's way in this frame, for cuts
   int body = -1;
@@ -53,8 +64,10 @@ struct Tool {
 
 /// Handles the frame's pointer events and what a held tool does every frame.
 void handle_pointer(App& app);
-/// The particle that a press would take, if the pointer is free over the viewport.
+/// The particle that a press would take, if the pointer is free over the viewport: of the cloth in the picture there.
 std::optional<Pins::Site> particle_under_pointer(App& app);
+/// The cloth whose picture stands there: the original's is 0.
+Simulation& cloth_in_tile(App& app, int tile);
 /// Whether a left press would take a body.
 bool body_under_pointer(App& app);
 /// While the cut is held: cuts at the pointer, once a step, since the cloth moves under it between two frames.

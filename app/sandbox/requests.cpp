@@ -5,13 +5,13 @@
 #include <new>
 
 #include "app/data_files.h"
-#include "app/panels/curves.h"
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
 #include "app/panels/palette.h"
 #include "app/panels/tour.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
+#include "app/sandbox/exports.h"
 #include "core/cloth/start.h"
 #include "core/notation/preset_io.h"
 
@@ -28,7 +28,7 @@ void spell_pins_as_saved(App& app) {
   if (app.preset().pins == saved.pins || !same_pins(app.preset(), saved)) return;
   Preset next = app.preset();
   next.pins = saved.pins;
-  app.simulation->apply(edit::Change{next});
+  apply_to_all(app, edit::Change{next});
 }
 
 /// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
@@ -54,7 +54,7 @@ void change_present(App& app, const Preset& before, const Preset& next) {
   const edit::Change change{rebased(before, next, app.preset())};
   if (app.building.holds_present() || change.preset == app.preset() || app.simulation->rebuilds(change)) return;
   const Preset old = app.preset();
-  app.simulation->apply(change);
+  apply_to_all(app, change);
   follow_up(app, old);
 }
 
@@ -113,6 +113,7 @@ bool rewind(App& app) {
   const double t = app.simulation->time();
   if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) return false;
   app.rewind.go_back(*app.simulation, t, rewinds_s);
+  copies_resume(app);
   app.tool.kind = Tool::Kind::none;
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();
   app.pacing.restart_measure();
@@ -166,6 +167,17 @@ void follow_constants(App& app, Preset& next) {
   if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
 }
 
+void toggle_map(App& app) {
+  Layout& layout = app.settings.layout;
+  layout.map = !layout.map;
+  if (layout.map) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
+}
+
+void open_export(App& app, CsvSource source) {
+  app.ui.dialog.csv = source;
+  open_dialog(app, Dialog::Kind::export_csv);
+}
+
 void reset_everything(App& app) {
   take_back(app, app.document.saved);
   restart(app);
@@ -177,6 +189,7 @@ void single_step(App& app) {
   if (app.building.holds_present()) return;
   move_hand(app, 1);
   app.steps_made += app.simulation->advance(1).steps;
+  copies_follow(app, 0);
 }
 
 void change_text_size(App& app, double factor) {
@@ -223,11 +236,9 @@ void apply(App& app, const request::Do& what) {
     case Command::load_texture_dialog:
       return open_dialog(app, Dialog::Kind::texture);
     case Command::export_forces:
-      app.ui.dialog.height = false;
-      return open_dialog(app, Dialog::Kind::export_csv);
+      return open_export(app, CsvSource::forces);
     case Command::export_height:
-      app.ui.dialog.height = true;
-      return open_dialog(app, Dialog::Kind::export_csv);
+      return open_export(app, CsvSource::height);
     case Command::toggle_help:
       app.ui.help = !app.ui.help;
       return;
@@ -242,6 +253,12 @@ void apply(App& app, const request::Do& what) {
     case Command::toggle_panels:
       app.ui.panels = !app.ui.panels;
       return;
+    case Command::toggle_map:
+      return toggle_map(app);
+    case Command::export_map:
+      return open_export(app, CsvSource::map);
+    case Command::export_copies:
+      return open_export(app, CsvSource::copies);
     case Command::full_screen:
       app.toggle_full_screen = true;
       return;
@@ -297,10 +314,8 @@ bool apply(App& app, const request::SavePreset& what) {
 }
 
 void apply(App& app, const request::WriteCsv& what) {
-  const Series& series = what.height ? app.ui.plots.height : app.ui.plots.forces;
-  const std::vector<std::string> names = what.height ? height_column_names() : force_column_names();
   try {
-    write_atomically(what.file, series.csv(names, "tyglab series, t in s, preset hash " + preset_hash(app.preset())));
+    write_atomically(what.file, csv_export(what.source).text(app));
     app.messages.note("Wrote " + what.file.string());
   } catch (const OutputError& error) {
     app.messages.error(error.what());
@@ -311,6 +326,14 @@ void apply(App& app, const request::LoadTexture& what) {
   Preset next = app.wished();
   next.texture = what.name;
   apply_edit(app, edit::Change{next});
+}
+
+void apply(App& app, const request::AddCopy& what) {
+  add_copy(app, what.differences, what.as_reference);
+}
+
+void apply(App& app, const request::RemoveCopy& what) {
+  remove_copy(app, what.index);
 }
 
 void apply(App& app, const request::Quit& what) {
@@ -353,6 +376,11 @@ void follow_up(App& app, const Preset& before) {
   app.pacing.forget_cost();
 }
 
+void apply_to_all(App& app, const Edit& edit) {
+  app.simulation->apply(edit);
+  copies_apply(app, edit);
+}
+
 bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
   try {
     if (const auto* change = std::get_if<edit::Change>(&edit))
@@ -360,7 +388,7 @@ bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
     if (!take_texture(app, edit)) return false;
     if (const auto taken = build_beside(app, edit, gesture)) return *taken;
     const Preset before = app.preset();
-    app.simulation->apply(edit);
+    apply_to_all(app, edit);
     if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
     if (before == app.preset()) return true;
     record(app, before, app.preset(), gesture);

@@ -35,12 +35,18 @@ enum class Command {
   leave_lab,
   start_tour,
   toggle_panels,
+  toggle_map,
+  export_map,
+  export_copies,
   full_screen,
   larger_text,
   smaller_text,
   normal_text,
   quit,
 };
+
+/// What a CSV file is written from (exports.h), in its order.
+enum class CsvSource { forces, height, map, copies };
 
 namespace request {
 /// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.
@@ -70,18 +76,27 @@ struct SavePreset {
 };
 struct WriteCsv {
   std::filesystem::path file;
-  bool height = false;  ///< y(t) of the one weight, otherwise the forces
+  CsvSource source = CsvSource::forces;
 };
 struct LoadTexture {
   std::string name;  ///< shipped name or path
+};
+/// A copy that moves in lockstep, with these settings instead of the present ones ("k_s=80").
+struct AddCopy {
+  std::vector<std::string> differences;
+  bool as_reference = false;
+};
+struct RemoveCopy {
+  std::size_t index;
 };
 struct Quit {
   bool confirmed = false;
 };
 }  // namespace request
 
-using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
-                             request::LoadTexture, request::Retry, request::Quit>;
+using Request =
+    std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
+                 request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy, request::Quit>;
 
 struct App;
 /// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.
@@ -90,6 +105,9 @@ void apply_requests(App& app);
 void watch_dt(App& app);
 /// Applies one edit at once (the pointer's tools). Returns whether it was taken.
 bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
+/// Gives an edit to the cloth and its copies, with no more checks or traces than they make themselves. Throws as
+/// Simulation::apply.
+void apply_to_all(App& app, const Edit& edit);
 /// What follows where the cloth of these constants has given way to the present one.
 void follow_up(App& app, const Preset& before);
 /// Whether the present constants differ from those of the file (the view apart).

@@ -18,6 +18,7 @@ void sample(App& app) {
     const auto reduction = plots.source == Source::sum ? Reduction::sum : Reduction::maximum;
     plots.forces.add(t, force_values(app.simulation->forces(reduction)));
   }
+  if (app.copies.shown) sample_copies(app);
   if (plots.height_shown) {
     const double y = app.simulation->positions().at(0, 0).y;
     const bool fresh = plots.height.empty() || t <= plots.height.t().back();

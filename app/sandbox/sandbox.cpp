@@ -16,7 +16,6 @@
 #include "app/sandbox/sampling.h"
 #include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
-#include "app/viewport/drawn_cloth.h"
 #include "app/viewport/graphics_error.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
@@ -30,7 +29,6 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double settle_time = 0.3;          // s after an event
 constexpr double gesture_end = 0.6;          // s without a change
-constexpr double calm_stretch = 5;           // rest lengths; what is longer is not drawn of a diverged cloth
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
 
 /// The cloth that is shown first.
@@ -43,7 +41,7 @@ struct First {
 class Sandbox {
  public:
   explicit Sandbox(const SandboxOptions& options);
-  ~Sandbox() { app_.renderer.reset(); }  // while the window's context lives
+  ~Sandbox() { app_.views = {}, app_.renderer.reset(); }  // while the window's context lives
   Sandbox(const Sandbox&) = delete;
   Sandbox& operator=(const Sandbox&) = delete;
   int run();
@@ -78,10 +76,6 @@ class Sandbox {
   double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
   Image last_picture_;
-  std::uint64_t drawn_revision_ = ~0ull;
-  Camera drawn_camera_;
-  ViewOptions drawn_view_;
-  glm::ivec2 drawn_size_{0};
 };
 
 Sandbox::Sandbox(const SandboxOptions& options)
@@ -127,7 +121,8 @@ Document Sandbox::first_document() {
 }
 
 bool Sandbox::idle() const {
-  const bool still = !app_.pacing.playing || app_.simulation->divergence().has_value() || app_.asleep();
+  const bool over = app_.simulation->divergence().has_value() && !app_.copies.lockstep.alive();
+  const bool still = !app_.pacing.playing || over || app_.asleep();
   return still && !app_.scripted && !app_.building.in_work() && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ &&
          app_.requests.empty() && app_.tool.kind == Tool::Kind::none;
 }
@@ -190,9 +185,13 @@ void Sandbox::simulate(double real_seconds) {
   app_.sleep.begin(simulation);
   if (const bool wanted = app_.ui.energy_shown || app_.auto_dt; wanted != simulation.ledger().has_value())
     simulation.keep_ledger(wanted);
-  if (!app_.pacing.playing || simulation.divergence() || app_.asleep() || app_.building.holds_present()) return;
-  app_.rewind.look(simulation);
+  if (!app_.pacing.playing || app_.asleep() || app_.building.holds_present()) return;
   const double dt = app_.preset().dt;
+  if (simulation.divergence()) {
+    if (app_.copies.lockstep.alive()) app_.steps_made += copies_go_on(app_, app_.pacing.due(real_seconds, dt));
+    return;
+  }
+  app_.rewind.look(simulation);
   const int due = up_to_stop(app_, app_.pacing.due(real_seconds, dt));
   move_hand(app_, due);
   const auto start = std::chrono::steady_clock::now();
@@ -209,8 +208,10 @@ void Sandbox::simulate(double real_seconds) {
     const double cost = app_.pacing.step_cost_s();
     const bool cutting = app_.tool.kind == Tool::Kind::cut;
     const int piece = cost > 0 && !cutting ? std::clamp(int(0.25 * app_.pacing.budget_s / cost), 1, due - made) : 1;
+    const double before = spent();
     const Advance advance = simulation.advance(piece);
     made += advance.steps;
+    copies_follow(app_, spent() - before);
     cut_between_steps(app_);
     if (advance.left_inside > 0 && !app_.told_left_inside) {
       app_.messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
@@ -235,7 +236,7 @@ void Sandbox::simulate(double real_seconds) {
   app_.steps_made += made;
   pause_at_stop(app_);
   if (app_.auto_dt && !simulation.divergence()) watch_dt(app_);
-  if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none);
+  if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none || !app_.copies.lockstep.empty());
 }
 
 /// The device is gone: the CPU engine goes on from the last state that is kept.
@@ -252,33 +253,7 @@ void Sandbox::fall_back(const std::string& why) {
 
 void Sandbox::draw_cloth() {
   const glm::ivec2 window = window_.size(), framebuffer = window_.framebuffer_size();
-  const glm::vec2 magnified = window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1);
-  const glm::vec2 shown = app_.viewport.size();
-  const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
-  if (app_.wants_framing && shown.x > 1) {
-    app_.camera = scene_camera(app_.preset(), shown.x / shown.y);
-    app_.wants_framing = false;
-  }
-  app_.view.mode = app_.preset().mode;
-  app_.view.line_width = app_.theme.scale * 1.6f;
-  app_.view.point_size = app_.theme.scale * 9;
-  app_.view.longest_edge = app_.simulation->divergence() ? float(calm_stretch * app_.preset().L) : 0.f;
-  app_.view.every = drawn_every(app_.simulation->lattice(), size.x, size.y);
-  const bool same = app_.simulation->revision() == drawn_revision_ && app_.camera == drawn_camera_ &&
-                    app_.view == drawn_view_ && size == drawn_size_ && !app_.redraw_cloth;
-  if (same) return;
-  app_.renderer->update(*app_.simulation, app_.view);
-  {
-    const FrameCosts::Timer timer(app_.costs, Part::draw_cloth);
-    app_.renderer->draw(app_.camera, app_.view, size.x, size.y);
-  }
-  const RenderWork work = app_.renderer->take_work();
-  app_.costs.add(Part::normals, work.normals);
-  app_.costs.add(Part::upload, work.upload);
-  app_.costs.add(Part::shadow, work.shadow);
-  drawn_revision_ = app_.simulation->revision();
-  drawn_camera_ = app_.camera, drawn_view_ = app_.view, drawn_size_ = size;
-  app_.redraw_cloth = false;
+  app_.views.draw(app_, window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1));
 }
 
 void Sandbox::draw_panels() {
@@ -351,6 +326,7 @@ void Sandbox::frame_parts() {
   draw_cloth();
   draw_panels();
   if (!app_.ui.accuracy_shown) app_.accuracy.drop();
+  if (!app_.ui.map_shown) app_.map.drop();
   present();
   const bool quiet = !ImGui::IsAnyItemActive() && app_.tool.kind == Tool::Kind::none;
   if (quiet && now - app_.ui.last_change > gesture_end) app_.history.end_gesture();

@@ -136,6 +136,24 @@ Json lab(const App& app) {
           {"right", record.right}};
 }
 
+/// The copies in lockstep; a distance is told where the card measures it.
+Json copies(const App& app) {
+  Json list = Json::array();
+  const Copies& copies = app.copies;
+  for (int n = 0; n < int(copies.lockstep.size()); ++n) {
+    const Simulation& cloth = cloth_of(app, n);
+    Json copy = {{"name", name_of_cloth(app, n)}, {"t", cloth.time()}, {"steps", cloth.steps()}};
+    const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
+    copy["distance"] = std::isfinite(apart) ? Json(apart) : Json(nullptr);
+    copy["diverged"] = cloth.divergence().has_value();
+    copy["torn_springs"] = cloth.tears().torn_count();
+    const auto held = cloth.held();
+    copy["held"] = held ? Json{held->i, held->j} : Json(nullptr);
+    list.push_back(copy);
+  }
+  return list;
+}
+
 int pinned_count(const App& app) {
   const Lattice& lattice = app.simulation->lattice();
   int count = 0;
@@ -167,6 +185,10 @@ void add_simulation(Json& json, const App& app) {
   json["auto_dt"] = app.auto_dt.has_value();
   json["energy"] = energy(app);
   json["accuracy"] = accuracy(app);
+  json["copies"] = copies(app);
+  const auto map = app.map.findings();
+  json["map_cells"] = map ? Json(map->cells.size()) : Json(nullptr);
+  json["copies_reference"] = app.copies.reference;
   const auto next = app.building.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
   json["frames_while_building"] = app.building.frames_beside();
@@ -183,9 +205,10 @@ void add_simulation(Json& json, const App& app) {
 
 void add_window(Json& json, const App& app) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const glm::vec2 at = app.viewport.box.lo, size = app.viewport.size();
+  const glm::vec2 at = app.viewport.box.lo, size = app.viewport.whole();
   json["window"] = {window.x, window.y};
   json["viewport"] = {at.x, at.y, size.x, size.y};
+  json["pictures"] = {app.viewport.columns, app.viewport.rows};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
   const SliderState& slider = app.ui.slider;

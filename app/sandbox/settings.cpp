@@ -73,6 +73,7 @@ Layout layout_from(const Section& from) {
   from.take("left", layout.left);
   from.take("right", layout.right);
   from.take("status", layout.status);
+  from.take("map", layout.map);
   from.take("folded", layout.folded);
   layout.left_width = std::clamp(layout.left_width, 200.f, 900.f);
   layout.right_width = std::clamp(layout.right_width, 200.f, 1200.f);
@@ -136,7 +137,8 @@ Json to_json(const Settings& settings) {
   json["labs"] = settings.labs;
   const Layout& layout = settings.layout;
   json["layout"] = {{"left_width", layout.left_width}, {"right_width", layout.right_width}, {"left", layout.left},
-                    {"right", layout.right},           {"status", layout.status},           {"folded", layout.folded}};
+                    {"right", layout.right},           {"status", layout.status},           {"map", layout.map},
+                    {"folded", layout.folded}};
   if (settings.session)
     json["session"] = {{"label", settings.session->label},
                        {"file", settings.session->file.string()},

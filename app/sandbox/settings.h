@@ -14,8 +14,9 @@ namespace tyglab {
 struct Layout {
   float left_width = 320, right_width = 344;  ///< at scale 1
   bool left = true, right = true, status = true;
-  std::set<std::string> folded{"Start", "Stability", "Accuracy", "Energy",
-                               "Performance"};  ///< sections that are closed
+  bool map = false;  ///< the map of stiffness against dt stands among the plots
+  std::set<std::string> folded{"Start",  "Stability", "Accuracy",
+                               "Copies", "Energy",    "Performance"};  ///< sections that are closed
   bool operator==(const Layout&) const = default;
 };
 

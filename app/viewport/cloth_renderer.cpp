@@ -21,6 +21,7 @@ namespace {
 
 const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
 constexpr int texture_unit = 0, shadow_unit = 1;
+constexpr float ghost_opacity = 0.9f;
 constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
 
 /// shaders/frame.glsl, in std140.
@@ -31,7 +32,8 @@ struct FrameBlock {
 
 }  // namespace
 
-struct ClothRenderer::Parts {
+/// What cloths of one window share.
+struct ClothRenderer::Shared {
   gl::Program background{{"background.vert", "background.frag"}};
   gl::Program ground{{"ground.vert", "ground.frag"}};
   gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
@@ -43,12 +45,15 @@ struct ClothRenderer::Parts {
   gl::Program solid_depth{{"solid_depth.vert", "depth.frag"}};
   gl::Buffer frame;
   gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
-
   ClothTexture texture;
+  SolidMesh sphere{sphere_geometry(64, 40)};
+};
+
+struct ClothRenderer::Parts {
+  std::shared_ptr<Shared> shared;
   ClothMesh mesh;
   DrawnCloth drawn;  ///< where not every particle is
   int every = 1;
-  SolidMesh sphere{sphere_geometry(64, 40)};
   SolidMesh spring, hanger, rest_line, equilibrium_line;
   WeightModel weight_model;
   ShadowMap shadow;
@@ -65,6 +70,7 @@ struct ClothRenderer::Parts {
   const Simulation* simulation = nullptr;
   std::uint64_t revision = 0, tear_revision = 0;
 
+  explicit Parts(std::shared_ptr<Shared> with) : shared(std::move(with)) {}
   void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
   void take_preset(const Preset& next);
   void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
@@ -78,6 +84,7 @@ struct ClothRenderer::Parts {
   void draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width);
   void draw_points(const ViewOptions& options);
   void draw_marks(const ViewOptions& options);
+  void draw_ghost(const Parts& other, glm::vec3 colour, float width);
   void draw_opaque(const ViewOptions& options);
   void draw_blended(const ViewOptions& options);
   float scene_radius() const { return std::max(glm::length(framed.hi - framed.lo) / 2, 1e-4f); }
@@ -85,7 +92,8 @@ struct ClothRenderer::Parts {
   bool one_weight() const { return preset.kind == Kind::one_weight; }
 };
 
-ClothRenderer::ClothRenderer() : parts_(std::make_unique<Parts>()) {}
+ClothRenderer::ClothRenderer() : parts_(std::make_unique<Parts>(std::make_shared<Shared>())) {}
+ClothRenderer::ClothRenderer(const ClothRenderer& sibling) : parts_(std::make_unique<Parts>(sibling.parts_->shared)) {}
 ClothRenderer::~ClothRenderer() = default;
 
 std::optional<std::string> ClothRenderer::set_texture(const std::filesystem::path& file) {
@@ -98,7 +106,7 @@ std::optional<std::string> ClothRenderer::set_texture(const std::filesystem::pat
 
 std::optional<std::string> ClothRenderer::set_texture(const ClothPicture& picture) {
   try {
-    parts_->texture.take(picture);
+    parts_->shared->texture.take(picture);
   } catch (const std::runtime_error& error) {
     return error.what();
   }
@@ -176,8 +184,8 @@ void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& o
   block.background_top = glm::vec4(options.palette.background_top, 1);
   block.background_bottom = glm::vec4(options.palette.background_bottom, 1);
   block.grid = glm::vec4(options.palette.grid, grid_spacing(radius));
-  frame.write(GL_UNIFORM_BUFFER, &block, sizeof block);
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, frame.id());
+  shared->frame.write(GL_UNIFORM_BUFFER, &block, sizeof block);
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, shared->frame.id());
 }
 
 void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
@@ -185,21 +193,21 @@ void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
   const Stopwatch watch(work.shadow);
   shadow.begin();
   if (!one_weight() && options.lit()) {
-    cloth_depth.use();
+    shared->cloth_depth.use();
     mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
   }
-  solid_depth.use();
+  shared->solid_depth.use();
   for (const Body& body : preset.bodies) {
     if (body.shape != Body::Shape::sphere || one_weight()) continue;
-    solid_depth.set("placed", glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)));
-    sphere.draw();
+    shared->solid_depth.set("placed", glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)));
+    shared->sphere.draw();
   }
   if (one_weight()) {
-    solid_depth.set("placed", glm::vec4(0, 0, 0, 1));
+    shared->solid_depth.set("placed", glm::vec4(0, 0, 0, 1));
     spring.draw();
     hanger.draw();
-    solid_depth.set("placed", glm::vec4(weight_model.weight, weight_model.radius));
-    sphere.draw();
+    shared->solid_depth.set("placed", glm::vec4(weight_model.weight, weight_model.radius));
+    shared->sphere.draw();
   }
   shadow.end();
   shadow_stale = false;
@@ -207,9 +215,9 @@ void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
 }
 
 void ClothRenderer::Parts::draw_background() {
-  background.use();
+  shared->background.use();
   glDepthMask(GL_FALSE);
-  glBindVertexArray(nothing.id());
+  glBindVertexArray(shared->nothing.id());
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthMask(GL_TRUE);
 }
@@ -219,14 +227,14 @@ void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
   // The lines have faded out before the square ends (ground.frag).
   const float half = 8.6f * scene_radius();
   glEnable(GL_BLEND);
-  glBindVertexArray(nothing.id());
-  ground.use();
-  ground.set("area", glm::vec4(centre.x - half, centre.z - half, centre.x + half, centre.z + half));
+  glBindVertexArray(shared->nothing.id());
+  shared->ground.use();
+  shared->ground.set("area", glm::vec4(centre.x - half, centre.z - half, centre.x + half, centre.z + half));
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   if (options.shadows && !box.empty()) {
-    ground_shadow.use();
-    ground_shadow.set("shadow_map", shadow_unit);
-    ground_shadow.set("area", shadow_area(box, to_light, ground_y));
+    shared->ground_shadow.use();
+    shared->ground_shadow.set("shadow_map", shadow_unit);
+    shared->ground_shadow.set("area", shadow_area(box, to_light, ground_y));
     // Upon the lines, not flickering through them.
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-1, -4);
@@ -237,18 +245,18 @@ void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
 }
 
 void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, glm::vec3 base, float gloss) {
-  solid.use();
-  solid.set("shadow_map", shadow_unit);
-  solid.set("placed", placed);
-  solid.set("base", base);
-  solid.set("gloss", gloss);
+  shared->solid.use();
+  shared->solid.set("shadow_map", shadow_unit);
+  shared->solid.set("placed", placed);
+  shared->solid.set("base", base);
+  shared->solid.set("gloss", gloss);
   what.draw();
 }
 
 void ClothRenderer::Parts::draw_bodies(const ViewOptions& options) {
   for (const Body& body : preset.bodies) {
     if (body.shape != Body::Shape::sphere) continue;
-    draw_solid(sphere, glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)), options.palette.body, 0.12f);
+    draw_solid(shared->sphere, glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)), options.palette.body, 0.12f);
   }
 }
 
@@ -257,68 +265,83 @@ void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
   const Palette& colours = options.palette;
   draw_solid(hanger, here, 0.6f * colours.body, 0.05f);
   draw_solid(spring, here, colours.body, 0.5f);
-  draw_solid(sphere, glm::vec4(weight_model.weight, weight_model.radius), colours.lines, 0.25f);
-  solid.set("own_light", 1.0f);
+  draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colours.lines, 0.25f);
+  shared->solid.set("own_light", 1.0f);
   draw_solid(rest_line, here, 0.8f * colours.points, 0);
   draw_solid(equilibrium_line, here, colours.pins, 0);
-  solid.set("own_light", 0.0f);
+  shared->solid.set("own_light", 0.0f);
 }
 
 void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
   const Lattice& lattice = mesh.lattice();
   const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
-  cloth.use();
-  cloth.set("cloth", texture_unit);
-  cloth.set("shadow_map", shadow_unit);
-  cloth.set("stride", mesh.stride());
-  cloth.set("texture_step", 1.0f / steps);
-  cloth.set("hem", options.palette.hem);
-  cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
+  shared->cloth.use();
+  shared->cloth.set("cloth", texture_unit);
+  shared->cloth.set("shadow_map", shadow_unit);
+  shared->cloth.set("stride", mesh.stride());
+  shared->cloth.set("texture_step", 1.0f / steps);
+  shared->cloth.set("hem", options.palette.hem);
+  shared->cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
   mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
 }
 
 void ClothRenderer::Parts::draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width) {
-  lines.use();
-  lines.set("spacing", spacing());
-  lines.set("max_width", width);
-  lines.set("ink", glm::vec4(colour, opacity));
+  shared->lines.use();
+  shared->lines.set("spacing", spacing());
+  shared->lines.set("max_width", width);
+  shared->lines.set("ink", glm::vec4(colour, opacity));
   glEnable(GL_BLEND);
   mesh.draw(list, GL_LINES);
   glDisable(GL_BLEND);
 }
 
 void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
-  points.use();
-  points.set("spacing", spacing());
-  points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
-  points.set("towards", 0.0f);
-  points.set("ink", glm::vec4(options.palette.points, 1));
-  points.set("rim", 0.0f);
-  points.set("ring", 0.0f);
+  shared->points.use();
+  shared->points.set("spacing", spacing());
+  shared->points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
+  shared->points.set("towards", 0.0f);
+  shared->points.set("ink", glm::vec4(options.palette.points, 1));
+  shared->points.set("rim", 0.0f);
+  shared->points.set("ring", 0.0f);
   glEnable(GL_BLEND);
   mesh.draw(ClothMesh::List::particles, GL_POINTS);
   glDisable(GL_BLEND);
 }
 
 void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
-  points.use();
-  points.set("spacing", spacing());
-  points.set("towards", 0.03f);
+  shared->points.use();
+  shared->points.set("spacing", spacing());
+  shared->points.set("towards", 0.03f);
   glEnable(GL_BLEND);
-  points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
-  points.set("ink", glm::vec4(options.palette.pins, 1));
-  points.set("rim", 1.2f);
-  points.set("ring", 0.0f);
+  shared->points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
+  shared->points.set("ink", glm::vec4(options.palette.pins, 1));
+  shared->points.set("rim", 1.2f);
+  shared->points.set("ring", 0.0f);
   mesh.draw(ClothMesh::List::pins, GL_POINTS);
   if (options.highlighted) {
     const float size = 1.8f * options.point_size;
-    points.set("diameter", glm::vec3(0, size, size));
-    points.set("ink", glm::vec4(options.palette.highlight, 1));
-    points.set("ring", 0.2f * options.point_size);
+    shared->points.set("diameter", glm::vec3(0, size, size));
+    shared->points.set("ink", glm::vec4(options.palette.highlight, 1));
+    shared->points.set("ring", 0.2f * options.point_size);
     glDisable(GL_DEPTH_TEST);
     mesh.draw_particle(options.highlighted->i / every, options.highlighted->j / every);
     glEnable(GL_DEPTH_TEST);
   }
+  glDisable(GL_BLEND);
+}
+
+/// Seen through whatever hangs before it, since it is there to be compared.
+void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 colour, float width) {
+  const WeightModel& weight = other.weight_model;
+  if (other.one_weight()) return draw_solid(shared->sphere, glm::vec4(weight.weight, weight.radius), colour, 0.25f);
+  shared->lines.use();
+  shared->lines.set("spacing", other.spacing());
+  shared->lines.set("max_width", width);
+  shared->lines.set("ink", glm::vec4(colour, ghost_opacity));
+  glEnable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  other.mesh.draw(ClothMesh::List::outlines, GL_LINES);
+  glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
 }
 
@@ -352,7 +375,8 @@ void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
   draw_marks(options);
 }
 
-void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int width, int height) {
+void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int width, int height,
+                         std::span<const Ghost> ghosts) {
   Parts& p = *parts_;
   const SavedTarget saved;
   for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) glDisable(off);
@@ -366,12 +390,13 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   p.draw_shadow(options);
   p.target.begin(width, height, options.samples);
   glClear(GL_DEPTH_BUFFER_BIT);
-  p.texture.bind(texture_unit);
+  p.shared->texture.bind(texture_unit);
   p.shadow.bind(shadow_unit);
   p.draw_opaque(options);
   p.draw_background();
   if (options.ground) p.draw_ground(options);
   if (!p.one_weight()) p.draw_blended(options);
+  for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.colour, options.line_width);
   p.target.resolve();
 
   glActiveTexture(GL_TEXTURE0);

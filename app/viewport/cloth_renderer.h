@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "app/stopwatch.h"
@@ -66,11 +67,21 @@ struct RenderWork {
   Duration shadow;  ///< a part of draw()
 };
 
+class ClothRenderer;
+
+/// Another cloth, drawn as lines over the picture of the first.
+struct Ghost {
+  const ClothRenderer* cloth = nullptr;  ///< updated with view 4
+  glm::vec3 colour{1};
+};
+
 class ClothRenderer {
  public:
   /// Needs a current OpenGL 3.3 context whose functions are loaded. Throws GraphicsError (with the compiler's log) and
   /// DataFileError.
   ClothRenderer();
+  /// For a second cloth with the same picture: shares shaders and texture with the first.
+  explicit ClothRenderer(const ClothRenderer& sibling);
   ~ClothRenderer();
 
   /// Takes a picture as the cloth's texture. A bad file gives a sentence about it, and the old texture stays.
@@ -85,7 +96,8 @@ class ClothRenderer {
   void update(const ClothScene& scene, const ViewOptions& options, bool topology_changed);
 
   /// Draws into its own multisampled target of that size (pixels) and resolves it. Restores framebuffer and viewport.
-  void draw(const Camera& camera, const ViewOptions& options, int width, int height);
+  void draw(const Camera& camera, const ViewOptions& options, int width, int height,
+            std::span<const Ghost> ghosts = {});
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
@@ -97,6 +109,7 @@ class ClothRenderer {
   Image pixels() const;
 
  private:
+  struct Shared;
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -1,0 +1,116 @@
+// `tyglab stability map`: which stiffness and dt a method bears in a scene, by theory and by short runs.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "app/charts/map_chart.h"
+#include "app/commands/bench_output.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/outputs.h"
+#include "app/commands/preset_argument.h"
+#include "app/commands/progress.h"
+#include "app/commands/stability.h"
+#include "core/analysis/in_parallel.h"
+#include "core/integrators/scheme.h"
+#include "core/output/destination.h"
+
+namespace tyglab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MapOptions {
+  PresetArgument preset;
+  BenchOptions bench;
+  std::string csv;
+
+  std::vector<Output> outputs() const {
+    std::vector<Output> all = bench.outputs();
+    all.push_back({"--csv", csv});
+    return all;
+  }
+};
+
+Json map_json(const Preset& preset, const std::string& label, const std::vector<MapCell>& cells) {
+  Json rows = Json::array();
+  for (const MapCell& cell : cells)
+    rows.push_back({{stiffness_key(preset), cell.stiffness},
+                    {"dt", cell.dt},
+                    {"diverged", cell.diverged},
+                    {"t", cell.t},
+                    {"energy_error", cell.share}});
+  Json json = bench_json("stability map", rows);
+  json["scene"] = label, json["integrator"] = preset.integrator;
+  return json;
+}
+
+/// The map as letters, stiffness to the right and dt upwards: × diverged, and dots for what stayed bounded.
+void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, std::vector<MapCell> cells) {
+  std::sort(cells.begin(), cells.end(),
+            [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
+  std::array<char, 160> line;
+  for (auto cell = cells.begin(); cell != cells.end();) {
+    const int row = cell->row;
+    std::snprintf(line.data(), line.size(), "dt %9.3g s  ", cell->dt);
+    out << line.data();
+    for (; cell != cells.end() && cell->row == row; ++cell) out << (cell->diverged ? " ×" : " ·");
+    out << '\n';
+  }
+  std::snprintf(line.data(), line.size(), "%s from %.3g to %.3g N/m; × diverged, · bounded in a short run\n",
+                stiffness_key(preset).c_str(), grid.stiffness(0.5), grid.stiffness(grid.columns - 0.5));
+  out << line.data();
+}
+
+int map(const MapOptions& options) {
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
+  const ResolvedPreset scene = options.preset.resolve("hanging");
+  const MapGrid grid = options.bench.quick ? map_grid(scene.preset, 12, 8) : map_grid(scene.preset, 36, 26);
+  const std::vector<int> order = coarse_first(grid);
+  out << machine_line() << '\n' << scene.source.label << ", " << scheme(scene.preset.integrator).title << '\n';
+  std::vector<MapCell> cells(order.size());
+  std::size_t done = 0;
+  InterruptGuard guard;
+  Progress progress("stability map");
+  in_parallel(
+      int(order.size()), scene.threads,
+      [&](int n) {
+        const int cell = order[std::size_t(n)];
+        cells[std::size_t(n)] =
+            measure_cell(scene.preset, grid, cell % grid.columns, cell / grid.columns, [] { return false; });
+      },
+      [&](int) { progress.update(double(++done) / double(order.size())); }, InterruptGuard::interrupted);
+  progress.clear();
+  cells.resize(done);
+  print_map(out, scene.preset, grid, cells);
+  if (!options.bench.json.empty())
+    write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n");
+  if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells));
+  if (!options.bench.png.empty()) {
+    Chart chart = map_chart(dark_tokens(), scene.preset, grid, cells);
+    chart.title =
+        "Which " + stiffness_key(scene.preset) + " and dt " + scene.preset.integrator + " bears: " + scene.source.label;
+    chart.note = machine_line();
+    write_charts(options.bench.png, {chart}, 1);
+  }
+  return bench_exit();
+}
+
+}  // namespace
+
+void add_stability_map(CLI::App& stability, Action& action) {
+  CLI::App* command = stability.add_subcommand(
+      "map", "Which k_s and dt a method bears in a scene, by theory and by short runs (one weight: k)");
+  const auto options = std::make_shared<MapOptions>();
+  options->preset.add_to(*command, false);
+  add_quick(*command, options->bench, "Fewer cells");
+  add_json(*command, options->bench);
+  add_output(*command, "--csv", options->csv, "Write a row a cell");
+  add_png(*command, options->bench, "Draw the map");
+  command->footer("Example: tyglab stability map hanging --integrator rk4 --png map.png");
+  command->callback([&action, options] { action = [options] { return map(*options); }; });
+}
+
+}  // namespace tyglab

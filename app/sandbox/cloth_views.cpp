@@ -1,0 +1,98 @@
+#include "app/sandbox/cloth_views.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "app/sandbox/app.h"
+#include "app/viewport/drawn_cloth.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double calm_stretch = 5;  // rest lengths; what is longer is not drawn of a diverged cloth
+constexpr int outlines = 4;         // the view that ghosts are drawn in
+constexpr int ghost_lines = 10;     // along a side: a coarse net lets the cloth be seen through it
+
+glm::vec3 rgb(ImU32 color) {
+  const ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
+  return {c.x, c.y, c.z};
+}
+
+/// How a cloth of the window is drawn.
+ViewOptions view_of(const App& app, const Simulation& cloth, glm::ivec2 size) {
+  ViewOptions view = app.view;
+  view.mode = app.preset().mode;
+  view.line_width = app.theme.scale * 1.6f;
+  view.point_size = app.theme.scale * 9;
+  view.longest_edge = cloth.divergence() ? float(calm_stretch * cloth.preset().L) : 0.f;
+  view.every = drawn_every(cloth.lattice(), size.x, size.y);
+  return view;
+}
+
+}  // namespace
+
+ClothRenderer& ClothViews::renderer(App& app, int tile) {
+  if (tile == 0) return *app.renderer;
+  while (copies_.size() < std::size_t(tile)) copies_.push_back(std::make_unique<ClothRenderer>(*app.renderer));
+  return *copies_[std::size_t(tile - 1)];
+}
+
+unsigned ClothViews::picture(const App& app, int tile) const {
+  if (tile == 0) return app.renderer->texture_id();
+  return std::size_t(tile) <= copies_.size() ? copies_[std::size_t(tile - 1)]->texture_id() : 0;
+}
+
+/// Uploads the copies that are drawn over the original. Whether anything of them has changed.
+bool ClothViews::take_ghosts(App& app, glm::ivec2 size) {
+  std::vector<Ghost> ghosts;
+  std::vector<std::uint64_t> revisions;
+  if (app.copies.overlaid)
+    for (int n = 0; n < int(app.copies.lockstep.size()); ++n) {
+      Simulation& cloth = cloth_of(app, n);
+      if (cloth.divergence()) continue;
+      ViewOptions view = view_of(app, cloth, size);
+      view.mode = outlines;
+      view.every = std::max(view.every, std::max(cloth.lattice().rows, cloth.lattice().columns) / ghost_lines);
+      ClothRenderer& its = renderer(app, n + 1);
+      its.update(cloth, view);
+      ghosts.push_back({&its, rgb(style_of_cloth(app, n).color)});
+      revisions.push_back(cloth.revision());
+    }
+  const bool moved = revisions != ghost_revisions_ || ghosts.size() != ghosts_.size();
+  ghosts_ = std::move(ghosts), ghost_revisions_ = std::move(revisions);
+  return moved;
+}
+
+void ClothViews::draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved) {
+  Simulation& cloth = cloth_in_tile(app, tile);
+  const Drawn now{&cloth, cloth.revision(), app.camera, view_of(app, cloth, size), size};
+  if (now == drawn_[std::size_t(tile)] && !app.redraw_cloth && !ghosts_moved) return;
+  ClothRenderer& its = renderer(app, tile);
+  its.update(cloth, now.view);
+  {
+    const FrameCosts::Timer timer(app.costs, Part::draw_cloth);
+    its.draw(app.camera, now.view, size.x, size.y, ghosts_);
+  }
+  const RenderWork work = its.take_work();
+  app.costs.add(Part::normals, work.normals);
+  app.costs.add(Part::upload, work.upload);
+  app.costs.add(Part::shadow, work.shadow);
+  drawn_[std::size_t(tile)] = now;
+}
+
+void ClothViews::draw(App& app, glm::vec2 magnified) {
+  const glm::vec2 shown = app.viewport.size();
+  const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
+  if (app.wants_framing && shown.x > 1) {
+    app.camera = scene_camera(app.preset(), shown.x / shown.y);
+    app.wants_framing = false;
+  }
+  const int tiles = app.copies.tiles();
+  drawn_.resize(std::size_t(tiles));
+  copies_.resize(std::min(copies_.size(), app.copies.lockstep.size()));
+  const bool ghosts_moved = take_ghosts(app, size);
+  for (int tile = 0; tile < tiles; ++tile) draw_picture(app, tile, size, ghosts_moved);
+  app.redraw_cloth = false;
+}
+
+}  // namespace tyglab

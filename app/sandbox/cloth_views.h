@@ -1,0 +1,43 @@
+// The pictures of the cloth and its copies: drawn anew only where something in them has changed.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/viewport/camera.h"
+#include "app/viewport/cloth_renderer.h"
+
+namespace tyglab {
+
+struct App;
+
+class ClothViews {
+ public:
+  /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window.
+  void draw(App& app, glm::vec2 magnified);
+  /// Copies have been made anew, perhaps where old ones stood, with the same count of changes.
+  void forget_copies() { copies_.clear(); }
+  /// The texture with the n-th picture of the viewport.
+  unsigned picture(const App& app, int tile) const;
+
+ private:
+  /// What a picture shows.
+  struct Drawn {
+    const Simulation* cloth = nullptr;
+    std::uint64_t revision = ~0ull;
+    Camera camera;
+    ViewOptions view;
+    glm::ivec2 size{0};
+    bool operator==(const Drawn&) const = default;
+  };
+  bool take_ghosts(App& app, glm::ivec2 size);
+  void draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved);
+  ClothRenderer& renderer(App& app, int tile);
+
+  std::vector<std::unique_ptr<ClothRenderer>> copies_;  ///< of copies; the original's is App::renderer
+  std::vector<Drawn> drawn_;                            ///< by picture
+  std::vector<Ghost> ghosts_;
+  std::vector<std::uint64_t> ghost_revisions_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,18 @@
+// What the sandbox writes as CSV: a row each.
+#pragma once
+
+#include <string>
+
+#include "app/sandbox/requests.h"
+
+namespace tyglab {
+
+struct CsvExport {
+  const char* title;  ///< of the dialog
+  const char* file;   ///< proposed
+  std::string (*text)(const App& app);
+};
+
+const CsvExport& csv_export(CsvSource source);
+
+}  // namespace tyglab

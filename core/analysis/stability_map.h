@@ -1,0 +1,59 @@
+// A map of stiffness against dt: which of both a method bears in a scene, by linear theory and by short runs of that
+// very scene. Springs of a slack cloth bear more than theory's bound, some less than it hangs with: the map shows it.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/analysis/reference.h"
+#include "core/notation/preset.h"
+
+namespace tyglab {
+
+/// Cells of equal size in logarithms of stiffness (k_s, N/m; of one weight k) and dt (s).
+struct MapGrid {
+  double least_stiffness = 1, most_stiffness = 1, least_dt = 1, most_dt = 1;
+  int columns = 1, rows = 1;  ///< of stiffness, of dt; the first row has the least dt
+  int size() const { return columns * rows; }
+  /// At a place in the grid: `at` 0 is its beginning, columns (or rows) its end; a cell's middle lies at n + ½.
+  double stiffness(double at) const;
+  double dt(double at) const;
+  bool operator==(const MapGrid&) const = default;
+};
+
+/// Round the preset's stiffness and round the dt that theory allows for it, within what may be set, both of the
+/// preset's values inside.
+MapGrid map_grid(const Preset& preset, int columns, int rows);
+
+/// What a short run in a cell came to.
+struct MapCell {
+  int column = 0, row = 0;
+  double stiffness = 0, dt = 0;
+  bool diverged = false;
+  double t = 0;      ///< s; when it diverged, or how long it ran
+  double share = 0;  ///< energy that the method made (above 0) or ate, in parts of what the scene can hold
+};
+
+/// The constant that the map's x axis stands for, "k_s" or "k", and the preset with both set.
+std::string stiffness_key(const Preset& preset);
+Preset at_place(Preset preset, double stiffness, double dt);
+
+/// Runs the scene from its start with a cell's constants: half a second or 60 steps if that is more, but no more steps
+/// than take some ten milliseconds. Throws Stopped.
+MapCell measure_cell(const Preset& preset, const MapGrid& grid, int column, int row, const Stop& stop);
+
+/// All cells of a grid (row · columns + column), coarsely spread first, so that the map can be read before it is whole.
+std::vector<int> coarse_first(const MapGrid& grid);
+
+/// The dt that theory allows over stiffness, any configuration of the springs: places of the grid, left to right.
+/// Empty where the method has no such dt.
+struct MapBoundary {
+  std::vector<double> stiffness, dt;
+};
+MapBoundary map_boundary(const Preset& preset, const MapGrid& grid);
+
+/// CSV: a comment, a header with units, a row a cell.
+std::string map_csv(const Preset& preset, std::span<const MapCell> cells);
+
+}  // namespace tyglab

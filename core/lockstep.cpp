@@ -1,0 +1,154 @@
+#include "core/lockstep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "core/cloth/start.h"
+#include "core/notation/preset_io.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double whole_step = 1e-6;  // of a step: rounding of times
+
+std::string listed(const std::vector<std::string>& differences) {
+  std::string text;
+  for (const std::string& difference : differences) text += (text.empty() ? "" : ", ") + difference;
+  return text.empty() ? "no difference" : text;
+}
+
+/// Whole steps of a cloth that end by `t`.
+int steps_until(const Simulation& cloth, double t) {
+  return int(std::clamp(std::floor((t - cloth.time()) / cloth.preset().dt + whole_step), 0.0, 1e7));
+}
+
+/// A copy of the original, in its state.
+std::unique_ptr<Simulation> copied(const Simulation& original, const Snapshot& now,
+                                   const std::vector<std::string>& differences, int threads) {
+  const Preset preset = copied_preset(original.preset(), differences);
+  if (lattice_of(preset) != now.lattice || preset.kind != now.kind)
+    throw PresetError("A copy has the particles of its original: " + listed(differences) + " would change them.");
+  auto copy = std::make_unique<Simulation>(preset, threads);
+  copy->restore(now);
+  return copy;
+}
+
+/// The hand reaches its goal when the original's does, in the copy's own steps.
+Edit with_own_steps(const Edit& edit, const Simulation& original, const Simulation& copy) {
+  const auto* move = std::get_if<edit::MoveHand>(&edit);
+  if (move == nullptr) return edit;
+  const double end = original.time() + move->steps * original.preset().dt;
+  return edit::MoveHand{move->to, steps_until(copy, end)};
+}
+
+}  // namespace
+
+void Lockstep::Cost::add(double simulated_s, double wall_s) {
+  if (simulated_s <= 0) return;
+  const double now = wall_s / simulated_s, weight = std::min(simulated_s / cost_settles, 1.0);
+  per_second_ = per_second_ > 0 ? per_second_ + weight * (now - per_second_) : now;
+}
+
+Preset copied_preset(const Preset& original, const std::vector<std::string>& differences) {
+  Preset preset = with_settings(original, differences);
+  preset.device = original.device;  // in no file
+  return preset;
+}
+
+void Lockstep::add(Simulation& original, std::vector<std::string> differences, int threads) {
+  if (copies_.size() >= most)
+    throw PresetError("There are " + std::to_string(most) + " copies already; remove one first.");
+  if (original.lattice().size() > largest)
+    throw PresetError("A cloth of more than " + std::to_string(largest) + " particles is too large to be copied.");
+  const Snapshot now = original.snapshot();
+  auto copy = copied(original, now, differences, threads);
+  original.restore(now);
+  // What equals the original is to equal it after this, to the last bit.
+  for (Copy& other : copies_)
+    if (!other.simulation->divergence()) other.simulation->restore(other.simulation->snapshot());
+  copies_.push_back({std::move(differences), std::move(copy), {}});
+}
+
+std::vector<std::string> Lockstep::apply(const Simulation& original, const Edit& edit) {
+  std::vector<std::string> gone;
+  std::erase_if(copies_, [&](Copy& copy) {
+    try {
+      if (std::holds_alternative<edit::Change>(edit)) {
+        if (original.lattice().size() > largest) throw PresetError("the cloth has become too large to be copied.");
+        copy.simulation->apply(edit::Change{copied_preset(original.preset(), copy.differences)});
+      } else {
+        copy.simulation->apply(with_own_steps(edit, original, *copy.simulation));
+      }
+      return false;
+    } catch (const std::exception& error) {
+      gone.push_back("The copy with " + listed(copy.differences) + " is gone: " + error.what());
+      return true;
+    }
+  });
+  return gone;
+}
+
+std::vector<std::string> Lockstep::resume(Simulation& original, int threads) {
+  std::vector<std::string> gone;
+  if (copies_.empty()) return gone;
+  if (original.lattice().size() > largest) {
+    clear();
+    return {"The copies are gone: this cloth is too large to be copied."};
+  }
+  const Snapshot now = original.snapshot();
+  original.restore(now);
+  std::erase_if(copies_, [&](Copy& copy) {
+    try {
+      copy.simulation = copied(original, now, copy.differences, threads);
+      copy.cost = {};
+      return false;
+    } catch (const std::exception& error) {
+      gone.push_back("The copy with " + listed(copy.differences) + " is gone: " + error.what());
+      return true;
+    }
+  });
+  return gone;
+}
+
+void Lockstep::follow(double t) {
+  using Clock = std::chrono::steady_clock;
+  for (Copy& copy : copies_) {
+    Simulation& cloth = *copy.simulation;
+    const int steps = steps_until(cloth, t);
+    if (steps == 0 || cloth.divergence()) continue;
+    const auto start = Clock::now();
+    const int made = cloth.advance(steps).steps;
+    copy.cost.add(made * cloth.preset().dt, std::chrono::duration<double>(Clock::now() - start).count());
+  }
+}
+
+bool Lockstep::alive() const {
+  return std::any_of(copies_.begin(), copies_.end(),
+                     [](const Copy& copy) { return !copy.simulation->divergence().has_value(); });
+}
+
+std::size_t Lockstep::bytes() const {
+  std::size_t sum = 0;
+  for (const Copy& copy : copies_) sum += copy.simulation->bytes() + copy.simulation->engine().bytes();
+  return sum;
+}
+
+double rms_distance(Simulation& cloth, Simulation& from) {
+  if (cloth.lattice() != from.lattice() || cloth.divergence() || from.divergence())
+    return std::numeric_limits<double>::quiet_NaN();
+  const State &a = cloth.read(), &b = from.read();
+  const double ahead = from.time() - cloth.time();
+  double sum = 0;
+  for (const auto component : {&VectorField<double>::x, &VectorField<double>::y, &VectorField<double>::z}) {
+    const auto &x = a.x.*component, &v = a.v.*component, &other = b.x.*component;
+    for (std::size_t p = 0; p < x.size(); ++p) {
+      const double apart = x[p] + ahead * v[p] - other[p];
+      sum += apart * apart;
+    }
+  }
+  return std::sqrt(sum / double(a.x.x.size()));
+}
+
+}  // namespace tyglab

@@ -1,0 +1,69 @@
+// Copies of a simulation that differ from it in some constants and move in lockstep with it: the same start, the same
+// hand, cuts, pins and bodies, each with its own method, dt, engine or any other constant.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/simulation.h"
+
+namespace tyglab {
+
+class Lockstep {
+ public:
+  static constexpr std::size_t most = 5;       ///< copies beside the original
+  static constexpr int largest = 256 * 256;    ///< particles of a cloth that is copied
+  static constexpr double cost_settles = 0.5;  ///< s of simulated time over which a cost is smoothed
+
+  /// Seconds of the wall that a simulated second takes, smoothed.
+  class Cost {
+   public:
+    void add(double simulated_s, double wall_s);
+    double per_second() const { return per_second_; }  ///< 0 until it is known
+
+   private:
+    double per_second_ = 0;
+  };
+
+  struct Copy {
+    std::vector<std::string> differences;  ///< settings as --set takes them: "integrator=rk4", "dt=0.001"
+    std::unique_ptr<Simulation> simulation;
+    Cost cost;
+  };
+
+  /// Adds a copy that goes on from where the original is. Every cloth is loaded anew from its own state, so that equal
+  /// ones go on with equal bits; the hand lets go. Throws PresetError (a setting is wrong, too many, too large, another
+  /// lattice), EngineError.
+  void add(Simulation& original, std::vector<std::string> differences, int threads = 1);
+  void remove(std::size_t n) { copies_.erase(copies_.begin() + std::ptrdiff_t(n)); }
+  void clear() { copies_.clear(); }
+  bool empty() const { return copies_.empty(); }
+  std::size_t size() const { return copies_.size(); }
+  Copy& operator[](std::size_t n) { return copies_[n]; }
+  const Copy& operator[](std::size_t n) const { return copies_[n]; }
+
+  /// What the original has just been given is given to every copy, each with its own differences. Returns a sentence
+  /// for every copy that could not follow and is therefore gone.
+  std::vector<std::string> apply(const Simulation& original, const Edit& edit);
+  /// The original is another one, or went back in time: every copy goes on from where it is. As apply().
+  std::vector<std::string> resume(Simulation& original, int threads = 1);
+  /// Every copy makes the whole steps that end by `t`, s; one that has diverged stands still.
+  void follow(double t);
+  /// Whether a copy could still move.
+  bool alive() const;
+  std::size_t bytes() const;
+
+ private:
+  std::vector<Copy> copies_;
+};
+
+/// Root of the mean squared distance between the particles of two cloths of one lattice, m. Where their times differ,
+/// by less than a dt, the first is carried to the second's time with its velocities: exact to ½ a Δt². Not a number
+/// where a cloth has diverged or lattices differ.
+double rms_distance(Simulation& cloth, Simulation& from);
+
+/// The constants of a copy: the original's with the differences. Throws PresetError.
+Preset copied_preset(const Preset& original, const std::vector<std::string>& differences);
+
+}  // namespace tyglab

@@ -1,0 +1,53 @@
+"""The map of stiffness against dt: filled by short runs beside the frames, a click goes there."""
+
+import os
+
+from cases import case, check, main
+from sandbox import k_s
+
+
+@case
+def click(stage):
+    """the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work"""
+    sandbox = stage.start("hanging")
+    sandbox.key("m")
+    x, y, width, height = sandbox.control("plots.map")
+    report = sandbox.wait(lambda r: r["map_cells"] and r["map_cells"] > 60, "cells to be measured")
+    at = report["t"]
+    sandbox.wait(lambda r: r["map_cells"] == 28 * 20 and r["t"] > at, "the map to be whole while the cloth moves on")
+    sandbox.rest()
+    stage.keep("whole")
+    sandbox.move(x + 0.8 * width, y + 0.2 * height)
+    sandbox.later(60)
+    stage.keep("words")
+    sandbox.click(x + 0.8 * width, y + 0.2 * height)
+    report = sandbox.wait(lambda r: k_s(r) > 200 and r["preset"]["solver"]["dt"] > 0.003, "the values there")
+    sandbox.wait(lambda r: r["divergence"] is not None, "what the map foretold: it diverges")
+    sandbox.click(x + 0.3 * width, y + 0.9 * height)
+    sandbox.wait(lambda r: k_s(r) < 50 and r["preset"]["solver"]["dt"] < 0.001, "values that are stable")
+    sandbox.key("m")
+    sandbox.wait(lambda r: r["map_cells"] is None, "the map to be gone")
+
+
+@case
+def csv(stage):
+    """the map is written as CSV"""
+    sandbox = stage.start("one_weight")
+    sandbox.key("m")
+    sandbox.wait(lambda r: r["map_cells"] == 28 * 20, "the map of one weight")
+    stage.keep("weight")
+    sandbox.click_control("plots.csv_map")
+    sandbox.wait(lambda r: r["dialog"] == "export_csv" and r["typing"], "the dialog")
+    file = os.path.join(sandbox.own.name, "map.csv")
+    sandbox.key("ctrl+a")
+    sandbox.type(file)
+    sandbox.key("Return")
+    sandbox.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+    with open(file) as written:
+        lines = written.read().splitlines()
+    check(lines[1] == "k [N/m],dt [s],outcome,t [s],energy error", "a header with units")
+    check(len(lines) == 2 + 28 * 20, "a row a cell")
+
+
+if __name__ == "__main__":
+    main()
