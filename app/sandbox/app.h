@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/labs/lab_state.h"
 #include "app/panels/fonts.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui_state.h"
@@ -52,6 +53,7 @@ struct App {
   Inside inside;
   Rewind rewind;
   Figure figure;
+  LabState labs;
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
   std::int64_t steps_made = 0;      ///< in the last frame
   bool told_left_inside = false;    ///< that overlapping bodies keep particles inside, said once a session

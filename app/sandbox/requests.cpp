@@ -7,6 +7,8 @@
 #include "app/data_files.h"
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
+#include "app/panels/palette.h"
+#include "app/panels/tour.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/exports.h"
@@ -248,6 +250,14 @@ void apply(App& app, const request::Do& what) {
     case Command::toggle_help:
       app.ui.help = !app.ui.help;
       return;
+    case Command::open_palette:
+      return open_palette(app);
+    case Command::choose_lab:
+      return open_palette(app, true);
+    case Command::leave_lab:
+      return leave_lab(app);
+    case Command::start_tour:
+      return start_tour(app);
     case Command::toggle_panels:
       app.ui.panels = !app.ui.panels;
       return;
@@ -306,7 +316,7 @@ void apply(App& app, const request::Open& what) {
     ask(app, Dialog::Kind::unsaved, "The changes of " + app.preset().name + " have not been saved.", std::move(agreed));
     return;
   }
-  open_document(app, what.file, what.shipped);
+  open_document(app, what.file, what.shipped, what.settings);
 }
 
 bool apply(App& app, const request::SavePreset& what) {

@@ -124,6 +124,18 @@ Json accuracy(const App& app) {
   return json;
 }
 
+/// The lab in work; null without one.
+Json lab(const App& app) {
+  if (!app.labs.run) return nullptr;
+  const LabRun& run = *app.labs.run;
+  const StepRecord& record = run.record();
+  Json checks = Json::array();
+  for (const CheckState state : record.checks) checks.push_back(state == CheckState::holds);
+  return {{"label", run.lab.label},        {"step", run.step}, {"steps", run.lab.steps.size()},
+          {"predicted", record.predicted}, {"checks", checks}, {"done", record.done},
+          {"right", record.right}};
+}
+
 /// The copies in lockstep; a distance is told where the card measures it.
 Json copies(const App& app) {
   Json list = Json::array();
@@ -216,6 +228,9 @@ void add_window(Json& json, const App& app) {
   json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);
   json["dialog"] = name_of(app.ui.dialog.kind);
   json["problem"] = app.ui.dialog.problem;
+  json["palette"] = app.ui.palette.open;
+  json["tour"] = app.ui.tour.card;
+  json["lab"] = lab(app);
   Json messages = Json::array();
   for (const Message& message : app.messages.list()) messages.push_back(message.text);
   json["messages"] = messages;

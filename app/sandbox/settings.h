@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,6 +35,8 @@ struct Settings {
   double ui_scale = 1;
   Layout layout;
   bool plot_log = false;
+  bool tour_seen = false;
+  std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<Session> session;
 };
 
