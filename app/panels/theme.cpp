@@ -123,6 +123,41 @@ Tokens dark_tokens() {
           .sky = rgb(0x56B4E9)};
 }
 
+Tokens light_tokens() {
+  return {.ground = rgb(0xEEF1F5),
+          .panel = rgb(0xFFFFFF),
+          .field = rgb(0xE3E7ED),
+          .field_hover = rgb(0xD6DCE5),
+          .line = rgb(0xC4CBD6),
+          .text = rgb(0x14161B),
+          .quiet = rgb(0x525C6B),
+          .accent = rgb(0x00649F),
+          .on_accent = rgb(0xFFFFFF),
+          .danger = rgb(0xB84300),
+          .warning = rgb(0x8F5A00),
+          .good = rgb(0x00704F),
+          .blue = rgb(0x1F5FA8),
+          .green = rgb(0x00704F),
+          .magenta = rgb(0xA03A72),
+          .yellow = rgb(0x7A6A00),
+          .vermilion = rgb(0xB84300),
+          .orange = rgb(0xA05F00),
+          .sky = rgb(0x0B78B5)};
+}
+
+std::span<const Look> looks() {
+  static constexpr std::array<Look, 3> all{{{"dark", "Dark", dark_tokens, 1},
+                                            {"light", "Light", light_tokens, 1},
+                                            {"projector", "Projector", light_tokens, 1.4f}}};
+  return all;
+}
+
+const Look& look(std::string_view name) {
+  const auto all = looks();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Look& one) { return one.name == name; });
+  return found == all.end() ? all.front() : *found;
+}
+
 void apply_style(const Theme& theme) {
   ImGuiStyle style;
   set_colors(style, theme.colors);

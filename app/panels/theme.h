@@ -3,6 +3,9 @@
 
 #include <imgui.h>
 
+#include <span>
+#include <string_view>
+
 #include <cmath>
 
 namespace tyglab {
@@ -14,6 +17,20 @@ struct Tokens {
   ImU32 blue, green, magenta, yellow, vermilion, orange, sky;
 };
 Tokens dark_tokens();
+/// With data colours of their own that read on white.
+Tokens light_tokens();
+
+/// A look of the whole window.
+struct Look {
+  std::string_view name;   ///< in the settings
+  std::string_view title;  ///< for people
+  Tokens (*tokens)();
+  float magnified;  ///< of text, lengths and lines: for who sits far away
+};
+/// Dark, light, projector: the first is the one that a new user gets.
+std::span<const Look> looks();
+/// The look of that name; the first where none is called so.
+const Look& look(std::string_view name);
 
 /// Tokens and sizes at the present scale of text (monitor's content scale times the user's).
 struct Theme {

@@ -43,6 +43,7 @@ void document_menu(App& app) {
   item(Command::larger_text);
   item(Command::smaller_text);
   item(Command::normal_text);
+  item(Command::next_theme);
   ImGui::Separator();
   if (ImGui::MenuItem("Constants", nullptr, app.settings.layout.left))
     app.settings.layout.left = !app.settings.layout.left;

@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 32> rows{{
+  static const std::array<CommandRow, 34> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -79,6 +79,7 @@ std::span<const CommandRow> command_rows() {
        {{GLFW_KEY_R, control | shift}},
        "everything back to the preset"},
       {Command::toggle_auto, "dt chosen by the program", "", {}, "", "automatic time step"},
+      {Command::choose_engine, "Engine chosen by the program", "", {}, "", "automatic opencl cpu fastest"},
       {Command::load_texture_dialog, "Take a picture as texture…", "", {}, "", "image cloth"},
       {Command::export_forces, "Write the forces as CSV…", "", {}, "", "export plot series"},
       {Command::export_height, "Write the height of the weight as CSV…", "", {}, "", "export plot series"},
@@ -106,6 +107,12 @@ std::span<const CommandRow> command_rows() {
        {{GLFW_KEY_0, control}, {GLFW_KEY_KP_0, control}},
        "normal text",
        "scale size"},
+      {Command::next_theme,
+       "Next theme: dark, light, projector",
+       "Ctrl+T",
+       {{GLFW_KEY_T, control}},
+       "dark, light or projector theme",
+       "colours look contrast"},
       {Command::quit, "Quit", "Ctrl+Q", {{GLFW_KEY_Q, control}}, "quits", "end close exit"},
   }};
   return rows;

@@ -204,6 +204,16 @@ void change_text_size(App& app, double factor) {
   app.scale_changed = true;
 }
 
+/// Dark, light, projector, and again.
+void next_theme(App& app) {
+  const auto all = looks();
+  const auto now = std::size_t(&look(app.settings.theme) - all.data());
+  const Look& next = all[(now + 1) % all.size()];
+  app.settings.theme = next.name;
+  app.scale_changed = app.redraw_cloth = true;
+  app.messages.note("Theme: " + std::string(next.title));
+}
+
 void apply(App& app, const request::Do& what) {
   switch (what.command) {
     case Command::restart:
@@ -278,6 +288,8 @@ void apply(App& app, const request::Do& what) {
       return change_text_size(app, 1 / 1.1);
     case Command::normal_text:
       return change_text_size(app, 0);
+    case Command::next_theme:
+      return next_theme(app);
     case Command::quit:
       app.request(request::Quit{});
       return;

@@ -44,6 +44,7 @@ enum class Command {
   larger_text,
   smaller_text,
   normal_text,
+  next_theme,
   quit,
 };
 

@@ -174,7 +174,10 @@ void Sandbox::rescale() {
   if (app_.input.scale_changed) app_.scale_changed = true;
   if (!app_.scale_changed) return;
   app_.scale_changed = false;
-  const float scale = window_.content_scale() * float(app_.settings.ui_scale);
+  const Look& look = tyglab::look(app_.settings.theme);
+  app_.theme.colors = look.tokens();
+  app_.view.palette = look.tokens == light_tokens ? light_palette : Palette{};
+  const float scale = window_.content_scale() * float(app_.settings.ui_scale) * look.magnified;
   app_.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
   const bool first = app_.fonts.text == nullptr;
   app_.fonts = build_fonts(app_.theme.scale);

@@ -223,6 +223,7 @@ void add_window(Json& json, const App& app) {
   json["pictures"] = {app.viewport.columns, app.viewport.rows};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
+  json["theme"] = app.settings.theme;
   const SliderState& slider = app.ui.slider;
   const bool starts = slider.typing_starts || app.ui.dialog.refused || app.ui.dialog.selecting;  // takes no keys yet
   json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);

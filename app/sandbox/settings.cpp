@@ -106,6 +106,7 @@ Settings settings_from(const Json& json) {
   }
   all.take("ui_scale", settings.ui_scale);
   settings.ui_scale = settings.ui_scale > 0 ? std::clamp(settings.ui_scale, 0.5, 3.0) : 1;
+  all.take("theme", settings.theme);
   all.take("plot_log", settings.plot_log);
   all.take("tour_seen", settings.tour_seen);
   all.take("labs", settings.labs);
@@ -133,6 +134,7 @@ Json to_json(const Settings& settings) {
                     {"height", settings.height},
                     {"maximised", settings.maximised}};
   json["ui_scale"] = settings.ui_scale;
+  json["theme"] = settings.theme;
   json["plot_log"] = settings.plot_log;
   json["tour_seen"] = settings.tour_seen;
   json["labs"] = settings.labs;

@@ -33,6 +33,7 @@ struct Settings {
   int x = -1, y = -1, width = 1440, height = 860;  ///< of the window; x < 0: let the system choose
   bool maximised = false;
   double ui_scale = 1;
+  std::string theme = "dark";  ///< a Look's name
   Layout layout;
   bool plot_log = false;
   bool tour_seen = false;

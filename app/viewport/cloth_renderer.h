@@ -31,6 +31,17 @@ struct Palette {
   glm::vec3 body{0.565f, 0.584f, 0.624f};
   bool operator==(const Palette&) const = default;
 };
+/// Of the light themes.
+inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f},     // #E9EDF2
+                                       .background_bottom = {0.761f, 0.796f, 0.843f},  // #C2CBD7
+                                       .grid = {0.518f, 0.565f, 0.631f},               // #8490A1
+                                       .hem = {0.043f, 0.063f, 0.110f},                // #0B101C
+                                       .lines = {0.0f, 0.392f, 0.624f},                // #00649F
+                                       .bending = {0.0f, 0.439f, 0.310f},              // #00704F, F_b's
+                                       .points = {0.078f, 0.086f, 0.106f},             // #14161B
+                                       .pins = {0.627f, 0.373f, 0.0f},                 // #A05F00
+                                       .highlight = {0.0f, 0.0f, 0.0f},
+                                       .body = {0.545f, 0.569f, 0.608f}};
 
 /// How the viewport shows things. Widths and sizes in pixels of the target.
 struct ViewOptions {
