@@ -1,4 +1,4 @@
-// Where the program's own files are: presets, shaders, textures.
+// Where the program's own files are: presets, labs, shaders, textures.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ class DataFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The folder with presets/, shaders/ and textures/: ../share/tyglab beside the folder of the executable, in
+/// The folder with presets/, labs/, shaders/ and textures/: ../share/tyglab beside the folder of the executable, in
 /// the build tree as after `cmake --install`.
 const std::filesystem::path& data_folder();
 

@@ -2,6 +2,7 @@
 #include "app/commands/bench.h"
 #include "app/commands/command_line.h"
 #include "app/commands/devices.h"
+#include "app/commands/labs.h"
 #include "app/commands/presets.h"
 #include "app/commands/render.h"
 #include "app/commands/run.h"
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   tyglab::add_run_command(program, action);
   tyglab::add_render_command(program, action);
   tyglab::add_presets_command(program, action);
+  tyglab::add_labs_command(program, action);
   tyglab::add_bench_command(program, action);
   tyglab::add_stability_command(program, action);
   tyglab::add_devices_command(program, action);

@@ -15,6 +15,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/preset_argument.h"
 #include "app/data_files.h"
+#include "app/labs/lab.h"
 #include "app/viewport/graphics_error.h"
 #include "core/engines/engine.h"
 #include "core/notation/notation.h"
@@ -132,6 +133,8 @@ int run_action(const Action& action) {
   } catch (const UsageError& error) {
     return say(error.what(), exit_command_line);
   } catch (const PresetError& error) {
+    return say(error.what(), exit_input);
+  } catch (const LabError& error) {
     return say(error.what(), exit_input);
   } catch (const DataFileError& error) {
     return say(error.what(), exit_input);

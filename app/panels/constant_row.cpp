@@ -200,10 +200,19 @@ void symbol_cell(App& app, const Line& line, const RowColumns& columns) {
   draw_symbol(draw, app.fonts, {lo.x, baseline_at(app.fonts, middle)}, line.symbol, c.text);
 }
 
+/// The palette asked for this constant: its slider, which is drawn next, takes the focus.
+void take_wanted_focus(App& app, const std::string& key) {
+  SliderState& state = app.ui.slider;
+  if (state.wanted_key != key) return;
+  state.wanted_key.clear();
+  state.wanted_order = state.order;
+}
+
 void vector_cells(App& app, const Line& line, const RowColumns& columns, float slider_width) {
   const float width = slider_width + columns.gap + columns.value;
   const float cell = std::floor((width - 2 * app.theme.px(4)) / 3);
   const char* names[3] = {"x", "y", "z"};
+  take_wanted_focus(app, line.key);
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, app.theme.px(4));
     const SliderResult result = drag_cell(app, names[k], scale_of(line, k), line.value[k], cell, columns.height);
@@ -224,6 +233,7 @@ void draw_line(App& app, const Line& line) {
     vector_cells(app, line, columns, slider_width);
   } else {
     const unsigned gesture = ImGui::GetID("slider");
+    take_wanted_focus(app, line.key);
     const SliderScale scale = scale_of(line, 0);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const SliderResult slid = slider(app, scale, line.value[0], slider_width, columns.height);

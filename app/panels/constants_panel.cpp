@@ -39,14 +39,6 @@ const std::array<Section, 6>& sections() {
   return list;
 }
 
-/// Whether the constant plays a part in this scene.
-bool applies(const PresetRow& row, const Preset& preset) {
-  if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
-  if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
-  if (row.key == "iterations") return iterates(scheme(preset.integrator));
-  return !row.only_one_kind || row.only == preset.kind;
-}
-
 std::vector<const PresetRow*> rows_of(const Section& wanted) {
   std::vector<const PresetRow*> rows;
   for (std::string_view key : wanted.keys)
@@ -190,6 +182,24 @@ bool empty(const Section& wanted, const Preset& preset) {
 }
 
 }  // namespace
+
+bool applies(const PresetRow& row, const Preset& preset) {
+  if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
+  if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
+  if (row.key == "iterations") return iterates(scheme(preset.integrator));
+  return !row.only_one_kind || row.only == preset.kind;
+}
+
+void show_constant(App& app, std::string_view key) {
+  app.ui.panels = app.settings.layout.left = true;
+  app.ui.slider.wanted_key = key;
+  for (const Section& wanted : sections()) {
+    const auto list = rows_of(wanted);
+    if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;
+    app.settings.layout.folded.erase(wanted.name);
+    if (std::string_view(wanted.name) == "Cloth") app.settings.layout.folded.erase("Weight");
+  }
+}
 
 void constants_sections(App& app) {
   const bool cloth = app.wished().kind == Kind::cloth;

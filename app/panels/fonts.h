@@ -51,10 +51,14 @@ inline constexpr const char* trash = "\xEF\x87\xB8";
 inline constexpr const char* close = "\xEF\x80\x8D";
 inline constexpr const char* hand = "\xEF\x89\x95";
 inline constexpr const char* move = "\xEF\x82\xB2";
+inline constexpr const char* labs = "\xEF\x86\x9D";   // a student's cap
+inline constexpr const char* check = "\xEF\x80\x8C";  // a tick
+inline constexpr const char* circle = "\xEF\x84\x8C";
+inline constexpr const char* unknown = "\xEF\x84\xA8";
 /// Every icon above: only these are drawn into the atlas.
-inline constexpr const char* all[] = {play,     pause, step, restart, undo,     redo,    scissors, expand,
-                                      compress, help,  open, save,    download, warning, error,    info,
-                                      down,     right, plus, trash,   close,    hand,    move};
+inline constexpr const char* all[] = {play, pause, step,  restart,  undo,    redo,  scissors, expand, compress,
+                                      help, open,  save,  download, warning, error, info,     down,   right,
+                                      plus, trash, close, hand,     move,    labs,  check,    circle, unknown};
 }  // namespace icon
 
 /// The icon, or the word where the icon font is missing.

@@ -1,10 +1,12 @@
 // F1: what mouse and keys do.
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/commands.h"
 
 namespace tyglab {
 namespace {
@@ -22,23 +24,6 @@ constexpr Entry mouse_entries[] = {
     {"Middle or Ctrl+left drag", "orbits; with Shift pans"},
     {"Wheel, two fingers", "zooms; with Shift pans"},
     {"Drop a file", "opens a preset, or takes a picture as texture"},
-};
-constexpr Entry keys[] = {
-    {"Space", "pauses and runs"},
-    {"→ or O", "makes one step of dt"},
-    {"←", "goes a second back"},
-    {"R or Backspace", "restarts the motion, keeps the constants"},
-    {"1 to 5", "the five views"},
-    {"F", "frames the cloth"},
-    {"M", "maps which k_s and dt are stable"},
-    {"Tab", "hides the panels"},
-    {"F1 · F11", "this help · full screen"},
-    {"Ctrl+O · Ctrl+S", "opens · saves a preset"},
-    {"Ctrl+Shift+S", "saves it under another name"},
-    {"Ctrl+Z · Ctrl+Shift+Z", "undoes · redoes a change of constants"},
-    {"Ctrl+R · Ctrl+Shift+R", "constants · everything back to the preset"},
-    {"Ctrl++ · Ctrl+- · Ctrl+0", "larger, smaller, normal text"},
-    {"Ctrl+Q", "quits"},
 };
 constexpr Entry sliders[] = {
     {"Drag · Shift drag", "changes · ten times finer"},         {"Double-click", "back to the preset's value"},
@@ -73,6 +58,15 @@ void table(App& app, const char* title, std::span<const Entry> entries, const Co
   ImGui::SetCursorPos({column.left, y + app.theme.px(8)});
 }
 
+/// Every command that has keys; the views have theirs.
+std::vector<Entry> key_entries() {
+  std::vector<Entry> entries;
+  for (const CommandRow& row : command_rows())
+    if (*row.keys != 0) entries.push_back({row.keys, row.help});
+  entries.push_back({"1 to 5", "the five views"});
+  return entries;
+}
+
 void tables(App& app, float width) {
   const ImVec2 start = ImGui::GetCursorPos();
   const float gap = app.theme.px(32);
@@ -83,7 +77,7 @@ void tables(App& app, float width) {
   table(app, "On sliders", sliders, left);
   const float half = ImGui::GetCursorPosY();
   if (two) ImGui::SetCursorPosY(start.y);
-  table(app, "Keys", keys, right);
+  table(app, "Keys", key_entries(), right);
   text_between(app, "A slider or text field in use keeps its keys; Esc gives them back.",
                {right.left, ImGui::GetCursorPosY()}, right.left + column, app.theme.colors.quiet);
   ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + app.theme.px(4)});
@@ -108,6 +102,10 @@ void help_overlay(App& app) {
                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
     tables(app, ImGui::GetContentRegionAvail().x);
     if (text_button(app, "Close", true)) app.ui.help = false;
+    for (const Command command : {Command::choose_lab, Command::start_tour, Command::open_palette}) {
+      ImGui::SameLine();
+      if (text_button(app, row_of(command).name)) app.ui.help = false, app.command(command);
+    }
     const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
     cover_viewport(app, lo, {lo.x + size.x, lo.y + size.y});
   }

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "app/panels/dialogs.h"
+#include "app/panels/palette.h"
 #include "app/panels/panels.h"
+#include "app/panels/tour.h"
 
 namespace tyglab {
 namespace {
@@ -64,18 +66,26 @@ void draw_layout(App& app, ImVec2 window) {
   if (left + app.theme.px(140) > window.x) left = 0;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;
-  app.ui.accuracy_shown = app.ui.map_shown = app.copies.shown = false;
+  app.ui.accuracy_shown = app.ui.map_shown = app.ui.inside_shown = app.copies.shown = false;
 
-  viewport_panel(app, {{left, top}, {window.x - left - right, height}});
+  const float lab = panels ? lab_panel_height(app, height) : 0, middle = window.x - left - right;
+  // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll.
+  const bool below = lab > 0 && left > 0 && middle < app.theme.px(lab_two_columns);
+  const float low = below ? 0 : left, column = window.y - top - (below ? lab + bottom : 0);
+  viewport_panel(app, {{left, top}, {middle, height - lab}});
+  if (lab > 0) lab_panel(app, {{low, top + height - lab}, {left + middle - low, lab}});
   if (panels) top_bar(app, {{0, 0}, {window.x, top}});
-  if (left > 0) constants_panel(app, {{0, top}, {left, window.y - top}});
+  if (left > 0) constants_panel(app, {{0, top}, {left, column}});
   if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});
-  if (bottom > 0) status_bar(app, {{left, window.y - bottom}, {window.x - left - right, bottom}});
-  if (left > 0) splitter(app, "left border", left, top, window.y, layout.left_width, 1);
+  if (bottom > 0) status_bar(app, {{low, window.y - bottom}, {left + middle - low, bottom}});
+  if (left > 0) splitter(app, "left border", left, top, top + column, layout.left_width, 1);
   if (right > 0) splitter(app, "right border", window.x - right, top, window.y, layout.right_width, -1);
+  tour_card(app);
   help_overlay(app);
+  palette(app);
   dialogs(app);
-  app.viewport.blocked = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  app.labs.enter = false;
+  app.viewport.blocked = app.ui.palette.open || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 
 }  // namespace tyglab

@@ -93,11 +93,33 @@ void force_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from) {
   }
 }
 
+/// While its step is written out: what every spring does to the particle, the strongest drawn about 80 pixels long.
+void spring_arrows(App& app, ImDrawList& draw, ImVec2 from) {
+  const StepTrace* trace = app.inside.shown();
+  if (trace == nullptr) return;
+  const std::vector<SpringForce>& springs = trace->stages.front().springs;
+  double strongest = 0;
+  for (const SpringForce& spring : springs) strongest = std::max(strongest, glm::length(spring.F));
+  const glm::dvec3 x = app.simulation->positions().at(trace->i, trace->j);
+  const double depth = glm::dot(x - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
+  const double metres = 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y * app.theme.px(80);
+  for (const SpringForce& spring : springs) {
+    if (!(glm::length(spring.F) > 0.02 * strongest)) continue;
+    const auto to = on_screen(app, 0, x + spring.F / strongest * metres);
+    if (!to) continue;
+    const ImU32 color = curve_style(app.theme.colors, spring.bending ? "F_b" : "F_s").color;
+    draw.AddLine(from, *to, faded(app.theme.colors.ground, 0.55f), app.theme.px(4));
+    draw.AddLine(from, *to, color, app.theme.px(1.6f));
+    draw.AddCircleFilled(*to, app.theme.px(2.5f), color, 12);
+  }
+}
+
 void picked(App& app, ImDrawList& draw) {
   if (!app.picked || app.preset().kind != Kind::cloth) return;
   for (int tile = 0; tile < app.copies.tiles(); ++tile) {
     const auto at = particle_on_screen(app, tile, *app.picked);
     if (!at) continue;
+    if (tile == 0) spring_arrows(app, draw, *at);
     if (app.ui.force_arrows && !cloth_in_tile(app, tile).divergence()) force_arrows(app, draw, tile, *at);
     ring(app, draw, *at, 7, app.theme.colors.text, 2);
   }

@@ -3,9 +3,16 @@
 
 #include <imgui.h>
 
+#include <array>
+
 #include "app/sandbox/app.h"
+#include "core/notation/notation.h"
 
 namespace tyglab {
+
+/// The five views (2.4), in the order of their keys.
+inline constexpr std::array<const char*, 5> view_names{"1 Triangles", "2 Connections", "3 Both", "4 Outlines",
+                                                       "5 Points"};
 
 /// A region's place, pixels.
 struct Region {
@@ -16,6 +23,10 @@ void top_bar(App& app, const Region& region);
 void constants_panel(App& app, const Region& region);
 /// Contents of the constants panel, section by section.
 void constants_sections(App& app);
+/// Brings a constant's row into sight, with its slider in focus.
+void show_constant(App& app, std::string_view key);
+/// Whether the constant plays a part in this scene.
+bool applies(const PresetRow& row, const Preset& preset);
 void body_sections(App& app);
 void view_section(App& app);
 /// The picked particle's variables of table B.1; part of the constants panel.
@@ -29,6 +40,11 @@ void banner(App& app);
 void message_list(App& app);
 void status_bar(App& app, const Region& region);
 void help_overlay(App& app);
+/// The lab in work, below the viewport; its height is 0 where there is none.
+void lab_panel(App& app, const Region& region);
+float lab_panel_height(const App& app, float available);
+/// From this width on (pixels at scale 1) it has two columns.
+inline constexpr float lab_two_columns = 544;
 
 /// Starts a region as a fixed window with the given ground.
 bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding);

@@ -8,6 +8,7 @@
 #include "app/panels/curves.h"
 #include "app/panels/energy_card.h"
 #include "app/panels/imgui_compat.h"
+#include "app/panels/inside_card.h"
 #include "app/panels/map_card.h"
 #include "app/panels/panels.h"
 #include "app/panels/performance.h"
@@ -243,12 +244,19 @@ void map_plot_card(App& app, float height) {
   stability_map(app, inner.size);
 }
 
+void inside_card(App& app, float height) {
+  const Card card(app, "inside", "Inside a step", "", height);
+  if (head_button(app, card.inner(), 0, "close_inside", icon::close, "×", "Close")) app.command(Command::toggle_inside);
+  inside_step(app, card.inner().size);
+}
+
 std::vector<PlotCard> plot_cards(const App& app) {
   std::vector<PlotCard> cards;
   if (app.preset().kind == Kind::one_weight) cards.push_back({"Height", height_card});
   cards.push_back({"Forces", force_card});
   if (!app.copies.lockstep.empty()) cards.push_back({"Copies", copies_plot_card});
   if (app.settings.layout.map) cards.push_back({"Map", map_plot_card});
+  if (app.settings.layout.inside) cards.push_back({"Step", inside_card});
   return cards;
 }
 
@@ -283,7 +291,7 @@ void plots_panel(App& app, const Region& region) {
   const float margin = app.theme.px(12), gap = app.theme.px(12);
   if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
   const float column = ImGui::GetContentRegionAvail().y,
-              least_plots = app.theme.px(app.settings.layout.map ? 340.f : 260.f);
+              least_plots = app.theme.px(app.settings.layout.map || app.settings.layout.inside ? 340.f : 260.f);
   std::array foot_cards{FootCard{performance_card_height, performance_card}, FootCard{energy_card_height, energy_card},
                         FootCard{accuracy_card_height, accuracy_card}, FootCard{stability_card_height, stability_card},
                         FootCard{copies_card_height, copies_card}};

@@ -7,6 +7,7 @@
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/commands.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/notation/preset_io.h"
 
@@ -19,37 +20,46 @@ float bar_middle(App& app, float height) {
 
 void document_menu(App& app) {
   if (!begin_menu(app, "document")) return;
-  const auto item = [&](const char* label, const char* keys, Command command, bool enabled = true) {
-    if (ImGui::MenuItem(label, keys, false, enabled)) app.command(command);
-    report_control(app, label);
+  const auto item = [&](Command command, bool enabled = true) {
+    const CommandRow& row = row_of(command);
+    if (ImGui::MenuItem(row.name, *row.keys != 0 ? row.keys : nullptr, false, enabled)) app.command(command);
+    report_control(app, row.name);
   };
-  item("Open…", "Ctrl+O", Command::open_dialog);
-  item("Save", "Ctrl+S", Command::save);
-  item("Save as…", "Ctrl+Shift+S", Command::save_as);
+  item(Command::open_dialog);
+  item(Command::save);
+  item(Command::save_as);
   ImGui::Separator();
-  item("Undo", "Ctrl+Z", Command::undo, app.history.can_undo());
-  item("Redo", "Ctrl+Shift+Z", Command::redo, app.history.can_redo());
+  item(Command::undo, app.history.can_undo());
+  item(Command::redo, app.history.can_redo());
   ImGui::Separator();
-  item("Restart the motion", "R", Command::restart);
-  item("Reset all constants to the preset", "Ctrl+R", Command::reset_constants, unsaved(app));
-  item("Reset everything", "Ctrl+Shift+R", Command::reset_everything);
+  item(Command::restart);
+  item(Command::reset_constants, unsaved(app));
+  item(Command::reset_everything);
   ImGui::Separator();
-  item("Larger text", "Ctrl++", Command::larger_text);
-  item("Smaller text", "Ctrl+-", Command::smaller_text);
-  item("Normal text", "Ctrl+0", Command::normal_text);
+  item(Command::open_palette);
+  item(Command::choose_lab);
+  item(Command::start_tour);
+  ImGui::Separator();
+  item(Command::larger_text);
+  item(Command::smaller_text);
+  item(Command::normal_text);
   ImGui::Separator();
   if (ImGui::MenuItem("Constants", nullptr, app.settings.layout.left))
     app.settings.layout.left = !app.settings.layout.left;
   if (ImGui::MenuItem("Plots", nullptr, app.settings.layout.right))
     app.settings.layout.right = !app.settings.layout.right;
-  if (ImGui::MenuItem("Map of k_s and dt", "M", app.settings.layout.map)) app.command(Command::toggle_map);
-  report_control(app, "map");
+  const auto shown = [&](Command command, bool is) {
+    if (ImGui::MenuItem(row_of(command).name, row_of(command).keys, is)) app.command(command);
+    report_control(app, row_of(command).name);
+  };
+  shown(Command::toggle_map, app.settings.layout.map);
+  shown(Command::toggle_inside, app.settings.layout.inside);
   if (ImGui::MenuItem("Hints", nullptr, app.settings.layout.status))
     app.settings.layout.status = !app.settings.layout.status;
-  item("All panels", "Tab", Command::toggle_panels);
-  item("Full screen", "F11", Command::full_screen);
+  item(Command::toggle_panels);
+  item(Command::full_screen);
   ImGui::Separator();
-  item("Quit", "Ctrl+Q", Command::quit);
+  item(Command::quit);
   end_menu();
 }
 
@@ -93,7 +103,9 @@ float transport(App& app, float x) {
   if (icon_button(app, "step", icon::step, "Step", "One step of dt, then pause",
                   app.ui.slider.focused != 0 ? "O (→ is the slider's until Esc)" : "→ or O"))
     app.command(Command::step);
-  return ImGui::GetItemRectMax().x;
+  const ImVec2 hi = ImGui::GetItemRectMax();
+  app.ui.tour.transport = {{x, y}, {hi.x, hi.y}};
+  return hi.x;
 }
 
 /// A quiet label with a number after it. Returns where the next one begins; where the bar has no room for this one it
@@ -208,6 +220,12 @@ void engine_combo(App& app, float width) {
 
 void window_buttons(App& app, float x) {
   ImGui::SetCursorScreenPos({x, bar_middle(app, app.theme.px(32))});
+  if (icon_button(app, "labs", icon::labs, "Labs", "Labs: predict, do, and let the program look", "Ctrl+L",
+                  app.labs.run.has_value()))
+    app.command(Command::choose_lab);
+  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+  app.ui.tour.labs = {{lo.x, lo.y}, {hi.x, hi.y}};
+  ImGui::SameLine(0, app.theme.px(6));
   if (icon_button(app, "screen", app.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"))
     app.command(Command::full_screen);
   ImGui::SameLine(0, app.theme.px(6));
@@ -225,7 +243,7 @@ void top_bar(App& app, const Region& region) {
   const ImFont& brand = *app.fonts.brand;
   // In a narrow window, or with large text, the transport keeps its place to the last.
   float room = region.size.x - 2 * margin - 3 * button - 2 * gap - 2 * app.theme.px(18);
-  const float least_name = app.theme.px(72), buttons = 2 * button + gap;
+  const float least_name = app.theme.px(72), buttons = 3 * button + 2 * gap;
   const bool with_buttons = room > buttons + least_name, with_name = room > least_name;
   if (with_buttons) room -= buttons;
   const float title = text_width(brand, "Tyglab") + app.theme.px(14);

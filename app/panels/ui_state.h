@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@
 #include "core/notation/preset.h"
 
 namespace tyglab {
+
+struct App;
 
 /// The slider or value in use.
 struct SliderState {
@@ -30,6 +33,7 @@ struct SliderState {
   double reset_time = -1;                                ///< s
   std::vector<KeyEvent> keys;                            ///< of this frame, for the focused one
   int order = 0, focused_order = -1, wanted_order = -1;  ///< position in the panel, for Tab and up and down
+  std::string wanted_key;  ///< of the constant whose slider is to take the focus when it is drawn next
 };
 
 /// What the force plot follows.
@@ -84,8 +88,41 @@ struct Advice {
   std::optional<Preset> cure;
 };
 
+/// A line of the palette: what it is called, and what it does.
+struct PaletteEntry {
+  std::string group, title;
+  std::string keys;  ///< at the right: keys, units, progress
+  std::string also;  ///< words under which it is found too
+  std::function<void(App&)> act;
+};
+
+/// Ctrl+P: a list of all that can be done, narrowed by what is typed.
+struct CommandPalette {
+  bool open = false;
+  bool opening = false;  ///< its field is to take keys
+  bool labs = false;     ///< it lists labs alone
+  std::vector<PaletteEntry> entries;
+  char text[128] = "";
+  std::string narrowed;  ///< the text for which `selected` counts
+  int selected = 0;
+  int go = 0;          ///< entries to go down, by the keys of this frame
+  bool enter = false;  ///< Enter was pressed
+};
+
+/// The cards that show a newcomer round.
+struct Tour {
+  int card = -1;                     ///< none while below 0
+  bool next = false, leave = false;  ///< asked for by keys of this frame
+  struct Place {
+    glm::vec2 lo{0}, hi{0};
+  };
+  Place transport, labs;  ///< where the top bar drew them
+};
+
 struct Ui {
   SliderState slider;
+  CommandPalette palette;
+  Tour tour;
   Plots plots;
   Dialog dialog;
   Advice advice;
@@ -95,6 +132,7 @@ struct Ui {
   std::vector<std::string> devices;  ///< OpenCL's, by name, once one is in use
   bool energy_shown = false;         ///< the ledger's card is open
   bool accuracy_shown = false;       ///< the accuracy card is open
+  bool inside_shown = false;         ///< a step written out is in sight
   bool map_shown = false;            ///< the map of stiffness against dt is in sight
   double arrow_scale = 0;            ///< N for the longest arrow, smoothed
   double now = 0;                    ///< s since the window opened

@@ -19,7 +19,6 @@ void set_mode(App& app, int mode) {
 
 /// "1 Triangles" … or, where the viewport is narrow, the numbers alone.
 void view_buttons(App& app, const Region& region) {
-  static constexpr const char* words[] = {"1 Triangles", "2 Connections", "3 Both", "4 Outlines", "5 Points"};
   static constexpr const char* numbers[] = {"1", "2", "3", "4", "5"};
   const float margin = app.theme.px(16), room = region.size.x - 2 * margin;
   const auto width = [&](const auto& labels) {
@@ -27,12 +26,13 @@ void view_buttons(App& app, const Region& region) {
     for (const char* label : labels) sum += text_width(*app.fonts.text, label) + 2 * app.theme.px(11) + 1;
     return sum;
   };
-  const bool roomy = width(words) < room;
+  const bool roomy = width(view_names) < room;
   const float padding = roomy || width(numbers) < room ? 11.f : 4.f;
   const ImVec2 lo{region.at.x + margin, region.at.y + app.theme.px(12)};
   ImGui::SetCursorScreenPos(lo);
   const int mode = app.wished().mode;
-  if (const int k = segments(app, "views", roomy ? words : numbers, 5, mode - 1, padding); k >= 0 && k + 1 != mode)
+  if (const int k = segments(app, "views", roomy ? view_names.data() : numbers, 5, mode - 1, padding);
+      k >= 0 && k + 1 != mode)
     set_mode(app, k + 1);
   tooltip(app, gui::item_id(), "How the cloth is drawn (2.4)", "Keys 1 to 5");
   const ImVec2 hi = ImGui::GetItemRectMax();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/labs/lab_state.h"
 #include "app/panels/fonts.h"
 #include "app/panels/theme.h"
 #include "app/panels/ui_state.h"
@@ -20,6 +21,7 @@
 #include "app/sandbox/frame_costs.h"
 #include "app/sandbox/history.h"
 #include "app/sandbox/input.h"
+#include "app/sandbox/inside.h"
 #include "app/sandbox/map_watch.h"
 #include "app/sandbox/messages.h"
 #include "app/sandbox/pointer.h"
@@ -48,8 +50,10 @@ struct App {
   StabilityWatch stability;
   AccuracyWatch accuracy;
   MapWatch map;
+  Inside inside;
   Rewind rewind;
   Figure figure;
+  LabState labs;
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
   std::int64_t steps_made = 0;      ///< in the last frame
   bool told_left_inside = false;    ///< that overlapping bodies keep particles inside, said once a session

@@ -68,9 +68,10 @@ void take_built(App& app, std::unique_ptr<Simulation> simulation, const BuildOrd
   app.pacing.restart_measure();
 }
 
-void open_document(App& app, const std::filesystem::path& file, bool shipped) {
+void open_document(App& app, const std::filesystem::path& file, bool shipped,
+                   const std::vector<std::string>& settings) {
   try {
-    const Preset preset = load_preset(file);
+    const Preset preset = with_settings(load_preset(file), settings);
     const Document document{preset, file.stem().string(), shipped ? std::filesystem::path() : file};
     if (takes_long(app, preset) && preset.engine == EngineKind::cpu)
       return app.building.order(app, {preset, true, false, document}, app.history);

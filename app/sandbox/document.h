@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "app/sandbox/building.h"
 #include "app/viewport/cloth_texture.h"
@@ -13,8 +14,9 @@ namespace tyglab {
 
 struct App;
 
-/// Opens a preset; what goes wrong becomes a message and leaves everything as it was.
-void open_document(App& app, const std::filesystem::path& file, bool shipped);
+/// Opens a preset, with these settings made in it; what goes wrong becomes a message and leaves everything as it was.
+void open_document(App& app, const std::filesystem::path& file, bool shipped,
+                   const std::vector<std::string>& settings = {});
 /// Takes what has been built as the present cloth; what follows belongs to an edit, or to a preset that is opened.
 void take_built(App& app, std::unique_ptr<Simulation> simulation, const BuildOrder& order);
 /// Saves to the document's file, or opens the dialog where it has none.

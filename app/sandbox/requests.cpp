@@ -7,6 +7,8 @@
 #include "app/data_files.h"
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
+#include "app/panels/palette.h"
+#include "app/panels/tour.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/exports.h"
@@ -170,10 +172,11 @@ void follow_constants(App& app, Preset& next) {
   if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
 }
 
-void toggle_map(App& app) {
+/// Shows or hides one of the plots' cards that are not always there.
+void toggle_plot(App& app, bool Layout::*card) {
   Layout& layout = app.settings.layout;
-  layout.map = !layout.map;
-  if (layout.map) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
+  layout.*card = !(layout.*card);
+  if (layout.*card) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
 }
 
 void open_export(App& app, CsvSource source) {
@@ -247,11 +250,21 @@ void apply(App& app, const request::Do& what) {
     case Command::toggle_help:
       app.ui.help = !app.ui.help;
       return;
+    case Command::open_palette:
+      return open_palette(app);
+    case Command::choose_lab:
+      return open_palette(app, true);
+    case Command::leave_lab:
+      return leave_lab(app);
+    case Command::start_tour:
+      return start_tour(app);
     case Command::toggle_panels:
       app.ui.panels = !app.ui.panels;
       return;
     case Command::toggle_map:
-      return toggle_map(app);
+      return toggle_plot(app, &Layout::map);
+    case Command::toggle_inside:
+      return toggle_plot(app, &Layout::inside);
     case Command::export_map:
       return open_export(app, CsvSource::map);
     case Command::export_copies:
@@ -303,7 +316,7 @@ void apply(App& app, const request::Open& what) {
     ask(app, Dialog::Kind::unsaved, "The changes of " + app.preset().name + " have not been saved.", std::move(agreed));
     return;
   }
-  open_document(app, what.file, what.shipped);
+  open_document(app, what.file, what.shipped, what.settings);
 }
 
 bool apply(App& app, const request::SavePreset& what) {

@@ -31,8 +31,13 @@ enum class Command {
   export_forces,
   export_height,
   toggle_help,
+  open_palette,
+  choose_lab,
+  leave_lab,
+  start_tour,
   toggle_panels,
   toggle_map,
+  toggle_inside,
   export_map,
   export_copies,
   full_screen,
@@ -59,11 +64,13 @@ struct Do {
 struct Retry {
   Preset preset;
 };
-/// Takes a preset from a file (label: how it is called). Asks first where changes would be lost, unless confirmed.
+/// Takes a preset from a file, with these settings ("k_s=500") made in it. Asks first where changes would be lost,
+/// unless confirmed.
 struct Open {
   std::filesystem::path file;
   bool shipped = false;
   bool confirmed = false;
+  std::vector<std::string> settings = {};
 };
 struct SavePreset {
   std::filesystem::path file;

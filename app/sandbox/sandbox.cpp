@@ -9,6 +9,7 @@
 #include "app/commands/interrupt.h"
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
+#include "app/panels/tour.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
@@ -109,6 +110,7 @@ void Sandbox::start_preset() {
   app_.building.prepare_programs = prepare_programs;
   begin_document(app_, first_document(), first.picture);
   if (options_.auto_dt) app_.auto_dt.emplace();
+  if (!app_.scripted && !options_.explicit_preset && !app_.settings.tour_seen) start_tour(app_);
 }
 
 Document Sandbox::first_document() {
@@ -195,7 +197,7 @@ void Sandbox::simulate(double real_seconds) {
     return;
   }
   app_.rewind.look(simulation);
-  const int due = app_.pacing.due(real_seconds, dt);
+  const int due = up_to_stop(app_, app_.pacing.due(real_seconds, dt));
   move_hand(app_, due);
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
@@ -237,6 +239,7 @@ void Sandbox::simulate(double real_seconds) {
   }
   app_.pacing.made(made, dt, spent());
   app_.steps_made += made;
+  pause_at_stop(app_);
   if (app_.auto_dt && !simulation.divergence()) watch_dt(app_);
   if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none || !app_.copies.lockstep.empty());
 }
@@ -325,10 +328,12 @@ void Sandbox::frame_parts() {
   }
   app_.costs.add_steps(app_.steps_made);
   sample(app_);
+  watch_lab(app_);
   draw_cloth();
   draw_panels();
   if (!app_.ui.accuracy_shown) app_.accuracy.drop();
   if (!app_.ui.map_shown) app_.map.drop();
+  if (!app_.ui.inside_shown) app_.inside.drop();
   present();
   const bool quiet = !ImGui::IsAnyItemActive() && app_.tool.kind == Tool::Kind::none;
   if (quiet && now - app_.ui.last_change > gesture_end) app_.history.end_gesture();

@@ -124,6 +124,18 @@ Json accuracy(const App& app) {
   return json;
 }
 
+/// The lab in work; null without one.
+Json lab(const App& app) {
+  if (!app.labs.run) return nullptr;
+  const LabRun& run = *app.labs.run;
+  const StepRecord& record = run.record();
+  Json checks = Json::array();
+  for (const CheckState state : record.checks) checks.push_back(state == CheckState::holds);
+  return {{"label", run.lab.label},        {"step", run.step}, {"steps", run.lab.steps.size()},
+          {"predicted", record.predicted}, {"checks", checks}, {"done", record.done},
+          {"right", record.right}};
+}
+
 /// The copies in lockstep; a distance is told where the card measures it.
 Json copies(const App& app) {
   Json list = Json::array();
@@ -140,6 +152,16 @@ Json copies(const App& app) {
     list.push_back(copy);
   }
   return list;
+}
+
+/// The step that is written out; null where none is.
+Json inside(const App& app) {
+  const StepTrace* trace = app.inside.shown();
+  if (trace == nullptr) return nullptr;
+  return {{"site", {trace->i, trace->j}},
+          {"evaluations", trace->stages.size()},
+          {"springs", trace->stages.front().springs.size()},
+          {"x", vector(trace->x_after)}};
 }
 
 int pinned_count(const App& app) {
@@ -187,6 +209,8 @@ void add_simulation(Json& json, const App& app) {
   json["torn_springs"] = simulation.tears().torn_count();
   json["pinned"] = pinned_count(app);
   json["picked"] = site(app.picked);
+  json["picked_x"] = app.picked ? vector(simulation.positions().at(app.picked->i, app.picked->j)) : Json(nullptr);
+  json["inside"] = inside(app);
   json["held"] = held(app);
   json["view"] = app.preset().mode;
 }
@@ -204,6 +228,9 @@ void add_window(Json& json, const App& app) {
   json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);
   json["dialog"] = name_of(app.ui.dialog.kind);
   json["problem"] = app.ui.dialog.problem;
+  json["palette"] = app.ui.palette.open;
+  json["tour"] = app.ui.tour.card;
+  json["lab"] = lab(app);
   Json messages = Json::array();
   for (const Message& message : app.messages.list()) messages.push_back(message.text);
   json["messages"] = messages;

@@ -74,6 +74,7 @@ Layout layout_from(const Section& from) {
   from.take("right", layout.right);
   from.take("status", layout.status);
   from.take("map", layout.map);
+  from.take("inside", layout.inside);
   from.take("folded", layout.folded);
   layout.left_width = std::clamp(layout.left_width, 200.f, 900.f);
   layout.right_width = std::clamp(layout.right_width, 200.f, 1200.f);
@@ -106,6 +107,8 @@ Settings settings_from(const Json& json) {
   all.take("ui_scale", settings.ui_scale);
   settings.ui_scale = settings.ui_scale > 0 ? std::clamp(settings.ui_scale, 0.5, 3.0) : 1;
   all.take("plot_log", settings.plot_log);
+  all.take("tour_seen", settings.tour_seen);
+  all.take("labs", settings.labs);
   if (all.has("layout")) settings.layout = layout_from(all.section("layout"));
   if (all.has("session")) settings.session = session_from(all.section("session"));
   return settings;
@@ -131,9 +134,16 @@ Json to_json(const Settings& settings) {
                     {"maximised", settings.maximised}};
   json["ui_scale"] = settings.ui_scale;
   json["plot_log"] = settings.plot_log;
+  json["tour_seen"] = settings.tour_seen;
+  json["labs"] = settings.labs;
   const Layout& layout = settings.layout;
-  json["layout"] = {{"left_width", layout.left_width}, {"right_width", layout.right_width}, {"left", layout.left},
-                    {"right", layout.right},           {"status", layout.status},           {"map", layout.map},
+  json["layout"] = {{"left_width", layout.left_width},
+                    {"right_width", layout.right_width},
+                    {"left", layout.left},
+                    {"right", layout.right},
+                    {"status", layout.status},
+                    {"map", layout.map},
+                    {"inside", layout.inside},
                     {"folded", layout.folded}};
   if (settings.session)
     json["session"] = {{"label", settings.session->label},

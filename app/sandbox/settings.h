@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,7 +14,8 @@ namespace tyglab {
 struct Layout {
   float left_width = 320, right_width = 344;  ///< at scale 1
   bool left = true, right = true, status = true;
-  bool map = false;  ///< the map of stiffness against dt stands among the plots
+  bool inside = false;  ///< the picked particle's step, written out, stands among the plots
+  bool map = false;     ///< the map of stiffness against dt stands among the plots
   std::set<std::string> folded{"Start",  "Stability", "Accuracy",
                                "Copies", "Energy",    "Performance"};  ///< sections that are closed
   bool operator==(const Layout&) const = default;
@@ -33,6 +35,8 @@ struct Settings {
   double ui_scale = 1;
   Layout layout;
   bool plot_log = false;
+  bool tour_seen = false;
+  std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<Session> session;
 };
 

@@ -1,5 +1,6 @@
 #include "core/forces/readout.h"
 
+#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -23,16 +24,30 @@ struct StateLook {
 };
 
 template <class Look>
-void add_spring(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj,
-                ParticleForces& sum) {
+SpringForce spring_force(const Preset& p, const Look& look, const Direction& d, int i, int j, int oi, int oj) {
   const glm::dvec3 x_ij = look.x(oi, oj) - look.x(i, j);
   const double r2 = glm::dot(x_ij, x_ij), rest = d.rest * p.L;
+  SpringForce spring{oi, oj, d.bending, std::sqrt(r2), rest};
   if (d.bending) {
-    sum.F_b += bend_factor(Spring<double>::of(p.k_b, rest, std::identity()), r2) * x_ij;
-    return;
+    spring.F = bend_factor(Spring<double>::of(p.k_b, rest, std::identity()), r2) * x_ij;
+  } else {
+    spring.F = stretch_factor(Spring<double>::of(p.k_s, rest, std::identity()), r2) * x_ij;
+    spring.F_d = -p.k_d * (look.v(i, j) - look.v(oi, oj));
   }
-  sum.F_s += stretch_factor(Spring<double>::of(p.k_s, rest, std::identity()), r2) * x_ij;
-  sum.F_d -= p.k_d * (look.v(i, j) - look.v(oi, oj));
+  return spring;
+}
+
+/// Calls visit(SpringForce) for every whole spring at a particle.
+template <class Look, class Visit>
+void each_spring(const Preset& p, const Tears& tears, const Look& look, int i, int j, const Visit& visit) {
+  const Lattice& lattice = tears.lattice();
+  for (int d = 0; d < int(directions.size()); ++d) {
+    const Direction& dir = directions[d];
+    if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
+      visit(spring_force(p, look, dir, i, j, i + dir.di, j + dir.dj));
+    const int oi = i - dir.di, oj = j - dir.dj;
+    if (lattice.has_spring(d, oi, oj) && tears.whole(d, oi, oj)) visit(spring_force(p, look, dir, i, j, oi, oj));
+  }
 }
 
 template <class Look>
@@ -56,7 +71,6 @@ void add_wind(const Preset& p, const Tears& tears, const Look& look, int i, int 
 
 template <class Look>
 ParticleForces forces_at(const Preset& p, const Tears& tears, const Look& look, int i, int j) {
-  const Lattice& lattice = tears.lattice();
   ParticleForces sum;
   sum.F_g = {0, -p.m * p.g, 0};
   if (p.kind == Kind::one_weight) {
@@ -64,13 +78,10 @@ ParticleForces forces_at(const Preset& p, const Tears& tears, const Look& look, 
     sum.F_d.y = -p.k_d * look.v(0, 0).y;
     return sum;
   }
-  for (int d = 0; d < int(directions.size()); ++d) {
-    const Direction& dir = directions[d];
-    if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
-      add_spring(p, look, dir, i, j, i + dir.di, j + dir.dj, sum);
-    const int oi = i - dir.di, oj = j - dir.dj;
-    if (lattice.has_spring(d, oi, oj) && tears.whole(d, oi, oj)) add_spring(p, look, dir, i, j, oi, oj, sum);
-  }
+  each_spring(p, tears, look, i, j, [&](const SpringForce& spring) {
+    (spring.bending ? sum.F_b : sum.F_s) += spring.F;
+    sum.F_d += spring.F_d;
+  });
   if (p.W != glm::dvec3(0)) add_wind(p, tears, look, i, j, sum);
   return sum;
 }
@@ -83,6 +94,13 @@ ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Sta
 
 ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Neighbourhood& near, int i, int j) {
   return forces_at(p, tears, near, i, j);
+}
+
+std::vector<SpringForce> springs_on_particle(const Preset& p, const Tears& tears, const Neighbourhood& near, int i,
+                                             int j) {
+  std::vector<SpringForce> springs;
+  each_spring(p, tears, near, i, j, [&](const SpringForce& spring) { springs.push_back(spring); });
+  return springs;
 }
 
 }  // namespace tyglab

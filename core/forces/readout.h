@@ -4,6 +4,7 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <vector>
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
@@ -17,6 +18,14 @@ struct ParticleForces {
   glm::dvec3 F_int() const { return F_s + F_b + F_d; }
   /// Without the hand.
   glm::dvec3 F_ext() const { return F_g + F_wind; }
+};
+
+/// What one spring does to a particle.
+struct SpringForce {
+  int i, j;  ///< the particle at its other end
+  bool bending;
+  double length, rest;      ///< m
+  glm::dvec3 F{0}, F_d{0};  ///< N: F_s or F_b, and the damping that stretch springs have
 };
 
 /// `state`: dense, velocities that belong to the positions.
@@ -40,5 +49,8 @@ class Neighbourhood {
 };
 /// The same from what stands round it: (i, j) is the particle in the middle or one beside it.
 ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i, int j);
+/// The springs at it, of a cloth, one by one: all that are whole.
+std::vector<SpringForce> springs_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i,
+                                             int j);
 
 }  // namespace tyglab

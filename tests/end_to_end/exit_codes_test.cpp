@@ -37,8 +37,10 @@ TEST_CASE("0: help of the program and of every command, with an example; version
                {{"presets", "--help"}, 0, "xample"},
                {{"presets", "show", "--help"}, 0, "xample"},
                {{"presets", "check", "--help"}, 0, "xample"},
+               {{"labs", "check", "--help"}, 0, "xample"},
                {{"devices", "--help"}, 0, "xample"},
                {{"presets"}, 0, "denim"},
+               {{"labs"}, 0, "01_hooke"},
                {{"presets", "show", "denim"}, 0, "\"tyglab_preset\": 1"},
                {{"devices"}, 0, "cpu"}},
               folder.path());
@@ -115,6 +117,7 @@ TEST_CASE("3: a preset is wrong or missing") {
                {{"run", "demin", "--steps", "1"}, 3, "denim"},
                {{"render", "wrong.json", "--png", "a.png"}, 3, "forces.k_s"},
                {{"presets", "check", "wrong.json"}, 3, "forces.k_s"},
+               {{"labs", "check", "missing.md"}, 3, "missing.md"},
                {{"presets", "check", "missing.json"}, 3, "missing.json"},
                {{"presets", "show", "demin"}, 3, "denim"},
                {{"presets", "check", "demin"}, 3, "denim"},

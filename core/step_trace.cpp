@@ -1,0 +1,171 @@
+#include "core/step_trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+/// The state vectors round a particle, as far as its step can reach: two rows a sweep by springs, one more by wind.
+class Patch {
+ public:
+  Patch(const Simulation& simulation, int i, int j);
+  /// Makes a sweep; what it does to the particle in the middle is returned.
+  TracedStage sweep(const Sweep& sweep);
+  glm::dvec3 middle(int vector) const { return at(vector, i_, j_); }
+  /// The force at the beginning, where the method's table says no more.
+  TracedStage beginning() const { return evaluated(method_.sweeps.front(), i_, j_); }
+
+ private:
+  glm::dvec3& at(int vector, int i, int j) { return vectors_[std::size_t(vector)][index(i, j)]; }
+  const glm::dvec3& at(int vector, int i, int j) const { return vectors_[std::size_t(vector)][index(i, j)]; }
+  std::size_t index(int i, int j) const { return std::size_t(i - top_) * std::size_t(right_ - left_ + 1) + j - left_; }
+  bool contains(int i, int j) const { return i >= top_ && i <= bottom_ && j >= left_ && j <= right_; }
+  bool fixed(int i, int j) const;
+  TracedStage evaluated(const Sweep& sweep, int i, int j) const;
+  glm::dvec3 value_of(const Term& term, int i, int j, const glm::dvec3& a) const;
+  void assign(const Sweep& sweep, int i, int j, const glm::dvec3& a, std::vector<TracedAssignment>* told);
+
+  const Simulation& simulation_;
+  const Preset& preset_;
+  const Scheme& method_;
+  int i_, j_, top_, bottom_, left_, right_;
+  std::vector<std::vector<glm::dvec3>> vectors_;
+};
+
+Patch::Patch(const Simulation& simulation, int i, int j)
+    : simulation_(simulation), preset_(simulation.preset()), method_(scheme(preset_.integrator)), i_(i), j_(j) {
+  const Lattice& lattice = simulation.lattice();
+  const int reach = 2 * int(method_.sweeps.size()) + Neighbourhood::reach;
+  top_ = std::max(i - reach, 0), bottom_ = std::min(i + reach, lattice.rows - 1);
+  left_ = std::max(j - reach, 0), right_ = std::min(j + reach, lattice.columns - 1);
+  vectors_.assign(std::size_t(std::max(method_.vectors, 2)),
+                  std::vector<glm::dvec3>(std::size_t(bottom_ - top_ + 1) * std::size_t(right_ - left_ + 1)));
+  const double dt = preset_.dt;
+  const int seen = seen_velocity(method_);
+  const int power = method_.sweeps.front().velocity_dt_power;
+  for (int ni = top_; ni <= bottom_; ++ni)
+    for (int nj = left_; nj <= right_; ++nj) {
+      const StoredParticle stored = simulation.engine().stored(ni, nj);
+      at(vector_x, ni, nj) = stored.x;
+      at(vector_v, ni, nj) = method_.keeps_displacement ? dt * stored.v : stored.v;
+      if (seen != vector_v) at(seen, ni, nj) = stored.v_seen * std::pow(dt, -power);
+    }
+}
+
+bool Patch::fixed(int i, int j) const {
+  const auto held = simulation_.held();
+  return simulation_.pinned(i, j) || (held && held->i == i && held->j == j);
+}
+
+TracedStage Patch::evaluated(const Sweep& sweep, int i, int j) const {
+  constexpr int reach = Neighbourhood::reach;
+  const double per = std::pow(preset_.dt, sweep.velocity_dt_power);
+  // Where an implicit stage is solved, the table's vectors are not there yet: the beginning is what can be told.
+  const bool solves = sweep.solves != 0;
+  const int position = solves ? vector_x : sweep.position, velocity = solves ? vector_v : sweep.velocity;
+  Neighbourhood near(i, j);
+  for (int ni = std::max(i - reach, top_); ni <= std::min(i + reach, bottom_); ++ni)
+    for (int nj = std::max(j - reach, left_); nj <= std::min(j + reach, right_); ++nj)
+      near.x(ni, nj) = at(position, ni, nj), near.v(ni, nj) = per * at(velocity, ni, nj);
+  TracedStage stage;
+  stage.x = near.x(i, j), stage.v = near.v(i, j);
+  stage.forces = forces_on_particle(preset_, simulation_.tears(), near, i, j);
+  if (i == i_ && j == j_) stage.springs = springs_on_particle(preset_, simulation_.tears(), near, i, j);
+  if (!fixed(i, j)) stage.a = (stage.forces.F_int() + stage.forces.F_ext()) / preset_.m;
+  return stage;
+}
+
+glm::dvec3 Patch::value_of(const Term& term, int i, int j, const glm::dvec3& a) const {
+  return term.vector == acceleration ? a : at(term.vector, i, j);
+}
+
+void Patch::assign(const Sweep& sweep, int i, int j, const glm::dvec3& a, std::vector<TracedAssignment>* told) {
+  for (const Assignment& assignment : sweep.assignments) {
+    glm::dvec3 sum{0};
+    TracedAssignment traced{assignment.target, {}, {}};
+    for (const Term& term : assignment.terms) {
+      const glm::dvec3 value = value_of(term, i, j, a);
+      sum += term.factor * std::pow(preset_.dt, term.dt_power) * value;
+      traced.terms.push_back({term.vector, term.factor, term.dt_power, value});
+    }
+    traced.result = at(assignment.target, i, j) = sum;
+    if (told != nullptr) told->push_back(std::move(traced));
+  }
+}
+
+TracedStage Patch::sweep(const Sweep& sweep) {
+  // All forces first: no particle moves before its neighbours have looked at it.
+  constexpr int reach = Neighbourhood::reach;
+  std::vector<glm::dvec3> accelerations(vectors_[0].size());
+  TracedStage traced;
+  const Lattice& lattice = simulation_.lattice();
+  for (int i = top_; i <= bottom_; ++i)
+    for (int j = left_; j <= right_; ++j) {
+      // At the patch's own edge something is missing; the middle does not feel it within this step.
+      const bool known = (i - reach >= top_ || top_ == 0) && (i + reach <= bottom_ || bottom_ == lattice.rows - 1) &&
+                         (j - reach >= left_ || left_ == 0) && (j + reach <= right_ || right_ == lattice.columns - 1);
+      if (!known) continue;
+      TracedStage stage = evaluated(sweep, i, j);
+      accelerations[index(i, j)] = stage.a;
+      if (i == i_ && j == j_) traced = std::move(stage);
+    }
+  for (int i = top_; i <= bottom_; ++i)
+    for (int j = left_; j <= right_; ++j)
+      assign(sweep, i, j, accelerations[index(i, j)], i == i_ && j == j_ ? &traced.assignments : nullptr);
+  return traced;
+}
+
+/// Whether the table's sums, evaluation by evaluation, are all of a step.
+bool is_written_out(const Scheme& scheme) {
+  return !is_implicit(scheme) && !chooses_steps(scheme) && !projects(scheme);
+}
+
+/// Whether an assignment to `target` in the last sweep begins with that vector: it gathers the result.
+bool gathers(const Scheme& scheme, int vector, int target) {
+  for (const Assignment& assignment : scheme.sweeps.back().assignments)
+    if (assignment.target == target)
+      for (const Term& term : assignment.terms)
+        if (term.vector == vector) return true;
+  return false;
+}
+
+}  // namespace
+
+std::string vector_name(const Scheme& scheme, int vector) {
+  if (vector == acceleration) return "a";
+  if (vector == vector_x) return "x";
+  if (vector == vector_v) return scheme.keeps_displacement ? "d" : "v";
+  for (const Sweep& sweep : scheme.sweeps) {
+    if (sweep.position == vector) return "x*";
+    if (sweep.velocity == vector) return "v*";
+  }
+  return gathers(scheme, vector, vector_x) ? "X" : "V";
+}
+
+StepTrace trace_step(const Simulation& simulation, int i, int j) {
+  const Preset& preset = simulation.preset();
+  const Scheme& method = scheme(preset.integrator);
+  StepTrace trace;
+  trace.i = i, trace.j = j, trace.dt = preset.dt, trace.integrator = preset.integrator;
+  const auto held = simulation.held();
+  trace.fixed = simulation.pinned(i, j) || (held && held->i == i && held->j == j);
+  trace.whole = is_written_out(method);
+  Patch patch(simulation, i, j);
+  trace.x = patch.middle(vector_x), trace.v = patch.middle(vector_v);
+  if (trace.whole)
+    for (const Sweep& sweep : method.sweeps) trace.stages.push_back(patch.sweep(sweep));
+  else
+    trace.stages.push_back(patch.beginning());
+  trace.x_after = patch.middle(vector_x);
+  if (trace.whole) return trace;
+  const auto next = simulation.rebuilt(edit::Change{preset});
+  next->advance(1);
+  trace.x_after = next->positions().at(i, j);
+  return trace;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,166 @@
+// Labs as files: what they say, and how a wrong one is refused.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "app/labs/lab_state.h"
+#include "app/labs/observables.h"
+#include "app/sandbox/app.h"
+#include "tests/support/files.h"
+
+namespace tyglab {
+namespace {
+
+const std::string head = "# A lab\n\n## A step\n\nText.\n\n```lab\n";
+
+std::string problem_of(const std::string& text) {
+  try {
+    parse_lab(text, "my.md");
+  } catch (const LabError& error) {
+    return error.what();
+  }
+  return "none";
+}
+/// Of a block with these lines; the first is line 8.
+std::string problem_in(const std::string& lines) {
+  return problem_of(head + lines + "\n```\n");
+}
+bool says(const std::string& text, const char* what) {
+  return text.find(what) != std::string::npos;
+}
+
+TEST_CASE("a lab is read whole") {
+  const Lab lab = parse_lab(
+      "# A **short** lab\nWhat it\nis about.\n\n## First\n\nRead `k_s`.\n\n- one\n- two\n  goes on\n\n```lab\n"
+      "open: hanging\nset: k_s=70\nset: rows=8\npredict: How far?\nanswer: 0.1 N s/m within 5 %\ndo: Do this.\n"
+      "stop: 2 s\ncheck: k_s >= 70 N/m\ncheck: integrator = verlet\n```\n\nBecause.\n\n## Second\n\nMore.\n\n```lab\n"
+      "predict: Which?\nchoice: one\nright: two\ncheck: F < 0.5 * F_g\ncheck: energy > 2 * before.energy\n"
+      "check: apart > 0 m\n```\n",
+      "my.md");
+  CHECK(lab.title == "A short lab");
+  CHECK(lab.summary == Paragraphs{"What it is about."});
+  REQUIRE(lab.steps.size() == 2);
+  const LabStep& first = lab.steps[0];
+  CHECK(first.text == Paragraphs{"Read k_s.", "• one", "• two goes on"});
+  CHECK(first.open->preset == "hanging");
+  CHECK(first.open->settings == std::vector<std::string>{"k_s=70", "rows=8"});
+  CHECK(first.prediction->answer.factor == 0.1);
+  CHECK(first.prediction->relative);
+  CHECK(first.prediction->unit == "N s/m");
+  CHECK(first.stop == 2.0);
+  CHECK(first.explanation == Paragraphs{"Because."});
+  CHECK(words_of(first.checks[0]) == "k_s ≥ 70 N/m");
+  CHECK(words_of(first.checks[1]) == "integrator is verlet");
+  const LabStep& second = lab.steps[1];
+  CHECK(second.prediction->right == 1);
+  CHECK(words_of(second.checks[0]) == "F < 0.5 × F_g");
+  CHECK(words_of(second.checks[1]) == "energy > 2 × energy before");
+  CHECK(second.explanation.empty());
+}
+
+TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
+  CHECK(says(problem_of("Text\n"), "my.md:1: a lab begins with its title"));
+  CHECK(says(problem_of("# A lab\n"), "at least one step"));
+  CHECK(says(problem_of("# A lab\n## \n"), "my.md:2"));
+  CHECK(says(problem_of("# A lab\n\n## A step\n"), "my.md:3: this step says nothing"));
+  CHECK(says(problem_of("# A lab\n\n## A step\nText\n```python\n"), "my.md:5: the only block"));
+  CHECK(says(problem_of(head + "do: it\n"), "my.md:7: this block is never closed"));
+  CHECK(says(problem_of(head + "```\n\n```lab\n"), "my.md:10: this step has a ```lab block already"));
+  CHECK(says(problem_of("# A lab\n```lab\n```\n"), "belongs to a step"));
+  CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is no key of a lab; did you mean check?"));
+  CHECK(says(problem_in("just words"), "has no colon"));
+  CHECK(says(problem_in("check:"), "says nothing"));
+  CHECK(says(problem_in("check: enregy > 1 J"), "did you mean energy?"));
+  CHECK(says(problem_in("check: t => 1 s"), "stands one of"));
+  CHECK(says(problem_in("check: t > 1 m"), "the unit is s, not m"));
+  CHECK(says(problem_in("check: t > soon"), "\"soon\" is nothing"));
+  CHECK(says(problem_in("check: integrator > euler"), "is a word"));
+  CHECK(says(problem_in("check: integrator = eulr"), "did you mean euler?"));
+  CHECK(says(problem_in("check: energy > before.energy"), "no step before the first"));
+  CHECK(says(problem_in("check: apart > 0 m"), "none before the first"));
+  CHECK(says(problem_in("predict: How?"), "my.md:8: this prediction has no answer"));
+  CHECK(says(problem_in("predict: How?\nanswer: 3 m"), "my.md:9: an answer says how far"));
+  CHECK(says(problem_in("predict: How?\nchoice: a\nchoice: b"), "exactly one"));
+  CHECK(says(problem_in("answer: 3 m within 1 %"), "needs a question"));
+  CHECK(says(problem_in("set: k_s=3"), "write a line open:"));
+  CHECK(says(problem_in("open: hangin"), "my.md:8: "));
+  CHECK(says(problem_in("open: hangin"), "Did you mean 'hanging'?"));
+  CHECK(says(problem_in("open: hanging\nset: k_ss=3"), "did you mean k_s?"));
+  CHECK(says(problem_in("open: hanging\nset: k_s=-3"), "allowed: 0 to"));
+  CHECK(says(problem_in("stop: -1 s"), "above 0"));
+  CHECK(says(problem_in("needs: luck"), "opencl"));
+}
+
+TEST_CASE("labs are found in the user's folder too, beside their own presets, and a wrong one is told") {
+  const test::TemporaryFolder folder;
+  REQUIRE(setenv("TYGLAB_CONFIG_DIR", folder.path().c_str(), 1) == 0);
+  std::filesystem::create_directories(folder / "labs");
+  test::write_file(folder / "labs/mine.json", "{\"cloth\": {\"rows\": 5}}");
+  test::write_file(folder / "labs/mine.md", head + "open: mine.json\n```\n");
+  test::write_file(folder / "labs/wrong.md", "# A lab\n");
+  test::write_file(folder / "labs/README.md", "No lab at all.\n");
+  App app;
+  const std::vector<Lab>& labs = find_labs(app);
+  CHECK(labs.back().label == "mine");
+  CHECK(labs.back().steps[0].open->preset == (folder / "labs/mine.json").string());
+  REQUIRE(app.labs.problems.size() == 1);
+  CHECK(says(app.labs.problems[0], "wrong.md:2: a lab has at least one step"));
+  CHECK(app.messages.list().size() == 1);
+  unsetenv("TYGLAB_CONFIG_DIR");
+}
+
+TEST_CASE("every observable has a name of its own, and can be asked of any scene") {
+  App app;
+  for (const Kind kind : {Kind::cloth, Kind::one_weight}) {
+    Preset preset;
+    preset.kind = kind;
+    app.simulation = std::make_unique<Simulation>(preset);
+    app.picked = Pins::Site{0, 0};
+    for (const std::string_view name : observable_names()) {
+      CAPTURE(std::string(name));
+      if (is_word(name)) {
+        CHECK_FALSE(observe_word(app, name).empty());
+      } else if (const auto value = observe(app, name)) {
+        CHECK(std::isfinite(*value));
+      } else if (const Observable* row = find_observable(name)) {
+        CHECK_FALSE(row->cure.empty());
+      }
+    }
+  }
+  CHECK(observe(app, "W.x") == 0.0);
+  CHECK_FALSE(is_observable("W"));
+  CHECK_FALSE(is_observable("texture"));
+}
+
+TEST_CASE("the list of observables in docs/labs/README.md is current") {
+  const std::string file = std::string(TYGLAB_SOURCE_DIR) + "/docs/labs/README.md";
+  const std::string text = test::read_file(file), begin = "<!-- observables -->\n", end = "<!-- end -->\n";
+  const std::size_t from = text.find(begin), to = text.find(end);
+  REQUIRE(from != std::string::npos);
+  REQUIRE(to != std::string::npos);
+  const std::string now = text.substr(0, from + begin.size()) + observables_markdown() + text.substr(to);
+  if (std::getenv("TYGLAB_WRITE_DOCS") != nullptr) std::ofstream(file) << now;
+  CHECK_MESSAGE(test::read_file(file) == now, "write it anew: TYGLAB_WRITE_DOCS=1 build/release/bin/app_tests");
+}
+
+TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset") {
+  App app;
+  app.simulation = std::make_unique<Simulation>(Preset{});
+  app.settings.labs["01_hooke"] = 1;
+  begin_lab(app, "01_hooke");
+  CHECK(app.labs.run->step == 0);  // the second step goes on with the first one's weight
+  app.settings.labs["01_hooke"] = 2;
+  begin_lab(app, "01_hooke");
+  CHECK(app.labs.run->step == 2);
+  CHECK(steps_done(app, app.labs.run->lab) == 2);
+  app.settings.labs["01_hooke"] = 3;
+  begin_lab(app, "01_hooke");
+  CHECK(app.labs.run->step == 0);
+  begin_lab(app, "99_none");
+  CHECK(app.messages.list().size() == 1);
+}
+
+}  // namespace
+}  // namespace tyglab

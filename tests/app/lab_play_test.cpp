@@ -1,0 +1,297 @@
+// Every shipped lab, played: done right its checks hold and its answers are true; not done, they do not hold.
+#include <doctest/doctest.h>
+
+#include "app/labs/observables.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "tests/app/lab_player.h"
+
+namespace tyglab {
+namespace {
+
+using test::LabPlayer;
+
+/// The step is done, and what was predicted is right.
+void finish(LabPlayer& play) {
+  CAPTURE(play.lab().lab.label);
+  CAPTURE(play.lab().step);
+  REQUIRE(play.done());
+  if (play.lab().now().prediction) CHECK(play.right());
+}
+
+TEST_CASE("lab: Hooke's law and table B.1") {
+  LabPlayer play("01_hooke");
+  play.run(1);
+  CHECK_FALSE(play.done());  // nothing has been predicted
+  play.predict("0.0982");
+  play.run(0.2);
+  CHECK_FALSE(play.done());  // it swings
+  play.run(10);
+  finish(play);
+  play.next();
+  play.predict("4,9e-2 m");
+  play.run(2);
+  CHECK_FALSE(play.done());  // k is what it was
+  play.set("k=20");
+  play.run(10);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.run(0.5);
+  CHECK_FALSE(play.done());
+  play.run(20);
+  finish(play);
+}
+
+TEST_CASE("lab: why Euler gains energy") {
+  LabPlayer play("02_euler");
+  play.predict("2.7");
+  play.run(0.5);
+  CHECK_FALSE(play.done());
+  play.run(10);
+  CHECK(play.app().simulation->time() == doctest::Approx(1));  // it stopped by itself
+  finish(play);
+  CHECK(*observe(play.app(), "energy") / 0.2 == doctest::Approx(2.7048).epsilon(1e-3));
+  play.next();
+  play.choose(1);
+  play.set("integrator=euler");
+  play.run(10);
+  CHECK_FALSE(play.done());
+  set_up_step(play.app());
+  CHECK(play.app().requests.size() == 1);
+  play.take_requests();
+  play.run(10);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.run(20);
+  CHECK(play.app().simulation->time() == doctest::Approx(10));
+  finish(play);
+}
+
+TEST_CASE("lab: k_s and the critical time step") {
+  LabPlayer play("03_stiffness");
+  play.predict("200");
+  play.run(1);
+  CHECK_FALSE(play.done());
+  play.set("k_s=300");
+  play.run(1);
+  CHECK(play.app().simulation->divergence());
+  CHECK_FALSE(play.done());  // far above the limit shows no limit
+  play.app().simulation->apply(edit::Restart{});
+  play.set("k_s=195");
+  play.run(5);
+  finish(play);
+  play.next();
+  play.choose(0);
+  play.run(3);
+  CHECK_FALSE(play.done());  // k_s is not near
+  play.app().simulation->apply(edit::Restart{});
+  play.set("k_s=180");
+  play.run(3);
+  finish(play);
+  play.next();
+  play.predict("0.0005");
+  play.set("k_s=800");
+  play.run(1.2);
+  CHECK_FALSE(play.done());  // dt is smaller than it need be
+  play.set("dt=0.00045");
+  play.run(1.2);
+  finish(play);
+}
+
+TEST_CASE("lab: what damping does to the limit") {
+  LabPlayer play("04_damping");
+  play.choose(1);
+  play.set("k_d=0.04");
+  play.run(2);
+  CHECK_FALSE(play.done());
+  play.set("k_d=0.1");
+  play.run(2);
+  finish(play);
+  play.next();
+  play.predict("0.05");
+  play.set("k_d=0.1");
+  play.run(1);
+  CHECK_FALSE(play.done());  // it explodes, but not near the limit
+  play.app().simulation->apply(edit::Restart{});
+  play.set("k_d=0.055");
+  play.run(5);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.run(0.6);
+  CHECK_FALSE(play.done());
+  play.set("k_d=0.5");
+  play.run(0.6);
+  finish(play);
+}
+
+TEST_CASE("lab: order of convergence, and what kinks do to it") {
+  LabPlayer play("05_order");
+  play.look();
+  CHECK_FALSE(play.done());  // the card is closed
+  play.accuracy_open = true;
+  play.look();
+  finish(play);
+  play.next();
+  play.predict("4");
+  play.look();
+  CHECK_FALSE(play.done());
+  play.set("dt=0.00025");
+  play.look();
+  finish(play);
+  play.next();
+  play.look();
+  finish(play);
+  play.next();
+  play.predict("2");
+  play.set("dt=0.0001");
+  play.look();
+  finish(play);
+  play.next();
+  play.run(1);
+  play.look();
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.set("dt=0.0005");
+  play.look();
+  finish(play);
+}
+
+TEST_CASE("lab: float against double") {
+  LabPlayer play("06_float");
+  play.run(1);
+  finish(play);
+  play.next();
+  play.choose(0);
+  play.set("precision=double");
+  play.run(1);
+  CHECK_FALSE(play.done());
+  set_up_step(play.app());
+  play.take_requests();
+  play.run(1);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.set("dt=0.0005");
+  play.run(1);
+  CHECK_FALSE(play.done());  // the same run as before
+  set_up_step(play.app());
+  play.take_requests();
+  play.run(1);
+  finish(play);
+}
+
+TEST_CASE("lab: the price of implicit methods") {
+  LabPlayer play("07_implicit");
+  play.choose(1);
+  play.set("dt=0.001");
+  play.run(1);
+  CHECK_FALSE(play.done());
+  play.set("dt=0.01");
+  play.run(1);
+  finish(play);
+  play.next();
+  play.choose(0);
+  play.run(1);
+  CHECK_FALSE(play.done());
+  play.run(2);
+  finish(play);
+  play.next();
+  play.predict("0.074");
+  play.run(2);
+  finish(play);
+  play.next();
+  play.accuracy_open = true;
+  play.look();
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.look();
+  CHECK_FALSE(play.done());
+  play.set("integrator=implicit_euler");
+  play.look();
+  finish(play);
+}
+
+TEST_CASE("lab: chaos, and what an error can mean") {
+  LabPlayer play("08_chaos");
+  play.run(4);
+  finish(play);
+  play.next();
+  play.choose(2);
+  play.set("k_s=50");
+  play.run(4);
+  CHECK_FALSE(play.done());  // the same constants lead to the same bits
+  CHECK(*observe(play.app(), "apart") == 0);
+  set_up_step(play.app());
+  play.take_requests();
+  play.run(4);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.run(4);
+  finish(play);
+}
+
+TEST_CASE("lab: tearing a cloth on purpose") {
+  LabPlayer play("09_tearing");
+  play.predict("0.115");
+  play.run(1);
+  CHECK_FALSE(play.done());
+  play.run(30);
+  finish(play);
+  play.next();
+  play.predict("0.08");
+  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max *= 0.97) {
+    play.set("F_max=" + std::to_string(F_max));
+    play.run(0.3);
+  }
+  finish(play);
+  play.next();
+  play.run(0.1);
+  CHECK_FALSE(play.done());
+  std::vector<Pins::Site> across;
+  for (int j = 0; j < 40; ++j) across.push_back({20, j});
+  play.app().simulation->apply(edit::Cut{across});
+  play.run(0.1);
+  finish(play);
+}
+
+TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
+  LabPlayer play("10_opencl");
+  play.run(1);
+  finish(play);
+  play.next();
+  if (opencl_devices().devices.empty()) {
+    CHECK(cannot_be_done(play.app()));
+  } else {
+    play.choose(1);
+    play.set("engine=cpu");
+    play.run(1);
+    CHECK_FALSE(play.done());
+    set_up_step(play.app());
+    play.take_requests();
+    play.run(1);
+    finish(play);
+  }
+  play.run(0);
+  CHECK(play.done());
+  LabPlayer without("10_opencl");
+  without.app().labs.opencl = false;
+  without.run(1);
+  without.next();
+  CHECK(cannot_be_done(without.app()));
+  without.run(0);
+  CHECK(without.done());  // there is nothing to do but to read on
+}
+
+TEST_CASE("every shipped lab is read, and what it opens is there") {
+  App app;
+  CHECK(find_labs(app).size() >= 10);
+  for (const std::string& problem : app.labs.problems) FAIL_CHECK(problem);
+}
+
+}  // namespace
+}  // namespace tyglab

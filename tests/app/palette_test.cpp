@@ -1,0 +1,76 @@
+// The palette finds everything by its words, and the table of commands holds all of them.
+#include "app/panels/palette.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "app/sandbox/commands.h"
+#include "core/integrators/names.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+App app_with(const Preset& preset) {
+  App app;
+  app.simulation = std::make_unique<Simulation>(preset);
+  return app;
+}
+
+std::string first_for(App& app, const char* typed) {
+  const std::vector<PaletteEntry> entries = palette_entries(app);
+  const std::vector<int> found = matching(entries, typed);
+  return found.empty() ? "" : entries[std::size_t(found[0])].group + ": " + entries[std::size_t(found[0])].title;
+}
+
+TEST_CASE("what is typed finds commands, presets, methods, labs, constants and views") {
+  App app = app_with(test::cloth(8, 8));
+  CHECK(first_for(app, "restart") == "Command: Restart the motion");
+  CHECK(first_for(app, "flag") == "Preset: Flag in the wind");
+  CHECK(first_for(app, "RK4").find("Integrator: ") == 0);
+  CHECK(first_for(app, "hooke").find("Lab: Hooke") == 0);
+  CHECK(first_for(app, "k_d") == "Constant: k_d  Damping constant");
+  CHECK(first_for(app, "dämpning") == "Constant: k_d  Damping constant");
+  CHECK(first_for(app, "outlines") == "View: Outlines");
+  CHECK(first_for(app, "text larger") == "Command: Larger text");
+  CHECK(first_for(app, "no such thing").empty());
+}
+
+TEST_CASE("constants that play no part in the scene are left out") {
+  App app = app_with(test::one_weight());
+  CHECK(first_for(app, "stretching").empty());
+  CHECK(first_for(app, "constant of the one weight").find("Constant: k ") == 0);
+}
+
+TEST_CASE("what is found does what it says") {
+  App app = app_with(test::cloth(8, 8));
+  const std::vector<PaletteEntry> entries = palette_entries(app);
+  const auto act = [&](const char* typed) { entries[std::size_t(matching(entries, typed)[0])].act(app); };
+  act("semi-implicit");
+  act("take the tour");
+  act("initial stretch");
+  REQUIRE(app.requests.size() == 2);
+  const auto& change = std::get<request::Apply>(app.requests[0]);
+  CHECK(std::get<edit::Change>(change.edit).preset.integrator == "semi_implicit_euler");
+  CHECK(std::get<request::Do>(app.requests[1]).command == Command::start_tour);
+  CHECK(app.ui.slider.wanted_key == "initial_stretch");
+  CHECK(app.settings.layout.folded.count("Start") == 0);
+}
+
+TEST_CASE("every command has one row, and no two share a key") {
+  std::set<std::pair<int, int>> taken;
+  std::set<Command> seen;
+  for (const CommandRow& row : command_rows()) {
+    CAPTURE(std::string(row.name));
+    CHECK(seen.insert(row.command).second);
+    CHECK((*row.keys != 0) == !row.chords.empty());
+    CHECK((*row.keys != 0) == (*row.help != 0));
+    for (const Chord& chord : row.chords) CHECK(taken.insert({chord.key, chord.mods}).second);
+  }
+  CHECK(seen.size() == std::size_t(Command::quit) + 1);
+}
+
+}  // namespace
+}  // namespace tyglab
