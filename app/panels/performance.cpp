@@ -111,7 +111,9 @@ void fact_line(App& app, const PerformanceFact& fact, float width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
   const ImFont& mono = *app.fonts.mono;
-  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, fact.value), baseline}, c.text, fact.value);
+  const float room = width - text_width(*app.fonts.small, fact.name) - app.theme.px(16);
+  const std::string value = fitted(mono, fact.value, room);  // devices have long names
+  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, value), baseline}, c.text, value);
 }
 
 }  // namespace

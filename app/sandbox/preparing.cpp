@@ -48,6 +48,7 @@ void prepare_programs(const Preset& preset) {
   std::vector<std::string> words{"tyglab", "run",      "/dev/stdin", "--steps",        "3", "--engine",
                                  engine,   "--series", "-",          "--series-every", "1"};
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   pid_t child = 0;
