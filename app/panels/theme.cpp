@@ -146,9 +146,8 @@ Tokens light_tokens() {
 }
 
 std::span<const Look> looks() {
-  static constexpr std::array<Look, 3> all{{{"dark", "Dark", dark_tokens, 1},
-                                            {"light", "Light", light_tokens, 1},
-                                            {"projector", "Projector", light_tokens, 1.4f}}};
+  static constexpr std::array<Look, 3> all{
+      {{"dark", dark_tokens, 1}, {"light", light_tokens, 1}, {"projector", light_tokens, 1.4f}}};
   return all;
 }
 

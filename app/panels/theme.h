@@ -22,8 +22,7 @@ Tokens light_tokens();
 
 /// A look of the whole window.
 struct Look {
-  std::string_view name;   ///< in the settings
-  std::string_view title;  ///< for people
+  std::string_view name;  ///< in the settings
   Tokens (*tokens)();
   float magnified;  ///< of text, lengths and lines: for who sits far away
 };

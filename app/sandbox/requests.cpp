@@ -209,9 +209,9 @@ void next_theme(App& app) {
   const auto all = looks();
   const auto now = std::size_t(&look(app.settings.theme) - all.data());
   const Look& next = all[(now + 1) % all.size()];
+  app.wants_framing |= next.magnified != all[now].magnified;  // the viewport gets another size
   app.settings.theme = next.name;
   app.scale_changed = app.redraw_cloth = true;
-  app.messages.note("Theme: " + std::string(next.title));
 }
 
 void apply(App& app, const request::Do& what) {

@@ -48,8 +48,8 @@ def go_on(sandbox, step):
 def hooke(stage):
     """the lab on Hooke's law is played from its beginning to its end, and what is done is remembered"""
     sandbox = stage.start("denim")
-    report = begin(sandbox, "hooke", "01_hooke")
-    check(report["label"] == "one_weight" and report["t"] == 0, "its preset is open")
+    begin(sandbox, "hooke", "01_hooke")
+    sandbox.wait(lambda r: r["label"] == "one_weight" and r["t"] == 0, "its preset to open")
     stage.keep("1-read")
     sandbox.key("space")
     report = sandbox.wait(lambda r: r["t"] > 3, "the weight to come to rest")
