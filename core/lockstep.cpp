@@ -47,8 +47,9 @@ Edit with_own_steps(const Edit& edit, const Simulation& original, const Simulati
 
 void Lockstep::Cost::add(double simulated_s, double wall_s) {
   if (simulated_s <= 0) return;
-  const double now = wall_s / simulated_s, weight = std::min(simulated_s / cost_settles, 1.0);
-  per_second_ = per_second_ > 0 ? per_second_ + weight * (now - per_second_) : now;
+  const double kept = std::exp(-simulated_s / cost_settles);
+  simulated_ = kept * simulated_ + simulated_s;
+  wall_ = kept * wall_ + wall_s;
 }
 
 Preset copied_preset(const Preset& original, const std::vector<std::string>& differences) {

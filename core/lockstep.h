@@ -20,10 +20,10 @@ class Lockstep {
   class Cost {
    public:
     void add(double simulated_s, double wall_s);
-    double per_second() const { return per_second_; }  ///< 0 until it is known
+    double per_second() const { return simulated_ > 0 ? wall_ / simulated_ : 0; }  ///< 0 until it is known
 
    private:
-    double per_second_ = 0;
+    double simulated_ = 0, wall_ = 0;  ///< of the last steps, the older the less they count
   };
 
   struct Copy {

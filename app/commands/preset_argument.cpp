@@ -105,7 +105,7 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
       .add_option("--tolerance", tolerance,
                   "Choose --integrator and --dt, and --precision if float cannot hold it, so that positions err by at\n"
                   "most so much (m, root mean square) in the first second: by short trial runs of this very scene.\n"
-                  "Those of the three that are typed stay")
+                  "A method or a precision that is typed stays")
       ->type_name("M")
       ->transform(number_between(1e-12, 1, "m"));
   command

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -14,6 +15,8 @@
 
 namespace tyglab {
 namespace {
+
+constexpr std::uintmax_t most_bytes = 1 << 20;
 
 constexpr std::array<std::string_view, 11> lab_keys{"open", "set",  "predict", "answer", "choice", "right",
                                                     "do",   "stop", "check",   "needs",  "within"};
@@ -402,6 +405,11 @@ Lab parse_lab(std::string_view text, std::string_view source, const std::filesys
 }
 
 Lab load_lab(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw LabError(file.string() + ": is not a file, so it cannot be read as a lab");
+  if (const auto size = std::filesystem::file_size(file, error); !error && size > most_bytes)
+    throw LabError(file.string() + ": too large for a lab (1 MiB at most)");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();

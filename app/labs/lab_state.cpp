@@ -111,7 +111,7 @@ void judge_prediction(App& app, LabRun& run) {
     return;
   }
   const auto answer = value_of(app, asked.answer);
-  const auto said = typed_number(record.typed);
+  const auto said = typed_number(record.typed, asked.unit);
   if (!answer || !said) return;
   record.answer = *answer;
   record.right = std::abs(*said - *answer) <= asked.within * (asked.relative ? std::abs(*answer) : 1);
@@ -206,8 +206,8 @@ bool predict(App& app) {
   LabRun& run = *app.labs.run;
   StepRecord& record = run.record();
   if (!run.now().prediction || record.predicted) return false;
-  const bool number = run.now().prediction->choices.empty();
-  if (number ? !typed_number(record.typed) : record.chosen < 0) return false;
+  const Prediction& asked = *run.now().prediction;
+  if (asked.choices.empty() ? !typed_number(record.typed, asked.unit) : record.chosen < 0) return false;
   return record.predicted = true;
 }
 

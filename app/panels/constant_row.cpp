@@ -168,7 +168,9 @@ void copy_items(App& app, const Line& line) {
   ImGui::SetNextItemWidth(app.theme.px(88));
   char typed[40] = "";
   if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
-    app.request(request::AddCopy{{line.key + "=" + typed}});
+    if (const auto value = typed_number(typed, line.unit); value && in_range(app, line, *value)) add(*value);
+    if (*typed != 0 && !typed_number(typed, line.unit))
+      app.messages.error(std::string("“") + typed + "” is not a number, so there is no copy with it.");
     ImGui::CloseCurrentPopup();
   }
   report_control(app, "copy_value");
@@ -215,7 +217,8 @@ void vector_cells(App& app, const Line& line, const RowColumns& columns, float s
   take_wanted_focus(app, line.key);
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, app.theme.px(4));
-    const SliderResult result = drag_cell(app, names[k], scale_of(line, k), line.value[k], cell, columns.height);
+    const SliderResult result =
+        drag_cell(app, names[k], scale_of(line, k), line.value[k], cell, columns.height, line.unit);
     if (app.report) report_control(app, line.key + "." + names[k]);
     take(app, line, k, result, ImGui::GetID(names[k]));
   }
@@ -243,8 +246,8 @@ void draw_line(App& app, const Line& line) {
     ImGui::SameLine(0, columns.gap);
     const bool dragging = app.ui.slider.dragged == gesture;
     const double shown = dragging ? app.ui.slider.value : line.value[0];
-    take(app, line, 0, value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height),
-         0);
+    take(app, line, 0,
+         value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.unit), 0);
     if (app.report) report_control(app, line.key + ".value");
   }
   draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,

@@ -108,7 +108,7 @@ void cloth_line(App& app, int n) {
                    fitted(*app.fonts.small, name_of_cloth(app, n), room));
   const Lockstep::Cost& cost = n == Copies::original ? copies.cost : copies.lockstep[std::size_t(n)].cost;
   right_aligned(app, *app.fonts.mono, lo.x + at.cost, middle, c.text,
-                cost.per_second() > 0 ? number_or_dash(cost.per_second()) : "–");
+                cost.per_second() > 0 && !diverged ? number_or_dash(cost.per_second()) : "–");
   const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
   right_aligned(app, *app.fonts.mono, lo.x + at.apart, middle, diverged ? c.danger : c.text,
                 diverged                ? "diverged"
@@ -184,10 +184,12 @@ void copies_card(App& app, float height) {
       head(app);
       for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) cloth_line(app, n);
     } else {
+      ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + card_width(app));
       wrapped(app,
               "Copies move beside this cloth with the same start, hand and wind, each with another method, dt or "
               "constant: see where they part.",
               app.theme.colors.text);
+      ImGui::PopTextWrapPos();
       ImGui::Dummy({0, app.theme.px(6)});
     }
     buttons(app, any);

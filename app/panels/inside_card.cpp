@@ -130,7 +130,8 @@ void stage_text(App& app, const StepTrace& trace, std::size_t n) {
           c.text);
   ImGui::PopFont();
   line(app, "x", components(stage.x) + " m", c.text);
-  line(app, "v", components(stage.v) + " m/s", c.text);
+  line(app, method.lags ? "v, seen" : "v", components(stage.v) + " m/s", c.text);
+  if (method.lags) words(app, "what the damping sees: the velocity between two steps, or a prediction", c.quiet);
   springs(app, stage);
   forces(app, stage, app.preset().m);
   if (!trace.whole) return;

@@ -67,7 +67,7 @@ std::string with_unit(double value, std::string_view unit) {
 void verdict(App& app, const Prediction& asked, const StepRecord& record) {
   const Tokens& c = app.theme.colors;
   const bool number = asked.choices.empty();
-  const std::string said = number ? with_unit(typed_number(record.typed).value_or(0), asked.unit)
+  const std::string said = number ? with_unit(typed_number(record.typed, asked.unit).value_or(0), asked.unit)
                                   : asked.choices[std::size_t(record.chosen)];
   if (!record.done) return marked_line(app, icon::right, ">", c.accent, "You predict: " + said, c.text);
   if (record.right) return marked_line(app, icon::check, "+", c.good, "You were right: " + said, c.text);

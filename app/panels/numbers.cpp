@@ -1,6 +1,7 @@
 #include "app/panels/numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -58,7 +59,42 @@ std::string time_number(double t, double dt) {
   return print("%.*f", decimals, t);
 }
 
-std::optional<double> typed_number(std::string_view text) {
+namespace {
+
+/// A unit as a keyboard has it: "m/s^2" and "m/s²" are "m/s2", and no spaces.
+std::string plain_unit(std::string_view unit) {
+  std::string plain;
+  for (std::size_t n = 0; n < unit.size(); ++n) {
+    if (unit.substr(n, 2) == "²")
+      plain += '2', ++n;
+    else if (unit.substr(n, 2) == "µ")
+      plain += 'u', ++n;
+    else if (unit[n] != ' ' && unit[n] != '\t' && unit[n] != '^')
+      plain += unit[n];
+  }
+  return plain;
+}
+
+/// What a number in the unit `typed` is in `unit`, as a factor.
+std::optional<double> factor_of(std::string_view typed, std::string_view unit) {
+  struct Prefix {
+    char letter;
+    double factor;
+  };
+  static constexpr std::array<Prefix, 6> prefixes{
+      {{'n', 1e-9}, {'u', 1e-6}, {'m', 1e-3}, {'c', 1e-2}, {'k', 1e3}, {'M', 1e6}}};
+  const std::string from = plain_unit(typed), to = plain_unit(unit);
+  if (from.empty() || from == to) return 1;
+  if (to == "kg" && from == "g") return 1e-3;
+  if (to == "kg" && from == "mg") return 1e-6;
+  for (const Prefix& prefix : prefixes)
+    if (!to.empty() && from == prefix.letter + to) return prefix.factor;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> typed_number(std::string_view text, std::string_view unit) {
   std::string plain(text);
   std::replace(plain.begin(), plain.end(), ',', '.');
   const std::size_t start = plain.find_first_not_of(" \t+");
@@ -67,9 +103,10 @@ std::optional<double> typed_number(std::string_view text) {
   const char* end = plain.data() + plain.size();
   const auto [rest, error] = std::from_chars(plain.data() + start, end, value);
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  // A unit may follow after a space; anything else ("1e", "3..2") is a slip that must not be taken for a number.
-  if (rest != end && *rest != ' ' && *rest != '\t') return std::nullopt;
-  return value;
+  // Anything else after it ("1e", "3..2") is a slip that must not be taken for a number.
+  const auto factor = factor_of({rest, std::size_t(end - rest)}, unit);
+  if (!factor) return std::nullopt;
+  return value * *factor;
 }
 
 double rounded(double value, int digits) {

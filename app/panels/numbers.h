@@ -13,8 +13,10 @@ std::string short_number(double value);
 std::string steady_number(double value);
 /// A simulated time, with as many decimals as show a single step of dt (three at least): "0.4213".
 std::string time_number(double t, double dt);
-/// What somebody typed: a comma counts as a decimal point, a unit after it is skipped. None if it is not a number.
-std::optional<double> typed_number(std::string_view text);
+/// What somebody typed: a comma counts as a decimal point. After it may stand the unit, or one that differs from it by
+/// an SI prefix ("2 ms" where s are meant, "9,8 cm"), which is converted. None if it is not a number or has another
+/// unit.
+std::optional<double> typed_number(std::string_view text, std::string_view unit = {});
 /// Rounded to that many significant digits.
 double rounded(double value, int digits);
 

@@ -119,9 +119,12 @@ void picked(App& app, ImDrawList& draw) {
   for (int tile = 0; tile < app.copies.tiles(); ++tile) {
     const auto at = particle_on_screen(app, tile, *app.picked);
     if (!at) continue;
+    const glm::vec2 lo = app.viewport.origin(tile), hi = lo + app.viewport.size();
+    draw.PushClipRect(vec(lo), vec(hi), true);  // what points far stays in its own picture
     if (tile == 0) spring_arrows(app, draw, *at);
     if (app.ui.force_arrows && !cloth_in_tile(app, tile).divergence()) force_arrows(app, draw, tile, *at);
     ring(app, draw, *at, 7, app.theme.colors.text, 2);
+    draw.PopClipRect();
   }
 }
 

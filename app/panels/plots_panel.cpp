@@ -247,7 +247,10 @@ void map_plot_card(App& app, float height) {
 void inside_card(App& app, float height) {
   const Card card(app, "inside", "Inside a step", "", height);
   if (head_button(app, card.inner(), 0, "close_inside", icon::close, "×", "Close")) app.command(Command::toggle_inside);
-  inside_step(app, card.inner().size);
+  const Region& inner = card.inner();
+  const float head = app.theme.px(24);  // of the button: what scrolls keeps clear of it
+  ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
+  inside_step(app, {inner.size.x, inner.size.y - head});
 }
 
 std::vector<PlotCard> plot_cards(const App& app) {

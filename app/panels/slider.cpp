@@ -188,7 +188,7 @@ void draw_track(App& app, const SliderScale& scale, double value, ImVec2 lo, ImV
 }
 
 /// The text field of a value. Sets `result` when the typing ends.
-void type_value(App& app, double value, float width, float height, SliderResult& result) {
+void type_value(App& app, double value, float width, float height, std::string_view unit, SliderResult& result) {
   SliderState& state = app.ui.slider;
   if (state.typing_starts) ImGui::SetKeyboardFocusHere();
   ImGui::PushFont(app.fonts.mono);
@@ -205,12 +205,13 @@ void type_value(App& app, double value, float width, float height, SliderResult&
   if (!over) return;
   state.typing = 0;
   if (state.cancel) return;
-  if (const auto typed = typed_number(state.text)) {
+  if (const auto typed = typed_number(state.text, unit)) {
     result.changed = result.finished = *typed != value;
     result.value = *typed;
   } else {
-    app.messages.error(std::string("“") + state.text +
-                       "” is not a number; the value stays. Type one such as 310 or 1e-4.");
+    app.messages.error(std::string("“") + state.text + "” is not a number" +
+                       (unit.empty() ? "" : " in " + std::string(unit)) +
+                       "; the value stays. Type one such as 310 or 1e-4.");
   }
 }
 
@@ -251,14 +252,14 @@ SliderResult slider(App& app, const SliderScale& scale, double value, float widt
   return result;
 }
 
-SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, double value, float width,
-                       float height) {
+SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, double value, float width, float height,
+                       std::string_view unit) {
   ImGui::PushID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   SliderResult result{.value = value};
   const unsigned typing_id = ImGui::GetID("value");
   if (app.ui.slider.typing == typing_id) {
-    type_value(app, value, width, height, result);
+    type_value(app, value, width, height, unit, result);
     ImGui::PopID();
     return result;
   }
@@ -290,14 +291,14 @@ SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, 
   return result;
 }
 
-SliderResult value_cell(App& app, const char* id_text, double value, std::string_view shown, float width,
-                        float height) {
+SliderResult value_cell(App& app, const char* id_text, double value, std::string_view shown, float width, float height,
+                        std::string_view unit) {
   SliderState& state = app.ui.slider;
   SliderResult result{.value = value};
   const unsigned id = ImGui::GetID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   if (state.typing == id) {
-    type_value(app, value, width, height, result);
+    type_value(app, value, width, height, unit, result);
     return result;
   }
   ImGui::InvisibleButton(id_text, {width, height});

@@ -28,9 +28,11 @@ struct SliderResult {
 SliderResult slider(App& app, const SliderScale& scale, double value, float width, float height);
 
 /// A value that is dragged sideways (`scale` tells how far) or typed: component of a vector.
-SliderResult drag_cell(App& app, const char* id, const SliderScale& scale, double value, float width, float height);
+SliderResult drag_cell(App& app, const char* id, const SliderScale& scale, double value, float width, float height,
+                       std::string_view unit = {});
 
-/// A number that a double click or Ctrl+click lets one type. `shown` is its text.
-SliderResult value_cell(App& app, const char* id, double value, std::string_view shown, float width, float height);
+/// A number that a double click or Ctrl+click lets one type. `shown` is its text; `unit` may be typed after it.
+SliderResult value_cell(App& app, const char* id, double value, std::string_view shown, float width, float height,
+                        std::string_view unit = {});
 
 }  // namespace tyglab

@@ -107,7 +107,7 @@ void tour_contents(App& app) {
   wrapped(app, stop.text, c.text);
   ImGui::Dummy({0, app.theme.px(2)});
   const bool last = card + 1 == int(stops.size());
-  if (text_button(app, last ? "Begin" : "Next", true)) go_to(app, card + 1);
+  if (text_button(app, last ? "Done" : "Next", true)) go_to(app, card + 1);
   ImGui::SameLine();
   if (card > 0 && text_button(app, "Back")) go_to(app, card - 1);
   if (card > 0) ImGui::SameLine();

@@ -97,8 +97,12 @@ bool save_document_as(App& app, const std::filesystem::path& file, const std::st
   preset.name = name;
   try {
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
+    // The program's own folder is made where it is missing; nobody else's.
     std::error_code ignored;
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), ignored);
+    const std::filesystem::path folder = file.parent_path();
+    if (folder == user_preset_folder()) std::filesystem::create_directories(folder, ignored);
+    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+      throw OutputError("The folder " + folder.string() + " is not there; make it first, or choose another.");
     save_preset(preset, file);
   } catch (const std::exception& error) {
     show_save_problem(app, file, name, error.what());

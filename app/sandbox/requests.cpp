@@ -119,6 +119,8 @@ bool rewind(App& app) {
   if (app.building.holds_present() || app.rewind.before(*app.simulation, t, rewinds_s) == nullptr) return false;
   app.rewind.go_back(*app.simulation, t, rewinds_s);
   copies_resume(app);
+  if (!app.copies.lockstep.empty())
+    app.messages.note("The copies have no past of their own: they go on from here too.");
   app.tool.kind = Tool::Kind::none;
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();
   app.pacing.restart_measure();
@@ -185,6 +187,7 @@ void open_export(App& app, CsvSource source) {
 }
 
 void reset_everything(App& app) {
+  app.auto_dt.reset();
   take_back(app, app.document.saved);
   restart(app);
   app.wants_framing = true;

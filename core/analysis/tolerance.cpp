@@ -109,7 +109,7 @@ ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, dou
   if (found.empty() && !keeps.precision && preset.precision == Precision::float_) try_all(Precision::double_);
   if (found.empty())
     throw ToleranceError(
-        "nothing reaches " + number(tolerance) + " m here" +
+        "nothing reaches " + number(tolerance) + " m here with a margin of two" +
         (std::isfinite(least.error_rms_m)
              ? "; the best was " + settings_of(least) + " with " + number(least.error_rms_m) + " m"
              : "") +

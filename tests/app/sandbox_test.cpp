@@ -138,16 +138,28 @@ TEST_CASE("settings come back, and a broken file gives a sentence and the defaul
 }
 
 TEST_CASE("numbers are read as people type them and shown short") {
-  for (const auto& [text, value] : {std::pair{"50", 50.0},
-                                    {" 0,25 ", 0.25},
-                                    {"1e-3 s", 1e-3},
-                                    {"-9.82 m/s²", -9.82},
-                                    {"310 N/m", 310.0},
-                                    {".5", 0.5}}) {
-    CAPTURE(std::string(text));
-    REQUIRE(typed_number(text).has_value());
-    CHECK(*typed_number(text) == doctest::Approx(value));
+  struct Typed {
+    const char *text, *unit;
+    double value;
+  };
+  for (const Typed& typed : {Typed{"50", "N", 50},
+                             {" 0,25 ", "", 0.25},
+                             {"1e-3 s", "s", 1e-3},
+                             {"2 ms", "s", 2e-3},
+                             {"9,8 cm", "m", 0.098},
+                             {"0.06 kN/m", "N/m", 60},
+                             {"3 g", "kg", 3e-3},
+                             {"40 µs", "s", 4e-5},
+                             {"-9.82 m/s²", "m/s²", -9.82},
+                             {"-9.82m/s^2", "m/s²", -9.82},
+                             {".5", "", 0.5}}) {
+    CAPTURE(std::string(typed.text));
+    REQUIRE(typed_number(typed.text, typed.unit).has_value());
+    CHECK(*typed_number(typed.text, typed.unit) == doctest::Approx(typed.value));
   }
+  CHECK_FALSE(typed_number("3 N", "m").has_value());
+  CHECK_FALSE(typed_number("3 m", "").has_value());
+  CHECK_FALSE(typed_number("3 foot", "m").has_value());
   for (const char* text : {"", " ", "abc", "--5", "nan", "inf", "1e999"}) {
     CAPTURE(std::string(text));
     CHECK_FALSE(typed_number(text).has_value());
