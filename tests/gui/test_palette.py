@@ -7,6 +7,8 @@ from sandbox import centre, k_s
 
 
 def find(sandbox, text):
+    sandbox.wait(lambda r: not r["palette"] and not r["typing"], "the last one to be closed")
+    sandbox.later(3)
     sandbox.key("ctrl+p")
     sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette to take keys")
     sandbox.later(3)
