@@ -173,7 +173,8 @@ void enter_step(App& app, std::size_t step) {
   if (!run.record().done) run.record() = {};
   run.record().checks.assign(run.now().checks.size(), CheckState::open);
   if (run.now().needs_opencl && !app.labs.opencl) app.labs.opencl = !opencl_devices().devices.empty();
-  if (!run.record().done) set_up_step(app);
+  // What can only be read opens nothing that cannot run.
+  if (!run.record().done && !cannot_be_done(app)) set_up_step(app);
 }
 
 void back_step(App& app) {
