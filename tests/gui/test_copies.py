@@ -26,6 +26,9 @@ def lockstep(stage):
     check(report["copies"][0]["steps"] == report["steps"], "the equal copy makes the same steps")
     check(report["copies"][0]["distance"] == 0, "the equal copy is where the original is")
     check(report["copies"][1]["distance"] > 1e-6, "implicit Euler is not")
+    sandbox.key("space")  # a swinging corner would be gone before the pointer comes
+    sandbox.wait(lambda r: r["paused"], "all to pause")
+    report = sandbox.later(4)
     at = particle(report, report["preset"]["cloth"]["rows"] - 1, 0)["at"]
     sandbox.move(*at)
     sandbox.press(RIGHT)
@@ -33,6 +36,8 @@ def lockstep(stage):
     report = sandbox.wait(lambda r: r["held"] is not None, "the hand to take the original")
     for copy in report["copies"]:
         check(copy["held"] == [report["held"]["i"], report["held"]["j"]], "the hand takes the copies too")
+    sandbox.key("space")
+    sandbox.wait(lambda r: not r["paused"], "all to go on")
     sandbox.move(at[0] + 80, at[1] - 60)
     sandbox.later(8)
     stage.keep("held")
