@@ -16,6 +16,8 @@ class Patch {
   /// Makes a sweep; what it does to the particle in the middle is returned.
   TracedStage sweep(const Sweep& sweep);
   glm::dvec3 middle(int vector) const { return at(vector, i_, j_); }
+  /// Whether a particle is pinned or held.
+  bool fixed(int i, int j) const;
   /// The force at the beginning, where the method's table says no more.
   TracedStage beginning() const { return evaluated(method_.sweeps.front(), i_, j_); }
 
@@ -24,7 +26,6 @@ class Patch {
   const glm::dvec3& at(int vector, int i, int j) const { return vectors_[std::size_t(vector)][index(i, j)]; }
   std::size_t index(int i, int j) const { return std::size_t(i - top_) * std::size_t(right_ - left_ + 1) + j - left_; }
   bool contains(int i, int j) const { return i >= top_ && i <= bottom_ && j >= left_ && j <= right_; }
-  bool fixed(int i, int j) const;
   TracedStage evaluated(const Sweep& sweep, int i, int j) const;
   glm::dvec3 value_of(const Term& term, int i, int j, const glm::dvec3& a) const;
   void assign(const Sweep& sweep, int i, int j, const glm::dvec3& a, std::vector<TracedAssignment>* told);
@@ -151,10 +152,9 @@ StepTrace trace_step(const Simulation& simulation, int i, int j) {
   const Scheme& method = scheme(preset.integrator);
   StepTrace trace;
   trace.i = i, trace.j = j, trace.dt = preset.dt, trace.integrator = preset.integrator;
-  const auto held = simulation.held();
-  trace.fixed = simulation.pinned(i, j) || (held && held->i == i && held->j == j);
   trace.whole = is_written_out(method);
   Patch patch(simulation, i, j);
+  trace.fixed = patch.fixed(i, j);
   trace.x = patch.middle(vector_x), trace.v = patch.middle(vector_v);
   if (trace.whole)
     for (const Sweep& sweep : method.sweeps) trace.stages.push_back(patch.sweep(sweep));

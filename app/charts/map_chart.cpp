@@ -29,7 +29,8 @@ ChartSeries key(const std::string& name, ImU32 color) {
 
 }  // namespace
 
-Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, std::span<const MapCell> cells) {
+Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, const MapBoundary& boundary,
+                std::span<const MapCell> cells) {
   const std::string stiffness = stiffness_key(preset);
   Chart chart;
   chart.x = {stiffness + ", N/m", true, false, {}, {{grid.least_stiffness, grid.most_stiffness}}};
@@ -37,16 +38,10 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, std:
   for (const MapCell& cell : cells)
     chart.cells.push_back({grid.stiffness(cell.column), grid.stiffness(cell.column + 1), grid.dt(cell.row),
                            grid.dt(cell.row + 1), color_of(c, cell), cell.diverged});
-  MapBoundary boundary = map_boundary(preset, grid);
   if (!boundary.dt.empty())
-    chart.series.push_back({"largest stable dt, by theory",
-                            {c.text, LineStyle::solid, 2},
-                            true,
-                            0,
-                            std::move(boundary.stiffness),
-                            std::move(boundary.dt)});
-  const double present = preset.kind == Kind::cloth ? preset.k_s : preset.k;
-  chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {present}, {preset.dt}});
+    chart.series.push_back(
+        {"largest stable dt, by theory", {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
+  chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
   chart.series.push_back(key("energy error 1e-6", magnitude_color(part_of(1e-6))));
   chart.series.push_back(key("1e-3", magnitude_color(part_of(1e-3))));

@@ -10,7 +10,8 @@ namespace tyglab {
 
 /// Cells coloured by the energy that the method made or ate, or hatched where it diverged; theory's boundary as a line;
 /// the preset's own place as a disc.
-Chart map_chart(const Tokens& colors, const Preset& preset, const MapGrid& grid, std::span<const MapCell> cells);
+Chart map_chart(const Tokens& colors, const Preset& preset, const MapGrid& grid, const MapBoundary& boundary,
+                std::span<const MapCell> cells);
 
 /// What a short run came to, as a sentence without its end: "k_s = 92 N/m, dt = 0.0013 s: diverged after 0.12 s".
 std::string cell_words(const Preset& preset, const MapCell& cell);

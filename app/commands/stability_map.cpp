@@ -89,7 +89,7 @@ int map(const MapOptions& options) {
     write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n");
   if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells));
   if (!options.bench.png.empty()) {
-    Chart chart = map_chart(dark_tokens(), scene.preset, grid, cells);
+    Chart chart = map_chart(dark_tokens(), scene.preset, grid, map_boundary(scene.preset, grid), cells);
     chart.title =
         "Which " + stiffness_key(scene.preset) + " and dt " + scene.preset.integrator + " bears: " + scene.source.label;
     chart.note = machine_line();

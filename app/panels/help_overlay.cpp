@@ -26,9 +26,12 @@ constexpr Entry mouse_entries[] = {
     {"Drop a file", "opens a preset, or takes a picture as texture"},
 };
 constexpr Entry sliders[] = {
-    {"Drag · Shift drag", "changes · ten times finer"},         {"Double-click", "back to the preset's value"},
-    {"Double-click or Ctrl+click the number", "types a value"}, {"← → · Ctrl · Shift", "steps · finer · coarser"},
+    {"Drag · Shift drag", "changes · ten times finer"},
+    {"Double-click", "back to the preset's value"},
+    {"Double-click or Ctrl+click the number", "types a value"},
+    {"← → · Ctrl · Shift", "steps · finer · coarser"},
     {"Tab, ↑ ↓ · Esc", "next slider · back to the cloth"},
+    {"Right-click a row", "resets · adds a copy with another value"},
 };
 
 /// Text that is wrapped between `left` and `right`, pixels within the window; returns where it ends below.

@@ -17,10 +17,6 @@ namespace {
 
 constexpr float text_line_at_1 = 18, name_at_1 = 64;  // pixels at scale 1
 
-std::string components(const glm::dvec3& v) {
-  return "(" + steady_number(v.x) + ", " + steady_number(v.y) + ", " + steady_number(v.z) + ")";
-}
-
 std::string site(int i, int j) {
   return "(" + std::to_string(i) + ", " + std::to_string(j) + ")";
 }
@@ -74,7 +70,7 @@ void force_line(App& app, std::string_view key, const glm::dvec3& value) {
   draw_styled_line(draw, ends, 2, curve_style(app.theme.colors, key), app.theme.scale);
   draw_symbol(draw, app.fonts, {lo.x + sample + app.theme.px(6), baseline_at(app.fonts, middle)}, key,
               app.theme.colors.text);
-  const std::string text = components(value) + " N";
+  const std::string text = steady_vector(value) + " N";
   draw_on_baseline(draw, *app.fonts.mono, {lo.x + app.theme.px(name_at_1), baseline_at(app.fonts, middle)},
                    app.theme.colors.text, text);
   ImGui::Dummy({app.theme.px(name_at_1) + text_width(*app.fonts.mono, text), height});
@@ -103,7 +99,7 @@ void forces(App& app, const TracedStage& stage, double m) {
     const bool same = key == "F_ext" && F.F_wind == glm::dvec3(0);  // gravity alone, told already
     if (!same) force_line(app, key, value);
   }
-  line(app, "a = F/m", components(stage.a) + " m/s²", app.theme.colors.text);
+  line(app, "a = F/m", steady_vector(stage.a) + " m/s²", app.theme.colors.text);
   words(app, "with m = " + short_number(m) + " kg", app.theme.colors.quiet);
 }
 
@@ -114,9 +110,9 @@ void assignment(App& app, const Scheme& method, const TracedAssignment& what) {
   line(app, target + " ←", formula_of(method, what), c.accent);
   for (const TracedTerm& term : what.terms) {
     const std::string scale = scale_text(term);
-    line(app, scale.empty() ? "" : scale + " ·", components(term.value), c.quiet);
+    line(app, scale.empty() ? "" : scale + " ·", steady_vector(term.value), c.quiet);
   }
-  line(app, "=", components(what.result), c.text);
+  line(app, "=", steady_vector(what.result), c.text);
 }
 
 void stage_text(App& app, const StepTrace& trace, std::size_t n) {
@@ -129,8 +125,8 @@ void stage_text(App& app, const StepTrace& trace, std::size_t n) {
                                   : "Forces",
           c.text);
   ImGui::PopFont();
-  line(app, "x", components(stage.x) + " m", c.text);
-  line(app, method.lags ? "v, seen" : "v", components(stage.v) + " m/s", c.text);
+  line(app, "x", steady_vector(stage.x) + " m", c.text);
+  line(app, method.lags ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
   if (method.lags) words(app, "what the damping sees: the velocity between two steps, or a prediction", c.quiet);
   springs(app, stage);
   forces(app, stage, app.preset().m);
@@ -146,7 +142,7 @@ void result(App& app, const StepTrace& trace) {
           "This method solves equations, projects, or chooses its own steps, so its step is no sum of these numbers. "
           "It leads to:",
           c.quiet);
-  line(app, "x, new", components(trace.x_after) + " m", c.text);
+  line(app, "x, new", steady_vector(trace.x_after) + " m", c.text);
   if (trace.whole)
     words(app,
           "Worked out in double from the method's own table. The engine rounds each sum to the precision that is set, "

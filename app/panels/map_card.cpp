@@ -44,9 +44,8 @@ void stability_map(App& app, ImVec2 size) {
   const auto map = app.map.findings();
   if (!map) return;
   if (!map->problem.empty()) return words_alone(app, "The map ends here: " + map->problem);
-  Preset present = map->of;
-  present = at_place(present, app.wished().kind == Kind::cloth ? app.wished().k_s : app.wished().k, app.wished().dt);
-  Chart chart = map_chart(app.theme.colors, present, map->grid, map->cells);
+  const Preset present = at_place(map->of, stiffness_of(app.wished()), app.wished().dt);
+  Chart chart = map_chart(app.theme.colors, present, map->grid, map->boundary, map->cells);
   chart.padding = 0;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const PlotAxes axes = draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, lo, size, chart);

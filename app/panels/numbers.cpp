@@ -54,6 +54,10 @@ std::string steady_number(double value) {
   return print("%.*e", 2, value);
 }
 
+std::string steady_vector(const glm::dvec3& value) {
+  return "(" + steady_number(value.x) + ", " + steady_number(value.y) + ", " + steady_number(value.z) + ")";
+}
+
 std::string time_number(double t, double dt) {
   const int decimals = dt > 0 ? std::clamp(int(std::ceil(-std::log10(dt) - 1e-9)), 3, 9) : 3;
   return print("%.*f", decimals, t);

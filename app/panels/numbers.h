@@ -1,6 +1,7 @@
 // Numbers as a panel shows and reads them.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +12,8 @@ namespace tyglab {
 std::string short_number(double value);
 /// A read-out that does not dance: always three significant digits, "3.41e-3", "12.0".
 std::string steady_number(double value);
+/// "(1.00, -2.50e-3, 0)": each as steady_number.
+std::string steady_vector(const glm::dvec3& value);
 /// A simulated time, with as many decimals as show a single step of dt (three at least): "0.4213".
 std::string time_number(double t, double dt);
 /// What somebody typed: a comma counts as a decimal point. After it may stand the unit, or one that differs from it by

@@ -30,10 +30,6 @@ glm::dvec3 value_of(const ParticleReadout& r, std::string_view key) {
   return r.a;
 }
 
-std::string components(const glm::dvec3& v) {
-  return "(" + steady_number(v.x) + ", " + steady_number(v.y) + ", " + steady_number(v.z) + ")";
-}
-
 /// Whether a body's contact, which no formula gives, is missing from what is shown.
 bool lacks_contact(const ParticleReadout* readout, std::string_view key) {
   return readout != nullptr && readout->on_body && (key == "F" || key == "a");
@@ -47,7 +43,7 @@ void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dve
   wrapped(app, std::string(what.quantity) + " · " + std::string(what.storhet), c.text);
   ImGui::PopFont();
   wrapped(app, what.help, c.text);
-  wrapped(app, components(value) + " " + std::string(what.unit), c.text);
+  wrapped(app, steady_vector(value) + " " + std::string(what.unit), c.text);
   if (without_contact)
     wrapped(
         app,

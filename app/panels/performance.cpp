@@ -148,10 +148,14 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   const double particles = app.simulation->lattice().size();
   const double arrays = double(engine.bytes());
   const double buffers = app.renderer != nullptr ? double(app.renderer->bytes()) : 0;
-  const double plots = double(app.ui.plots.forces.bytes() + app.ui.plots.height.bytes());
+  const double plots = double(app.ui.plots.forces.bytes() + app.ui.plots.height.bytes() + app.copies.distance.bytes() +
+                              app.copies.energy.bytes());
   std::vector<PerformanceFact> facts;
   facts.push_back({"engine", engine.name()});
-  facts.push_back({"per particle and step", text("%.2f ns", 1e9 * app.pacing.step_cost_s() / particles)});
+  // The pace counts the copies' steps too; their card has measured the original's alone.
+  const double step =
+      app.copies.lockstep.empty() ? app.pacing.step_cost_s() : app.copies.cost.per_second() * app.preset().dt;
+  facts.push_back({"per particle and step", text("%.2f ns", 1e9 * step / particles)});
   if (const SolveCounts solves = engine.solves(); solves.newton > 0) {
     const auto steps = double(std::max<std::int64_t>(1, app.simulation->steps()));
     facts.push_back({"Newton, CG a step",
@@ -175,6 +179,8 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});
   facts.push_back({"plots' history", megabytes(plots)});
+  if (!app.copies.lockstep.empty())
+    facts.push_back({"copies, without pictures", megabytes(double(app.copies.lockstep.bytes()))});
   facts.push_back({"past, for rewinding", megabytes(double(app.rewind.bytes()))});
   facts.push_back({"undo", megabytes(double(app.history.bytes()))});
   return facts;

@@ -50,8 +50,9 @@ constexpr std::array<Stop, 5> stops{
       "explodes, a banner says why and what to do.",
       transport_place},
      {"What happens inside",
-      "The forces on the picked particle, as curves; a right click picks another one. Below wait cards for stability, "
-      "accuracy, energy and cost: a click on a heading opens it.",
+      "The forces on the picked particle, as curves; a right click picks another one. Below wait cards for copies "
+      "with other settings, stability, accuracy, energy and cost: a click on a heading opens it. M maps which k_s and "
+      "dt are stable, I writes out a step.",
       plots_place},
      {"Labs",
       "A lab asks you to predict, lets you try, and looks whether it is so. Begin with Hooke's law. Ctrl+P finds "

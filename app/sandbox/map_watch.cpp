@@ -17,7 +17,7 @@ Preset mapped(Preset preset) {
 }
 
 bool holds(const MapGrid& grid, const Preset& preset) {
-  const double stiffness = preset.kind == Kind::cloth ? preset.k_s : preset.k;
+  const double stiffness = stiffness_of(preset);
   return stiffness >= grid.least_stiffness && stiffness <= grid.most_stiffness && preset.dt >= grid.least_dt &&
          preset.dt <= grid.most_dt;
 }
@@ -25,6 +25,8 @@ bool holds(const MapGrid& grid, const Preset& preset) {
 void fill(Background<MapFindings>::Shared& shared) {
   const MapFindings begun = shared.findings();
   try {
+    MapBoundary boundary = map_boundary(begun.of, begun.grid);
+    shared.tell([&](MapFindings& map) { map.boundary = std::move(boundary); });
     for (const int n : coarse_first(begun.grid)) {
       const MapCell cell = measure_cell(begun.of, begun.grid, n % begun.grid.columns, n / begun.grid.columns,
                                         [&] { return shared.stopped(); });
@@ -49,7 +51,7 @@ std::optional<MapFindings> MapWatch::findings() const {
 
 void MapWatch::begin(App& app) {
   changed_ = -1;
-  work_.begin({app.preset(), map_grid(app.preset(), columns, rows), {}, {}}, fill);
+  work_.begin({app.preset(), map_grid(app.preset(), columns, rows), {}, {}, {}}, fill);
 }
 
 void MapWatch::poll(App& app) {

@@ -15,6 +15,7 @@ struct App;
 struct MapFindings {
   Preset of;  ///< the constants; its stiffness and dt are those with which it began
   MapGrid grid;
+  MapBoundary boundary;
   std::vector<MapCell> cells;
   std::string problem;  ///< why there are no more
 };

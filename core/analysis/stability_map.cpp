@@ -22,7 +22,7 @@ constexpr int least_steps = 60, most_steps = 4000;
 constexpr double most_work = 2e6;  // particles times steps: with the ledger some 20 ns each
 constexpr int piece = 64;          // steps between two looks at whether to stop
 
-double Preset::*stiffness_of(const Preset& preset) {
+double Preset::*stiffness_field(const Preset& preset) {
   return preset.kind == Kind::cloth ? &Preset::k_s : &Preset::k;
 }
 
@@ -58,9 +58,12 @@ double MapGrid::dt(double at) const {
 std::string stiffness_key(const Preset& preset) {
   return preset.kind == Kind::cloth ? "k_s" : "k";
 }
+double stiffness_of(const Preset& preset) {
+  return preset.*stiffness_field(preset);
+}
 
 Preset at_place(Preset preset, double stiffness, double dt) {
-  preset.*stiffness_of(preset) = stiffness;
+  preset.*stiffness_field(preset) = stiffness;
   preset.dt = dt;
   return preset;
 }
@@ -68,7 +71,7 @@ Preset at_place(Preset preset, double stiffness, double dt) {
 MapGrid map_grid(const Preset& preset, int columns, int rows) {
   MapGrid grid;
   grid.columns = columns, grid.rows = rows;
-  const double stiffness = std::max(preset.*stiffness_of(preset), 1e-3);
+  const double stiffness = std::max(stiffness_of(preset), 1e-3);
   std::tie(grid.least_stiffness, grid.most_stiffness) =
       span_of(stiffness_key(preset), stiffness, stiffness_reach, stiffness);
   const double limit = limit_of(preset);

@@ -35,8 +35,9 @@ struct MapCell {
   double share = 0;  ///< energy that the method made (above 0) or ate, in parts of what the scene can hold
 };
 
-/// The constant that the map's x axis stands for, "k_s" or "k", and the preset with both set.
+/// The constant that the map's x axis stands for: "k_s", or "k" of one weight; its value; and the preset with both set.
 std::string stiffness_key(const Preset& preset);
+double stiffness_of(const Preset& preset);
 Preset at_place(Preset preset, double stiffness, double dt);
 
 /// Runs the scene from its start with a cell's constants: half a second or 60 steps if that is more, but no more steps
