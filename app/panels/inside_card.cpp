@@ -57,7 +57,9 @@ void line(App& app, const std::string& name, const std::string& text, ImU32 colo
 
 void words(App& app, const std::string& text, ImU32 color) {
   ImGui::PushFont(app.fonts.small);
+  ImGui::PushTextWrapPos(0);
   wrapped(app, text, color);
+  ImGui::PopTextWrapPos();
   ImGui::PopFont();
 }
 
