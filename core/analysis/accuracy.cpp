@@ -11,8 +11,6 @@
 namespace tyglab {
 namespace {
 
-constexpr double least_dt = 1e-7;  // s, of presets
-
 std::int64_t evaluations(const Scheme& scheme, const Simulation& simulation) {
   if (chooses_steps(scheme)) return simulation.engine().inner_steps().force_evaluations;
   if (is_implicit(scheme)) return simulation.engine().solves().force_evaluations;

@@ -38,6 +38,9 @@ struct AccuracyEffort {
 /// Processor time of this thread so far, s: what another process takes meanwhile is not in it.
 double thread_seconds();
 
+/// The least dt that presets allow, s.
+inline constexpr double least_dt = 1e-7;
+
 /// Whether the reference can tell an error of that size.
 bool can_tell(const Reference& reference, double error_rms_m);
 /// The status of a finished run: an error under ten times what the references differ by cannot be told.

@@ -3,12 +3,12 @@
 namespace tyglab {
 namespace {
 
-constexpr int side = 16;
+constexpr int scene_side = 16;
 
 /// The default cloth, pinned at its two upper corners.
 Preset cloth() {
   Preset preset;
-  preset.rows = preset.columns = side;
+  preset.rows = preset.columns = scene_side;
   return preset;
 }
 

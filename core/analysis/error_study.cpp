@@ -13,7 +13,6 @@
 namespace tyglab {
 namespace {
 
-constexpr double least_dt = 1e-7;  // s, of presets
 constexpr double longest_dt = 1;
 
 /// Contact leaves no method more than its first order, so there the cheapest is refined.

@@ -14,7 +14,7 @@ using cpu::coefficient_pitch;
 using cpu::spring_parts;
 using cpu::springs_of_a_particle;
 
-constexpr int most_products = 2000;
+constexpr int most_lanczos_steps = 2000;
 constexpr int between_looks = 4;  // products from one look at the residual to the next
 
 }  // namespace
@@ -195,7 +195,7 @@ double Linearisation::iterate(const Array<double>& a, double tolerance, std::vec
   Field before, product, now = beginning();
   before.resize(rows_ + 3, stride_), product.resize(rows_ + 3, stride_);
   Tridiagonal t;
-  for (bool more = true; more && int(t.diagonal.size()) < most_products;) {
+  for (bool more = true; more && int(t.diagonal.size()) < most_lanczos_steps;) {
     more = next(a, before, now, product, t);
     if (more && t.diagonal.size() % between_looks != 0) continue;
     s = t.vector(t.largest());

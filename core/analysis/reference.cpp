@@ -34,7 +34,7 @@ Preset in_double(const AccuracyScene& scene, const std::string& integrator, int 
 }
 
 /// Advances in pieces, so that Ctrl-C is soon heard.
-void advance(Simulation& simulation, int steps, const Stop& stop) {
+void advance_in_pieces(Simulation& simulation, int steps, const Stop& stop) {
   for (int left = steps; left > 0;) {
     if (stop()) throw Stopped();
     const int now = std::min(left, 20000);
@@ -72,7 +72,7 @@ void measure_predictability(const AccuracyScene& scene, double dt, const Stop& s
     }
   moved.engine().load(state, moved.tears());
   for (int n = 1; n <= looks; ++n) {
-    advance(plain, steps, stop), advance(moved, steps, stop);
+    advance_in_pieces(plain, steps, stop), advance_in_pieces(moved, steps, stop);
     if (!(rms_distance({positions_of(plain)}, {positions_of(moved)}) < bound)) return;
     reference.predictable_s = horizon * n / looks;
   }
@@ -158,7 +158,7 @@ Track own_track(const AccuracyScene& scene, const std::string& integrator, int s
   Simulation simulation(in_double(scene, integrator, steps));
   Track track;
   for (int n = 0; n < accuracy_samples; ++n) {
-    advance(simulation, steps, stop);
+    advance_in_pieces(simulation, steps, stop);
     track.push_back(positions_of(simulation));
   }
   return track;

@@ -17,7 +17,7 @@ namespace tyglab {
 namespace {
 
 constexpr double stiffness_reach = 100, dt_reach = 20;  // factors on either side of what is
-constexpr double seconds = 0.5;                         // of a short run
+constexpr double run_seconds = 0.5;                     // of a short run
 constexpr int least_steps = 60, most_steps = 4000;
 constexpr double most_work = 2e6;  // particles times steps: with the ledger some 20 ns each
 constexpr int piece = 64;          // steps between two looks at whether to stop
@@ -86,7 +86,7 @@ MapCell measure_cell(const Preset& preset, const MapGrid& grid, int column, int 
   Simulation simulation(own);
   simulation.keep_ledger(true);
   const double affordable = most_work / simulation.lattice().size();
-  int left = int(std::min({std::max(std::ceil(seconds / own.dt), double(least_steps)), double(most_steps),
+  int left = int(std::min({std::max(std::ceil(run_seconds / own.dt), double(least_steps)), double(most_steps),
                            std::max(affordable, double(least_steps))}));
   while (left > 0 && !simulation.divergence()) {
     if (stop()) throw Stopped();

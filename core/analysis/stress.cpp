@@ -12,8 +12,8 @@ namespace {
 
 constexpr double longest_factor = 1000;      // docs/model.md, "Diverged"
 constexpr double most_particle_steps = 4e6;  // of a case, times the sweeps of a step
-constexpr double most_products = 1e7;        // particles times steps of conjugate gradients, for implicit methods
-constexpr int most_steps = 4000, looks = 12;
+constexpr double most_cg_products = 1e7;     // particles times steps of conjugate gradients, for implicit methods
+constexpr int most_steps_of_case = 4000, looks = 12;
 
 bool finite(double a) {
   return std::isfinite(a);
@@ -75,7 +75,8 @@ class StressRun {
     const double particles = simulation_->lattice().size();
     const double sweeps = sweeps_of_a_step();
     const double by_work = (most_particle_steps - work_) / (particles * sweeps);
-    return std::min(double(most_steps) - double(result_.steps), std::max(by_work, result_.steps == 0 ? 1.0 : 0.0));
+    return std::min(double(most_steps_of_case) - double(result_.steps),
+                    std::max(by_work, result_.steps == 0 ? 1.0 : 0.0));
   }
 
   /// Makes steps; false once it has diverged, or what it takes to end a step has taken its time.
@@ -101,7 +102,7 @@ class StressRun {
         if (result_.status == StressStatus::bounded) result_.status = StressStatus::diverged;
         return false;
       }
-      if (products_ > most_products || work_ > most_particle_steps) return false;
+      if (products_ > most_cg_products || work_ > most_particle_steps) return false;
     }
     return true;
   }

@@ -68,7 +68,8 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
   // All of the device's compute units; beside the CPU engine with as many threads.
   if (opencl_devices().devices.empty()) return cases;
   const auto on_opencl = [](Preset& p) { p.engine = EngineKind::opencl; };
-  for (const int side : quick ? std::vector{512} : sides) {
+  for (const int side : sides) {
+    if (quick && side != 512) continue;
     add("", side, threads, on_opencl);
     if (!quick) add("", side, threads, [&](Preset& p) { on_opencl(p), p.precision = Precision::double_; });
   }

@@ -5,9 +5,11 @@
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {
+
+using namespace rows;
+
 namespace {
 
-constexpr int x = vector_x, v = vector_v, a = acceleration;
 constexpr int stages = 7;
 constexpr int stage_x = 2, stage_v = 3, first_a = 4;  // vectors: of a stage; first_a + i holds a of stage i
 

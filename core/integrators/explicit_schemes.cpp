@@ -2,11 +2,8 @@
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {
-namespace {
 
-constexpr int x = vector_x, v = vector_v, a = acceleration;
-
-}  // namespace
+using namespace rows;
 
 std::vector<Scheme> explicit_schemes() {
   return {

@@ -4,9 +4,11 @@
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {
+
+using namespace rows;
+
 namespace {
 
-constexpr int x = vector_x, v = vector_v, a = acceleration;
 constexpr double gamma = 2 - std::numbers::sqrt2;  // of TR-BDF2, and the weights of its second stage
 constexpr double bdf_stage = 1 / (gamma * (2 - gamma)), bdf_start = (1 - gamma) * (1 - gamma) / (gamma * (2 - gamma));
 

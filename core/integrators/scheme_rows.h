@@ -7,6 +7,11 @@
 
 namespace tyglab {
 
+/// The vectors of a table as its rows write them.
+namespace rows {
+inline constexpr int x = vector_x, v = vector_v, a = acceleration;
+}
+
 std::vector<Scheme> explicit_schemes();
 std::vector<Scheme> implicit_schemes();
 Scheme dopri5();

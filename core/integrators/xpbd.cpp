@@ -2,9 +2,12 @@
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {
+
+using namespace rows;
+
 namespace {
 
-constexpr int x = vector_x, v = vector_v, a = acceleration, q = 2;  // q: the displacement within the step
+constexpr int q = 2;  // q: the displacement within the step
 
 }  // namespace
 

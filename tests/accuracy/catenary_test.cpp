@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::catenary_test {
 
 struct Point {
   double z, y;
@@ -62,5 +61,4 @@ TEST_CASE("a chain between two pins hangs in the discrete elastic catenary") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::catenary_test

@@ -8,8 +8,7 @@
 #include "core/cloth/lattice.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::drape_test {
 
 /// Stretch and gravity, J.
 double energy(const Preset& preset, const State& state) {
@@ -61,5 +60,4 @@ TEST_CASE("with k_b = 0 every damped method comes to rest in the same drape") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::drape_test

@@ -10,8 +10,7 @@
 #include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::modes_test {
 
 using std::numbers::pi;
 
@@ -223,5 +222,4 @@ TEST_CASE("without damping the forces are central: velocity Verlet keeps angular
   CHECK(glm::length(angular_momentum(simulation) - before) < 1e-12);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::modes_test

@@ -9,8 +9,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::one_weight_test {
 
 /// Without gravity, from rest at `offset`.
 Preset oscillator(const std::string& integrator, double dt) {
@@ -114,5 +113,4 @@ TEST_CASE("implicit Euler decays and Euler grows by √(1 + (hω)²) a step, bot
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::one_weight_test

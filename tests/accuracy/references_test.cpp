@@ -12,8 +12,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::references_test {
 
 bool never() {
   return false;
@@ -155,5 +154,4 @@ TEST_CASE("a ladder ends at the floor, at the time allowed, or where rounding ma
       effort));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::references_test

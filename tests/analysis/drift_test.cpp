@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::drift_test {
 
 DriftRow measured(const std::string& scene, const std::string& integrator) {
   for (const DriftCase& which : drift_cases(true))
@@ -37,5 +36,4 @@ TEST_CASE("on a slack sheet springs that switch feed energy even into Verlet") {
   CHECK(row.trend > 10 * row.trend_error);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::drift_test

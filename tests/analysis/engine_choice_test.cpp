@@ -8,8 +8,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::engine_choice_test {
 
 EngineTime cpu(double ns) {
   return {EngineKind::cpu, -1, "the CPU engine", ns, {}};
@@ -60,5 +59,4 @@ TEST_CASE("times are measured once and then read from disk, for scenes of the sa
   CHECK(choose_engine(windy, 1).measured);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::engine_choice_test

@@ -11,8 +11,7 @@
 #include "core/integrators/amplification.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::frequency_test {
 
 /// -∂F/∂x (or -∂F/∂v) over m of the free particles, by central differences of the oracle's forces.
 Matrix differentiated(const Preset& preset, const State& state, bool by_velocity) {
@@ -170,5 +169,4 @@ TEST_CASE("methods break on the taut sheet within 1 % of where they are predicte
     }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::frequency_test

@@ -6,8 +6,7 @@
 #include "core/engines/cpu/parts.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::parts_test {
 
 namespace part = cpu::part;
 
@@ -62,5 +61,4 @@ TEST_CASE("only one part can be left out" * doctest::skip(TYGLAB_SANITIZED)) {
   CHECK(cpu::make_engine_without(part::bending | part::wind, preset, lattice_of(preset)) == nullptr);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::parts_test

@@ -8,8 +8,7 @@
 #include "core/analysis/stability_map.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::stability_map_test {
 
 const Stop never = [] { return false; };
 
@@ -94,5 +93,4 @@ TEST_CASE("a map's CSV has a row a cell with its units") {
   CHECK(text.find(",bounded,") != std::string::npos);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::stability_map_test

@@ -10,8 +10,7 @@
 #include "core/integrators/names.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::statistics_test {
 
 TEST_CASE("the mean of blocks and its standard error are those of independent numbers") {
   std::mt19937 random(3);
@@ -55,5 +54,4 @@ TEST_CASE("what has been measured before a stop is kept") {
   CHECK(some.size() < integrator_names().size());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::statistics_test

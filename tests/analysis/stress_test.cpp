@@ -11,8 +11,7 @@
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::stress_test {
 
 TEST_CASE("every scene is valid and depends on its seed and number alone") {
   for (std::uint64_t number = 1; number <= 300; ++number) {
@@ -73,5 +72,4 @@ TEST_CASE("a case comes out the same each time") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::stress_test

@@ -8,8 +8,7 @@
 #include "core/analysis/one_weight.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::tolerance_test {
 
 const Stop never = [] { return false; };
 
@@ -110,5 +109,4 @@ TEST_CASE("what was typed stays, and what cannot be reached is refused with a re
   CHECK_THROWS_AS(choose_for_tolerance(cloth, 1e-4, 0.1, {}, [] { return true; }), Stopped);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::tolerance_test

@@ -9,8 +9,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::closed_form_test {
 
 /// Two particles one above the other, neither pinned: they fall together, and no spring ever pulls.
 Preset falling(const std::string& integrator, double dt) {
@@ -166,5 +165,4 @@ TEST_CASE("wind on a flat cloth: each whole triangle catches N (N·W), a third a
   CHECK(simulation.particle(0, 4).F_wind.z == doctest::Approx(2 * 0.6 / 3));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::closed_form_test

@@ -11,8 +11,7 @@
 #include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::accuracy_card_test {
 
 AccuracyStudy study_of(const Preset& preset) {
   AccuracyStudy study;
@@ -70,5 +69,4 @@ TEST_CASE("the stability chart rises above 1 where the method breaks") {
   CHECK(mark->x.front() == doctest::Approx(2 * preset.dt / stable_dt(preset, "verlet")).epsilon(1e-3));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::accuracy_card_test

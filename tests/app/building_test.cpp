@@ -9,8 +9,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::building_test {
 
 constexpr int large = 400;  // rows and columns: above what is built within a frame
 
@@ -205,5 +204,4 @@ TEST_CASE("a change is carried over to other constants alone") {
   CHECK(rebased(before, after, present) == expected);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::building_test

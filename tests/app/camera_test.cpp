@@ -13,8 +13,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::camera_test {
 
 constexpr glm::vec2 size(800, 600);
 
@@ -173,5 +172,4 @@ TEST_CASE("a scene's camera shows all of it, and finite particles alone make its
   CHECK(bounds(view).hi == glm::vec3(1));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::camera_test

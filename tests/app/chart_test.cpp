@@ -8,8 +8,7 @@
 #include "app/charts/chart.h"
 #include "app/viewport/image.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::chart_test {
 
 constexpr ImU32 red = IM_COL32(255, 0, 0, 255);
 
@@ -81,5 +80,4 @@ TEST_CASE("nothing to draw, and what is not finite, make a picture all the same"
   CHECK(empty.height == 800);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::chart_test

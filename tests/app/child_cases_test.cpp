@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace tyglab {
-namespace {
+namespace tyglab::child_cases_test {
 
 struct Told {
   std::int64_t number;
@@ -69,5 +68,4 @@ TEST_CASE("once it is to stop, no case is begun, and those begun are told") {
   for (const Told& one : told) CHECK(one.outcome.text == "done");
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::child_cases_test

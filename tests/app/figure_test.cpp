@@ -8,8 +8,7 @@
 #include "core/analysis/one_weight.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::figure_test {
 
 TEST_CASE("companions are the report's methods from the same start, the last the closed form") {
   for (const char* method : {"verlet", "rk4", "euler"}) {
@@ -72,5 +71,4 @@ TEST_CASE("a companion that has diverged has no height any more") {
   CHECK(std::isfinite(y.back()));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::figure_test

@@ -6,8 +6,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::image_test {
 
 Image noise(int width, int height) {
   test::Random random(5);
@@ -80,5 +79,4 @@ TEST_CASE("broken pictures of any kind are refused or read, never followed") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::image_test

@@ -10,8 +10,7 @@
 #include "app/sandbox/app.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::lab_file_test {
 
 const std::string head = "# A lab\n\n## A step\n\nText.\n\n```lab\n";
 
@@ -162,5 +161,4 @@ TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset")
   CHECK(app.messages.list().size() == 1);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::lab_file_test

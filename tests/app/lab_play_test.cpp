@@ -5,8 +5,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "tests/app/lab_player.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::lab_play_test {
 
 using test::LabPlayer;
 
@@ -293,5 +292,4 @@ TEST_CASE("every shipped lab is read, and what it opens is there") {
   for (const std::string& problem : app.labs.problems) FAIL_CHECK(problem);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::lab_play_test

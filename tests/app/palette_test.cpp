@@ -10,8 +10,7 @@
 #include "core/integrators/names.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::palette_test {
 
 App app_with(const Preset& preset) {
   App app;
@@ -72,5 +71,4 @@ TEST_CASE("every command has one row, and no two share a key") {
   CHECK(seen.size() == std::size_t(Command::quit) + 1);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::palette_test

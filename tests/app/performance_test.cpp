@@ -7,8 +7,7 @@
 #include "app/panels/performance.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::performance_test {
 
 FeatureRow row(const App& app, std::string_view name) {
   for (const FeatureRow& row : feature_rows(app))
@@ -79,5 +78,4 @@ TEST_CASE("the time report gives every part, by the wall and by the processor") 
   CHECK(costs.recent_ms(Part::normals) < 3);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::performance_test

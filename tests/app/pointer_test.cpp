@@ -9,8 +9,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::pointer_test {
 
 constexpr float width = 640, height = 480;
 
@@ -141,5 +140,4 @@ TEST_CASE("constants that change after a divergence are told apart from those th
   CHECK_FALSE(changed_since_divergence(app));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::pointer_test

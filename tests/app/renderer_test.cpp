@@ -10,8 +10,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::renderer_test {
 
 constexpr int width = 320, height = 240;
 
@@ -245,5 +244,4 @@ TEST_CASE("threads, single quads, one weight, bodies and diverged cloths are dra
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::renderer_test

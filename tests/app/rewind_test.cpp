@@ -5,8 +5,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::rewind_test {
 
 TEST_CASE("the past is kept ten times a second and found again") {
   Preset preset = test::cloth(6, 6);
@@ -64,5 +63,4 @@ TEST_CASE("memory is capped") {
   CHECK(past.before(simulation, simulation.time(), 100)->t > 0);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::rewind_test

@@ -20,8 +20,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::sandbox_test {
 
 Preset with_k_s(double k_s) {
   Preset preset;
@@ -260,5 +259,4 @@ TEST_CASE("a plot's scale survives blow-ups, constants and nothing at all") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::sandbox_test

@@ -9,8 +9,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::shared_memory_test {
 
 constexpr int width = 320, height = 240;
 
@@ -126,5 +125,4 @@ TEST_CASE("the memory of engines that are gone is given back") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::shared_memory_test

@@ -9,8 +9,7 @@
 #include "app/sandbox/sleep.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::sleep_test {
 
 constexpr int steps_per_frame = 16;
 
@@ -103,5 +102,4 @@ TEST_CASE("every edit wakes it") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::sleep_test

@@ -13,8 +13,7 @@
 #include "core/integrators/remedy.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::stability_watch_test {
 
 /// Polls as frames do until limits for these constants are there.
 StabilityLimits limits_of(App& app) {
@@ -71,5 +70,4 @@ TEST_CASE("a cloth too large to look at while it moves has the limit of any conf
   CHECK_FALSE(limits.now.has_value());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::stability_watch_test

@@ -8,8 +8,7 @@
 
 #include "app/panels/theme.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::theme_test {
 
 double luminance(ImU32 color) {
   const auto linear = [](ImU32 byte) {
@@ -48,5 +47,4 @@ TEST_CASE("an unknown theme is the first one") {
   CHECK(look("sepia").name == "dark");
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::theme_test

@@ -3,8 +3,7 @@
 
 #include "app/panels/zones.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::zone_words_test {
 
 StabilityLimits limits_with(std::vector<ZoneSpan> zones, double k_s, const char* method = "verlet") {
   StabilityLimits limits;
@@ -31,5 +30,4 @@ TEST_CASE("it says nothing of constants without zones, and nothing where nothing
   CHECK(zone_words(limits_with({{0, 1e6, Zone::stable}}, 50), "g", "m/s²").empty());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::zone_words_test

@@ -10,8 +10,7 @@
 #include "app/commands/bench_instructions.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::instructions_test {
 
 const std::filesystem::path counts_file = TYGLAB_SOURCE_DIR "/tests/bench/instructions.txt";
 
@@ -162,5 +161,4 @@ TEST_CASE("throughput names what each scene has and what was skipped") {
   CHECK(windy);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::instructions_test

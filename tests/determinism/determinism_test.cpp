@@ -4,8 +4,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::determinism_test {
 
 /// Everything at once: wind, bodies, tearing, damping, bending.
 Preset busy(const std::string& integrator, Precision precision) {
@@ -141,5 +140,4 @@ TEST_CASE("a restart repeats the run to the last bit") {
   CHECK(test::identical(simulation.read(), first));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::determinism_test

@@ -8,8 +8,7 @@
 #include "core/integrators/names.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::accuracy_test {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
@@ -90,5 +89,4 @@ TEST_CASE("bench accuracy that is interrupted keeps the rows it has") {
   CHECK(!json["runs"].empty());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::accuracy_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::endurance_test {
 
 namespace fs = std::filesystem;
 
@@ -36,5 +35,4 @@ TEST_CASE("every shipped preset stays bounded for 60 simulated seconds, except t
 
 TEST_SUITE_END();
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::endurance_test

@@ -4,8 +4,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::exit_codes_test {
 
 namespace fs = std::filesystem;
 
@@ -240,5 +239,4 @@ TEST_CASE("130: an interrupted run keeps what it had written") {
   for (std::size_t n = 2; n < series.size(); ++n) CHECK(test::split(series[n], ',').size() == columns);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::exit_codes_test

@@ -11,8 +11,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::run_test {
 
 namespace fs = std::filesystem;
 
@@ -241,5 +240,4 @@ TEST_CASE("--dt auto takes a stable dt, halves it where energy is made, and ends
   CHECK(outcome.err.find("no stable dt") != std::string::npos);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::run_test

@@ -6,8 +6,7 @@
 
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::stability_test {
 
 nlohmann::ordered_json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
@@ -102,5 +101,4 @@ TEST_CASE("a wrong command line is refused with what is allowed") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::stability_test

@@ -14,8 +14,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::opencl_test {
 
 double tolerance(Precision precision) {
   return precision == Precision::float_ ? 2e-5 : 1e-11;
@@ -310,5 +309,4 @@ TEST_CASE("a simulation goes from one engine to the other and back") {
   CHECK(distance(both.read(), cpu.read()) <= tolerance(Precision::double_));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::opencl_test

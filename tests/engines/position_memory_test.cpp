@@ -13,8 +13,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::position_memory_test {
 
 /// Memory as whoever draws would lend it.
 class Pages {
@@ -141,5 +140,4 @@ TEST_CASE("the CPU engine wants no memory") {
   CHECK(simulation.engine().wants_memory() == 0);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::position_memory_test

@@ -9,8 +9,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::preset_fuzz_test {
 
 using test::Random;
 
@@ -298,5 +297,4 @@ TEST_CASE("random settings") {
   CHECK(count.refused > 1000);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::preset_fuzz_test

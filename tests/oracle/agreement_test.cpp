@@ -10,8 +10,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::agreement_test {
 
 struct Scene {
   const char* name;
@@ -320,5 +319,4 @@ TEST_CASE("float follows double: 200 steps of the default cloth within 2e-5 m") 
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::agreement_test

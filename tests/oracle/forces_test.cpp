@@ -6,8 +6,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::forces_test {
 
 Preset windy(int rows, int columns, const std::string& integrator, Precision precision = Precision::double_) {
   Preset preset = test::cloth(rows, columns, integrator);
@@ -135,5 +134,4 @@ TEST_CASE("sum and maximum over the cloth are those of its particles") {
   CHECK(maxima.F == doctest::Approx(largest).epsilon(1e-12));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::forces_test

@@ -9,8 +9,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::targets_test {
 
 /// Lets the engine pick only this target while it lives.
 class OnlyTarget {
@@ -94,5 +93,4 @@ TEST_CASE("every instruction set agrees with the oracle") {
   MESSAGE("tried " << names.size() << " kinds of engine, of " << targets().size() << " targets");
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::targets_test

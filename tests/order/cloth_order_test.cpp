@@ -12,8 +12,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::cloth_order_test {
 
 constexpr double end_time = 0.05;  // s
 
@@ -91,5 +90,4 @@ TEST_CASE("on a taut cloth each method converges to odeint's motion with its ord
     }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::cloth_order_test

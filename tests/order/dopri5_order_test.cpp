@@ -7,8 +7,7 @@
 #include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::dopri5_order_test {
 
 /// Distance of a weight's y and v/ω from the closed form.
 double distance_from_exact(Simulation& simulation) {
@@ -131,5 +130,4 @@ TEST_CASE("springs that switch cost accuracy, but a smaller tolerance still gets
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::dopri5_order_test

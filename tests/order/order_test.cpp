@@ -8,8 +8,7 @@
 #include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::order_test {
 
 struct Row {
   std::string integrator;
@@ -58,5 +57,4 @@ TEST_CASE("each method has the order that is said of it") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::order_test

@@ -11,8 +11,7 @@
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::csv_test {
 
 double number(const std::string& text) {
   char* end = nullptr;
@@ -109,5 +108,4 @@ TEST_CASE("outputs that cannot be written say so by name") {
   CHECK_THROWS_AS(SeriesCsv("/dev/full", columns, ""), OutputError);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::csv_test

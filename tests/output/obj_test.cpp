@@ -14,8 +14,7 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-namespace tyglab {
-namespace {
+namespace tyglab::obj_test {
 
 /// A cloth in motion, cut a little, and one particle without any triangle.
 std::unique_ptr<Simulation> cloth_with_cuts(int rows, int columns) {
@@ -196,5 +195,4 @@ TEST_CASE("the files of a sequence sort as its frames do") {
   CHECK(frame_name("denim", 9, 10001, "obj") < frame_name("denim", 10000, 10001, "obj"));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::obj_test

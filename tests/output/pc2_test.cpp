@@ -8,8 +8,7 @@
 #include "core/output/point_cache.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::pc2_test {
 
 template <class T>
 void append(std::string& bytes, T value) {
@@ -64,5 +63,4 @@ TEST_CASE("a point cache that cannot be written says so") {
       OutputError);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::pc2_test

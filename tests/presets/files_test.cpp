@@ -8,8 +8,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::files_test {
 
 namespace fs = std::filesystem;
 
@@ -113,5 +112,4 @@ TEST_CASE("every shipped preset is valid, has a name and a description, and the 
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::files_test

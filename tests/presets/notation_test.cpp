@@ -10,8 +10,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/files.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::notation_test {
 
 template <class T>
 void check_row(const Row<T>& row, std::set<std::string_view>& keys) {
@@ -136,5 +135,4 @@ TEST_CASE("a slider spans about three decades round its value, within the allowe
   CHECK(k_s.max <= 50e3);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::notation_test

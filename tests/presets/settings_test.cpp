@@ -3,8 +3,7 @@
 
 #include "core/notation/preset_io.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::settings_test {
 
 Preset with_bodies() {
   Preset preset;
@@ -122,5 +121,4 @@ TEST_CASE("a misspelt key of --set gets the nearest known one") {
   CHECK(error_of("k_s=-4").find("k_s") != std::string::npos);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::settings_test

@@ -8,8 +8,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::valid_test {
 
 /// The preset of the contract, whose values are the defaults but for `bodies`.
 constexpr const char* contract = R"({
@@ -204,5 +203,4 @@ TEST_CASE("the ranges are the contract's") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::valid_test

@@ -7,8 +7,7 @@
 #include "core/notation/json_fault.h"
 #include "core/notation/preset_io.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::wrong_test {
 
 /// What the error says; fails if there is none.
 std::string error_of(const std::string& text) {
@@ -280,5 +279,4 @@ TEST_CASE("check_preset finds in a struct what the reader finds in a file") {
   CHECK(problem([](Preset& p) { p.pins = {Pins::Mode::top_row, {{40, 0}}}; }) == "");
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::wrong_test

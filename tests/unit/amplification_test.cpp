@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::amplification_test {
 
 double radius(const char* name, double h, double zeta) {
   return spectral_radius(amplification(scheme(name), h, zeta));
@@ -92,5 +91,4 @@ TEST_CASE("the tables say what the running code does: a weight on its spring gro
       }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::amplification_test

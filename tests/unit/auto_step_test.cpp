@@ -10,8 +10,7 @@
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::auto_step_test {
 
 TEST_CASE("two digits below a number are never above it") {
   CHECK(two_digits_below(0.0011988) == 0.0011);
@@ -95,5 +94,4 @@ TEST_CASE("a snapshot brings back positions, velocities, tears and time, and for
   CHECK(!Simulation(test::cloth(9, 10)).fits(Simulation(preset).snapshot()));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::auto_step_test

@@ -11,8 +11,7 @@
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::banded_test {
 
 TEST_CASE("a banded system is solved to rounding, at the ends of the matrix too") {
   std::mt19937 random(5);
@@ -72,5 +71,4 @@ TEST_CASE("what is solved directly is what conjugate gradients solve, where both
   CHECK(simulation.engine().solves().unconverged == 0);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::banded_test

@@ -7,8 +7,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::change_test {
 
 Preset changed(const Preset& preset, const std::string& setting) {
   return with_settings(preset, {setting});
@@ -268,5 +267,4 @@ TEST_CASE("resolution moves pin lists to the nearest particle and stays in range
   CHECK(line.columns == 1);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::change_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::collision_test {
 
 Body sphere(glm::dvec3 c, double r) {
   Body body;
@@ -323,5 +322,4 @@ TEST_CASE("a particle on a body says so, one beside it, above it or held does no
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::collision_test

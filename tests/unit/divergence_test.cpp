@@ -9,8 +9,7 @@
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::divergence_test {
 
 /// Far above every limit of stability.
 Preset explosive(const std::string& integrator, Precision precision) {
@@ -213,5 +212,4 @@ TEST_CASE("the cure makes the change that the remedy names first, and heals") {
   CHECK_FALSE(cure(calm).has_value());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::divergence_test

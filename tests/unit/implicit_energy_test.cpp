@@ -6,8 +6,7 @@
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::implicit_energy_test {
 
 /// The most that the total energy grows in one step, in parts of what the motion can hold.
 double largest_growth(double k_s, int iterations, int steps) {
@@ -34,5 +33,4 @@ TEST_CASE("its energy never grows by more than its solves leave, however stiff t
   CHECK(largest_growth(1e9, 100, steps) < 1e-7);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::implicit_energy_test

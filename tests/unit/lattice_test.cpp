@@ -9,8 +9,7 @@
 #include "core/cloth/tears.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::lattice_test {
 
 TEST_CASE("the six directions are half of eight neighbours and four bending springs, each once") {
   std::set<std::pair<int, int>> seen;
@@ -188,5 +187,4 @@ TEST_CASE("a triangle is whole while its three edge springs are") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::lattice_test

@@ -11,8 +11,7 @@
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::ledger_test {
 
 /// A sheet that is taut all the time, so that forces are smooth: damped, in wind, swinging.
 Preset taut(const std::string& integrator, double k_d) {
@@ -241,5 +240,4 @@ TEST_CASE("a ledger changes no bit of the motion, and the one weight has one") {
   CHECK(std::abs(one.ledger()->share()) < 1e-6);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::ledger_test

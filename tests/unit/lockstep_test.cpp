@@ -8,8 +8,7 @@
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::lockstep_test {
 
 /// An original with its copies, as the sandbox moves them: an edit goes to all, steps are followed.
 struct Pair {
@@ -174,5 +173,4 @@ TEST_CASE("a copy that cannot follow a change is gone, with a word") {
   CHECK(cloths.gone[0].find("The copy with bodies[0].r=0.1 is gone: ") == 0);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::lockstep_test

@@ -9,8 +9,7 @@
 #include "core/engines/cpu/row_field.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::projection_test {
 
 /// Rows of particles as the kernels see them, and the same in plain numbers.
 template <class R>
@@ -198,5 +197,4 @@ TEST_CASE("xpbd: a pinned row holds, and a cut parts") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::projection_test

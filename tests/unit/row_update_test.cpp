@@ -11,8 +11,7 @@
 #include "core/engines/cpu/row_field.h"
 #include "core/integrators/scheme.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::row_update_test {
 
 template <class R>
 cpu::RowField<R> random_row(int columns, unsigned seed) {
@@ -82,5 +81,4 @@ TEST_CASE("no method adds more terms than a row's sum can take") {
           CHECK(int(assignment.terms.size()) <= cpu::RowSum<float>::most_terms);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::row_update_test

@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::spring_test {
 
 /// Particles in a column, L = 1, at these heights and horizontal velocities; the first is row 0.
 std::unique_ptr<Simulation> column(std::vector<double> heights, std::vector<double> speeds, Preset preset) {
@@ -131,5 +130,4 @@ TEST_CASE("a triangle of zero area catches no wind") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::spring_test

@@ -10,8 +10,7 @@
 #include "core/integrators/remedy.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::step_control_test {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -144,5 +143,4 @@ TEST_CASE("what no inner step is short enough for is found as a divergence, with
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::step_control_test

@@ -8,8 +8,7 @@
 #include "core/step_trace.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::step_trace_test {
 
 constexpr int middle = 6;
 
@@ -87,5 +86,4 @@ TEST_CASE("state vectors are called by what they are") {
   CHECK(vector_name(scheme("rk4"), 5) == "v*");
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::step_trace_test

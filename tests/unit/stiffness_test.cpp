@@ -10,8 +10,7 @@
 #include "core/cloth/lattice.h"
 #include "core/engines/cpu/row_field.h"
 
-namespace tyglab::cpu {
-namespace {
+namespace tyglab::cpu::stiffness_test {
 
 /// Random coefficients for every spring of a lattice, and none beyond it.
 template <class R>
@@ -126,5 +125,4 @@ TEST_CASE("an update moves along the direction and preconditions what is left, b
   CHECK(sums.preconditioned == doctest::Approx(preconditioned));
 }
 
-}  // namespace
-}  // namespace tyglab::cpu
+}  // namespace tyglab::cpu::stiffness_test

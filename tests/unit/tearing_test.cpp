@@ -5,8 +5,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::tearing_test {
 
 /// Flat, taut by 10 %, without gravity: every straight spring pulls k_s·L/10 = 0.15 N, every diagonal √2 times that.
 Preset taut(int rows, int columns) {
@@ -279,5 +278,4 @@ TEST_CASE("looking only when a spring may have grown enough finds what a look in
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::tearing_test

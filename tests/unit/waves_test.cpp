@@ -4,8 +4,7 @@
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::waves_test {
 
 /// Under the sanitizers, where a step takes ten times as long, a fraction of the steps: every path through the code is
 /// still taken, and the other builds compare the bits at length.
@@ -131,5 +130,4 @@ TEST_CASE("a cut between two calls is no part of the steps that were made before
   CHECK(test::identical(waves.read(), single.read()));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::waves_test

@@ -9,8 +9,7 @@
 #include "core/integrators/remedy.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::zones_test {
 
 Preset undamped(const char* method) {
   Preset preset = test::cloth(8, 8, method);
@@ -69,5 +68,4 @@ TEST_CASE("methods without a limit are stable all along") {
   }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::zones_test
