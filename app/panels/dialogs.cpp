@@ -243,9 +243,7 @@ void save_preset_dialog(App& app) {
 void csv_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, csv_export(dialog.csv).title);
-  wrapped(app,
-          "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
-          app.theme.colors.quiet);
+  wrapped(app, csv_export(dialog.csv).holds, app.theme.colors.quiet);
   label(app, "File");
   if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Write")) return;

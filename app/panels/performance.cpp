@@ -60,6 +60,8 @@ constexpr Feature features[] = {
     {"plot data", "Collected only for plots that are seen, and while the cloth moves.",
      [](const App& a) { return (a.ui.plots.forces_shown || a.ui.plots.height_shown) && !a.ui.plots.paused; },
      Spent::frame, Part::sample},
+    {"colours", "What colours the cloth: worked out only where it is shown, when something moved.",
+     [](const App& a) { return shown_colors(a) != nullptr; }, Spent::frame, Part::colors},
     {"normals", "Only views 1 and 3 have light.", [](const App& a) { return cloth(a) && a.view.lit(); }, Spent::frame,
      Part::normals},
     {"upload",

@@ -14,7 +14,9 @@
 #include "app/sandbox/accuracy_watch.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
+#include "app/sandbox/cloth_colors.h"
 #include "app/sandbox/cloth_views.h"
+#include "app/sandbox/convergence_watch.h"
 #include "app/sandbox/copies.h"
 #include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"
@@ -49,6 +51,7 @@ struct App {
   Sleep sleep;
   StabilityWatch stability;
   AccuracyWatch accuracy;
+  ConvergenceWatch convergence;
   MapWatch map;
   Inside inside;
   Rewind rewind;
@@ -64,6 +67,7 @@ struct App {
   Copies copies;
   Camera camera;
   ViewOptions view;
+  ClothColors colors;
   Viewport viewport;
   Tool tool;
   std::optional<Pins::Site> picked;

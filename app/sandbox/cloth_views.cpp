@@ -73,11 +73,15 @@ bool ClothViews::take_ghosts(App& app, glm::ivec2 size) {
 
 void ClothViews::draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved) {
   Simulation& cloth = cloth_in_tile(app, tile);
-  const Drawn now{&cloth, cloth.revision(), app.camera, view_of(app, cloth, size), size};
+  Drawn now{&cloth, cloth.revision(), app.camera, view_of(app, cloth, size), size};
+  const FieldColors* colors = shown_colors(app);
+  if (colors != nullptr) now.values = app.colors.version(tile);
+  if (now.values > 0) now.view.colored = colors->range();
   if (now == drawn_[std::size_t(tile)] && !app.redraw_cloth && !ghosts_moved) return;
   ClothRenderer& its = renderer(app, tile);
   if (tile > 0 || !app.building.holds_present()) its.lend_memory(cloth);
   its.update(cloth, now.view);
+  if (now.view.colored) app.colors.give(app, tile, its);
   {
     const FrameCosts::Timer timer(app.costs, Part::draw_cloth);
     its.draw(app.camera, now.view, size.x, size.y, ghosts_);
@@ -98,6 +102,9 @@ void ClothViews::draw(App& app, glm::vec2 magnified) {
   drawn_.resize(std::size_t(tiles));
   copies_.resize(std::min(copies_.size(), app.copies.lockstep.size()));
   const bool ghosts_moved = take_ghosts(app, size);
+  if (shown_colors(app) != nullptr)
+    for (int tile = 0; tile < tiles; ++tile)
+      app.colors.update(app, tile, drawn_every(cloth_in_tile(app, tile).lattice(), size.x, size.y));
   for (int tile = 0; tile < tiles; ++tile) draw_picture(app, tile, size, ghosts_moved);
   app.redraw_cloth = false;
 }

@@ -28,6 +28,7 @@ class ClothViews {
     Camera camera;
     ViewOptions view;
     glm::ivec2 size{0};
+    std::uint64_t values = 0;  ///< ClothColors::version
     bool operator==(const Drawn&) const = default;
   };
   bool take_ghosts(App& app, glm::ivec2 size);

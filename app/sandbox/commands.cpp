@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 34> rows{{
+  static const std::array<CommandRow, 38> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -52,6 +52,13 @@ std::span<const CommandRow> command_rows() {
        {{GLFW_KEY_I, 0}},
        "looks inside a step of the picked particle",
        "formula springs particle"},
+      {Command::next_color,
+       "Next colouring of the cloth",
+       "C",
+       {{GLFW_KEY_C, 0}},
+       "colours the cloth by tension, strain, speed, …",
+       "colors heat map"},
+      {Command::measure_convergence, "Order of convergence", "", {}, "", "accuracy error dt slope measured"},
       {Command::full_screen, "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window"},
       {Command::open_dialog, "Open…", "Ctrl+O", {{GLFW_KEY_O, control}}, "opens a preset", "file load"},
       {Command::save, "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write"},
@@ -85,6 +92,13 @@ std::span<const CommandRow> command_rows() {
       {Command::export_height, "Write the height of the weight as CSV…", "", {}, "", "export plot series"},
       {Command::export_map, "Write the map as CSV…", "", {}, "", "export stability"},
       {Command::export_copies, "Write the copies' distances as CSV…", "", {}, "", "export lockstep"},
+      {Command::export_values,
+       "Write every particle's values as CSV…",
+       "",
+       {},
+       "",
+       "export tension strain speed energy"},
+      {Command::export_convergence, "Write the convergence as CSV…", "", {}, "", "export accuracy order"},
       {Command::larger_text,
        "Larger text",
        "Ctrl++",

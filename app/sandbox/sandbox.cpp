@@ -334,7 +334,8 @@ void Sandbox::frame_parts() {
   watch_lab(app_);
   draw_cloth();
   draw_panels();
-  if (!app_.ui.accuracy_shown) app_.accuracy.drop();
+  if (!app_.ui.accuracy_shown || app_.convergence.shown) app_.accuracy.drop();
+  if (!app_.ui.accuracy_shown || !app_.convergence.shown) app_.convergence.drop();
   if (!app_.ui.map_shown) app_.map.drop();
   if (!app_.ui.inside_shown) app_.inside.drop();
   present();
