@@ -20,7 +20,7 @@ constexpr auto default_preset = "hanging";
 struct Options {
   PresetArgument preset;
   int frames = 0;
-  std::string screenshot, time_report, session_report, color;
+  std::string screenshot, time_report, session_report, color, effects;
 
   std::vector<Output> outputs() const {
     return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
@@ -53,6 +53,9 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;
   sandbox.session_report = options.session_report;
+  if (options.effects == "auto") sandbox.effects = Effects::Wish::automatic;
+  if (options.effects == "all") sandbox.effects = Effects::Wish::all;
+  if (options.effects == "few") sandbox.effects = Effects::Wish::few;
   sandbox.color = field_called(options.color);
   if (has_display()) return run_sandbox(sandbox);
   if (!options.session_report.empty())
@@ -75,6 +78,11 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   add_output(program, "--session-report", options->session_report,
              "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
       ->type_name("F.json");
+  program
+      .add_option("--effects", options->effects,
+                  "Soft shadows and smooth edges: auto leaves out what this machine draws too slowly")
+      ->type_name("auto|all|few")
+      ->check(CLI::IsMember({"auto", "all", "few"}));
   add_color_option(program, options->color, true);
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {

@@ -252,6 +252,22 @@ void csv_dialog(App& app) {
   app.request(write);
 }
 
+void picture_dialog(App& app) {
+  static constexpr const char* parts[] = {"The cloth and its legend", "The whole window"};
+  Dialog& dialog = app.ui.dialog;
+  title(app, "Save a picture");
+  if (const int k = segments(app, "parts", parts, 2, dialog.whole_window); k >= 0) dialog.whole_window = k == 1;
+  ImGui::Dummy({0, app.theme.px(2)});
+  label(app, "PNG file");
+  if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
+  if (!may_write(app, "Save")) return;
+  fs::path file = path_of(dialog.path);
+  if (file.extension().empty()) file += ".png";
+  const request::SavePicture save{file, dialog.whole_window};
+  close(app);
+  app.request(save);
+}
+
 void texture_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, "Take a picture as texture");
@@ -318,6 +334,8 @@ void contents(App& app) {
       return csv_dialog(app);
     case DialogKind::texture:
       return texture_dialog(app);
+    case DialogKind::picture:
+      return picture_dialog(app);
     case DialogKind::unsaved:
       return unsaved_dialog(app);
     case DialogKind::large_cloth:
@@ -348,6 +366,9 @@ void open_dialog(App& app, DialogKind kind) {
     const fs::path file = !app.document.file.empty() ? app.document.file : own / file_name_for(app.preset().name);
     set(dialog.path, file.string());
     dialog.path_follows = true;
+  } else if (kind == DialogKind::picture) {
+    std::error_code ignored;
+    set(dialog.path, (fs::current_path(ignored) / (app.document.label + ".png")).string());
   } else if (kind == DialogKind::export_csv) {
     std::error_code ignored;
     set(dialog.path, (fs::current_path(ignored) / csv_export(dialog.csv).file).string());

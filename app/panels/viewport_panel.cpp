@@ -103,9 +103,11 @@ void viewport_panel(App& app, const Region& region) {
   if (!begin_region("viewport", region, app.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   pictures(app, draw);
-  viewport_overlay(app);
+  const bool bare = app.picture && !app.picture->whole_window;
+  if (!bare) viewport_overlay(app);
   cloth_names(app, draw);
   color_legend(app);
+  if (bare) return end_region();
   if (app.wished().kind == Kind::cloth) view_buttons(app, region);
   message_list(app);
   banner(app);

@@ -18,6 +18,7 @@
 #include "app/sandbox/cloth_views.h"
 #include "app/sandbox/convergence_watch.h"
 #include "app/sandbox/copies.h"
+#include "app/sandbox/effects.h"
 #include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
@@ -68,6 +69,8 @@ struct App {
   Camera camera;
   ViewOptions view;
   ClothColors colors;
+  Effects effects;
+  std::optional<request::SavePicture> picture;  ///< to be taken of this frame
   Viewport viewport;
   Tool tool;
   std::optional<Pins::Site> picked;

@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 38> rows{{
+  static const std::array<CommandRow, 40> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -59,6 +59,18 @@ std::span<const CommandRow> command_rows() {
        "colours the cloth by tension, strain, speed, …",
        "colors heat map"},
       {Command::measure_convergence, "Order of convergence", "", {}, "", "accuracy error dt slope measured"},
+      {Command::toggle_effects,
+       "All effects, however slow to draw",
+       "",
+       {},
+       "",
+       "shadows smooth edges quality graphics"},
+      {Command::save_picture,
+       "Save a picture…",
+       "Ctrl+Shift+P",
+       {{GLFW_KEY_P, control | shift}},
+       "saves a picture of the cloth",
+       "png screenshot image export"},
       {Command::full_screen, "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window"},
       {Command::open_dialog, "Open…", "Ctrl+O", {{GLFW_KEY_O, control}}, "opens a preset", "file load"},
       {Command::save, "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write"},

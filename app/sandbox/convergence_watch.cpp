@@ -7,8 +7,8 @@
 namespace tyglab {
 namespace {
 
-constexpr double settles = 0.3;  // s after the last change of constants
-constexpr StudyEffort effort{.reference = 2e8, .point = 1e8};
+constexpr double calm = 0.3;  // s after the last change of constants
+constexpr StudyEffort convergence_effort{.reference = 2e8, .point = 1e8};
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void ConvergenceWatch::begin(App& app) {
   work_.begin(std::move(first), [start = std::move(start)](Background<Convergence>::Shared& shared) {
     try {
       measure_convergence(
-          start, window, effort, [&] { return shared.stopped(); },
+          start, window, convergence_effort, [&] { return shared.stopped(); },
           [&](const Convergence& now) { shared.tell([&](Convergence& study) { study = now; }); });
     } catch (const Stopped&) {
     } catch (const std::exception& error) {
@@ -49,7 +49,7 @@ void ConvergenceWatch::poll(App& app) {
   if (work_.busy()) return soon(0.1);
   if (known && !changed) return;
   if (app.simulation->divergence() || app.simulation->held() || app.building.holds_present()) return;
-  if (changed && app.ui.now < std::max(changed_, app.ui.last_change) + settles) return soon(0.1);
+  if (changed && app.ui.now < std::max(changed_, app.ui.last_change) + calm) return soon(0.1);
   begin(app);
   soon(0.1);
 }

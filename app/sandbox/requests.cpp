@@ -226,6 +226,13 @@ void show_convergence(App& app) {
   app.convergence.shown = true;
 }
 
+/// All effects however long they take, or as many as the machine draws in time.
+void toggle_effects(App& app) {
+  const bool all = app.effects.wish != Effects::Wish::all;
+  app.effects.wish = all ? Effects::Wish::all : Effects::Wish::automatic;
+  app.settings.all_effects = all;
+}
+
 /// Remembered for the next session.
 void color_by(App& app, std::optional<ParticleField> field) {
   app.colors.choose(field);
@@ -303,6 +310,10 @@ void apply(App& app, const request::Do& what) {
       return open_export(app, CsvSource::convergence);
     case Command::measure_convergence:
       return show_convergence(app);
+    case Command::toggle_effects:
+      return toggle_effects(app);
+    case Command::save_picture:
+      return open_dialog(app, Dialog::Kind::picture);
     case Command::next_color:
       return color_by(app, next_field(app));
     case Command::full_screen:
@@ -386,6 +397,11 @@ void apply(App& app, const request::RemoveCopy& what) {
 
 void apply(App& app, const request::ColorBy& what) {
   color_by(app, what.field);
+}
+
+/// Taken where the frame is drawn.
+void apply(App& app, const request::SavePicture& what) {
+  app.picture = what;
 }
 
 void apply(App& app, const request::Quit& what) {

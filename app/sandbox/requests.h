@@ -51,6 +51,8 @@ enum class Command {
   export_values,
   measure_convergence,
   export_convergence,
+  toggle_effects,
+  save_picture,
   quit,
 };
 
@@ -87,6 +89,11 @@ struct WriteCsv {
   std::filesystem::path file;
   CsvSource source = CsvSource::forces;
 };
+/// A PNG of the window, or of the viewport with what its colours mean and without buttons.
+struct SavePicture {
+  std::filesystem::path file;
+  bool whole_window = false;
+};
 struct LoadTexture {
   std::string name;  ///< shipped name or path
 };
@@ -109,7 +116,7 @@ struct Quit {
 
 using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
                              request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy,
-                             request::ColorBy, request::Quit>;
+                             request::ColorBy, request::SavePicture, request::Quit>;
 
 struct App;
 /// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.

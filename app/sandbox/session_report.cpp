@@ -200,8 +200,8 @@ std::string_view name_of(Tool::Kind kind) {
 }
 
 std::string_view name_of(Dialog::Kind kind) {
-  static constexpr std::string_view names[] = {"none",    "open",    "save",       "export_csv",
-                                               "texture", "unsaved", "large_cloth"};
+  static constexpr std::string_view names[] = {"none",    "open",    "save",    "export_csv",
+                                               "texture", "picture", "unsaved", "large_cloth"};
   return names[std::size_t(kind)];
 }
 
@@ -237,6 +237,7 @@ void add_simulation(Json& json, const App& app) {
   json["held"] = held(app);
   json["view"] = app.preset().mode;
   json["colors"] = colors(app);
+  json["effects_left_out"] = app.effects.left_out();
 }
 
 void add_window(Json& json, const App& app) {

@@ -109,6 +109,7 @@ Settings settings_from(const Json& json) {
   all.take("theme", settings.theme);
   all.take("plot_log", settings.plot_log);
   all.take("color", settings.color);
+  all.take("all_effects", settings.all_effects);
   all.take("tour_seen", settings.tour_seen);
   all.take("labs", settings.labs);
   if (all.has("layout")) settings.layout = layout_from(all.section("layout"));
@@ -138,6 +139,7 @@ Json to_json(const Settings& settings) {
   json["theme"] = settings.theme;
   json["plot_log"] = settings.plot_log;
   json["color"] = settings.color;
+  json["all_effects"] = settings.all_effects;
   json["tour_seen"] = settings.tour_seen;
   json["labs"] = settings.labs;
   const Layout& layout = settings.layout;

@@ -8,6 +8,7 @@
 
 #include "app/viewport/cloth_mesh.h"
 #include "app/viewport/cloth_texture.h"
+#include "app/viewport/draw_timer.h"
 #include "app/viewport/drawn_cloth.h"
 #include "app/viewport/gl_objects.h"
 #include "app/viewport/render_target.h"
@@ -70,6 +71,7 @@ struct ClothRenderer::Parts {
   ShadowMap shadow;
   RenderTarget target;
   ValueTexture values{GL_NEAREST};
+  DrawTimer timer;
 
   Preset preset;
   Bounds box;     ///< of all that casts shadows
@@ -201,7 +203,7 @@ void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& o
   block.clip_from_world = projection * camera.view();
   block.shadow_from_world = ShadowMap::fit(box.empty() ? framed : box, to_light);
   block.eye = glm::vec4(camera.eye(), 0.5f * float(height) * projection[1][1]);
-  block.to_light = glm::vec4(to_light, options.shadows ? 1 : 0);
+  block.to_light = glm::vec4(to_light, !options.shadows ? 0 : options.soft_shadows ? 1 : 2);
   block.viewport = glm::vec4(width, height, glm::length(extent) / ShadowMap::size, ground_y);
   block.focus = glm::vec4(centre, radius);
   block.background_top = glm::vec4(options.palette.background_top, 1);
@@ -441,6 +443,7 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBlendEquation(GL_FUNC_ADD);
 
+  p.timer.begin();
   p.fill_frame(camera, options, width, height);
   p.draw_shadow(options);
   p.target.begin(width, height, options.samples);
@@ -454,6 +457,7 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   if (!p.one_weight()) p.draw_blended(options);
   for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.colour, options.line_width);
   p.target.resolve();
+  p.timer.end();
   p.mesh.drawn();
   for (const Ghost& ghost : ghosts) ghost.cloth->parts_->mesh.drawn();
 
@@ -464,6 +468,9 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
 
 unsigned ClothRenderer::texture_id() const {
   return parts_->target.texture();
+}
+double ClothRenderer::drawn_ms() {
+  return parts_->timer.ms();
 }
 RenderWork ClothRenderer::take_work() {
   return std::exchange(parts_->work, {});

@@ -56,6 +56,7 @@ struct ViewOptions {
   bool bending = false;  ///< bending springs too, in view 2
   bool ground = true;
   bool shadows = true;
+  bool soft_shadows = true;  ///< with soft edges
   Palette palette;
   float line_width = 1.6f;  ///< the thickest; lines get thinner where they are dense
   float point_size = 9;     ///< the largest; points get smaller where they are dense
@@ -132,6 +133,8 @@ class ClothRenderer {
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
+  /// What the graphics card took for the last drawing that it has told of, ms: a frame or two ago; 0 before that.
+  double drawn_ms();
   /// What was done since the last call.
   RenderWork take_work();
   /// Of the buffers that grow with the cloth, and what is lent to siblings' engines too.

@@ -14,6 +14,8 @@ std::string values_csv(Simulation& cloth, Simulation* reference) {
   text += ", steps = " + std::to_string(cloth.steps()) + ", preset hash " + preset_hash(cloth.preset()) + "\ni,j";
   std::vector<std::vector<float>> columns;
   for (const FieldInfo& field : particle_fields()) {
+    const bool of_springs = field.field == ParticleField::tension || field.field == ParticleField::strain;
+    if (of_springs && cloth.preset().kind == Kind::one_weight) continue;  // its spring is none of the lattice's
     if (field.field == ParticleField::distance && reference == nullptr) continue;
     text += "," + std::string(field.name) + (field.unit.empty() ? "" : " [" + std::string(field.unit) + "]");
     read_field(field.field, cloth, reference, {cloth.lattice(), 1}, columns.emplace_back());
