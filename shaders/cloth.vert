@@ -6,7 +6,12 @@ layout(location = 2) in float z;
 layout(location = 3) in float normal_x;
 layout(location = 4) in float normal_y;
 layout(location = 5) in float normal_z;
+#ifdef COLORED
+#include "values.glsl"
+out float value;
+#else
 uniform int stride;        // particles a row of the arrays
+#endif
 uniform vec2 texture_step;  // 1/(C-1), 1/(R-1)
 out vec3 position;
 out vec3 normal;
@@ -17,5 +22,8 @@ void main() {
   across = vec2(gl_VertexID - i * stride, i) * texture_step;
   position = vec3(x, y, z);
   normal = vec3(normal_x, normal_y, normal_z);
+#ifdef COLORED
+  value = particle_value(gl_VertexID);
+#endif
   gl_Position = clip_from_world * vec4(position, 1.0);
 }

@@ -20,6 +20,7 @@ float sunlight(vec3 p, vec3 n, float blur) {
   s.z = min(s.z, 1.0);
   vec2 texel = blur / vec2(textureSize(shadow_map, 0));
   float sum = texture(shadow_map, s);
+  if (to_light.w > 1.5) return sum;
   sum += texture(shadow_map, s + vec3(texel * vec2(0.94, 0.35), 0.0));
   sum += texture(shadow_map, s + vec3(texel * vec2(-0.35, 0.94), 0.0));
   sum += texture(shadow_map, s + vec3(texel * vec2(-0.94, -0.35), 0.0));

@@ -3,4 +3,12 @@ in float strength;
 uniform vec4 ink;  // sRGB and opacity
 out vec4 colour;   // premultiplied
 
-void main() { colour = vec4(ink.rgb, 1.0) * (ink.a * strength); }
+#ifdef COLORED
+#include "value.glsl"
+in float value;
+vec3 own_color() { return value_color(value); }
+#else
+vec3 own_color() { return ink.rgb; }
+#endif
+
+void main() { colour = vec4(own_color(), 1.0) * (ink.a * strength); }

@@ -5,13 +5,20 @@ uniform vec4 ink;    // sRGB and opacity
 uniform float rim;   // px of dark rim round a mark, 0: a plain ball
 uniform float ring;  // px of thickness of an empty ring, 0: filled
 out vec4 colour;     // premultiplied
+#ifdef COLORED
+#include "value.glsl"
+in float value;
+vec3 own_color() { return value_color(value); }
+#else
+vec3 own_color() { return ink.rgb; }
+#endif
 
 void main() {
   vec2 from_middle = gl_PointCoord * 2.0 - 1.0;
   float r = length(from_middle) * radius;
   float cover = clamp(radius - r, 0.0, 1.0);
   if (cover == 0.0) discard;
-  vec3 ball = ink.rgb;
+  vec3 ball = own_color();
   if (ring > 0.0) {
     // White between two dark edges is seen on every ground.
     float white = clamp(radius - 1.0 - r, 0.0, 1.0) * clamp(r - (radius - 1.5 - ring), 0.0, 1.0);

@@ -6,6 +6,10 @@ layout(location = 2) in float z;
 uniform float spacing;   // m between particles
 uniform vec3 diameter;   // part of the spacing; least and most pixels
 uniform float towards;   // part of the scene's radius by which the mark stands nearer, to lie upon the cloth
+#ifdef COLORED
+#include "values.glsl"
+out float value;
+#endif
 out float strength;
 flat out float radius;   // px
 
@@ -16,6 +20,10 @@ void main() {
   radius = 0.5 * gl_PointSize;
   float depth = (gl_Position.w - length(eye.xyz - focus.xyz)) / focus.w;
   strength = clamp(0.8 - 0.35 * depth, 0.35, 1.0);
+#ifdef COLORED
+  strength = 1.0;  // colours are to be compared with a legend, near and far
+  value = particle_value(gl_VertexID);
+#endif
   if (towards > 0.0) {
     vec4 nearer = clip_from_world * vec4(mix(at, eye.xyz, min(towards * focus.w / length(eye.xyz - at), 0.5)), 1.0);
     gl_Position.z = nearer.z / nearer.w * gl_Position.w;

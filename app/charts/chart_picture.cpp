@@ -1,40 +1,8 @@
 #include "app/charts/chart.h"
-#include "app/panels/imgui_compat.h"
+#include "app/charts/picture_gui.h"
 #include "app/viewport/headless_context.h"
-#include "app/viewport/render_target.h"
-#include "backends/imgui_impl_opengl3.h"
 
 namespace tyglab {
-namespace {
-
-/// Dear ImGui without a window, in the OpenGL context that is current.
-class PictureGui {
- public:
-  PictureGui(ImVec2 size, const Theme& theme) {
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
-    gui::prepare_io(ImGui::GetIO());
-    ImGui::GetIO().DisplaySize = size;
-    ImGui::GetIO().DeltaTime = 1;
-    fonts_ = build_fonts(theme.scale);
-    apply_style(theme);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui::NewFrame();
-  }
-  ~PictureGui() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui::DestroyContext();
-  }
-  PictureGui(const PictureGui&) = delete;
-  PictureGui& operator=(const PictureGui&) = delete;
-  const Fonts& fonts() const { return fonts_; }
-
- private:
-  Fonts fonts_;
-};
-
-}  // namespace
 
 void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns, float scale,
                   float height) {
@@ -45,17 +13,12 @@ void write_charts(const std::filesystem::path& file, const std::vector<Chart>& c
   const ImVec2 one{theme.px(chart_width), theme.px(height)};
   const ImVec2 size{one.x * float(across), one.y * float(down)};
   const HeadlessContext context;
-  RenderTarget target;
   const PictureGui gui(size, theme);
-  const PlotPaint paint{*ImGui::GetBackgroundDrawList(), theme, gui.fonts()};
+  const PlotPaint paint{gui.draw(), theme, gui.fonts()};
   paint.draw.AddRectFilled({0, 0}, size, theme.colors.panel);
   for (std::size_t k = 0; k < charts.size(); ++k)
     draw_chart(paint, {one.x * float(int(k) % across), one.y * float(int(k) / across)}, one, charts[k]);
-  ImGui::Render();
-  target.begin(int(size.x), int(size.y), 4);
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  target.resolve();
-  write_png(file, target.pixels());
+  write_png(file, gui.pixels());
 }
 
 }  // namespace tyglab

@@ -12,7 +12,15 @@ struct Oklab {
   double L, a, b;
 };
 
-constexpr std::array<Oklab, 3> anchors{{{0.32, 0.01, -0.12}, {0.60, -0.10, 0.01}, {0.90, -0.02, 0.13}}};
+using Anchors = std::array<Oklab, 3>;
+
+constexpr Anchors magnitude{{{0.32, 0.01, -0.12}, {0.60, -0.10, 0.01}, {0.90, -0.02, 0.13}}};
+// A cloth must be seen before its ground: lightness keeps away from the ground's at the end that is near it.
+constexpr Anchors magnitude_on_dark{{{0.44, 0.00, -0.14}, {0.68, -0.11, 0.01}, {0.92, -0.02, 0.13}}};
+constexpr Anchors magnitude_on_light{{{0.28, 0.01, -0.11}, {0.54, -0.09, 0.01}, {0.80, -0.02, 0.14}}};
+// Blue against vermilion is what every kind of colour blindness tells apart.
+constexpr Anchors diverging_on_dark{{{0.52, -0.03, -0.15}, {0.90, 0.00, 0.005}, {0.52, 0.14, 0.09}}};
+constexpr Anchors diverging_on_light{{{0.42, -0.02, -0.14}, {0.80, 0.00, 0.005}, {0.42, 0.12, 0.08}}};
 
 double encoded(double linear) {
   const double c = std::clamp(linear, 0.0, 1.0);
@@ -30,14 +38,29 @@ ImU32 srgb(const Oklab& lab) {
   return IM_COL32(byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), 255);
 }
 
-}  // namespace
-
-ImU32 magnitude_color(double part) {
+ImU32 between(const Anchors& anchors, double part) {
   const double at = std::clamp(part, 0.0, 1.0) * double(anchors.size() - 1);
   const auto n = std::min(std::size_t(at), anchors.size() - 2);
   const double t = at - double(n);
   const Oklab &from = anchors[n], &to = anchors[n + 1];
   return srgb({std::lerp(from.L, to.L, t), std::lerp(from.a, to.a, t), std::lerp(from.b, to.b, t)});
+}
+
+}  // namespace
+
+ImU32 magnitude_color(double part) {
+  return between(magnitude, part);
+}
+
+ImU32 map_color(const ColorMap& map, double part) {
+  if (map.diverging) return between(map.on_light ? diverging_on_light : diverging_on_dark, part);
+  return between(map.on_light ? magnitude_on_light : magnitude_on_dark, part);
+}
+
+std::vector<ImU32> map_colors(const ColorMap& map, int count) {
+  std::vector<ImU32> colors;
+  for (int k = 0; k < count; ++k) colors.push_back(map_color(map, double(k) / (count - 1)));
+  return colors;
 }
 
 }  // namespace tyglab

@@ -7,11 +7,11 @@ namespace tyglab {
 
 void add_bench_command(CLI::App& program, Action& action);
 
-/// Its own commands, a file each: bench_throughput.cpp, bench_accuracy.cpp, bench_skip.cpp,
-/// bench_one_weight.cpp.
+/// Its own commands, a file each: bench_throughput.cpp, bench_accuracy.cpp, …
 void add_bench_throughput(CLI::App& bench, Action& action);
 void add_bench_accuracy(CLI::App& bench, Action& action);
 void add_bench_skip(CLI::App& bench, Action& action);
 void add_bench_one_weight(CLI::App& bench, Action& action);
+void add_bench_convergence(CLI::App& bench, Action& action);
 
 }  // namespace tyglab

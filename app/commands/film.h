@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "app/sandbox/field_colors.h"
 #include "app/viewport/camera.h"
 #include "app/viewport/cloth_renderer.h"
 #include "app/viewport/headless_context.h"
@@ -18,7 +19,8 @@ struct PictureSize {
 class Film {
  public:
   /// `view`: 1 to 5, 0: the preset's own. A texture that cannot be read is told on stderr. Throws GraphicsError.
-  Film(const Preset& preset, int view, PictureSize size);
+  /// `color`: what colours the cloth, with a legend in the picture; none: it has its own look.
+  Film(const Preset& preset, int view, PictureSize size, std::optional<ParticleField> color = {});
   /// Throws OutputError.
   void shoot(Simulation& simulation, const std::filesystem::path& file);
 
@@ -26,8 +28,11 @@ class Film {
   HeadlessContext context_;  // before what lives in it
   ClothRenderer renderer_;
   ViewOptions options_;
+  Image with_legend() const;
+
   PictureSize size_;
   Camera camera_;
+  std::optional<FieldColors> colors_;
 };
 
 }  // namespace tyglab

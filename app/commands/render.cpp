@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/commands/color_option.h"
 #include "app/commands/film.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
@@ -24,7 +25,7 @@ struct RenderOptions {
   Length length;
   int view = 0;
   std::string size = "1280x720";
-  std::string png;
+  std::string png, color;
   std::optional<double> fps;
 
   /// Where it names one picture.
@@ -73,7 +74,7 @@ int render(const RenderOptions& options) {
   }
 
   Simulation simulation(scene.preset, scene.threads);
-  Film film(scene.preset, options.view, size);
+  Film film(scene.preset, options.view, size, field_called(options.color));
   const InterruptGuard guard;
   Stepper stepper(simulation, steps, label, scene.auto_dt);
   std::int64_t frame = 0;
@@ -121,6 +122,7 @@ void add_render_command(CLI::App& program, Action& action) {
                    "the preset's own if it is not given")
       ->type_name("1..5")
       ->transform(whole_number_between(1, 5));
+  add_color_option(*command, options->color, false);
   command->add_option("--size", options->size, "Size in pixels (1280x720 if it is not given)")->type_name("WxH");
   add_output(*command, "--png", options->png,
              "The picture (- is standard output), or a folder for a sequence: DIR/PRESET_0000.png, …")
@@ -131,6 +133,7 @@ void add_render_command(CLI::App& program, Action& action) {
       ->transform(number_between(1e-6, 1e7, "frames per second"));
   command->footer(
       "Examples: tyglab render flag --seconds 3 --view 1 --size 1920x1080 --png flag.png\n"
+      "          tyglab render hanging --seconds 0.4 --color strain --png strain.png\n"
       "          tyglab render denim --seconds 4 --png frames --fps 25");
   command->callback([options, &action] { action = [options] { return render(*options); }; });
 }

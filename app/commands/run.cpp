@@ -20,6 +20,7 @@
 #include "core/output/point_cache.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"
+#include "core/output/values_csv.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
@@ -30,13 +31,14 @@ using Json = nlohmann::ordered_json;
 struct RunOptions {
   PresetArgument preset;
   Length length;
-  std::string state, series, ledger, obj, pc2, json;
+  std::string state, values, series, ledger, obj, pc2, json;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
 
   /// All but --obj, which names a folder.
   std::vector<Output> outputs() const {
-    return {{"--state", state}, {"--series", series}, {"--ledger", ledger}, {"--pc2", pc2, true}, {"--json", json}};
+    return {{"--state", state},   {"--values", values}, {"--series", series},
+            {"--ledger", ledger}, {"--pc2", pc2, true}, {"--json", json}};
   }
 };
 
@@ -100,6 +102,10 @@ class Outputs {
       write_state_csv(options_.state, simulation.lattice(), simulation.read_raw(),
                       {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
       files.push_back({{"kind", "state"}, {"path", options_.state}});
+    }
+    if (!options_.values.empty()) {
+      write_output(options_.values, values_csv(simulation, nullptr));
+      files.push_back({{"kind", "values"}, {"path", options_.values}});
     }
     if (series_) files.push_back({{"kind", "series"}, {"path", options_.series}, {"rows", row_}});
     if (ledger_) files.push_back({{"kind", "ledger"}, {"path", options_.ledger}, {"rows", row_}});
@@ -296,12 +302,11 @@ int run(const RunOptions& options) {
                             outputs.finish(simulation));
   if (!options.json.empty()) write_output(options.json, told.dump(2) + "\n");
 
-  people(options.outputs()) << closing(
-                                   told,
-                                   options.json.empty()
-                                       ? " Nothing was written: --state, --series, --ledger, --obj, --pc2 name files."
-                                       : "")
-                            << std::endl;
+  people(options.outputs())
+      << closing(told, options.json.empty()
+                           ? " Nothing was written: --state, --values, --series, --ledger, --obj, --pc2 name files."
+                           : "")
+      << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
   if (const SolveCounts solves = simulation.engine().solves(); solves.unconverged > 0)
@@ -325,6 +330,9 @@ void add_run_command(CLI::App& program, Action& action) {
   options->preset.add_to(*command, true);
   options->length.add_to(*command, true);
   add_output(*command, "--state", options->state, "Write the last state: i,j,x,y,z,vx,vy,vz of every particle (CSV)")
+      ->type_name("F.csv");
+  add_output(*command, "--values", options->values,
+             "Write what can colour the cloth: tension, strain, speed and kinetic energy of every particle (CSV)")
       ->type_name("F.csv");
   add_output(*command, "--series", options->series,
              "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"

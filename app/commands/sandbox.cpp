@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/commands/color_option.h"
 #include "app/commands/headless.h"
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
@@ -19,7 +20,7 @@ constexpr auto default_preset = "hanging";
 struct Options {
   PresetArgument preset;
   int frames = 0;
-  std::string screenshot, time_report, session_report;
+  std::string screenshot, time_report, session_report, color, effects;
 
   std::vector<Output> outputs() const {
     return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
@@ -52,6 +53,10 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;
   sandbox.session_report = options.session_report;
+  if (options.effects == "auto") sandbox.effects = Effects::Wish::automatic;
+  if (options.effects == "all") sandbox.effects = Effects::Wish::all;
+  if (options.effects == "few") sandbox.effects = Effects::Wish::few;
+  sandbox.color = field_called(options.color);
   if (has_display()) return run_sandbox(sandbox);
   if (!options.session_report.empty())
     std::cerr << "--session-report tells what goes on in a window, so it is not written.\n";
@@ -73,6 +78,12 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   add_output(program, "--session-report", options->session_report,
              "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
       ->type_name("F.json");
+  program
+      .add_option("--effects", options->effects,
+                  "Soft shadows and smooth edges: auto leaves out what this machine draws too slowly")
+      ->type_name("auto|all|few")
+      ->check(CLI::IsMember({"auto", "all", "few"}));
+  add_color_option(program, options->color, true);
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {
       action = [options, commands = command_names(program)] { return open_sandbox(*options, commands); };

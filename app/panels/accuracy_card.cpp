@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/charts/convergence_chart.h"
 #include "app/panels/curves.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
@@ -15,12 +16,14 @@ namespace {
 
 constexpr const char* stability_heading = "Stability";
 constexpr const char* accuracy_heading = "Accuracy";
-constexpr float chart_at_1 = 210, words_at_1 = 40;  // pixels at scale 1
+// Pixels at scale 1.
+constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 76;
 
 /// Words over a chart, in what the card's height leaves.
-void words_and_chart(App& app, float height, const std::string& words, const Chart* chart) {
+void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
+                     float room_at_1 = words_at_1) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = card_width(app), line = app.theme.px(words_at_1);
+  const float width = card_width(app), line = app.theme.px(room_at_1);
   const ImFont& font = *app.fonts.small;
   ImGui::GetWindowDrawList()->AddText(&font, font.FontSize, lo, app.theme.colors.text, words.data(),
                                       words.data() + words.size(), width);
@@ -141,21 +144,63 @@ void stability_card(App& app, float height) {
 }
 
 float accuracy_card_height(const App& app) {
-  return card_height(app, accuracy_heading, words_at_1 + chart_at_1 + 50);
+  const float words = app.convergence.shown ? convergence_words_at_1 : words_at_1 + 50;
+  return card_height(app, accuracy_heading, ways_at_1 + words + chart_at_1);
 }
+
+namespace {
+
+/// Errors of several methods, or the order of the present one; of that what else can be done with it.
+void accuracy_ways(App& app) {
+  static constexpr const char* ways[] = {"Errors", "Convergence"};
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  if (const int k = segments(app, "accuracy ways", ways, 2, app.convergence.shown); k >= 0)
+    app.convergence.shown = k == 1;
+  tooltip(app, gui::item_id(), "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on.");
+  const auto at_right = [&](int n) {
+    ImGui::SetCursorScreenPos({lo.x + card_width(app) - app.theme.px(26.f * float(n + 1)), lo.y + app.theme.px(2)});
+  };
+  if (app.convergence.shown) {
+    at_right(0);
+    if (quiet_button(app, "csv_convergence", icon::download, "CSV", "Write the convergence as a CSV file…"))
+      app.command(Command::export_convergence);
+    at_right(1);
+    if (quiet_button(app, "again", icon::restart, "again", "Measure again, from the present moment on"))
+      app.command(Command::measure_convergence);
+  }
+  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(ways_at_1)});
+}
+
+void errors_shown(App& app, float height) {
+  app.accuracy.poll(app);
+  const auto study = app.accuracy.study();
+  if (!study) return words_and_chart(app, height, "Measuring…", nullptr);
+  const Chart chart = accuracy_chart(app.theme.colors, *study);
+  words_and_chart(app, height, accuracy_words(*study), study->present ? &chart : nullptr);
+}
+
+void convergence_shown(App& app, float height) {
+  app.convergence.poll(app);
+  const auto study = app.convergence.study();
+  const std::string over = study ? "Over the " + short_number(rounded(study->seconds, 2)) +
+                                       " s from t = " + time_number(study->t, study->of.dt) + " s, in double. "
+                                 : "";
+  const Chart chart = study ? convergence_chart(app.theme.colors, *study) : Chart{};
+  words_and_chart(app, height, !study || !study->done ? "Measuring…" : over + convergence_words(*study),
+                  chart.series.empty() ? nullptr : &chart, convergence_words_at_1);
+}
+
+}  // namespace
 
 void accuracy_card(App& app, float height) {
   if (begin_card(app, accuracy_heading, height)) {
-    app.accuracy.poll(app);
     app.ui.accuracy_shown = true;
-    const auto study = app.accuracy.study();
     if (app.simulation->lattice().size() > AccuracyWatch::largest) {
       words_and_chart(app, height, "This cloth is too large to be judged beside the window.", nullptr);
-    } else if (study) {
-      const Chart chart = accuracy_chart(app.theme.colors, *study);
-      words_and_chart(app, height, accuracy_words(*study), study->present ? &chart : nullptr);
     } else {
-      words_and_chart(app, height, "Measuring…", nullptr);
+      accuracy_ways(app);
+      const float rest = height - app.theme.px(ways_at_1);
+      app.convergence.shown ? convergence_shown(app, rest) : errors_shown(app, rest);
     }
   }
   end_card(app);

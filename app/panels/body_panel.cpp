@@ -96,6 +96,13 @@ void view_section(App& app) {
     ImGui::SameLine(0, app.theme.px(16));
     if (check(app, "shadows", app.view.shadows)) app.view.shadows = !app.view.shadows;
   });
+  labelled_row(app, "effects", [&](float) {
+    if (check(app, "all, however slow", app.effects.wish == Effects::Wish::all)) app.command(Command::toggle_effects);
+    tooltip(
+        app, gui::item_id(),
+        "Where drawing takes longer than 20 ms, soft edges of shadows are left out, then smooth edges, then shadows; "
+        "the status bar says so.");
+  });
 }
 
 void body_sections(App& app) {

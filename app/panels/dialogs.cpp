@@ -243,15 +243,29 @@ void save_preset_dialog(App& app) {
 void csv_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
   title(app, csv_export(dialog.csv).title);
-  wrapped(app,
-          "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.",
-          app.theme.colors.quiet);
+  wrapped(app, csv_export(dialog.csv).holds, app.theme.colors.quiet);
   label(app, "File");
   if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Write")) return;
   const request::WriteCsv write{path_of(dialog.path), dialog.csv};
   close(app);
   app.request(write);
+}
+
+void picture_dialog(App& app) {
+  static constexpr const char* parts[] = {"The cloth and its legend", "The whole window"};
+  Dialog& dialog = app.ui.dialog;
+  title(app, "Save a picture");
+  if (const int k = segments(app, "parts", parts, 2, dialog.whole_window); k >= 0) dialog.whole_window = k == 1;
+  ImGui::Dummy({0, app.theme.px(2)});
+  label(app, "PNG file");
+  if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
+  if (!may_write(app, "Save")) return;
+  fs::path file = path_of(dialog.path);
+  if (file.extension().empty()) file += ".png";
+  const request::SavePicture save{file, dialog.whole_window};
+  close(app);
+  app.request(save);
 }
 
 void texture_dialog(App& app) {
@@ -320,6 +334,8 @@ void contents(App& app) {
       return csv_dialog(app);
     case DialogKind::texture:
       return texture_dialog(app);
+    case DialogKind::picture:
+      return picture_dialog(app);
     case DialogKind::unsaved:
       return unsaved_dialog(app);
     case DialogKind::large_cloth:
@@ -350,6 +366,9 @@ void open_dialog(App& app, DialogKind kind) {
     const fs::path file = !app.document.file.empty() ? app.document.file : own / file_name_for(app.preset().name);
     set(dialog.path, file.string());
     dialog.path_follows = true;
+  } else if (kind == DialogKind::picture) {
+    std::error_code ignored;
+    set(dialog.path, (fs::current_path(ignored) / (app.document.label + ".png")).string());
   } else if (kind == DialogKind::export_csv) {
     std::error_code ignored;
     set(dialog.path, (fs::current_path(ignored) / csv_export(dialog.csv).file).string());

@@ -164,11 +164,14 @@ void pointer(App& app, ImDrawList& draw) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     return;
   }
-  if (const auto site = particle_under_pointer(app))
-    if (const auto at = particle_on_screen(app, app.viewport.tile_at(app.input.at), *site)) {
+  if (const auto site = particle_under_pointer(app)) {
+    const int tile = app.viewport.tile_at(app.input.at);
+    app.colors.under_pointer = app.colors.value(tile, *site);
+    if (const auto at = particle_on_screen(app, tile, *site)) {
       const bool pinned = app.simulation->pinned(site->i, site->j);
       ring(app, draw, *at, 5, pinned ? c.warning : c.accent, 2);
     }
+  }
 }
 
 /// How to go on from a pause: the keys that reach the transport now.
@@ -206,6 +209,7 @@ void paused(App& app, ImDrawList& draw) {
 void viewport_overlay(App& app) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   picked(app, draw);
+  app.colors.under_pointer.reset();
   pointer(app, draw);
   paused(app, draw);
 }

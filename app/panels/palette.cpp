@@ -34,8 +34,13 @@ bool of_use(const App& app, Command command) {
       return app.history.can_redo();
     case Command::export_height:
       return app.preset().kind == Kind::one_weight;
+    case Command::next_color:
+    case Command::export_values:
+      return app.preset().kind == Kind::cloth;
     case Command::export_copies:
       return !app.copies.lockstep.empty();
+    case Command::export_convergence:
+      return app.convergence.study().has_value();
     case Command::open_palette:
       return false;  // it is open
     default:
@@ -107,6 +112,17 @@ void add_views(std::vector<PaletteEntry>& list) {
   for (int k = 0; k < int(view_names.size()); ++k)
     list.push_back({"View", view_names[std::size_t(k)] + 2, std::to_string(k + 1), "",
                     proposing([k](Preset& next) { next.mode = k + 1; })});
+}
+
+void add_colors(const App& app, std::vector<PaletteEntry>& list) {
+  const auto colored = [](std::optional<ParticleField> field) {
+    return [field](App& a) { a.request(request::ColorBy{field}); };
+  };
+  list.push_back({"Colour", "Own colours", "", "cloth texture", colored(std::nullopt)});
+  for (const FieldInfo& field : particle_fields())
+    if (why_not_colored(app, field.field).empty())
+      list.push_back({"Colour", std::string(field.title), std::string(field.unit),
+                      std::string(field.name) + " color cloth", colored(field.field)});
 }
 
 /// The kind of thing stands before its name, unless all are of one.
@@ -193,6 +209,7 @@ std::vector<PaletteEntry> palette_entries(App& app) {
   add_integrators(list);
   add_constants(app, list);
   add_views(list);
+  add_colors(app, list);
   return list;
 }
 

@@ -34,6 +34,10 @@ void particle_panel(App& app);
 float particle_panel_height(const App& app);
 void plots_panel(App& app, const Region& region);
 void viewport_panel(App& app, const Region& region);
+/// The list of what can colour the cloth, at the cursor, and the legend of what does.
+void color_menu(App& app);
+float color_menu_width(const App& app);
+void color_legend(App& app);
 /// What is drawn over the cloth: markers, arrows, PAUSED.
 void viewport_overlay(App& app);
 void banner(App& app);

@@ -60,6 +60,8 @@ constexpr Feature features[] = {
     {"plot data", "Collected only for plots that are seen, and while the cloth moves.",
      [](const App& a) { return (a.ui.plots.forces_shown || a.ui.plots.height_shown) && !a.ui.plots.paused; },
      Spent::frame, Part::sample},
+    {"colours", "What colours the cloth: worked out only where it is shown, when something moved.",
+     [](const App& a) { return shown_colors(a) != nullptr; }, Spent::frame, Part::colors},
     {"normals", "Only views 1 and 3 have light.", [](const App& a) { return cloth(a) && a.view.lit(); }, Spent::frame,
      Part::normals},
     {"upload",
@@ -173,6 +175,8 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   }
   facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
+  const std::string without = app.effects.words();
+  facts.push_back({"left out of the picture", without.empty() ? "nothing" : without});
   const std::size_t copied = app.costs.last_copied();
   facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B, shared memory"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});

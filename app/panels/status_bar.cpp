@@ -35,7 +35,7 @@ void status_bar(App& app, const Region& region) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImFont& font = *app.fonts.small;
   const float y = std::round(region.at.y + (region.size.y - font.FontSize) / 2), margin = app.theme.px(16);
-  char facts[128] = "";
+  char facts[256] = "";
   const Lattice& lattice = app.simulation->lattice();
   if (app.engine_search.in_work()) {
     std::snprintf(facts, sizeof facts, "Measuring the engines …");
@@ -51,6 +51,8 @@ void status_bar(App& app, const Region& region) {
                          app.view.every);
     if (torn > 0)
       n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d spring%s torn", torn, torn == 1 ? "" : "s");
+    if (const std::string without = app.effects.words(); !without.empty())
+      n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · drawn without %s", without.c_str());
     if (app.asleep()) std::snprintf(facts + n, sizeof facts - std::size_t(n), " · at rest: asleep until touched");
   } else {
     std::snprintf(facts, sizeof facts, "one weight");

@@ -58,7 +58,7 @@ struct Plots {
 
 /// A question or a file dialog over everything else.
 struct Dialog {
-  enum class Kind { none, open, save, export_csv, texture, unsaved, large_cloth };
+  enum class Kind { none, open, save, export_csv, texture, picture, unsaved, large_cloth };
   Kind kind = Kind::none;
   bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
@@ -69,6 +69,7 @@ struct Dialog {
   bool enter = false;           ///< Enter was pressed in this frame
   bool path_follows = false;    ///< the path is made from the name until it is edited
   bool overwrite = false;       ///< the file exists, and the user is asked
+  bool whole_window = false;    ///< of picture
   CsvSource csv{};              ///< of export_csv
   std::optional<Request> then;  ///< of a question: what follows a yes
   std::string question;

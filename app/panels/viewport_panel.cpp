@@ -26,8 +26,9 @@ void view_buttons(App& app, const Region& region) {
     for (const char* label : labels) sum += text_width(*app.fonts.text, label) + 2 * app.theme.px(11) + 1;
     return sum;
   };
-  const bool roomy = width(view_names) < room;
-  const float padding = roomy || width(numbers) < room ? 11.f : 4.f;
+  const float gap = app.theme.px(12), beside = gap + color_menu_width(app);
+  const bool roomy = width(view_names) + beside < room;
+  const float padding = roomy || width(numbers) + beside < room ? 11.f : 4.f;
   const ImVec2 lo{region.at.x + margin, region.at.y + app.theme.px(12)};
   ImGui::SetCursorScreenPos(lo);
   const int mode = app.wished().mode;
@@ -35,13 +36,16 @@ void view_buttons(App& app, const Region& region) {
       k >= 0 && k + 1 != mode)
     set_mode(app, k + 1);
   tooltip(app, gui::item_id(), "How the cloth is drawn (2.4)", "Keys 1 to 5");
-  const ImVec2 hi = ImGui::GetItemRectMax();
+  ImVec2 hi = ImGui::GetItemRectMax();
+  ImGui::SetCursorScreenPos({hi.x + gap, lo.y});
+  color_menu(app);
+  hi.x += beside;
   cover_viewport(app, lo, hi);
   if (mode != 2) return;
   const char* label = "Bending springs";
-  const float box = text_width(*app.fonts.text, label) + app.theme.px(24), gap = app.theme.px(16);
-  const bool beside = hi.x + gap + box < region.at.x + region.size.x - margin;
-  const ImVec2 at = beside ? ImVec2(hi.x + gap, lo.y) : ImVec2(lo.x, hi.y + app.theme.px(6));
+  const float box = text_width(*app.fonts.text, label) + app.theme.px(24);
+  const bool fits = hi.x + gap + box < region.at.x + region.size.x - margin;
+  const ImVec2 at = fits ? ImVec2(hi.x + gap, lo.y) : ImVec2(lo.x, hi.y + app.theme.px(6));
   ImGui::SetCursorScreenPos(at);
   if (check(app, label, app.view.bending)) app.view.bending = !app.view.bending;
   tooltip(app, gui::item_id(), "Draws the bending springs too, in the colour of F_b.");
@@ -99,8 +103,11 @@ void viewport_panel(App& app, const Region& region) {
   if (!begin_region("viewport", region, app.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   pictures(app, draw);
-  viewport_overlay(app);
+  const bool bare = app.picture && !app.picture->whole_window;
+  if (!bare) viewport_overlay(app);
   cloth_names(app, draw);
+  color_legend(app);
+  if (bare) return end_region();
   if (app.wished().kind == Kind::cloth) view_buttons(app, region);
   message_list(app);
   banner(app);

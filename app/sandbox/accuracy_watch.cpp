@@ -15,13 +15,12 @@ constexpr double again = 4;      // s from one study of a moving cloth to the ne
 constexpr double enough = 1e-7;  // m
 constexpr StudyEffort effort{.reference = 1e8, .point = 3e7};
 
-/// Constants without what no motion depends on.
+}  // namespace
+
 Preset moving(Preset preset) {
   preset.mode = 1, preset.texture.clear(), preset.name.clear(), preset.description.clear();
   return preset;
 }
-
-}  // namespace
 
 void AccuracyWatch::drop() {
   work_.drop();

@@ -14,8 +14,11 @@
 #include "app/sandbox/accuracy_watch.h"
 #include "app/sandbox/building.h"
 #include "app/sandbox/clock.h"
+#include "app/sandbox/cloth_colors.h"
 #include "app/sandbox/cloth_views.h"
+#include "app/sandbox/convergence_watch.h"
 #include "app/sandbox/copies.h"
+#include "app/sandbox/effects.h"
 #include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"
@@ -49,6 +52,7 @@ struct App {
   Sleep sleep;
   StabilityWatch stability;
   AccuracyWatch accuracy;
+  ConvergenceWatch convergence;
   MapWatch map;
   Inside inside;
   Rewind rewind;
@@ -64,6 +68,9 @@ struct App {
   Copies copies;
   Camera camera;
   ViewOptions view;
+  ClothColors colors;
+  Effects effects;
+  std::optional<request::SavePicture> picture;  ///< to be taken of this frame
   Viewport viewport;
   Tool tool;
   std::optional<Pins::Site> picked;

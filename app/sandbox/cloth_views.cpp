@@ -22,6 +22,7 @@ glm::vec3 rgb(ImU32 color) {
 ViewOptions view_of(const App& app, const Simulation& cloth, glm::ivec2 size) {
   ViewOptions view = app.view;
   view.mode = app.preset().mode;
+  app.effects.apply(view);
   view.line_width = app.theme.scale * 1.6f;
   view.point_size = app.theme.scale * 9;
   view.longest_edge = cloth.divergence() ? float(calm_stretch * cloth.preset().L) : 0.f;
@@ -71,19 +72,27 @@ bool ClothViews::take_ghosts(App& app, glm::ivec2 size) {
   return moved;
 }
 
-void ClothViews::draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved) {
+double ClothViews::draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved) {
   Simulation& cloth = cloth_in_tile(app, tile);
-  const Drawn now{&cloth, cloth.revision(), app.camera, view_of(app, cloth, size), size};
-  if (now == drawn_[std::size_t(tile)] && !app.redraw_cloth && !ghosts_moved) return;
+  Drawn now{&cloth, cloth.revision(), app.camera, view_of(app, cloth, size), size};
+  const FieldColors* colors = shown_colors(app);
+  if (colors != nullptr) now.values = app.colors.version(tile);
+  if (now.values > 0) now.view.colored = colors->range();
+  if (now == drawn_[std::size_t(tile)] && !app.redraw_cloth && !ghosts_moved) return 0;
   ClothRenderer& its = renderer(app, tile);
   if (tile > 0 || !app.building.holds_present()) its.lend_memory(cloth);
   its.update(cloth, now.view);
+  if (now.view.colored) app.colors.give(app, tile, its);
+  Duration took;
   {
-    const FrameCosts::Timer timer(app.costs, Part::draw_cloth);
+    const Stopwatch watch(took);
     its.draw(app.camera, now.view, size.x, size.y, ghosts_);
   }
+  app.costs.add(Part::draw_cloth, took);
   count(app.costs, its.take_work());
   drawn_[std::size_t(tile)] = now;
+  // A driver that draws in software makes the program wait; others tell some frames later.
+  return std::max(1e3 * took.wall_s, its.drawn_ms());
 }
 
 void ClothViews::draw(App& app, glm::vec2 magnified) {
@@ -98,7 +107,14 @@ void ClothViews::draw(App& app, glm::vec2 magnified) {
   drawn_.resize(std::size_t(tiles));
   copies_.resize(std::min(copies_.size(), app.copies.lockstep.size()));
   const bool ghosts_moved = take_ghosts(app, size);
-  for (int tile = 0; tile < tiles; ++tile) draw_picture(app, tile, size, ghosts_moved);
+  if (shown_colors(app) != nullptr)
+    for (int tile = 0; tile < tiles; ++tile)
+      app.colors.update(app, tile, drawn_every(cloth_in_tile(app, tile).lattice(), size.x, size.y));
+  if (size != size_) app.effects.disturb();
+  size_ = size;
+  double took = 0;
+  for (int tile = 0; tile < tiles; ++tile) took += draw_picture(app, tile, size, ghosts_moved);
+  if (took > 0) app.effects.drew(took);
   app.redraw_cloth = false;
 }
 

@@ -28,16 +28,19 @@ class ClothViews {
     Camera camera;
     ViewOptions view;
     glm::ivec2 size{0};
+    std::uint64_t values = 0;  ///< ClothColors::version
     bool operator==(const Drawn&) const = default;
   };
   bool take_ghosts(App& app, glm::ivec2 size);
-  void draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved);
+  /// Returns what it took, ms; 0 where the last picture stays.
+  double draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved);
   ClothRenderer& renderer(App& app, int tile);
 
   std::vector<std::unique_ptr<ClothRenderer>> copies_;  ///< of copies; the original's is App::renderer
   std::vector<Drawn> drawn_;                            ///< by picture
   std::vector<Ghost> ghosts_;
   std::vector<std::uint64_t> ghost_revisions_;
+  glm::ivec2 size_{0};  ///< of a picture
 };
 
 }  // namespace tyglab

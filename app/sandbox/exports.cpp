@@ -5,6 +5,7 @@
 #include "app/panels/curves.h"
 #include "app/sandbox/app.h"
 #include "core/notation/preset_io.h"
+#include "core/output/values_csv.h"
 
 namespace tyglab {
 namespace {
@@ -13,21 +14,21 @@ std::string series(const App& app, const Series& of, const std::vector<std::stri
   return of.csv(names, "tyglab series, t in s, preset hash " + preset_hash(app.preset()));
 }
 
-std::string forces(const App& app) {
+std::string forces(App& app) {
   return series(app, app.ui.plots.forces, force_column_names());
 }
 
-std::string height(const App& app) {
+std::string height(App& app) {
   return series(app, app.ui.plots.height, height_column_names());
 }
 
-std::string map(const App& app) {
+std::string map(App& app) {
   const auto known = app.map.findings();
   return known ? map_csv(known->of, known->cells) : map_csv(app.preset(), {});
 }
 
 /// Cloths that are not there keep their empty columns.
-std::string copies(const App& app) {
+std::string copies(App& app) {
   const bool energy = app.copies.plotted == Copies::Quantity::energy;
   std::vector<std::string> names;
   for (int n = Copies::original; n < int(Lockstep::most); ++n) {
@@ -40,14 +41,29 @@ std::string copies(const App& app) {
   return series(app, energy ? app.copies.energy : app.copies.distance, names);
 }
 
+std::string convergence(App& app) {
+  return convergence_csv(app.convergence.study().value_or(Convergence{.of = app.preset()}));
+}
+
+std::string values(App& app) {
+  Simulation* reference = app.copies.lockstep.empty() ? nullptr : &cloth_of(app, app.copies.reference);
+  return values_csv(*app.simulation, reference);
+}
+
 }  // namespace
 
 const CsvExport& csv_export(CsvSource source) {
-  static constexpr std::array<CsvExport, 4> exports{
-      {{"Write the forces as CSV", "forces.csv", forces},
-       {"Write the height of the weight as CSV", "height.csv", height},
-       {"Write the map of stiffness and dt as CSV", "map.csv", map},
-       {"Write what the copies' plot holds as CSV", "copies.csv", copies}}};
+  static constexpr const char* a_plot =
+      "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.";
+  static constexpr std::array<CsvExport, 6> exports{
+      {{"Write the forces as CSV", a_plot, "forces.csv", forces},
+       {"Write the height of the weight as CSV", a_plot, "height.csv", height},
+       {"Write the map of stiffness and dt as CSV", "One row for each short run, units in the header.", "map.csv", map},
+       {"Write what the copies' plot holds as CSV", a_plot, "copies.csv", copies},
+       {"Write every particle's values as CSV",
+        "One row for each particle as it is now, one column for each quantity that can colour the cloth.", "values.csv",
+        values},
+       {"Write the convergence as CSV", "One row for each dt, units in the header.", "convergence.csv", convergence}}};
   return exports[std::size_t(source)];
 }
 

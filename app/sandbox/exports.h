@@ -9,8 +9,9 @@ namespace tyglab {
 
 struct CsvExport {
   const char* title;  ///< of the dialog
+  const char* holds;  ///< a sentence
   const char* file;   ///< proposed
-  std::string (*text)(const App& app);
+  std::string (*text)(App& app);
 };
 
 const CsvExport& csv_export(CsvSource source);

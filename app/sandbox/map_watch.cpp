@@ -12,8 +12,7 @@ constexpr double settles = 0.3;  // s after the last change of constants
 /// Constants without what the map has on its axes, and without what no motion depends on.
 Preset mapped(Preset preset) {
   preset.k_s = preset.k = preset.dt = 1;
-  preset.mode = 1, preset.texture.clear(), preset.name.clear(), preset.description.clear();
-  return preset;
+  return moving(std::move(preset));
 }
 
 bool holds(const MapGrid& grid, const Preset& preset) {

@@ -217,6 +217,28 @@ void next_theme(App& app) {
   app.scale_changed = app.redraw_cloth = true;
 }
 
+/// Opens the card that shows it, where it is measured from the present moment on.
+void show_convergence(App& app) {
+  Layout& layout = app.settings.layout;
+  layout.right = app.ui.panels = true;
+  layout.folded.erase("Accuracy");
+  app.convergence.drop();
+  app.convergence.shown = true;
+}
+
+/// All effects however long they take, or as many as the machine draws in time.
+void toggle_effects(App& app) {
+  const bool all = app.effects.wish != Effects::Wish::all;
+  app.effects.wish = all ? Effects::Wish::all : Effects::Wish::automatic;
+  app.settings.all_effects = all;
+}
+
+/// Remembered for the next session.
+void color_by(App& app, std::optional<ParticleField> field) {
+  app.colors.choose(field);
+  app.settings.color = field ? info(*field).name : "";
+}
+
 void apply(App& app, const request::Do& what) {
   switch (what.command) {
     case Command::restart:
@@ -282,6 +304,18 @@ void apply(App& app, const request::Do& what) {
       return open_export(app, CsvSource::map);
     case Command::export_copies:
       return open_export(app, CsvSource::copies);
+    case Command::export_values:
+      return open_export(app, CsvSource::values);
+    case Command::export_convergence:
+      return open_export(app, CsvSource::convergence);
+    case Command::measure_convergence:
+      return show_convergence(app);
+    case Command::toggle_effects:
+      return toggle_effects(app);
+    case Command::save_picture:
+      return open_dialog(app, Dialog::Kind::picture);
+    case Command::next_color:
+      return color_by(app, next_field(app));
     case Command::full_screen:
       app.toggle_full_screen = true;
       return;
@@ -359,6 +393,15 @@ void apply(App& app, const request::AddCopy& what) {
 
 void apply(App& app, const request::RemoveCopy& what) {
   remove_copy(app, what.index);
+}
+
+void apply(App& app, const request::ColorBy& what) {
+  color_by(app, what.field);
+}
+
+/// Taken where the frame is drawn.
+void apply(App& app, const request::SavePicture& what) {
+  app.picture = what;
 }
 
 void apply(App& app, const request::Quit& what) {

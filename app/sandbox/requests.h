@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "core/edit.h"
+#include "core/fields/particle_field.h"
 
 namespace tyglab {
 
@@ -45,11 +47,17 @@ enum class Command {
   smaller_text,
   normal_text,
   next_theme,
+  next_color,
+  export_values,
+  measure_convergence,
+  export_convergence,
+  toggle_effects,
+  save_picture,
   quit,
 };
 
 /// What a CSV file is written from (exports.h), in its order.
-enum class CsvSource { forces, height, map, copies };
+enum class CsvSource { forces, height, map, copies, values, convergence };
 
 namespace request {
 /// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.
@@ -81,6 +89,11 @@ struct WriteCsv {
   std::filesystem::path file;
   CsvSource source = CsvSource::forces;
 };
+/// A PNG of the window, or of the viewport with what its colours mean and without buttons.
+struct SavePicture {
+  std::filesystem::path file;
+  bool whole_window = false;
+};
 struct LoadTexture {
   std::string name;  ///< shipped name or path
 };
@@ -92,14 +105,18 @@ struct AddCopy {
 struct RemoveCopy {
   std::size_t index;
 };
+/// What colours the cloth: none, its own look.
+struct ColorBy {
+  std::optional<ParticleField> field;
+};
 struct Quit {
   bool confirmed = false;
 };
 }  // namespace request
 
-using Request =
-    std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
-                 request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy, request::Quit>;
+using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
+                             request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy,
+                             request::ColorBy, request::SavePicture, request::Quit>;
 
 struct App;
 /// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.

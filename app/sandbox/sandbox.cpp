@@ -66,6 +66,7 @@ class Sandbox {
   void draw_cloth();
   void draw_panels();
   void present();
+  void save_picture();
   int write_outputs();
   void remember();
   bool idle() const;
@@ -291,9 +292,27 @@ void Sandbox::present() {
     glClear(GL_COLOR_BUFFER_BIT);
     gui_.draw();
   }
+  if (app_.picture) return save_picture();
   if (frames_ + 1 == options_.frames && !options_.screenshot.empty()) last_picture_ = window_.pixels();
   const FrameCosts::Timer timer(app_.costs, Part::swap);
   glfwSwapBuffers(window_.handle());
+}
+
+/// Of the frame that has just been drawn, which is not shown: the viewport has no buttons in it.
+void Sandbox::save_picture() {
+  const request::SavePicture wanted = *std::exchange(app_.picture, std::nullopt);
+  busy_frames_ = 2;
+  Image image = window_.pixels();
+  if (!wanted.whole_window) {
+    const glm::vec2 scale = glm::vec2(image.width, image.height) / glm::vec2(window_.size());
+    image = cropped(image, glm::round(app_.viewport.box.lo * scale), glm::round(app_.viewport.box.hi * scale));
+  }
+  try {
+    write_png(wanted.file, image);
+    app_.messages.note("Wrote " + wanted.file.string());
+  } catch (const OutputError& error) {
+    app_.messages.error(error.what());
+  }
 }
 
 void Sandbox::frame() {
@@ -334,7 +353,8 @@ void Sandbox::frame_parts() {
   watch_lab(app_);
   draw_cloth();
   draw_panels();
-  if (!app_.ui.accuracy_shown) app_.accuracy.drop();
+  if (!app_.ui.accuracy_shown || app_.convergence.shown) app_.accuracy.drop();
+  if (!app_.ui.accuracy_shown || !app_.convergence.shown) app_.convergence.drop();
   if (!app_.ui.map_shown) app_.map.drop();
   if (!app_.ui.inside_shown) app_.inside.drop();
   present();

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "app/sandbox/effects.h"
+#include "core/fields/particle_field.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -19,6 +22,8 @@ struct SandboxOptions {
   std::filesystem::path screenshot;      ///< PNG of the last frame, empty: none
   std::filesystem::path time_report;     ///< JSON of the frame's cost by part, empty: none
   std::filesystem::path session_report;  ///< JSON of what goes on, rewritten all the time, empty: none
+  std::optional<ParticleField> color;    ///< what colours the cloth; none: as in the last session
+  std::optional<Effects::Wish> effects;  ///< none: all with `frames`, else as in the last session
   int width = 0, height = 0;             ///< of the window; 0: as in the last session
 };
 

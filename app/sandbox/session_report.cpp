@@ -124,6 +124,17 @@ Json accuracy(const App& app) {
   return json;
 }
 
+/// What is known of the order of convergence; null while nothing is.
+Json convergence(const App& app) {
+  const auto study = app.convergence.study();
+  if (!study) return nullptr;
+  const auto order = measured_order(*study);
+  return {{"points", study->points.size()},
+          {"t", study->t},
+          {"order", order ? Json(order->order) : Json(nullptr)},
+          {"done", study->done}};
+}
+
 /// The lab in work; null without one.
 Json lab(const App& app) {
   if (!app.labs.run) return nullptr;
@@ -154,6 +165,17 @@ Json copies(const App& app) {
   return list;
 }
 
+/// What colours the cloth, and where its scale ends; null where nothing does.
+Json colors(const App& app) {
+  const FieldColors* shown = shown_colors(app);
+  if (shown == nullptr) return nullptr;
+  const auto& marked = app.colors.under_pointer;
+  return {{"field", info(shown->field).name},
+          {"top", shown->top()},
+          {"fixed", shown->fixed.has_value()},
+          {"marked", marked ? Json(*marked) : Json(nullptr)}};
+}
+
 /// The step that is written out; null where none is.
 Json inside(const App& app) {
   const StepTrace* trace = app.inside.shown();
@@ -178,8 +200,8 @@ std::string_view name_of(Tool::Kind kind) {
 }
 
 std::string_view name_of(Dialog::Kind kind) {
-  static constexpr std::string_view names[] = {"none",    "open",    "save",       "export_csv",
-                                               "texture", "unsaved", "large_cloth"};
+  static constexpr std::string_view names[] = {"none",    "open",    "save",    "export_csv",
+                                               "texture", "picture", "unsaved", "large_cloth"};
   return names[std::size_t(kind)];
 }
 
@@ -195,6 +217,7 @@ void add_simulation(Json& json, const App& app) {
   json["auto_dt"] = app.auto_dt.has_value();
   json["energy"] = energy(app);
   json["accuracy"] = accuracy(app);
+  json["convergence"] = convergence(app);
   json["copies"] = copies(app);
   const auto map = app.map.findings();
   json["map_cells"] = map ? Json(map->cells.size()) : Json(nullptr);
@@ -213,6 +236,8 @@ void add_simulation(Json& json, const App& app) {
   json["inside"] = inside(app);
   json["held"] = held(app);
   json["view"] = app.preset().mode;
+  json["colors"] = colors(app);
+  json["effects_left_out"] = app.effects.left_out();
 }
 
 void add_window(Json& json, const App& app) {

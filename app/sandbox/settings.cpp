@@ -108,6 +108,8 @@ Settings settings_from(const Json& json) {
   settings.ui_scale = settings.ui_scale > 0 ? std::clamp(settings.ui_scale, 0.5, 3.0) : 1;
   all.take("theme", settings.theme);
   all.take("plot_log", settings.plot_log);
+  all.take("color", settings.color);
+  all.take("all_effects", settings.all_effects);
   all.take("tour_seen", settings.tour_seen);
   all.take("labs", settings.labs);
   if (all.has("layout")) settings.layout = layout_from(all.section("layout"));
@@ -136,6 +138,8 @@ Json to_json(const Settings& settings) {
   json["ui_scale"] = settings.ui_scale;
   json["theme"] = settings.theme;
   json["plot_log"] = settings.plot_log;
+  json["color"] = settings.color;
+  json["all_effects"] = settings.all_effects;
   json["tour_seen"] = settings.tour_seen;
   json["labs"] = settings.labs;
   const Layout& layout = settings.layout;

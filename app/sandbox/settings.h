@@ -36,6 +36,8 @@ struct Settings {
   std::string theme = "dark";  ///< a Look's name
   Layout layout;
   bool plot_log = false;
+  bool all_effects = false;  ///< however slow they are to draw
+  std::string color;         ///< name of the field that colours the cloth; empty: none
   bool tour_seen = false;
   std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<Session> session;

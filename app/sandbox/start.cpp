@@ -33,6 +33,9 @@ App start_app(const SandboxOptions& options) {
   // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
   if (app.scripted) app.settings.width = 2560, app.settings.height = 1440;
   app.ui.plots.log = app.settings.plot_log;
+  const bool all = app.scripted || app.settings.all_effects;  // the same frames come on every machine
+  app.effects.wish = options.effects.value_or(all ? Effects::Wish::all : Effects::Wish::automatic);
+  app.colors.choose(options.color ? options.color : field_called(app.settings.color));
   app.costs.started(StartPart::settings);
   if (!options.session_report.empty()) app.report = std::make_unique<SessionReport>(options.session_report);
   return app;

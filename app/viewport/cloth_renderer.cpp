@@ -8,19 +8,21 @@
 
 #include "app/viewport/cloth_mesh.h"
 #include "app/viewport/cloth_texture.h"
+#include "app/viewport/draw_timer.h"
 #include "app/viewport/drawn_cloth.h"
 #include "app/viewport/gl_objects.h"
 #include "app/viewport/render_target.h"
 #include "app/viewport/shadow_map.h"
 #include "app/viewport/solid_mesh.h"
 #include "app/viewport/staging.h"
+#include "app/viewport/value_texture.h"
 #include "app/viewport/weight_model.h"
 
 namespace tyglab {
 namespace {
 
 const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
-constexpr int texture_unit = 0, shadow_unit = 1;
+constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3;
 constexpr float ghost_opacity = 0.9f;
 constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
 
@@ -34,6 +36,14 @@ struct FrameBlock {
 
 /// What cloths of one window share.
 struct ClothRenderer::Shared {
+  /// What only a cloth needs that is coloured by values.
+  struct Colored {
+    gl::Program cloth{{"cloth.vert", "cloth.frag", {}, "COLORED"}};
+    gl::Program lines{{"lines.vert", "lines.frag", "lines.geom", "COLORED"}};
+    gl::Program points{{"points.vert", "points.frag", {}, "COLORED"}};
+    ValueTexture map{GL_LINEAR};
+  };
+
   gl::Program background{{"background.vert", "background.frag"}};
   gl::Program ground{{"ground.vert", "ground.frag"}};
   gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
@@ -47,6 +57,7 @@ struct ClothRenderer::Shared {
   gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
   ClothTexture texture;
   SolidMesh sphere{sphere_geometry(64, 40)};
+  std::optional<Colored> colored;  ///< made when they are first asked for
   std::shared_ptr<PositionLoans> loans = std::make_shared<PositionLoans>();
 };
 
@@ -59,6 +70,8 @@ struct ClothRenderer::Parts {
   WeightModel weight_model;
   ShadowMap shadow;
   RenderTarget target;
+  ValueTexture values{GL_NEAREST};
+  DrawTimer timer;
 
   Preset preset;
   Bounds box;     ///< of all that casts shadows
@@ -83,7 +96,9 @@ struct ClothRenderer::Parts {
   void draw_bodies(const ViewOptions& options);
   void draw_weight(const ViewOptions& options);
   void draw_triangles(const ViewOptions& options);
-  void draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width);
+  const gl::Program& use(const gl::Program& plain, const gl::Program* colored, const ViewOptions& options);
+  void draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width);
+  void draw_bending(const ViewOptions& options);
   void draw_points(const ViewOptions& options);
   void draw_marks(const ViewOptions& options);
   void draw_ghost(const Parts& other, glm::vec3 colour, float width);
@@ -188,7 +203,7 @@ void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& o
   block.clip_from_world = projection * camera.view();
   block.shadow_from_world = ShadowMap::fit(box.empty() ? framed : box, to_light);
   block.eye = glm::vec4(camera.eye(), 0.5f * float(height) * projection[1][1]);
-  block.to_light = glm::vec4(to_light, options.shadows ? 1 : 0);
+  block.to_light = glm::vec4(to_light, !options.shadows ? 0 : options.soft_shadows ? 1 : 2);
   block.viewport = glm::vec4(width, height, glm::length(extent) / ShadowMap::size, ground_y);
   block.focus = glm::vec4(centre, radius);
   block.background_top = glm::vec4(options.palette.background_top, 1);
@@ -282,37 +297,59 @@ void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
   shared->solid.set("own_light", 0.0f);
 }
 
+/// Uses a program: of a coloured cloth the second one, with what colours it.
+const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl::Program* colored,
+                                             const ViewOptions& options) {
+  const gl::Program& program = options.colored && colored != nullptr ? *colored : plain;
+  program.use();
+  if (&program == &plain) return plain;
+  const ValueRange& range = *options.colored;
+  program.set("stride", mesh.stride());
+  program.set("values", values_unit);
+  program.set("color_map", colors_unit);
+  program.set("value_range", glm::vec2(range.lo, 1 / std::max(range.hi - range.lo, 1e-30f)));
+  return program;
+}
+
 void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
   const Lattice& lattice = mesh.lattice();
   const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
-  shared->cloth.use();
-  shared->cloth.set("cloth", texture_unit);
-  shared->cloth.set("shadow_map", shadow_unit);
-  shared->cloth.set("stride", mesh.stride());
-  shared->cloth.set("texture_step", 1.0f / steps);
-  shared->cloth.set("hem", options.palette.hem);
-  shared->cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
+  const gl::Program& cloth = use(shared->cloth, shared->colored ? &shared->colored->cloth : nullptr, options);
+  cloth.set("cloth", texture_unit);
+  cloth.set("shadow_map", shadow_unit);
+  cloth.set("stride", mesh.stride());
+  cloth.set("texture_step", 1.0f / steps);
+  cloth.set("hem", options.palette.hem);
+  cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
   mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
 }
 
-void ClothRenderer::Parts::draw_lines(ClothMesh::List list, glm::vec3 colour, float opacity, float width) {
-  shared->lines.use();
-  shared->lines.set("spacing", spacing());
-  shared->lines.set("max_width", width);
-  shared->lines.set("ink", glm::vec4(colour, opacity));
+void ClothRenderer::Parts::draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width) {
+  const gl::Program& lines = use(shared->lines, shared->colored ? &shared->colored->lines : nullptr, options);
+  lines.set("spacing", spacing());
+  lines.set("max_width", width);
+  lines.set("ink", glm::vec4(options.palette.lines, opacity));
   glEnable(GL_BLEND);
   mesh.draw(list, GL_LINES);
   glDisable(GL_BLEND);
 }
 
+/// In a colour of their own, whatever colours the cloth.
+void ClothRenderer::Parts::draw_bending(const ViewOptions& options) {
+  ViewOptions own = options;
+  own.colored.reset();
+  own.palette.lines = options.palette.bending;
+  draw_lines(ClothMesh::List::bending, own, 1, 0.6f * options.line_width);
+}
+
 void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
-  shared->points.use();
-  shared->points.set("spacing", spacing());
-  shared->points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
-  shared->points.set("towards", 0.0f);
-  shared->points.set("ink", glm::vec4(options.palette.points, 1));
-  shared->points.set("rim", 0.0f);
-  shared->points.set("ring", 0.0f);
+  const gl::Program& points = use(shared->points, shared->colored ? &shared->colored->points : nullptr, options);
+  points.set("spacing", spacing());
+  points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
+  points.set("towards", 0.0f);
+  points.set("ink", glm::vec4(options.palette.points, 1));
+  points.set("rim", 0.0f);
+  points.set("ring", 0.0f);
   glEnable(GL_BLEND);
   mesh.draw(ClothMesh::List::particles, GL_POINTS);
   glDisable(GL_BLEND);
@@ -362,19 +399,18 @@ void ClothRenderer::Parts::draw_opaque(const ViewOptions& options) {
 }
 
 void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
-  const Palette& colours = options.palette;
   const float width = options.line_width;
   switch (options.mode) {
     case 2:
-      draw_lines(ClothMesh::List::diagonal, colours.lines, 0.5f, 0.7f * width);
-      draw_lines(ClothMesh::List::straight, colours.lines, 1, width);
-      if (options.bending) draw_lines(ClothMesh::List::bending, colours.bending, 1, 0.6f * width);
+      draw_lines(ClothMesh::List::diagonal, options, options.colored ? 0.8f : 0.5f, 0.7f * width);
+      draw_lines(ClothMesh::List::straight, options, 1, width);
+      if (options.bending) draw_bending(options);
       break;
     case 3:
-      draw_lines(ClothMesh::List::connections, colours.lines, 1, width);
+      draw_lines(ClothMesh::List::connections, options, 1, width);
       break;
     case 4:
-      draw_lines(ClothMesh::List::outlines, colours.lines, 1, width);
+      draw_lines(ClothMesh::List::outlines, options, 1, width);
       break;
     case 5:
       draw_points(options);
@@ -383,6 +419,17 @@ void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
       break;
   }
   draw_marks(options);
+}
+
+void ClothRenderer::set_values(std::span<const float> values, int rows, int columns) {
+  const Stopwatch watch(parts_->work.upload);
+  parts_->values.take(values, rows, columns);
+}
+
+void ClothRenderer::set_color_map(std::span<const std::uint32_t> colors) {
+  Shared& shared = *parts_->shared;
+  if (!shared.colored) shared.colored.emplace();
+  shared.colored->map.take(colors);
 }
 
 void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int width, int height,
@@ -396,18 +443,21 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glBlendEquation(GL_FUNC_ADD);
 
+  p.timer.begin();
   p.fill_frame(camera, options, width, height);
   p.draw_shadow(options);
   p.target.begin(width, height, options.samples);
   glClear(GL_DEPTH_BUFFER_BIT);
   p.shared->texture.bind(texture_unit);
   p.shadow.bind(shadow_unit);
+  if (options.colored && p.shared->colored) p.values.bind(values_unit), p.shared->colored->map.bind(colors_unit);
   p.draw_opaque(options);
   p.draw_background();
   if (options.ground) p.draw_ground(options);
   if (!p.one_weight()) p.draw_blended(options);
   for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.colour, options.line_width);
   p.target.resolve();
+  p.timer.end();
   p.mesh.drawn();
   for (const Ghost& ghost : ghosts) ghost.cloth->parts_->mesh.drawn();
 
@@ -419,11 +469,14 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
 unsigned ClothRenderer::texture_id() const {
   return parts_->target.texture();
 }
+double ClothRenderer::drawn_ms() {
+  return parts_->timer.ms();
+}
 RenderWork ClothRenderer::take_work() {
   return std::exchange(parts_->work, {});
 }
 std::size_t ClothRenderer::bytes() const {
-  return parts_->mesh.bytes() + parts_->drawn.bytes() + parts_->shared->loans->bytes();
+  return parts_->mesh.bytes() + parts_->drawn.bytes() + parts_->values.bytes() + parts_->shared->loans->bytes();
 }
 Image ClothRenderer::pixels() const {
   return parts_->target.pixels();

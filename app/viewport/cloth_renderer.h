@@ -1,6 +1,7 @@
 // Draws a simulation: cloth (or one weight), bodies, ground, in the five views of 2.4. OpenGL 3.3 core.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <glm/vec3.hpp>
@@ -43,12 +44,19 @@ inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f
                                        .highlight = {0.0f, 0.0f, 0.0f},
                                        .body = {0.545f, 0.569f, 0.608f}};
 
+/// Which values the ends of the colour map stand for.
+struct ValueRange {
+  float lo = 0, hi = 1;
+  bool operator==(const ValueRange&) const = default;
+};
+
 /// How the viewport shows things. Widths and sizes in pixels of the target.
 struct ViewOptions {
   int mode = 1;          ///< 1 triangles, 2 connections, 3 both, 4 outlines, 5 points
   bool bending = false;  ///< bending springs too, in view 2
   bool ground = true;
   bool shadows = true;
+  bool soft_shadows = true;  ///< with soft edges
   Palette palette;
   float line_width = 1.6f;  ///< the thickest; lines get thinner where they are dense
   float point_size = 9;     ///< the largest; points get smaller where they are dense
@@ -58,6 +66,8 @@ struct ViewOptions {
   float longest_edge = 0;
   int every = 1;    ///< draws every so many rows and columns: cloth finer than the picture (drawn_every)
   int samples = 4;  ///< multisampling, 1: none
+  /// The cloth has the colours of its particles' values (set_values), not its own.
+  std::optional<ValueRange> colored;
   /// Whether the view shows surfaces of the cloth, which need normals and cast shadows.
   bool lit() const { return mode == 1 || mode == 3; }
   bool operator==(const ViewOptions&) const = default;
@@ -112,12 +122,19 @@ class ClothRenderer {
   /// The same without a Simulation. `topology_changed`: lattice, tears or pins differ from last time.
   void update(const ClothScene& scene, const ViewOptions& options, bool topology_changed);
 
+  /// What colours this cloth: a value of each particle that is drawn, row after row. One that is not a number is grey.
+  void set_values(std::span<const float> values, int rows, int columns);
+  /// The colours from the least value to the greatest, as bytes red, green, blue, opacity; siblings have the same.
+  void set_color_map(std::span<const std::uint32_t> colors);
+
   /// Draws into its own multisampled target of that size (pixels) and resolves it. Restores framebuffer and viewport.
   void draw(const Camera& camera, const ViewOptions& options, int width, int height,
             std::span<const Ghost> ghosts = {});
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
+  /// What the graphics card took for the last drawing that it has told of, ms: a frame or two ago; 0 before that.
+  double drawn_ms();
   /// What was done since the last call.
   RenderWork take_work();
   /// Of the buffers that grow with the cloth, and what is lent to siblings' engines too.

@@ -1,10 +1,10 @@
 // Of a cloth that is finer than the picture, as much as is worth drawing.
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "app/viewport/cloth_renderer.h"
+#include "core/cloth/drawn_sites.h"
 
 namespace tyglab {
 
@@ -22,14 +22,12 @@ class DrawnCloth {
   std::size_t bytes() const { return positions_.capacity() * sizeof(float); }
 
  private:
-  int row(int i) const { return std::min(i * every_, whole_.rows - 1); }
-  int column(int j) const { return std::min(j * every_, whole_.columns - 1); }
   void take_positions(const PositionView& view);
   void take_tears(const Tears& tears);
   bool torn_between(const Tears& tears, int direction, int i, int j) const;
 
-  int every_ = 0;
-  Lattice whole_, lattice_;
+  DrawnSites sites_{{}, 0};
+  Lattice lattice_;
   Tears tears_;
   std::vector<float> positions_;  ///< laid out as an engine's: a row's x, its y, its z
 };

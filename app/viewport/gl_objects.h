@@ -107,6 +107,7 @@ class Program {
  public:
   struct Files {
     std::string_view vertex, fragment, geometry = {};
+    std::string_view define = {};  ///< a name that all of them see as defined
   };
   /// Throws GraphicsError with the compiler's log, DataFileError if a file is missing.
   explicit Program(const Files& files);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <glm/common.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -80,6 +81,16 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     throw OutputError("The picture " + file.string() + " could not be made: is there memory left?");
   }
   write_output(file, bytes);
+}
+
+Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi) {
+  lo = glm::max(lo, glm::ivec2(0)), hi = glm::min(hi, glm::ivec2(image.width, image.height));
+  Image part{std::max(hi.x - lo.x, 0), std::max(hi.y - lo.y, 0), {}};
+  for (int y = lo.y; y < hi.y; ++y) {
+    const auto row = image.rgb.begin() + std::ptrdiff_t(3) * (std::ptrdiff_t(y) * image.width + lo.x);
+    part.rgb.insert(part.rgb.end(), row, row + std::ptrdiff_t(3) * part.width);
+  }
+  return part;
 }
 
 Image read_image(const std::filesystem::path& file) {

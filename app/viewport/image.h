@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Image {
 
 /// Writes a PNG whole or not at all, or to standard output ("-"). Throws OutputError (core/notation/preset_io.h).
 void write_png(const std::filesystem::path& file, const Image& image);
+
+/// The part between two corners, pixels from the upper left one; what lies outside the picture is left out.
+Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi);
 
 /// Reads PNG, JPEG, BMP or TGA (transparency is laid over white). At most 8192 pixels a side and 64 MB as a file.
 /// Throws std::runtime_error with a sentence that names the file and the cure.

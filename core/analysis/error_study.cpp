@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "core/analysis/accuracy.h"
+#include "core/analysis/study_run.h"
 #include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
 
@@ -21,54 +22,17 @@ std::string reference_method(const Preset& preset) {
   return preset.k_d > 0 ? "rk4" : "rkn4";
 }
 
-double particles(const Preset& preset) {
-  return preset.kind == Kind::one_weight ? 1 : double(preset.rows) * preset.columns;
-}
-
-/// Force evaluations of a step; what an implicit method needs is not known before.
-double evaluations_of(const Scheme& scheme, const Preset& preset) {
-  if (projects(scheme)) return 1 + preset.iterations;
-  return is_implicit(scheme) ? 20 : double(scheme.sweeps.size());
-}
-
-/// The simulation with those settings, at the start of the study.
-std::unique_ptr<Simulation> begin(const StudyStart& start, const Preset& preset) {
-  Preset on_cpu = preset;
-  on_cpu.engine = EngineKind::cpu;  // the only one that has every method, and whose time is this thread's
-  auto simulation = std::make_unique<Simulation>(on_cpu);
-  if (start.from) simulation->restore(*start.from);
-  return simulation;
-}
-
-/// Makes `steps` steps in short pieces, so that a stop is soon heard.
-void advance(Simulation& simulation, int steps, const Stop& stop) {
-  const Preset& preset = simulation.preset();
-  const double a_step = particles(preset) * evaluations_of(scheme(preset.integrator), preset);
-  const int portion = is_implicit(scheme(preset.integrator)) ? 1 : std::max(1, int(1e6 / a_step));
-  for (int left = steps; left > 0 && !simulation.divergence(); left -= portion) {
-    if (stop()) throw Stopped();
-    simulation.advance(std::min(left, portion));
-  }
-}
-
 Track follow(const StudyStart& start, const Preset& preset, int steps, const Stop& stop) {
-  const auto of = begin(start, preset);
+  const auto of = begin_study(start, preset);
   Simulation& simulation = *of;
   Track track;
   for (int n = 0; n < accuracy_samples; ++n) {
-    advance(simulation, steps, stop);
+    advance_study(simulation, steps, stop);
     if (simulation.divergence())
       throw std::runtime_error("the motion cannot be followed: " + simulation.divergence()->cause);
     track.push_back(positions_of(simulation));
   }
   return track;
-}
-
-/// A dt of which a whole number makes a part of the study, the largest at most that.
-double whole_dt(double seconds, double dt, int& steps) {
-  const double part = seconds / accuracy_samples;
-  steps = std::max(1, int(std::ceil(part / dt - 1e-9)));
-  return part / steps;
 }
 
 }  // namespace
@@ -80,7 +44,7 @@ StudyReference study_reference(const StudyStart& start, double seconds, const St
   preset.precision = Precision::double_, preset.integrator = reference_method(preset);
   const double coarse = std::clamp(stable_dt(preset, "verlet") / finer, least_dt, longest);
   // Two runs, the second of twice the steps.
-  const double a_second = 3 * particles(preset) * double(scheme(preset.integrator).sweeps.size()) / coarse;
+  const double a_second = 3 * step_effort(preset) / coarse;
   seconds = std::min(seconds, effort.reference / a_second);
   // Comparing where the present dt ends its steps judges the settings as they are.
   constexpr double patience = 4;  // times the effort, for a long dt
@@ -109,13 +73,13 @@ ErrorPoint measure_point(const StudyStart& start, const StudyReference& referenc
   ErrorPoint point{preset.integrator, preset.precision, preset.dt, chooses ? preset.tolerance : 0};
   double took = std::numeric_limits<double>::infinity();
   for (int run = 0; run < (took < short_run ? 3 : 1); ++run) {
-    const auto of = begin(start, preset);
+    const auto of = begin_study(start, preset);
     Simulation& simulation = *of;
     Track track;
     double now = 0;
     for (int n = 0; n < accuracy_samples && !simulation.divergence(); ++n) {
       const double before = thread_seconds();
-      advance(simulation, steps, stop);
+      advance_study(simulation, steps, stop);
       now += thread_seconds() - before;
       track.push_back(positions_of(simulation));
     }
@@ -164,7 +128,7 @@ std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& ref
   std::vector<ErrorPoint> points;
   Preset& preset = start.preset;
   if (!coarsest(preset, reference.seconds)) return points;
-  const double a_step = particles(preset) * evaluations_of(scheme(preset.integrator), preset);
+  const double a_step = step_effort(preset);
   int no_better = 0;
   double best = std::numeric_limits<double>::infinity();
   do {

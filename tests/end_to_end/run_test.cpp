@@ -53,6 +53,44 @@ TEST_CASE("--engine auto says what it chose and why, to people and to programs")
   CHECK(nlohmann::json::parse(test::read_file(folder / "r.json"))["engine_choice"].is_null());
 }
 
+TEST_CASE("--values writes what can colour the cloth, a row per particle") {
+  const test::TemporaryFolder folder;
+  good(folder.path(), {"run", "hanging", "--seconds", "0.2", "--values", "v.csv", "--state", "s.csv"});
+  const auto rows = test::lines(test::read_file(folder / "v.csv")),
+             states = test::lines(test::read_file(folder / "s.csv"));
+  REQUIRE(rows.size() == 2 + 32 * 32);
+  CHECK(rows[0].starts_with("# tyglab values, t = 0.2"));
+  CHECK(rows[1] == "i,j,tension [N],strain,speed [m/s],kinetic [J]");
+  const auto value = [](const std::string& row, std::size_t column) {
+    return std::strtod(test::split(row, ',')[column].c_str(), nullptr);
+  };
+  CHECK(value(rows[2], 2) > 0.01);  // the pinned corner holds the cloth and rests
+  CHECK(value(rows[2], 4) == 0);
+  CHECK(value(rows[700], 5) == doctest::Approx(0.0003 / 2 * std::pow(value(rows[700], 4), 2)).epsilon(1e-5));
+  const auto weight = good(folder.path(), {"run", "one_weight", "--steps", "9", "--values", "-"});
+  CHECK(test::lines(weight.out)[1] == "i,j,speed [m/s],kinetic [J]");
+}
+
+TEST_CASE("render --color adds colours and a legend, and refuses what it cannot show") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> same{"render", "hanging", "--seconds", "0.2", "--size", "320x180"};
+  const auto picture = [&](std::vector<std::string> more) {
+    std::vector<std::string> all = same;
+    all.insert(all.end(), more.begin(), more.end());
+    all.insert(all.end(), {"--png", "p.png"});
+    good(folder.path(), all);
+    return test::read_file(folder / "p.png");
+  };
+  const std::string plain = picture({}), tension = picture({"--color", "tension"}),
+                    strain = picture({"--color", "strain"});
+  CHECK(plain != tension);
+  CHECK(tension != strain);
+  CHECK(picture({}) == plain);
+  auto refused = same;
+  refused.insert(refused.end(), {"--color", "distance", "--png", "q.png"});
+  CHECK(test::tyglab(folder.path(), refused).code == 2);
+}
+
 TEST_CASE("a run twice writes the same bytes, and from any folder") {
   const test::TemporaryFolder a, b;
   for (const auto* folder : {&a, &b}) {

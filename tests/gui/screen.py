@@ -53,6 +53,27 @@ class Picture:
             count += sum(distance(a, b) > threshold for a, b in zip(self.row(y), other.row(y)))
         return count / (self.width * self.height)
 
+    @classmethod
+    def read(cls, file):
+        """A PNG of eight bits a channel, three of them, not interlaced."""
+        with open(file, "rb") as source:
+            data = source.read()
+        at, packed = 8, b""
+        while at < len(data):
+            length, name = struct.unpack(">I4s", data[at:at + 8])
+            body = data[at + 8:at + 8 + length]
+            if name == b"IHDR":
+                width, height, depth, colours = struct.unpack(">IIBB", body[:10])
+                assert (depth, colours) == (8, 2), "a PNG of three bytes a pixel is expected"
+            packed += body if name == b"IDAT" else b""
+            at += 12 + length
+        lines, size, rows, above = zlib.decompress(packed), 3 * width, [], bytes(3 * width)
+        for y in range(height):
+            start = y * (size + 1)
+            above = unfiltered(lines[start], bytearray(lines[start + 1:start + 1 + size]), above)
+            rows.append(above)
+        return cls(width, height, b"".join(rows))
+
     def save(self, file):
         """Writes a PNG: filter 0 on every row, one block."""
 
@@ -65,6 +86,23 @@ class Picture:
         with open(file, "wb") as out:
             out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows, 6)) +
                       chunk(b"IEND", b""))
+
+
+def unfiltered(kind, row, above):
+    """A row of a PNG of three bytes a pixel, from what stands in the file and the row above."""
+    for k in range(len(row) if kind else 0):
+        left, up, corner = (row[k - 3], above[k], above[k - 3]) if k >= 3 else (0, above[k], 0)
+        if kind == 1:
+            guess = left
+        elif kind == 2:
+            guess = up
+        elif kind == 3:
+            guess = (left + up) // 2
+        else:
+            p = left + up - corner
+            guess = min((abs(p - left), 0, left), (abs(p - up), 1, up), (abs(p - corner), 2, corner))[2]
+        row[k] = (row[k] + guess) & 255
+    return bytes(row)
 
 
 def distance(a, b):

@@ -1,5 +1,7 @@
 """The cards that say how stable and how exact the present settings are."""
 
+import os
+
 from cases import case, check, main
 from sandbox import k_s
 
@@ -19,6 +21,34 @@ def error(stage):
     sandbox.wait(lambda r: r["accuracy"] and (r["accuracy"]["error_rms_m"] or 1) < 2e-6, "the error of a tenth of dt")
     sandbox.click_control("plots.Accuracy")
     sandbox.wait(lambda r: r["accuracy"] is None, "the work to end with the card")
+
+
+@case
+def convergence(stage):
+    """the other side of the accuracy card measures the order beside the frames, and writes it as CSV"""
+    sandbox = stage.start("taut_sheet", "--integrator", "rk4")
+    sandbox.key("ctrl+p")
+    sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
+    sandbox.type("order of conv")
+    sandbox.later(3)
+    sandbox.key("Return")
+    report = sandbox.wait(lambda r: r["convergence"] and r["convergence"]["done"], "the order to be measured")
+    check(report["convergence"]["points"] == 5, "dt to dt/16")
+    check(report["convergence"]["order"] is not None, "an order")
+    check(report["accuracy"] is None, "the card's other side rests")
+    stage.keep("convergence", still=True)
+    sandbox.click_control("plots.csv_convergence")
+    sandbox.wait(lambda r: r["dialog"] == "export_csv" and r["typing"], "the dialog")
+    file = os.path.join(sandbox.own.name, "convergence.csv")
+    sandbox.key("ctrl+a")
+    sandbox.type(file)
+    sandbox.key("Return")
+    sandbox.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+    with open(file) as written:
+        lines = written.read().splitlines()
+    check(lines[1] == "dt [s],error [m],difference to dt/2 [m],status" and len(lines) == 7, "a row for each dt")
+    sandbox.click_control("plots.accuracy_ways.1")
+    sandbox.wait(lambda r: r["convergence"] is None and r["accuracy"], "the errors to come back")
 
 
 @case

@@ -1,0 +1,112 @@
+#include "app/charts/color_legend.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/panels/numbers.h"
+#include "app/panels/symbol.h"
+
+namespace tyglab {
+namespace {
+
+// Lengths at scale 1.
+constexpr float width = 248, height = 74, padding = 14, bar_top = 32, bar_height = 12, ticks_top = 52;
+
+/// The leading digit of a round number.
+int lead(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value) + 1e-9));
+  return int(std::lround(value / power));
+}
+
+void draw_bar(const PlotPaint& paint, ImVec2 lo, ImVec2 hi, const ColorMap& map) {
+  constexpr int strips = 48;
+  for (int k = 0; k < strips; ++k) {
+    const auto edge = [&](int n) { return lo.x + (hi.x - lo.x) * float(n) / strips; };
+    const ImU32 left = map_color(map, double(k) / strips), right = map_color(map, double(k + 1) / strips);
+    paint.draw.AddRectFilledMultiColor({edge(k), lo.y}, {edge(k + 1), hi.y}, left, right, right, left);
+  }
+}
+
+void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLegend& legend) {
+  const Tokens& c = paint.theme.colors;
+  const ImFont& font = *paint.fonts.text;
+  const float baseline = baseline_at(paint.fonts, std::round(lo.y + paint.theme.px(17)));
+  float x = lo.x;
+  const auto say = [&](const ImFont& with, ImU32 color, std::string_view text) {
+    draw_on_baseline(paint.draw, with, {x, baseline}, color, text);
+    x += text_width(with, text);
+  };
+  say(font, c.text, legend.field.title);
+  x += paint.theme.px(6);
+  if (!legend.field.symbol.empty()) {
+    draw_symbol(paint.draw, paint.fonts, {x, baseline}, legend.field.symbol, c.text);
+    x += symbol_width(paint.fonts, legend.field.symbol);
+  }
+  if (!legend.field.unit.empty())
+    say(font, c.quiet, (legend.field.symbol.empty() ? "" : ", ") + std::string(legend.field.unit));
+  if (!legend.marked) return;
+  const std::string value = steady_number(*legend.marked);
+  draw_on_baseline(paint.draw, *paint.fonts.mono, {right - text_width(*paint.fonts.mono, value), baseline}, c.text,
+                   value);
+}
+
+}  // namespace
+
+std::vector<PlotTick> legend_ticks(const FieldInfo& field, double top) {
+  std::vector<double> ticks;
+  if (field.is_signed) {
+    ticks = {-top, 0, top};
+  } else {
+    const int parts = lead(top) == 3 ? 3 : 2;
+    for (int k = 0; k <= parts; ++k) ticks.push_back(top * k / parts);
+  }
+  return labelled(ticks);
+}
+
+std::string legend_words(const FieldInfo& field) {
+  std::string words(field.title);
+  if (!field.symbol.empty()) words += " " + std::string(field.symbol);
+  if (!field.unit.empty()) words += ", " + std::string(field.unit);
+  return words;
+}
+
+ImVec2 legend_size(const Theme& theme) {
+  return {theme.px(width), theme.px(height)};
+}
+
+ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& legend) {
+  const Theme& theme = paint.theme;
+  const Tokens& c = theme.colors;
+  const ImVec2 size = legend_size(theme);
+  paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.75f), theme.px(6));
+  const float pad = theme.px(padding);
+  const ImVec2 lo{at.x + pad, at.y + theme.px(bar_top)}, hi{at.x + size.x - pad, lo.y + theme.px(bar_height)};
+  draw_heading(paint, {lo.x, at.y}, hi.x, legend);
+  draw_bar(paint, lo, hi, legend.map);
+  if (legend.beyond) {  // the ends are arrows
+    const float middle = (lo.y + hi.y) / 2, tip = theme.px(6);
+    paint.draw.AddTriangleFilled({hi.x, lo.y}, {hi.x + tip, middle}, {hi.x, hi.y}, map_color(legend.map, 1));
+    if (legend.field.is_signed)
+      paint.draw.AddTriangleFilled({lo.x, hi.y}, {lo.x - tip, middle}, {lo.x, lo.y}, map_color(legend.map, 0));
+  }
+  const PlotScale scale{legend.field.is_signed ? -legend.top : 0, legend.top};
+  const auto place = [&](double value) {
+    return std::round(lo.x + float(std::clamp(scale.at(value), 0.0, 1.0)) * (hi.x - lo.x));
+  };
+  const ImFont& small = *paint.fonts.small;
+  const std::vector<PlotTick> ticks = legend_ticks(legend.field, legend.top);
+  for (const PlotTick& tick : ticks) {
+    const float x = place(tick.at), half = text_width(small, tick.label) / 2;
+    paint.draw.AddLine({x, hi.y}, {x, hi.y + theme.px(3)}, c.quiet);
+    if (&tick == &ticks.back() && !legend.top_is_drawn) continue;
+    const float left = std::clamp(x - half, lo.x - pad / 2, hi.x + pad / 2 - 2 * half);
+    draw_text(paint.draw, small, {std::round(left), at.y + theme.px(ticks_top)}, c.text, tick.label);
+  }
+  if (legend.marked) {
+    const float x = place(*legend.marked), r = theme.px(5);
+    paint.draw.AddTriangleFilled({x - r, lo.y - r}, {x + r, lo.y - r}, {x, lo.y + r / 2}, c.text);
+  }
+  return {hi.x + pad / 2, at.y + theme.px(ticks_top)};
+}
+
+}  // namespace tyglab

@@ -1,0 +1,34 @@
+// What a coloured cloth's colours mean: quantity, symbol, unit, the colours and the values that they stand for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/charts/color_map.h"
+#include "app/charts/plot.h"
+#include "core/fields/particle_field.h"
+
+namespace tyglab {
+
+struct ColorLegend {
+  const FieldInfo& field;
+  ColorMap map;
+  double top = 1;                     ///< of the scale, which begins at 0, or at -top where values have a sign
+  std::optional<double> marked = {};  ///< a value that is marked and said
+  bool beyond = false;                ///< the ends stand for what is beyond them too
+  bool top_is_drawn = true;           ///< otherwise the number at the scale's end is left to who calls
+};
+
+/// The values that are written under the colours.
+std::vector<PlotTick> legend_ticks(const FieldInfo& field, double top);
+/// "Tension F_s, N": the heading without typesetting.
+std::string legend_words(const FieldInfo& field);
+
+/// Its size, px.
+ImVec2 legend_size(const Theme& theme);
+/// Draws it with its upper left corner there, on a ground of its own. Returns where the number at the scale's end
+/// belongs: its upper right corner.
+ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& legend);
+
+}  // namespace tyglab

@@ -1,0 +1,27 @@
+// Dear ImGui without a window: for pictures that are written to files.
+#pragma once
+
+#include "app/panels/fonts.h"
+#include "app/panels/theme.h"
+#include "app/viewport/image.h"
+
+namespace tyglab {
+
+/// Lives in the OpenGL context that is current; one at a time. What is drawn goes into draw(), and pixels() ends it.
+class PictureGui {
+ public:
+  PictureGui(ImVec2 size, const Theme& theme);
+  ~PictureGui();
+  PictureGui(const PictureGui&) = delete;
+  PictureGui& operator=(const PictureGui&) = delete;
+  const Fonts& fonts() const { return fonts_; }
+  ImDrawList& draw() const;
+  /// The picture. Throws GraphicsError.
+  Image pixels() const;
+
+ private:
+  ImVec2 size_;
+  Fonts fonts_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,80 @@
+// What colours the cloth: the list to choose from, and the legend in the viewport's corner.
+#include <algorithm>
+
+#include "app/charts/color_legend.h"
+#include "app/panels/imgui_compat.h"
+#include "app/panels/numbers.h"
+#include "app/panels/panels.h"
+#include "app/panels/slider.h"
+#include "app/panels/symbol.h"
+#include "app/panels/widgets.h"
+#include "app/sandbox/commands.h"
+
+namespace tyglab {
+namespace {
+
+void choice(App& app, std::optional<ParticleField> field, const char* title, const char* help) {
+  const auto& chosen = app.colors.chosen;
+  const std::string why = field ? why_not_colored(app, *field) : "";
+  const bool now = field == (chosen ? std::optional(chosen->field) : std::nullopt);
+  if (ImGui::Selectable(title, now, why.empty() ? 0 : ImGuiSelectableFlags_Disabled))
+    app.request(request::ColorBy{field});
+  report_control(app, std::string("colour.") + (field ? std::string(info(*field).name) : "none"));
+  tooltip(app, gui::item_id(), why.empty() ? help : why.c_str());
+}
+
+/// The number at the end of the scale, which can be typed: the scale is then fixed until nothing is typed.
+void top_cell(App& app, FieldColors& colors, ImVec2 upper_right) {
+  const FieldInfo& field = info(colors.field);
+  const float width = app.theme.px(70), height = app.theme.px(18);
+  ImGui::SetCursorScreenPos({upper_right.x - width, upper_right.y - app.theme.px(2)});
+  const SliderResult typed =
+      value_cell(app, "colour top", colors.top(), short_number(rounded(colors.top(), 4)), width, height, field.unit);
+  report_control(app, "colour_top");
+  tooltip(app, gui::item_id(),
+          colors.fixed ? "The scale ends here, as it was typed. Double-click and type 0 for an automatic scale."
+                       : "The scale follows the greatest value. Double-click to type where it is to end.");
+  if (!typed.changed) return;
+  colors.fixed.reset();
+  if (typed.value > 0) colors.fixed = typed.value;
+}
+
+}  // namespace
+
+float color_menu_width(const App& app) {
+  return app.theme.px(124);
+}
+
+void color_menu(App& app) {
+  const FieldColors* shown = shown_colors(app);
+  const std::string title = shown != nullptr ? std::string(info(shown->field).title) : "Own colours";
+  const float width = color_menu_width(app);
+  if (begin_combo(app, "##colour", fitted(*app.fonts.text, title, width - app.theme.px(34)).c_str(), width)) {
+    choice(app, std::nullopt, "Own colours", "The cloth's texture in the scene's light.");
+    for (const FieldInfo& field : particle_fields())
+      choice(app, field.field, std::string(field.title).c_str(), std::string(field.help).c_str());
+    end_combo();
+  } else {
+    tooltip(app, gui::item_id(), "What colours the cloth", row_of(Command::next_color).keys);
+  }
+}
+
+void color_legend(App& app) {
+  const FieldColors* shown = shown_colors(app);
+  if (shown == nullptr) return;
+  const ImVec2 size = legend_size(app.theme);
+  const float margin = app.theme.px(16);
+  // Above the names that copies have at the foot of their pictures.
+  const float names = app.copies.lockstep.empty() ? 0 : app.fonts.text->FontSize + app.theme.px(16);
+  const glm::vec2 corner = app.viewport.box.hi;
+  const ImVec2 at{std::max(corner.x - margin - size.x, app.viewport.box.lo.x), corner.y - margin - names - size.y};
+  if (at.y < app.viewport.box.lo.y) return;
+  const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
+  const ColorLegend legend{info(shown->field), shown->map(light_ground(app)),
+                           shown->top(),       app.colors.under_pointer,
+                           shown->beyond(),    false};
+  top_cell(app, *app.colors.chosen, draw_color_legend(paint, at, legend));
+  cover_viewport(app, at, {at.x + size.x, at.y + size.y});
+}
+
+}  // namespace tyglab

@@ -1,0 +1,59 @@
+// The order that a method shows in a scene: its error with dt, dt/2, dt/4, …, and the slope through them.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/analysis/error_study.h"
+
+namespace tyglab {
+
+/// dt, dt/2, …, dt/16.
+inline constexpr int convergence_levels = 5;
+
+struct ConvergencePoint {
+  double dt = 0;                 ///< s
+  double error_rms_m = 0;        ///< over all particles and times of comparison; infinite where the run diverged
+  double difference_rms_m = -1;  ///< how far the run with dt/2 is from this one; below 0: not known
+  bool told = true;              ///< false: the error is under ten times what the references differ by
+};
+
+/// What is known of a scene's convergence so far.
+struct Convergence {
+  Preset of;                 ///< the constants
+  double t = 0;              ///< s, where the motion that is compared begins
+  double seconds = 0;        ///< how long it is
+  StudyReference reference;  ///< without its track; of no agreement where there is none
+  bool referenced = false;   ///< otherwise the motion could not be followed finely, and only differences are known
+  std::vector<ConvergencePoint> points;  ///< coarsest first
+  int torn = 0;                          ///< springs that the finest run tore
+  bool done = false;
+  std::string problem;  ///< why there is nothing
+};
+
+/// A slope through points.
+struct MeasuredOrder {
+  double order = 0;
+  double coarsest = 0, finest = 0;  ///< dt of the points that it goes through, s
+  bool by_differences = false;      ///< of runs from each other, for want of a reference (Richardson)
+};
+
+/// The order of the method for that scene's damping, as its table says of smooth motion.
+int nominal_order(const Preset& preset);
+/// Through the finest points that can be told, four at most, by least squares of logarithms; through the differences
+/// where there is no reference. None while there are fewer than two points.
+std::optional<MeasuredOrder> measured_order(const Convergence& study);
+/// What came out and what spoils it, in sentences: of a study that is done.
+std::string convergence_words(const Convergence& study);
+
+/// Measures all, in double, so that rounding does not hide the order; tells `found` what it knows after every run.
+/// `seconds`: of motion, at most. Throws Stopped. What else can go wrong becomes the study's problem.
+void measure_convergence(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop,
+                         const std::function<void(const Convergence&)>& found);
+
+/// A row for each dt.
+std::string convergence_csv(const Convergence& study);
+
+}  // namespace tyglab

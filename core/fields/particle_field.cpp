@@ -1,0 +1,191 @@
+#include "core/fields/particle_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/fields/spring_fields.h"
+
+namespace tyglab {
+namespace {
+
+constexpr std::array<FieldInfo, 5> infos{
+    {{ParticleField::tension, "tension", "Tension", "F_s", "N", false,
+      "The largest force of the stretch springs at a particle: a spring tears where it exceeds F_max."},
+     {ParticleField::strain, "strain", "Strain", "", "", true,
+      "How much longer (or, below 0, shorter) than at rest the stretch springs at a particle are, in the mean."},
+     {ParticleField::speed, "speed", "Speed", "v", "m/s", false, "How fast a particle moves."},
+     {ParticleField::kinetic, "kinetic", "Kinetic energy", "", "J", false, "m v²/2 of a particle."},
+     {ParticleField::distance, "distance", "Distance from the reference", "", "m", false,
+      "How far a particle is from where the same particle of the reference copy is."}}};
+
+/// What the springs say of one row of particles: of each of the eight directions those that are whole.
+template <class R>
+class RowOfSprings {
+ public:
+  RowOfSprings(const Preset& preset, const Tears& tears, const PositionView& view)
+      : p_(preset), tears_(tears), lattice_(tears.lattice()), view_(view), values_(size()), counts_(size()) {}
+
+  /// Values of the row's particles, valid until the next call.
+  const R* read(ParticleField field, int i) {
+    std::fill(values_.begin(), values_.end(), R(0));
+    if (field == ParticleField::strain) std::fill(counts_.begin(), counts_.end(), R(0));
+    for (int d = 0; d < stretch_directions; ++d) {
+      add(field, i, d, true);
+      add(field, i, d, false);
+    }
+    if (field == ParticleField::strain)
+      for (std::size_t j = 0; j < size(); ++j) values_[j] /= std::max(counts_[j], R(1));
+    return values_.data();
+  }
+
+ private:
+  std::size_t size() const { return std::size_t(lattice_.columns); }
+  const R* const* components() const {
+    if constexpr (sizeof(R) == sizeof(float))
+      return view_.f;
+    else
+      return view_.d;
+  }
+
+  /// The springs of direction d that particles of row i own, or else those that end at them.
+  void add(ParticleField field, int i, int d, bool owns) {
+    const Direction& to = directions[std::size_t(d)];
+    const int di = owns ? to.di : -to.di, dj = owns ? to.dj : -to.dj;  // to the other end
+    if (i + di < 0 || i + di >= lattice_.rows) return;
+    const std::size_t row = std::size_t(i) * std::size_t(view_.stride);
+    const R* const* x = components();
+    FieldSprings<R> springs{{x[0] + row, x[1] + row, x[2] + row},
+                            std::ptrdiff_t(di) * view_.stride + dj,
+                            std::max(0, -dj),
+                            lattice_.columns - std::max(0, dj),
+                            p_.k_s,
+                            to.rest * p_.L};
+    const std::uint8_t* masks = tears_.row(owns ? i : i + di);
+    if (masks == nullptr) return take(field, springs);
+    const int owner = owns ? 0 : dj;  // columns from a particle to the owner
+    const int end = springs.end;
+    for (int j = springs.begin; j < end;) {  // from tear to tear
+      int next = j;
+      while (next < end && (masks[next + owner] >> d & 1) != 0) ++next;
+      springs.begin = j, springs.end = next;
+      if (next > j) take(field, springs);
+      j = next + 1;
+    }
+  }
+
+  void take(ParticleField field, const FieldSprings<R>& springs) {
+    if (field == ParticleField::tension) return take_tension(springs, values_.data());
+    add_strain(springs, values_.data());
+    for (int j = springs.begin; j < springs.end; ++j) counts_[std::size_t(j)] += 1;
+  }
+
+  const Preset& p_;
+  const Tears& tears_;
+  const Lattice& lattice_;
+  const PositionView& view_;
+  std::vector<R> values_, counts_;
+};
+
+template <class R>
+void read_springs(ParticleField field, const Simulation& cloth, const DrawnSites& sites, float* to) {
+  const PositionView view = cloth.positions();
+  RowOfSprings<R> row(cloth.preset(), cloth.tears(), view);
+  for (int i = 0; i < sites.rows(); ++i) {
+    const R* values = row.read(field, sites.row(i));
+    for (int j = 0; j < sites.columns(); ++j) *to++ = float(values[sites.column(j)]);
+  }
+}
+
+/// value(p) of each site's particle, by its index in a dense state.
+template <class Value>
+void read_each(const DrawnSites& sites, float* to, const Value& value) {
+  for (int i = 0; i < sites.rows(); ++i) {
+    const std::size_t row = std::size_t(sites.row(i)) * std::size_t(sites.whole.columns);
+    for (int j = 0; j < sites.columns(); ++j) *to++ = float(value(row + std::size_t(sites.column(j))));
+  }
+}
+
+double speed_squared(const State& state, std::size_t p) {
+  const double x = state.v.x[p], y = state.v.y[p], z = state.v.z[p];
+  return x * x + y * y + z * z;
+}
+
+void read_distance(Simulation& cloth, Simulation& reference, const DrawnSites& sites, float* to) {
+  const State &a = cloth.read(), &b = reference.read();
+  const double ahead = &cloth == &reference ? 0 : reference.time() - cloth.time();
+  read_each(sites, to, [&](std::size_t p) {
+    const double x = a.x.x[p] + ahead * a.v.x[p] - b.x.x[p], y = a.x.y[p] + ahead * a.v.y[p] - b.x.y[p],
+                 z = a.x.z[p] + ahead * a.v.z[p] - b.x.z[p];
+    return std::sqrt(x * x + y * y + z * z);
+  });
+}
+
+float usual_size(std::span<const float> values) {
+  constexpr std::size_t most_samples = 5000;
+  constexpr double share = 0.98;
+  std::vector<float> sizes;
+  // An odd step, so that a sample does not stay in a few columns.
+  for (std::size_t p = 0, step = values.size() / most_samples | 1; p < values.size(); p += step)
+    if (std::isfinite(values[p])) sizes.push_back(std::abs(values[p]));
+  if (sizes.empty()) return 0;
+  const auto at = sizes.begin() + std::ptrdiff_t(share * double(sizes.size() - 1));
+  std::nth_element(sizes.begin(), at, sizes.end());
+  return *at;
+}
+
+}  // namespace
+
+std::span<const FieldInfo> particle_fields() {
+  return infos;
+}
+
+const FieldInfo& info(ParticleField field) {
+  return infos[std::size_t(field)];
+}
+
+std::optional<ParticleField> field_called(std::string_view name) {
+  for (const FieldInfo& field : infos)
+    if (field.name == name) return field.field;
+  return std::nullopt;
+}
+
+void read_field(ParticleField field, Simulation& cloth, Simulation* reference, const DrawnSites& sites,
+                std::vector<float>& values) {
+  values.resize(std::size_t(sites.rows()) * std::size_t(sites.columns()));
+  switch (field) {
+    case ParticleField::tension:
+    case ParticleField::strain:
+      return cloth.positions().f[0] != nullptr ? read_springs<float>(field, cloth, sites, values.data())
+                                               : read_springs<double>(field, cloth, sites, values.data());
+    case ParticleField::speed: {
+      const State& state = cloth.read();
+      return read_each(sites, values.data(), [&](std::size_t p) { return std::sqrt(speed_squared(state, p)); });
+    }
+    case ParticleField::kinetic: {
+      const State& state = cloth.read();
+      const double half = cloth.preset().m / 2;
+      return read_each(sites, values.data(), [&](std::size_t p) { return half * speed_squared(state, p); });
+    }
+    case ParticleField::distance:
+      if (reference == nullptr || reference->lattice() != cloth.lattice())
+        return std::fill(values.begin(), values.end(), std::numeric_limits<float>::quiet_NaN());
+      return read_distance(cloth, *reference, sites, values.data());
+  }
+}
+
+std::optional<FieldSpan> span_of(std::span<const float> values) {
+  constexpr float most = std::numeric_limits<float>::max();
+  FieldSpan span{most, -most, 0};
+  for (const float value : values) {
+    const bool finite = std::abs(value) <= most;  // false for NaN too
+    span.least = finite && value < span.least ? value : span.least;
+    span.most = finite && value > span.most ? value : span.most;
+  }
+  if (span.least > span.most) return std::nullopt;
+  span.usual = usual_size(values);
+  return span;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,50 @@
+// One number for each particle, by which the cloth is coloured: what its springs do, how it moves, how far it is from
+// where a reference is.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/cloth/drawn_sites.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+enum class ParticleField { tension, strain, speed, kinetic, distance };
+
+struct FieldInfo {
+  ParticleField field;
+  std::string_view name;    ///< "tension", on the command line and in settings
+  std::string_view title;   ///< "Largest tension"
+  std::string_view symbol;  ///< of the notation table, typeset; empty: none
+  std::string_view unit;    ///< empty: a plain number
+  bool is_signed = false;   ///< less than 0 means something, and 0 is in the middle
+  std::string_view help;    ///< a sentence
+};
+
+/// In the order of the enumerators.
+std::span<const FieldInfo> particle_fields();
+const FieldInfo& info(ParticleField field);
+/// The field of that name; none where none is called so.
+std::optional<ParticleField> field_called(std::string_view name);
+
+/// Works out a field at each of the sites, row after row, with the formulas of the read-out: the largest F_s of the
+/// stretch springs at a particle (N, what F_max is compared with), their mean strain (below 0: shorter than at rest),
+/// speed |v| (m/s), m v²/2 (J), distance to the same particle of `reference` (m, at its time: carried there with the
+/// velocities, as rms_distance()). `reference` is needed by ParticleField::distance alone; without one, or where its
+/// lattice differs, its values are not numbers. Tension and strain look at positions alone, in the engine's own memory.
+void read_field(ParticleField field, Simulation& cloth, Simulation* reference, const DrawnSites& sites,
+                std::vector<float>& values);
+
+/// Between what the values that are numbers lie, and a size that all but two in a hundred of them stay below, by a
+/// sample of some thousands: what is far beyond (a pinned corner) is not to decide a scale.
+struct FieldSpan {
+  float least, most, usual;
+};
+/// None where no value is a number.
+std::optional<FieldSpan> span_of(std::span<const float> values);
+
+}  // namespace tyglab

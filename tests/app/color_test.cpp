@@ -1,0 +1,208 @@
+// Colouring the cloth: the maps, the scale that does not flicker, the legend's words, what the renderer draws and what
+// it costs where it is off.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "app/charts/color_legend.h"
+#include "app/panels/performance.h"
+#include "app/sandbox/app.h"
+#include "app/sandbox/field_colors.h"
+#include "app/viewport/cloth_renderer.h"
+#include "app/viewport/drawn_cloth.h"
+#include "app/viewport/headless_context.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int width = 160, height = 120;
+
+std::array<int, 3> bytes(ImU32 color) {
+  return {int(color & 255), int(color >> 8 & 255), int(color >> 16 & 255)};
+}
+
+/// Lightness of Oklab.
+double lightness(ImU32 color) {
+  std::array<double, 3> c{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double v = bytes(color)[k] / 255.0;
+    c[k] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+  }
+  return 0.2104542553 * std::cbrt(0.4122214708 * c[0] + 0.5363325363 * c[1] + 0.0514459929 * c[2]) +
+         0.7936177850 * std::cbrt(0.2119034982 * c[0] + 0.6806995451 * c[1] + 0.1073969566 * c[2]) -
+         0.0040720468 * std::cbrt(0.0883024619 * c[0] + 0.2817188376 * c[1] + 0.6299787005 * c[2]);
+}
+
+TEST_CASE("magnitudes get evenly lighter; signs get evenly darker on both sides of a pale middle") {
+  for (const bool on_light : {false, true}) {
+    CAPTURE(on_light);
+    const ColorMap magnitude{false, on_light}, sign{true, on_light};
+    const double step = (lightness(map_color(magnitude, 1)) - lightness(map_color(magnitude, 0))) / 8;
+    CHECK(step > 0.05);
+    for (int k = 1; k <= 8; ++k)
+      CHECK(lightness(map_color(magnitude, k / 8.0)) - lightness(map_color(magnitude, (k - 1) / 8.0)) ==
+            doctest::Approx(step).epsilon(0.05));
+    for (int k = 0; k <= 4; ++k)
+      CHECK(lightness(map_color(sign, k / 8.0)) ==
+            doctest::Approx(lightness(map_color(sign, 1 - k / 8.0))).epsilon(0.01));
+    const auto middle = bytes(map_color(sign, 0.5));
+    CHECK(std::abs(middle[0] - middle[2]) < 8);  // neutral
+    // Blue against red, which every kind of colour blindness tells apart.
+    CHECK(bytes(map_color(sign, 0))[2] > bytes(map_color(sign, 0))[0] + 80);
+    CHECK(bytes(map_color(sign, 1))[0] > bytes(map_color(sign, 1))[2] + 80);
+  }
+  CHECK(map_colors({}, 256).size() == 256);
+}
+
+TEST_CASE("the scale grows at once to a round number and shrinks only after a while") {
+  SteadyTop top;
+  CHECK(top.look(0) == 0);
+  CHECK(top.look(0.0123) == doctest::Approx(0.02));
+  CHECK(top.look(0.024) == doctest::Approx(0.03));
+  for (int n = 1; n < SteadyTop::patience; ++n) CHECK(top.look(0.004) == doctest::Approx(0.03));
+  CHECK(top.look(0.004) == doctest::Approx(0.02));
+  for (int n = 0; n < 2 * SteadyTop::patience; ++n) top.look(n % 10 == 0 ? 0.015 : 0.004);  // it is needed now and then
+  CHECK(top.now() == doctest::Approx(0.02));
+  CHECK(top.look(NAN) == doctest::Approx(0.02));
+  CHECK(top.look(7e5) == doctest::Approx(1e6));
+}
+
+TEST_CASE("a fixed scale stays, and a signed one is symmetric") {
+  FieldColors colors{ParticleField::strain};
+  colors.look(FieldSpan{-0.07f, 0.01f, 0.07f});
+  CHECK_FALSE(colors.beyond());
+  CHECK(colors.range() == ValueRange{-0.1f, 0.1f});
+  colors.fixed = 0.25;
+  colors.look(FieldSpan{-2, 2, 2});
+  CHECK(colors.beyond());
+  CHECK(colors.range() == ValueRange{-0.25f, 0.25f});
+  CHECK(FieldColors{ParticleField::speed}.range() == ValueRange{0, 1});
+}
+
+TEST_CASE("the legend names quantity, symbol and unit, with few round numbers") {
+  CHECK(legend_words(info(ParticleField::tension)) == "Tension F_s, N");
+  CHECK(legend_words(info(ParticleField::strain)) == "Strain");
+  const auto labels = [](ParticleField field, double top) {
+    std::string all;
+    for (const PlotTick& tick : legend_ticks(info(field), top)) all += tick.label + " ";
+    return all;
+  };
+  CHECK(labels(ParticleField::tension, 0.2) == "0 0.1 0.2 ");
+  CHECK(labels(ParticleField::speed, 3) == "0 1 2 3 ");
+  CHECK(labels(ParticleField::strain, 0.05) == "-0.05 0 0.05 ");
+}
+
+class Stage {
+ public:
+  Stage() {
+    options_.ground = options_.shadows = false;
+    options_.samples = 1;
+    camera_.yaw = camera_.pitch = 0;
+    camera_.target = {0, 0.9f, 0};
+    camera_.distance = 0.6f;
+    renderer_.set_color_map(map_colors({}, map_size));
+  }
+  Image draw(Simulation& cloth, int mode, std::optional<ValueRange> range, std::span<const float> values = {}) {
+    options_.mode = mode;
+    options_.colored = range;
+    renderer_.update(cloth, options_);
+    if (range) renderer_.set_values(values, cloth.lattice().rows, cloth.lattice().columns);
+    renderer_.draw(camera_, options_, width, height);
+    return renderer_.pixels();
+  }
+
+ private:
+  HeadlessContext context_;
+  ClothRenderer renderer_;
+  ViewOptions options_;
+  Camera camera_;
+};
+
+/// Mean colour of a box in the middle of the left (or right) half of the cloth.
+std::array<double, 3> mean(const Image& image, bool right) {
+  std::array<double, 3> sum{};
+  constexpr int side = 20;
+  const int x0 = width / 2 + (right ? 22 : -22) - side / 2, y0 = height / 2;
+  for (int y = y0; y < y0 + side; ++y)
+    for (int x = x0; x < x0 + side; ++x)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[c] += double(image.rgb[std::size_t(3) * (std::size_t(y) * width + std::size_t(x)) + c]) / (side * side);
+  return sum;
+}
+
+TEST_CASE("values colour the cloth from one end of the map to the other, in every view, and leave no trace when off") {
+  Stage stage;
+  Preset preset = test::quiet_cloth(9, 9);
+  preset.pins.mode = Pins::Mode::none;
+  preset.x_0 = {0, 1.02, 0};
+  Simulation cloth(preset);
+  std::vector<float> values;
+  for (int p = 0; p < 81; ++p) values.push_back(p % 9 < 4 ? 0.f : p % 9 > 4 ? 2.f : 1.f);
+  for (int mode = 1; mode <= 5; ++mode) {
+    CAPTURE(mode);
+    const Image plain = stage.draw(cloth, mode, std::nullopt);
+    const Image colored = stage.draw(cloth, mode, ValueRange{0, 2}, values);
+    CHECK(plain.rgb != colored.rgb);
+    CHECK(stage.draw(cloth, mode, std::nullopt).rgb == plain.rgb);
+    const auto low = mean(colored, false), high = mean(colored, true);
+    CHECK(high[0] > low[0] + (mode == 1 || mode == 3 ? 100 : 10));  // pale yellow against dark blue
+  }
+  // Legible: in the light, a colour is between two thirds of the legend's and the legend's own.
+  const auto high = mean(stage.draw(cloth, 1, ValueRange{0, 2}, values), true);
+  const auto wanted = bytes(map_color({}, 1));
+  CHECK(high[0] <= wanted[0] + 1);
+  CHECK(high[0] >= 0.66 * wanted[0]);
+  CHECK(high[2] / high[0] == doctest::Approx(double(wanted[2]) / wanted[0]).epsilon(0.06));
+  values.assign(81, NAN);
+  const auto grey = mean(stage.draw(cloth, 1, ValueRange{0, 2}, values), true);
+  CHECK(std::abs(grey[0] - grey[2]) < 3);
+}
+
+TEST_CASE("colours are skipped where nothing is coloured, and distance asks for a copy") {
+  App app;
+  app.simulation = std::make_unique<Simulation>(test::cloth(6, 6));
+  const auto activity = [&] {
+    for (const FeatureRow& row : feature_rows(app))
+      if (row.name == "colours") return row.activity;
+    return Activity::asleep;
+  };
+  CHECK(activity() == Activity::skipped);
+  CHECK(next_field(app) == ParticleField::tension);
+  app.colors.choose(ParticleField::speed);
+  CHECK(activity() == Activity::on);
+  CHECK(next_field(app) == ParticleField::kinetic);
+  app.colors.choose(ParticleField::distance);
+  CHECK(activity() == Activity::skipped);
+  CHECK(shown_colors(app) == nullptr);
+  CHECK(why_not_colored(app, ParticleField::distance).find("no copy") != std::string::npos);
+  app.copies.lockstep.add(*app.simulation, {});
+  CHECK(shown_colors(app) != nullptr);
+  CHECK_FALSE(next_field(app).has_value());
+}
+
+TEST_CASE("values are worked out once for a state, and again when it moves or a constant changes") {
+  App app;
+  app.simulation = std::make_unique<Simulation>(test::cloth(6, 6));
+  app.colors.choose(ParticleField::tension);
+  app.colors.update(app, 0, 1);
+  const auto first = app.colors.version(0);
+  app.colors.update(app, 0, 1);
+  CHECK(app.colors.version(0) == first);
+  app.simulation->advance(5);
+  app.colors.update(app, 0, 1);
+  CHECK(app.colors.version(0) == first + 1);
+  const float before = *app.colors.value(0, {0, 0});
+  CHECK(before > 0);
+  Preset stiffer = app.preset();
+  stiffer.k_s *= 2;
+  app.simulation->apply(edit::Change{stiffer});
+  app.colors.update(app, 0, 1);
+  CHECK(*app.colors.value(0, {0, 0}) == doctest::Approx(2 * before));
+  CHECK_FALSE(app.colors.value(0, {9, 0}).has_value());
+}
+
+}  // namespace
+}  // namespace tyglab

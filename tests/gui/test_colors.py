@@ -1,0 +1,116 @@
+"""Colouring the cloth: by key, by list and from the palette; the legend says what colours mean."""
+
+import csv
+import os
+
+from cases import case, check, main
+
+
+def paused(stage, *arguments):
+    """A cloth that has fallen for a moment and stands still."""
+    sandbox = stage.start("hanging", *arguments)
+    sandbox.wait(lambda r: r["t"] > 0.3, "the cloth to fall a little")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["paused"], "the pause")
+    sandbox.rest()
+    return sandbox
+
+
+def middle(report):
+    """A box in the middle of the cloth's picture."""
+    at = [report["particles"][k]["at"] for k in (6, 18)]
+    return at[0][0], at[0][1], at[1][0] - at[0][0], at[1][1] - at[0][1]
+
+
+@case
+def keys(stage):
+    """C goes through what can colour the cloth and back to its own look, which is as it was"""
+    sandbox = paused(stage)
+    report = sandbox.report()
+    box = middle(report)
+    plain = stage.keep("own", still=True)
+    check(report["colors"] is None, "nothing colours the cloth at first")
+    last = plain
+    for name in ("tension", "strain", "speed", "kinetic"):
+        sandbox.key("c")
+        report = sandbox.wait(lambda r: r["colors"] and r["colors"]["field"] == name, f"C to colour by {name}")
+        check(report["colors"]["top"] > 0, "a scale")
+        picture = stage.keep(name, still=True)
+        check(picture.crop(box).differs_from(last.crop(box), 10) > 0.3, f"{name} looks other than what was before")
+        last = picture
+    sandbox.key("c")
+    sandbox.wait(lambda r: r["colors"] is None, "C to come back to the cloth's own look")
+    again = stage.keep("own-again", still=True)
+    x, y, width, height = report["viewport"]
+    part = (x + 8, y + 80, width - 16, height - 90)
+    check(again.crop(part).differs_from(plain.crop(part), 0) == 0, "not a pixel of it has changed")
+
+
+@case
+def legend(stage):
+    """the list chooses a colouring, the value under the pointer is said, and the scale can be typed"""
+    sandbox = paused(stage)
+    sandbox.click_control("viewport.colour")
+    sandbox.wait(lambda r: "menu.colour.speed" in r["controls"], "the list to open")
+    stage.keep("list")
+    sandbox.click_control("menu.colour.speed")
+    report = sandbox.wait(lambda r: r["colors"] and r["colors"]["field"] == "speed", "the choice")
+    check(not report["colors"]["fixed"], "the scale is automatic")
+    at = report["particles"][12]["at"]
+    sandbox.move(*at)
+    sandbox.wait(lambda r: r["colors"]["marked"] is not None, "the value under the pointer")
+    stage.keep("marked")
+    sandbox.rest()
+    x, y, width, height = sandbox.control("viewport.colour_top")
+    sandbox.move(x + width / 2, y + height / 2)
+    sandbox.acted("Ctrl going down", "keydown", "ctrl")
+    sandbox.press()
+    sandbox.release()
+    sandbox.xdotool("keyup", "ctrl")
+    sandbox.wait(lambda r: r["typing"], "the number to become a field")
+    sandbox.later(2)
+    sandbox.type("7")
+    sandbox.key("Return")
+    report = sandbox.wait(lambda r: r["colors"]["fixed"] and r["colors"]["top"] == 7, "the scale to end where it was typed")
+    stage.keep("fixed", still=True)
+
+
+@case
+def copies(stage):
+    """copies are coloured each by its own values on one scale; the distance from the reference needs one"""
+    sandbox = stage.start("hanging", "--color", "distance")
+    check(sandbox.report()["colors"] is None, "without a copy there is nothing to measure from")
+    sandbox.click_control("plots.Copies")
+    sandbox.click_control("plots.add")
+    sandbox.click_control("menu.dt_2_0.002_s")
+    report = sandbox.wait(lambda r: len(r["copies"]) == 1 and r["colors"], "the copy, and the colours with it")
+    check(report["colors"]["field"] == "distance", "the distance colours it")
+    sandbox.wait(lambda r: r["colors"]["top"] < 1 and r["t"] > 1, "a scale for what they are apart")
+    stage.keep("distance")
+
+
+@case
+def values(stage):
+    """every particle's values are written as CSV from the palette"""
+    sandbox = paused(stage)
+    sandbox.key("ctrl+p")
+    sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
+    sandbox.type("particle's values")
+    sandbox.later(3)
+    sandbox.key("Return")
+    sandbox.wait(lambda r: r["dialog"] == "export_csv" and r["typing"], "the dialog")
+    file = os.path.join(sandbox.own.name, "values.csv")
+    sandbox.key("ctrl+a")
+    sandbox.type(file)
+    sandbox.key("Return")
+    sandbox.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+    with open(file) as written:
+        next(written)
+        rows = list(csv.DictReader(written))
+    check(len(rows) == 32 * 32, "a row per particle")
+    check(set(rows[0]) == {"i", "j", "tension [N]", "strain", "speed [m/s]", "kinetic [J]"}, f"columns with units: {rows[0]}")
+    check(float(rows[0]["tension [N]"]) > 0 and float(rows[0]["speed [m/s]"]) == 0, "the pinned corner holds and rests")
+
+
+if __name__ == "__main__":
+    main()
