@@ -16,6 +16,7 @@
 #include "app/sandbox/clock.h"
 #include "app/sandbox/cloth_views.h"
 #include "app/sandbox/copies.h"
+#include "app/sandbox/edits.h"
 #include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"
 #include "app/sandbox/frame_costs.h"

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "app/charts/map_chart.h"
+#include "app/commands/bench_output.h"
 #include "app/panels/curves.h"
 #include "app/sandbox/app.h"
 #include "core/notation/preset_io.h"
@@ -40,14 +42,35 @@ std::string copies(const App& app) {
   return series(app, energy ? app.copies.energy : app.copies.distance, names);
 }
 
+template <std::string (*text)(const App&)>
+void csv(const App& app, const std::filesystem::path& file) {
+  write_atomically(file, text(app));
+}
+
+void map_picture(const App& app, const std::filesystem::path& file) {
+  const auto known = app.map.findings();
+  if (!known) throw OutputError("There is no map yet; open it (M), and let some of it be measured.");
+  const Preset here = at_place(known->of, stiffness_of(app.wished()), app.wished().dt);
+  const Chart page =
+      map_page(app.theme.colors, here, app.document.label, machine_line(), known->grid, known->boundary, known->cells);
+  write_png(file, picture_of({page}, 1));
+}
+
+constexpr const char* rows_of_frames =
+    "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.";
+
 }  // namespace
 
-const CsvExport& csv_export(CsvSource source) {
-  static constexpr std::array<CsvExport, 4> exports{
-      {{"Write the forces as CSV", "forces.csv", forces},
-       {"Write the height of the weight as CSV", "height.csv", height},
-       {"Write the map of stiffness and dt as CSV", "map.csv", map},
-       {"Write what the copies' plot holds as CSV", "copies.csv", copies}}};
+const Export& export_of(ExportSource source) {
+  static constexpr std::array<Export, 5> exports{
+      {{"Write the forces as CSV", "forces.csv", rows_of_frames, csv<forces>},
+       {"Write the height of the weight as CSV", "height.csv", rows_of_frames, csv<height>},
+       {"Write the map of stiffness and dt as CSV", "map.csv",
+        "One row for each cell that has been measured: stiffness, dt, what the short run came to, theory's dt.",
+        csv<map>},
+       {"Write what the copies' plot holds as CSV", "copies.csv", rows_of_frames, csv<copies>},
+       {"Write the map of stiffness and dt as PNG", "map.png", "A picture of the map as far as it has been measured.",
+        map_picture}}};
   return exports[std::size_t(source)];
 }
 

@@ -1,18 +1,20 @@
-// What the sandbox writes as CSV: a row each.
+// What the sandbox writes to files: a row each.
 #pragma once
 
-#include <string>
+#include <filesystem>
 
 #include "app/sandbox/requests.h"
 
 namespace tyglab {
 
-struct CsvExport {
+struct Export {
   const char* title;  ///< of the dialog
   const char* file;   ///< proposed
-  std::string (*text)(const App& app);
+  const char* holds;  ///< what the file will hold, a sentence
+  /// Throws OutputError, GraphicsError.
+  void (*write)(const App& app, const std::filesystem::path& file);
 };
 
-const CsvExport& csv_export(CsvSource source);
+const Export& export_of(ExportSource source);
 
 }  // namespace tyglab
