@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/cloth/lattice.h"
 #include "core/notation/preset.h"
 
 namespace tyglab::edit {
@@ -31,6 +32,11 @@ struct Release {};
 struct Cut {
   std::vector<Pins::Site> sites;
 };
+/// These stretch springs go, and the bending springs over them, wherever the knife went. Sites that are none are
+/// passed over.
+struct CutSprings {
+  std::vector<SpringSite> springs;
+};
 struct Pin {
   int i, j;
   bool pinned;
@@ -44,6 +50,6 @@ struct MoveBody {
 }  // namespace tyglab::edit
 
 namespace tyglab {
-using Edit = std::variant<edit::Change, edit::Restart, edit::Grab, edit::MoveHand, edit::Release, edit::Cut, edit::Pin,
-                          edit::MoveBody>;
+using Edit = std::variant<edit::Change, edit::Restart, edit::Grab, edit::MoveHand, edit::Release, edit::Cut,
+                          edit::CutSprings, edit::Pin, edit::MoveBody>;
 }

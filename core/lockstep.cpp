@@ -69,7 +69,16 @@ void Lockstep::add(Simulation& original, std::vector<std::string> differences, i
   // What equals the original is to equal it after this, to the last bit.
   for (Copy& other : copies_)
     if (!other.simulation->divergence()) other.simulation->restore(other.simulation->snapshot());
-  copies_.push_back({std::move(differences), std::move(copy), {}});
+  copies_.push_back({std::move(differences), std::move(copy), {}, free_seat()});
+}
+
+std::size_t Lockstep::free_seat() const {
+  const auto taken = [&](std::size_t seat) {
+    return std::any_of(copies_.begin(), copies_.end(), [&](const Copy& copy) { return copy.seat == seat; });
+  };
+  std::size_t seat = 0;
+  while (taken(seat)) ++seat;
+  return seat;
 }
 
 std::vector<std::string> Lockstep::apply(const Simulation& original, const Edit& edit) {

@@ -30,6 +30,7 @@ class Lockstep {
     std::vector<std::string> differences;  ///< settings as --set takes them: "integrator=rk4", "dt=0.001"
     std::unique_ptr<Simulation> simulation;
     Cost cost;
+    std::size_t seat = 0;  ///< below `most`, its own as long as it lives, whichever others go
   };
 
   /// Adds a copy that goes on from where the original is. Every cloth is loaded anew from its own state, so that equal
@@ -55,6 +56,7 @@ class Lockstep {
   std::size_t bytes() const;
 
  private:
+  std::size_t free_seat() const;
   std::vector<Copy> copies_;
 };
 

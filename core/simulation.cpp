@@ -36,7 +36,8 @@ bool begin_alike(const Preset& a, const Preset& b) {
 }
 
 Ledger::Source source_of(const Edit& edit) {
-  if (std::holds_alternative<edit::Cut>(edit)) return Ledger::Source::tearing;
+  if (std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit))
+    return Ledger::Source::tearing;
   const bool hand = std::holds_alternative<edit::Grab>(edit) || std::holds_alternative<edit::MoveHand>(edit) ||
                     std::holds_alternative<edit::Release>(edit);
   return hand ? Ledger::Source::hand : Ledger::Source::edits;
@@ -56,6 +57,7 @@ Simulation::~Simulation() = default;
 
 Simulation::Simulation(const Simulation& from)
     : preset_(from.preset_),
+      gusty_(from.gusty_),
       threads_(from.threads_),
       lattice_(from.lattice_),
       tears_(from.tears_),
@@ -78,8 +80,8 @@ void Simulation::build(const Preset& next) {
   Tears whole(lattice);
   std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
   const Fixed fixed{particles_in(pinned_mask), {}};
-  engine_ = made_engine(next, lattice, fixed, start_rows(next), whole);
-  preset_ = next;
+  engine_ = made_engine(next, lattice, fixed, start_rows(next), whole, 0);
+  preset_ = next, gusty_ = in_gusts(next, 0);
   pinned_ = fixed.pinned;
   lattice_ = lattice;
   tears_ = std::move(whole);
@@ -95,10 +97,10 @@ void Simulation::build(const Preset& next) {
   if (watch_) keep_ledger(true);
 }
 
-/// An engine for these constants with that state. Throws EngineError; the present engine goes on then.
+/// An engine for these constants with that state, at time t, s. Throws EngineError; the present engine goes on then.
 std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
-                                                const StateRows& rows, const Tears& tears) const {
-  auto engine = make_engine(next, lattice, threads_);
+                                                const StateRows& rows, const Tears& tears, double t) const {
+  auto engine = make_engine(in_gusts(next, t), lattice, threads_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(fixed.pinned, fixed.held);
   engine->load(rows, tears);
@@ -128,7 +130,8 @@ void Simulation::apply(const Edit& edit) {
   std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [&](const edit::Restart&) { build(preset_); },
                         [&](const edit::Grab& e) { grab(e); }, [&](const edit::MoveHand& e) { move_hand(e); },
                         [&](const edit::Release&) { release(); }, [&](const edit::Cut& e) { cut(e); },
-                        [&](const edit::Pin& e) { pin(e); }, [&](const edit::MoveBody& e) { move_body(e); }},
+                        [&](const edit::CutSprings& e) { cut_springs(e); }, [&](const edit::Pin& e) { pin(e); },
+                        [&](const edit::MoveBody& e) { move_body(e); }},
              edit);
   ++revision_;
   watch_edit(source_of(edit));
@@ -147,8 +150,7 @@ void Simulation::change(const Preset& next) {
     take_engine(next, read());
   } else {
     rebase_time();
-    engine_->set_preset(next, tears_);
-    preset_ = next;
+    take_constants(next);
   }
   take_pins(old);
 }
@@ -160,9 +162,28 @@ bool Simulation::converts(const Preset& next) const {
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {
-  engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_);
+  engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   rebase_time();
-  preset_ = next;
+  preset_ = next, gusty_ = in_gusts(next, time());
+}
+
+/// Constants that the engine takes as it goes.
+void Simulation::take_constants(const Preset& next) {
+  Preset gusty = in_gusts(next, time());
+  engine_->set_preset(gusty, tears_);
+  preset_ = next, gusty_ = std::move(gusty);
+}
+
+/// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
+int Simulation::blow() {
+  const GustSpan span = gust_span(preset_, time());
+  const glm::dvec3 W = span.factor * preset_.W;
+  if (W != gusty_.W) {
+    gusty_.W = W;
+    engine_->set_preset(gusty_, tears_);
+    watch_edit(Ledger::Source::edits);
+  }
+  return span.steps;
 }
 
 void Simulation::take_pins(const Preset& old) {
@@ -210,8 +231,8 @@ void Simulation::restart_untouched(const Preset& next) {
   std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
   const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
   const Fixed fixed{particles_in(pinned_mask), held};
-  engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_);
-  preset_ = next;
+  engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
+  preset_ = next, gusty_ = in_gusts(next, time());
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
@@ -250,6 +271,13 @@ void Simulation::cut(const edit::Cut& e) {
   ++tear_revision_;
 }
 
+void Simulation::cut_springs(const edit::CutSprings& e) {
+  for (const SpringSite& spring : e.springs)
+    if (spring.direction >= 0 && spring.direction < stretch_directions)
+      tears_.tear(spring.direction, spring.i, spring.j);
+  ++tear_revision_;
+}
+
 void Simulation::pin(const edit::Pin& e) {
   if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
   const int p = e.i * lattice_.columns + e.j;
@@ -272,8 +300,7 @@ void Simulation::move_body(const edit::MoveBody& e) {
   else
     body.c = e.c;
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
-  engine_->set_preset(next, tears_);
-  preset_ = next;
+  take_constants(next);
 }
 
 Advance Simulation::advance(int steps) {
@@ -292,6 +319,7 @@ Advance Simulation::advance(int steps) {
 /// As far as the engine goes by itself: what follows from the steps is done.
 Advance Simulation::advance_part(int steps) {
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
+  if (gusts(preset_)) steps = std::min(steps, blow());
   if (watch_) watch_->before_step(preset_, tears_);
   Advance part = engine_->advance(steps, tears_);
   steps_ += part.steps;
@@ -339,9 +367,10 @@ void Simulation::restore(const Snapshot& then) {
   left_inside_ = 0;
   divergence_.reset();
   update_fixed();
-  engine_->load(then.state, tears_);
   steps_ = steps_at_dt_ = then.steps;
   time_at_dt_ = then.t;
+  if (gusts(preset_)) take_constants(preset_);
+  engine_->load(then.state, tears_);
   ++revision_, ++tear_revision_;
   if (watch_) keep_ledger(true);
 }

@@ -10,6 +10,7 @@
 #include "core/edit.h"
 #include "core/energy/energy_watch.h"
 #include "core/engines/engine.h"
+#include "core/forces/gust.h"
 #include "core/forces/readout.h"
 #include "core/notation/preset.h"
 
@@ -53,6 +54,8 @@ class Simulation {
   const Lattice& lattice() const { return lattice_; }
   const Tears& tears() const { return tears_; }
   double time() const;
+  /// The wind that blows now, N: W, or W in its gusts (gust.h).
+  glm::dvec3 wind() const { return acting().W; }
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   /// The constants with which it diverged; of use only while divergence() holds one.
@@ -114,7 +117,11 @@ class Simulation {
     Held held;
   };
   std::unique_ptr<Engine> made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
-                                      const StateRows& rows, const Tears& tears) const;
+                                      const StateRows& rows, const Tears& tears, double t) const;
+  /// The constants that act in this moment: the preset's, with the wind as it blows.
+  const Preset& acting() const { return gusts(preset_) ? gusty_ : preset_; }
+  void take_constants(const Preset& next);
+  int blow();
   bool converts(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins(const Preset& old);
@@ -125,6 +132,7 @@ class Simulation {
   void move_hand(const edit::MoveHand& edit);
   void release();
   void cut(const edit::Cut& edit);
+  void cut_springs(const edit::CutSprings& edit);
   void pin(const edit::Pin& edit);
   void move_body(const edit::MoveBody& edit);
   void rebase_time();
@@ -135,6 +143,7 @@ class Simulation {
   void watch_edit(Ledger::Source source);
 
   Preset preset_;
+  Preset gusty_;  ///< the same with the wind of this moment, which the engine has; of use only while there are gusts
   int threads_;
   Lattice lattice_;
   Tears tears_;

@@ -4,7 +4,7 @@
 namespace tyglab {
 
 EnergyReading Simulation::energy() {
-  return read_energy(preset_, tears_, read(), held_);
+  return read_energy(acting(), tears_, read(), held_);
 }
 
 void Simulation::keep_ledger(bool on) {
@@ -26,7 +26,7 @@ void Simulation::watch_edit(Ledger::Source source) {
 
 void Simulation::watch_step() {
   ++revision_;
-  watch_->after_step(preset_, tears_, read(), held_, engine_->contacts());
+  watch_->after_step(acting(), tears_, read(), held_, engine_->contacts());
   if (divergence_) return;
   divergence_ = watch_->divergence(preset_, state_, lattice_.columns);
   if (!divergence_) return;

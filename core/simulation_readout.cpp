@@ -32,7 +32,7 @@ State Simulation::read_raw() {
 glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const {
   const bool fixed = pinned(i, j) || held_.particle == i * lattice_.columns + j;
   if (stored.lag == 0 || fixed) return stored.v;
-  const ParticleForces forces = forces_on_particle(preset_, tears_, near, i, j);
+  const ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
   return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
 }
 
@@ -50,7 +50,7 @@ ParticleReadout Simulation::particle(int i, int j) const {
   });
   Neighbourhood now = near;
   visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
-  const ParticleForces forces = forces_on_particle(preset_, tears_, now, i, j);
+  const ParticleForces forces = forces_on_particle(acting(), tears_, now, i, j);
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
   ParticleReadout out;
   out.F_s = forces.F_s, out.F_b = forces.F_b, out.F_d = forces.F_d, out.F_g = forces.F_g, out.F_wind = forces.F_wind;
@@ -77,7 +77,7 @@ ForceSummary Simulation::forces(Reduction reduction) {
   };
   for (int i = 0; i < lattice_.rows; ++i)
     for (int j = 0; j < lattice_.columns; ++j) {
-      const ParticleForces f = forces_on_particle(preset_, tears_, state, i, j);
+      const ParticleForces f = forces_on_particle(acting(), tears_, state, i, j);
       add(sum.F_s, f.F_s), add(sum.F_b, f.F_b), add(sum.F_d, f.F_d), add(sum.F_g, f.F_g), add(sum.F_wind, f.F_wind);
       add(sum.F_int, f.F_int()), add(sum.F_ext, f.F_ext()), add(sum.F, f.F_int() + f.F_ext());
     }

@@ -31,14 +31,18 @@ class Patch {
   void assign(const Sweep& sweep, int i, int j, const glm::dvec3& a, std::vector<TracedAssignment>* told);
 
   const Simulation& simulation_;
-  const Preset& preset_;
+  const Preset preset_;  ///< with the wind of the step to come
   const Scheme& method_;
   int i_, j_, top_, bottom_, left_, right_;
   std::vector<std::vector<glm::dvec3>> vectors_;
 };
 
 Patch::Patch(const Simulation& simulation, int i, int j)
-    : simulation_(simulation), preset_(simulation.preset()), method_(scheme(preset_.integrator)), i_(i), j_(j) {
+    : simulation_(simulation),
+      preset_(in_gusts(simulation.preset(), simulation.time())),
+      method_(scheme(preset_.integrator)),
+      i_(i),
+      j_(j) {
   const Lattice& lattice = simulation.lattice();
   const int reach = 2 * int(method_.sweeps.size()) + Neighbourhood::reach;
   top_ = std::max(i - reach, 0), bottom_ = std::min(i + reach, lattice.rows - 1);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/charts/plot.h"
+#include "app/viewport/image.h"
 
 namespace tyglab {
 
@@ -52,8 +53,11 @@ PlotAxes draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart&
 
 inline constexpr float chart_width = 640, chart_height = 400;  ///< points at scale 1
 
-/// Draws charts side by side in rows of `columns`, each chart_width x `height` points at that scale, and writes a PNG
-/// ("-" is standard output). Needs no display (EGL's surfaceless platform). Throws GraphicsError, OutputError.
+/// Charts side by side in rows of `columns`, each chart_width x `height` points at that scale, drawn in the OpenGL
+/// context that is current, outside Dear ImGui's frames. Throws GraphicsError.
+Image picture_of(const std::vector<Chart>& charts, int columns = 2, float scale = 2, float height = chart_height);
+/// Writes that picture as PNG ("-" is standard output). Needs no display (EGL's surfaceless platform). Throws
+/// GraphicsError, OutputError.
 void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns = 2, float scale = 2,
                   float height = chart_height);
 

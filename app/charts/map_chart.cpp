@@ -49,6 +49,14 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
   return chart;
 }
 
+Chart map_page(const Tokens& c, const Preset& preset, const std::string& label, const std::string& note,
+               const MapGrid& grid, const MapBoundary& boundary, std::span<const MapCell> cells) {
+  Chart chart = map_chart(c, preset, grid, boundary, cells);
+  chart.title = "Which " + stiffness_key(preset) + " and dt " + preset.integrator + " bears: " + label;
+  chart.note = note;
+  return chart;
+}
+
 std::string cell_words(const Preset& preset, const MapCell& cell) {
   std::string text = stiffness_key(preset) + " = " + short_number(rounded(cell.stiffness, 2)) +
                      " N/m, dt = " + short_number(rounded(cell.dt, 2)) + " s: ";

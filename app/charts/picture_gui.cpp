@@ -8,7 +8,7 @@ namespace tyglab {
 
 PictureGui::PictureGui(ImVec2 size, const Theme& theme) : size_(size) {
   IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
+  ImGui::SetCurrentContext(ImGui::CreateContext());
   gui::prepare_io(ImGui::GetIO());
   ImGui::GetIO().DisplaySize = size;
   ImGui::GetIO().DeltaTime = 1;
@@ -22,6 +22,7 @@ PictureGui::PictureGui(ImVec2 size, const Theme& theme) : size_(size) {
 PictureGui::~PictureGui() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui::DestroyContext();
+  ImGui::SetCurrentContext(window_);
 }
 
 ImDrawList& PictureGui::draw() const {

@@ -7,7 +7,8 @@
 
 namespace tyglab {
 
-/// Lives in the OpenGL context that is current; one at a time. What is drawn goes into draw(), and pixels() ends it.
+/// Lives in the OpenGL context that is current; one at a time, and a window's own Dear ImGui comes back after it. What
+/// is drawn goes into draw(), and pixels() ends it.
 class PictureGui {
  public:
   PictureGui(ImVec2 size, const Theme& theme);
@@ -20,6 +21,7 @@ class PictureGui {
   Image pixels() const;
 
  private:
+  ImGuiContext* window_ = ImGui::GetCurrentContext();  ///< null without a window
   ImVec2 size_;
   Fonts fonts_;
 };

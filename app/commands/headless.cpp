@@ -48,6 +48,9 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   const fs::path folder = new_folder();
   std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
             << options.preset_label << "' into the new folder " << folder.string() << ".\n";
+  if (options.frames > 0)
+    std::cerr << "--frames " << options.frames << " is taken as " << seconds << " s of simulated time, at "
+              << frames_a_second << " frames a second.\n";
   const InterruptGuard guard;
   Stepper stepper(simulation, steps, options.preset_label, options.auto_dt);
   FrameCosts costs;

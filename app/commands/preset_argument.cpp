@@ -1,12 +1,14 @@
 #include "app/commands/preset_argument.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <iostream>
 #include <system_error>
 
 #include "app/commands/command_line.h"
 #include "app/data_files.h"
+#include "app/panels/numbers.h"
 #include "core/analysis/engine_choice.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/tolerance.h"
@@ -64,6 +66,16 @@ std::string known_integrators() {
   std::string list;
   for (const std::string_view name : integrator_names()) list += (list.empty() ? "" : ", ") + std::string(name);
   return list;
+}
+
+/// Throws where the engine's name is none that --engine takes.
+void check_engine(const std::string& engine) {
+  const std::string_view kind = std::string_view(engine).substr(0, engine.find(':'));
+  if (engine.empty() || kind == "cpu" || kind == "opencl" || kind == automatic) return;
+  const std::array<std::string_view, 3> known{"cpu", "opencl", automatic};
+  const auto meant = nearest(kind, known);
+  throw UsageError("--engine " + engine + ": allowed are cpu, opencl, opencl:N and auto" +
+                   (meant ? "; did you mean " + std::string(*meant) + "?" : ""));
 }
 
 /// N of opencl:N.
@@ -157,6 +169,7 @@ void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
                      " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
                      "damping with --set k_d=…");
   resolved.preset.dt = *chosen;
+  std::cerr << "tyglab: --dt auto took " << short_number(*chosen) << " s for " << resolved.preset.integrator << ".\n";
 }
 
 void PresetArgument::choose_engine(ResolvedPreset& resolved) const {
@@ -182,6 +195,7 @@ void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional
 
 ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands,
                                        std::optional<double> seconds) const {
+  check_engine(engine);
   ResolvedPreset resolved;
   resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
   resolved.preset = load_preset(resolved.source.file);

@@ -38,6 +38,7 @@ Json map_json(const Preset& preset, const std::string& label, const std::vector<
   for (const MapCell& cell : cells)
     rows.push_back({{stiffness_key(preset), cell.stiffness},
                     {"dt", cell.dt},
+                    {"dt_theory", cell.dt_theory > 0 ? Json(cell.dt_theory) : Json(nullptr)},
                     {"diverged", cell.diverged},
                     {"t", cell.t},
                     {"energy_error", cell.share}});
@@ -46,21 +47,31 @@ Json map_json(const Preset& preset, const std::string& label, const std::vector<
   return json;
 }
 
-/// The map as letters, stiffness to the right and dt upwards: × diverged, and dots for what stayed bounded.
+/// The map as letters, stiffness to the right and dt upwards: × diverged, · stayed bounded. A stroke stands in each row
+/// where theory's largest stable dt is passed.
 void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, std::vector<MapCell> cells) {
   std::sort(cells.begin(), cells.end(),
             [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
-  std::array<char, 160> line;
+  std::array<char, 200> line;
   for (auto cell = cells.begin(); cell != cells.end();) {
     const int row = cell->row;
+    bool stable = true;
     std::snprintf(line.data(), line.size(), "dt %9.3g s  ", cell->dt);
     out << line.data();
-    for (; cell != cells.end() && cell->row == row; ++cell) out << (cell->diverged ? " ×" : " ·");
+    for (; cell != cells.end() && cell->row == row; ++cell) {
+      const bool passed = cell->dt_theory > 0 && cell->dt > cell->dt_theory;
+      out << (stable && passed ? '|' : ' ') << (cell->diverged ? "×" : "·");
+      stable = !passed;
+    }
     out << '\n';
   }
   std::snprintf(line.data(), line.size(), "%s from %.3g to %.3g N/m; × diverged, · bounded in a short run\n",
                 stiffness_key(preset).c_str(), grid.stiffness(0.5), grid.stiffness(grid.columns - 0.5));
   out << line.data();
+  const double here = map_limit(preset);
+  std::snprintf(line.data(), line.size(), "| theory's largest stable dt (any configuration): %.3g s at %s = %.4g N/m\n",
+                here, stiffness_key(preset).c_str(), stiffness_of(preset));
+  out << (here > 0 ? std::string(line.data()) : "By theory " + preset.integrator + " has no largest stable dt.\n");
 }
 
 int map(const MapOptions& options) {
@@ -89,11 +100,9 @@ int map(const MapOptions& options) {
     write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n");
   if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells));
   if (!options.bench.png.empty()) {
-    Chart chart = map_chart(dark_tokens(), scene.preset, grid, map_boundary(scene.preset, grid), cells);
-    chart.title =
-        "Which " + stiffness_key(scene.preset) + " and dt " + scene.preset.integrator + " bears: " + scene.source.label;
-    chart.note = machine_line();
-    write_charts(options.bench.png, {chart}, 1);
+    const Chart page = map_page(dark_tokens(), scene.preset, scene.source.label, machine_line(), grid,
+                                map_boundary(scene.preset, grid), cells);
+    write_charts(options.bench.png, {page}, 1);
   }
   return bench_exit();
 }

@@ -37,15 +37,28 @@ std::string_view trimmed(std::string_view text) {
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin, end - begin + 1);
 }
 
+/// A number is not parted from its unit.
+std::string with_whole_quantities(std::string text) {
+  constexpr std::array<std::string_view, 14> units{"N",  "m",  "s",   "kg",    "J",   "%",    "mm",
+                                                   "cm", "ms", "N/m", "N·s/m", "m/s", "m/s²", "1/s"};
+  for (std::size_t at = 1; (at = text.find(' ', at)) != std::string::npos; ++at) {
+    const bool number = text[at - 1] >= '0' && text[at - 1] <= '9';
+    std::string word = text.substr(at + 1, std::min(text.find(' ', at + 1), text.size()) - at - 1);
+    while (!word.empty() && std::string_view(".,;:?)").find(word.back()) != std::string_view::npos) word.pop_back();
+    if (number && std::find(units.begin(), units.end(), word) != units.end()) text.replace(at, 1, "\u00a0");
+  }
+  return text;
+}
+
 /// A formula is broken before its equals sign, and nowhere within its sums and products.
 std::string with_whole_terms(std::string text) {
   constexpr std::string_view space = "\u00a0";
-  for (const std::string_view sign : {"−", "+", "·"})
+  for (const std::string_view sign : {"−", "+", "·", "/", "×", "±"})
     for (std::size_t at = 0; (at = text.find(" " + std::string(sign) + " ", at)) != std::string::npos; ++at)
       text.replace(at, sign.size() + 2, std::string(space) + std::string(sign) + std::string(space));
   for (std::size_t at = 0; (at = text.find(" = ", at)) != std::string::npos; ++at)
     text.replace(at, 3, " =" + std::string(space));
-  return text;
+  return with_whole_quantities(std::move(text));
 }
 
 /// Without the signs of Markdown that the card does not set: `code` and **strong**.
@@ -122,7 +135,10 @@ class LabReader {
   [[noreturn]] void fail_at(int line, const std::string& why) const {
     throw LabError(source_ + ":" + std::to_string(line) + ": " + why);
   }
+  void note(const LabError& error);
+  void take_or_note(std::string_view line);
   void take_line(std::string_view line);
+  void end_file();
   void take_key(std::string_view line);
   void take_value(std::string_view key, std::string_view value);
   void begin_step(std::string_view title);
@@ -146,6 +162,7 @@ class LabReader {
   std::filesystem::path folder_;
   Lab lab_;
   Gathered prose_;
+  std::string problems_;  ///< a line each
   int line_ = 0, block_line_ = 0, step_line_ = 0, predict_line_ = 0, open_line_ = 0;
   bool in_block_ = false, had_block_ = false;
   int rights_ = 0;
@@ -153,17 +170,41 @@ class LabReader {
 };
 
 Lab LabReader::read() {
-  for (std::size_t at = 0; at <= text_.size();) {
-    const std::size_t end = std::min(text_.find('\n', at), text_.size());
-    ++line_;
-    take_line(trimmed(text_.substr(at, end - at)));
-    at = end + 1;
+  try {
+    for (std::size_t at = 0; at <= text_.size();) {
+      const std::size_t end = std::min(text_.find('\n', at), text_.size());
+      ++line_;
+      take_or_note(trimmed(text_.substr(at, end - at)));
+      at = end + 1;
+    }
+    end_file();
+  } catch (const LabError& error) {
+    note(error);
   }
+  if (!problems_.empty()) throw LabError(problems_);
+  return std::move(lab_);
+}
+
+void LabReader::note(const LabError& error) {
+  problems_ += (problems_.empty() ? "" : "\n") + std::string(error.what());
+}
+
+/// What is wrong in one line of a block says nothing of the lines after it, so all such lines are told at once; where
+/// headings are wrong the reading ends.
+void LabReader::take_or_note(std::string_view line) {
+  if (!in_block_) return take_line(line);
+  try {
+    take_line(line);
+  } catch (const LabError& error) {
+    note(error);
+  }
+}
+
+void LabReader::end_file() {
   if (in_block_) fail_at(block_line_, "this block is never closed; end it with a line ```");
   if (lab_.title.empty()) fail_at(1, "a lab begins with its title; write a first line such as # Hooke's law");
   if (lab_.steps.empty()) fail("a lab has at least one step; begin one with a line such as ## Look first");
   end_step();
-  return std::move(lab_);
 }
 
 void LabReader::take_line(std::string_view line) {

@@ -193,7 +193,7 @@ void set_up_step(App& app) {
     const bool own = !app.labs.opened.empty() && app.labs.opened == app.document.label;
     const bool shipped = source.file.parent_path() == data_folder() / "presets";
     app.request(request::Open{source.file, shipped, own, opening->settings});
-    app.labs.opened = source.label;
+    app.labs.opened = source.file.stem().string();
   } catch (const std::exception& error) {
     app.messages.error(error.what());
   }
@@ -216,8 +216,19 @@ bool cannot_be_done(App& app) {
   return app.labs.run->now().needs_opencl && app.labs.opencl == false;
 }
 
+bool lab_waits(const App& app) {
+  const LabState& labs = app.labs;
+  return labs.run && !labs.run->record().done && !labs.opened.empty() && labs.opened != app.document.label;
+}
+
+void resume_lab(App& app) {
+  LabRun& run = *app.labs.run;
+  while (run.step > 0 && !run.now().open) --run.step;
+  set_up_step(app);
+}
+
 void watch_lab(App& app) {
-  if (!app.labs.run) return;
+  if (!app.labs.run || lab_waits(app)) return;
   LabRun& run = *app.labs.run;
   StepRecord& record = run.record();
   if (record.done) return;
@@ -233,7 +244,7 @@ void watch_lab(App& app) {
 }
 
 int up_to_stop(const App& app, int due) {
-  if (!app.labs.run || !app.labs.run->now().stop || app.labs.run->record().done) return due;
+  if (!app.labs.run || !app.labs.run->now().stop || app.labs.run->record().done || lab_waits(app)) return due;
   const double left = *app.labs.run->now().stop - app.simulation->time(), dt = app.preset().dt;
   if (left < dt / 2) return due;
   return std::min(due, int(std::min(std::ceil(left / dt - 0.5), 1e9)));
@@ -241,6 +252,7 @@ int up_to_stop(const App& app, int due) {
 
 void pause_at_stop(App& app) {
   if (!app.labs.run || !app.labs.run->now().stop || app.labs.run->record().done || app.steps_made == 0) return;
+  if (lab_waits(app)) return;
   const double past = app.simulation->time() - *app.labs.run->now().stop, dt = app.preset().dt;
   if (past >= -dt / 2 && past < dt / 2) app.pacing.playing = false;
 }

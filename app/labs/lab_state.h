@@ -76,6 +76,11 @@ bool predict(App& app);
 /// Whether the machine lacks what the step needs, so that it can only be read.
 bool cannot_be_done(App& app);
 
+/// Whether another preset has been opened than the step's: the lab then waits, and looks at nothing.
+bool lab_waits(const App& app);
+/// Puts the lab's cloth back: at the step in work, or the last one before it that opens one.
+void resume_lab(App& app);
+
 /// Called in every frame: looks which checks hold, and whether the step is done.
 void watch_lab(App& app);
 /// Of the steps that are due, those up to where the step stops the motion; pauses it there.

@@ -10,6 +10,8 @@
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/commands.h"
+#include "app/sandbox/wind_arrow.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -67,6 +69,29 @@ std::vector<std::string> shipped_textures() {
   return names;
 }
 
+/// How the pointer's tools work.
+void tool_rows(App& app) {
+  const Handling& handling = app.settings.handling;
+  labelled_row(app, "cut", [&](float) {
+    static constexpr const char* ways[] = {"upwards", "along the path"};
+    const int now = handling.cut_along_path ? 1 : 0;
+    if (const int k = segments(app, "cut", ways, 2, now); k >= 0 && k != now) app.command(Command::toggle_cut_path);
+    tooltip(app, gui::item_id(),
+            "What a left drag cuts: the springs upwards of each particle near it, as in the report, or every spring "
+            "and edge of a triangle that it crosses, through all layers.",
+            row_of(Command::toggle_cut_path).keys);
+  });
+  labelled_row(app, "hand", [&](float) {
+    if (check(app, "slow motion", handling.slow_hand)) app.command(Command::toggle_slow_hand);
+    tooltip(app, gui::item_id(), "A quarter of the speed while you grab or cut.",
+            row_of(Command::toggle_slow_hand).keys);
+    ImGui::SameLine(0, app.theme.px(16));
+    if (check(app, "wind arrow", wind_arrow_shown(app))) app.command(Command::toggle_wind_arrow);
+    tooltip(app, gui::item_id(), "The wind W as an arrow in the picture: drag its tip.",
+            row_of(Command::toggle_wind_arrow).keys);
+  });
+}
+
 void texture_row(App& app) {
   labelled_row(app, "texture", [&](float width) {
     const std::string now = std::filesystem::path(app.wished().texture).filename().string();
@@ -91,8 +116,9 @@ void view_section(App& app) {
       if (check(app, "shadows", app.view.shadows)) app.view.shadows = !app.view.shadows;
       return;
     }
-    if (check(app, "force arrows", app.ui.force_arrows)) app.ui.force_arrows = !app.ui.force_arrows;
-    tooltip(app, gui::item_id(), "F_s, F_b, F_d and F_g at the picked particle, in the colours of their curves.");
+    if (check(app, "arrows", app.ui.arrows)) app.ui.arrows = !app.ui.arrows;
+    tooltip(app, gui::item_id(),
+            "Of the variables that are ticked under “Picked particle”, in the colours of their curves.");
     ImGui::SameLine(0, app.theme.px(16));
     if (check(app, "shadows", app.view.shadows)) app.view.shadows = !app.view.shadows;
   });
@@ -103,6 +129,7 @@ void view_section(App& app) {
         "Where drawing takes longer than 20 ms, soft edges of shadows are left out, then smooth edges, then shadows; "
         "the status bar says so.");
   });
+  if (cloth) tool_rows(app);
 }
 
 void body_sections(App& app) {

@@ -82,6 +82,23 @@ SliderScale scale_of(const Line& line, int k) {
   return {range.min, range.max, line.scale, line.integer};
 }
 
+/// On which side of its slider the preset's value lies, since the span has moved to where the value is now: -1 left,
+/// 1 right, 0 on it.
+int preset_is_off(const Line& line, const SliderScale& scale) {
+  const double saved = line.saved[0];
+  if (line.components != 1 || std::isnan(saved) || saved == 0) return 0;
+  return saved < scale.min ? -1 : saved > scale.max ? 1 : 0;
+}
+
+/// A small arrowhead at that end of the slider.
+void draw_off_mark(App& app, int side, ImVec2 lo, ImVec2 hi) {
+  if (side == 0) return;
+  const float size = app.theme.px(4), x = side < 0 ? lo.x - app.theme.px(1) : hi.x + app.theme.px(1),
+              middle = std::round((lo.y + hi.y) / 2), tip = float(side) * size;
+  ImGui::GetWindowDrawList()->AddTriangleFilled({x + tip, middle}, {x, middle - size}, {x, middle + size},
+                                                app.theme.colors.warning);
+}
+
 std::string value_text(const Line& line, double value) {
   return line.zero_is_off && value == 0 ? std::string("off") : short_number(value);
 }
@@ -134,6 +151,12 @@ void row_tooltip(App& app, const Line& line) {
   wrapped(app, facts, c.quiet);
   if (const auto& limits = app.stability.limits())
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(app, words, c.text);
+  if (const SliderScale scale = scale_of(line, 0); preset_is_off(line, scale) != 0)
+    wrapped(app,
+            "The slider has moved with the value: it goes from " + short_number(scale.min) + " to " +
+                short_number(scale.max) + " now, and the preset's " + short_number(line.saved[0]) +
+                " lies off its end. Double-click goes back.",
+            c.warning);
   if (line.effect == Effect::start) wrapped(app, "Counts at the next restart (R).", c.warning);
   ImGui::PushFont(app.fonts.small);
   wrapped(app,
@@ -241,6 +264,7 @@ void draw_line(App& app, const Line& line) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const SliderResult slid = slider(app, scale, line.value[0], slider_width, columns.height);
     draw_zones(app, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
+    draw_off_mark(app, preset_is_off(line, scale), at, {at.x + slider_width, at.y + columns.height});
     if (app.report) report_control(app, line.key + ".slider");
     take(app, line, 0, slid, gesture);
     ImGui::SameLine(0, columns.gap);

@@ -15,6 +15,7 @@
 #include "app/panels/stability_row.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "core/forces/gust.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 
@@ -31,7 +32,7 @@ const std::array<Section, 6>& sections() {
   static const std::array<Section, 6> list{{
       {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
       {"Springs", "forces", {"k_s", "k_b", "k_d", "k"}},
-      {"Outer forces", "", {"g", "W"}},
+      {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
       {"Tearing", "tearing", {"F_max", "F_release"}},
       {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
       {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
@@ -187,11 +188,13 @@ bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
   if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
   if (row.key == "iterations") return iterates(scheme(preset.integrator));
+  if (row.key == "gust" && preset.W == glm::dvec3(0)) return false;
+  if (row.key == "gust_period" && !gusts(preset)) return false;
   return !row.only_one_kind || row.only == preset.kind;
 }
 
 void show_constant(App& app, std::string_view key) {
-  app.ui.panels = app.settings.layout.left = true;
+  app.ui.panels = app.settings.layout.left = true, app.ui.side_plots = false;
   app.ui.slider.wanted_key = key;
   for (const Section& wanted : sections()) {
     const auto list = rows_of(wanted);

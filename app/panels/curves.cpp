@@ -15,6 +15,19 @@ const Variable& variable(std::string_view key) {
   return *it;
 }
 
+glm::dvec3 vector_of(const ParticleReadout& r, std::string_view key) {
+  if (key == "F_s") return r.F_s;
+  if (key == "F_b") return r.F_b;
+  if (key == "F_d") return r.F_d;
+  if (key == "F_g") return r.F_g;
+  if (key == "F_int") return r.F_int;
+  if (key == "F_ext") return r.F_ext;
+  if (key == "F") return r.F;
+  if (key == "x") return r.x;
+  if (key == "v") return r.v;
+  return r.a;
+}
+
 CurveStyle curve_style(const Tokens& c, std::string_view key) {
   if (key == "F_s") return {c.blue, LineStyle::solid, 1.8f};
   if (key == "F_b") return {c.green, LineStyle::dashed, 1.8f};
@@ -22,6 +35,8 @@ CurveStyle curve_style(const Tokens& c, std::string_view key) {
   if (key == "F_g") return {c.yellow, LineStyle::long_dash, 1.8f};
   if (key == "F_int") return {c.sky, LineStyle::dash_dot, 1.8f};
   if (key == "F_ext") return {c.orange, LineStyle::sparse_dots, 2.4f};
+  if (key == "v") return {c.vermilion, LineStyle::long_dash, 1.8f};
+  if (key == "a") return {c.vermilion, LineStyle::dotted, 2.2f};
   return {c.text, LineStyle::solid, 1.2f};
 }
 

@@ -22,6 +22,8 @@ CurveStyle curve_style(const Tokens& colors, std::string_view key);
 /// Of a method's curve, alike in every plot: figure 3.2's blue Verlet, green improved Euler and magenta Euler;
 /// vermilion is the exact solution's.
 CurveStyle integrator_style(const Tokens& colors, std::string_view name);
+/// A variable of table B.1 by its key in the notation table, in its own unit.
+glm::dvec3 vector_of(const ParticleReadout& readout, std::string_view key);
 /// "F_s [N]", …
 std::vector<std::string> force_column_names();
 /// "y [m]", "y_euler [m]", … of Plots::height.

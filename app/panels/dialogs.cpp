@@ -240,14 +240,15 @@ void save_preset_dialog(App& app) {
   if (then) app.request(*then);
 }
 
-void csv_dialog(App& app) {
+void export_dialog(App& app) {
   Dialog& dialog = app.ui.dialog;
-  title(app, csv_export(dialog.csv).title);
-  wrapped(app, csv_export(dialog.csv).holds, app.theme.colors.quiet);
+  const Export& what = export_of(dialog.source);
+  title(app, what.title);
+  wrapped(app, what.holds, app.theme.colors.quiet);
   label(app, "File");
   if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(app, "Write")) return;
-  const request::WriteCsv write{path_of(dialog.path), dialog.csv};
+  const request::WriteExport write{path_of(dialog.path), dialog.source};
   close(app);
   app.request(write);
 }
@@ -330,8 +331,8 @@ void contents(App& app) {
       return open_presets(app);
     case DialogKind::save:
       return save_preset_dialog(app);
-    case DialogKind::export_csv:
-      return csv_dialog(app);
+    case DialogKind::write_export:
+      return export_dialog(app);
     case DialogKind::texture:
       return texture_dialog(app);
     case DialogKind::picture:
@@ -369,9 +370,9 @@ void open_dialog(App& app, DialogKind kind) {
   } else if (kind == DialogKind::picture) {
     std::error_code ignored;
     set(dialog.path, (fs::current_path(ignored) / (app.document.label + ".png")).string());
-  } else if (kind == DialogKind::export_csv) {
+  } else if (kind == DialogKind::write_export) {
     std::error_code ignored;
-    set(dialog.path, (fs::current_path(ignored) / csv_export(dialog.csv).file).string());
+    set(dialog.path, (fs::current_path(ignored) / export_of(dialog.source).file).string());
   }
 }
 

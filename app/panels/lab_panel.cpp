@@ -150,9 +150,21 @@ void check_line(App& app, const Condition& check, CheckState state, bool done) {
   marked_line(app, icon::unknown, "?", c.warning, all + (now.empty() ? " · not known yet" : ""), c.text);
 }
 
+/// Another preset is open than the lab's: what it means, and the ways on.
+void waiting_part(App& app) {
+  const Tokens& c = app.theme.colors;
+  marked_line(app, icon::pause, "!", c.warning,
+              "“" + app.preset().name + "” is open, which is not this lab's cloth. The lab waits, and checks nothing.",
+              c.text);
+  if (text_button(app, "Open the lab's cloth", true)) resume_lab(app);
+  ImGui::SameLine();
+  if (text_button(app, "Leave the lab")) app.command(Command::leave_lab);
+}
+
 void doing_part(App& app, const LabStep& step, const StepRecord& record) {
   const Tokens& c = app.theme.colors;
   const bool waits = step.prediction && !record.predicted && !record.done;
+  if (lab_waits(app)) return waiting_part(app);
   if (waits) return wrapped(app, "Predict first: then it says here what to do.", c.quiet);
   if (cannot_be_done(app))
     return marked_line(app, icon::warning, "!", c.warning,

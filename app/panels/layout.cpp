@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "app/panels/dialogs.h"
+#include "app/panels/imgui_compat.h"
 #include "app/panels/palette.h"
 #include "app/panels/panels.h"
 #include "app/panels/tour.h"
+#include "app/panels/widgets.h"
 
 namespace tyglab {
 namespace {
@@ -36,6 +38,18 @@ void splitter(App& app, const char* id, float x, float top, float bottom, float&
   app.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
 }
 
+/// Chooses which of the two columns stands in the place that they share. Returns its height.
+float side_tabs(App& app, const Region& region) {
+  static constexpr const char* names[] = {"Constants", "Plots"};
+  if (begin_region("side", region, app.theme.colors.panel, {app.theme.px(16), app.theme.px(8)})) {
+    const int k = segments(app, "columns", names, 2, app.ui.side_plots ? 1 : 0);
+    if (k >= 0) app.ui.side_plots = k == 1;
+    tooltip(app, gui::item_id(), "The window is too narrow for both columns; Ctrl+- makes text and panels smaller.");
+  }
+  end_region();
+  return region.size.y;
+}
+
 }  // namespace
 
 bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding) {
@@ -62,6 +76,8 @@ void draw_layout(App& app, ImVec2 window) {
   const float spare = window.x - app.theme.px(240), most = std::max(spare / 2, app.theme.px(240));
   float left = panels && layout.left ? std::round(std::min(layout.left_width * app.theme.scale, most)) : 0;
   float right = panels && layout.right ? std::round(std::min(layout.right_width * app.theme.scale, most)) : 0;
+  // Where both have no room, they take turns in one place.
+  const bool shared = left > 0 && left + right > spare;
   if (left + right > spare) right = 0;
   if (left + app.theme.px(140) > window.x) left = 0;
   app.ui.viewport_left = left;
@@ -75,7 +91,9 @@ void draw_layout(App& app, ImVec2 window) {
   viewport_panel(app, {{left, top}, {middle, height - lab}});
   if (lab > 0) lab_panel(app, {{low, top + height - lab}, {left + middle - low, lab}});
   if (panels) top_bar(app, {{0, 0}, {window.x, top}});
-  if (left > 0) constants_panel(app, {{0, top}, {left, column}});
+  const float tabs = shared && left > 0 ? side_tabs(app, {{0, top}, {left, app.theme.px(40)}}) : 0;
+  const Region side{{0, top + tabs}, {left, column - tabs}};
+  if (left > 0) shared&& app.ui.side_plots ? plots_panel(app, side) : constants_panel(app, side);
   if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});
   if (bottom > 0) status_bar(app, {{low, window.y - bottom}, {left + middle - low, bottom}});
   if (left > 0) splitter(app, "left border", left, top, top + column, layout.left_width, 1);

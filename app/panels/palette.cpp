@@ -52,7 +52,7 @@ void add_commands(const App& app, std::vector<PaletteEntry>& list) {
   for (const CommandRow& row : command_rows())
     if (of_use(app, row.command))
       list.push_back(
-          {"Command", row.name, row.keys, row.also, [command = row.command](App& a) { a.command(command); }});
+          {"Command", row.name, row.keys, row.also, row.help, [command = row.command](App& a) { a.command(command); }});
 }
 
 std::string progress(const App& app, const Lab& lab) {
@@ -61,16 +61,22 @@ std::string progress(const App& app, const Lab& lab) {
   return done == steps ? "done" : std::to_string(done) + " of " + std::to_string(steps);
 }
 
+std::string all_of(const Paragraphs& text) {
+  std::string all;
+  for (const std::string& paragraph : text) all += paragraph + " ";
+  return all;
+}
+
 void add_labs(App& app, std::vector<PaletteEntry>& list) {
   for (const Lab& lab : find_labs(app))
-    list.push_back(
-        {"Lab", lab.title, progress(app, lab), lab.label, [label = lab.label](App& a) { begin_lab(a, label); }});
+    list.push_back({"Lab", lab.title, progress(app, lab), lab.label, all_of(lab.summary),
+                    [label = lab.label](App& a) { begin_lab(a, label); }});
 }
 
 void add_presets(std::vector<PaletteEntry>& list, const std::filesystem::path& file, bool shipped) {
   try {
     const Preset preset = load_preset(file);
-    list.push_back({"Preset", preset.name, file.stem().string(), file.stem().string() + " open",
+    list.push_back({"Preset", preset.name, file.stem().string(), file.stem().string() + " open", preset.description,
                     [file, shipped](App& a) { a.request(request::Open{.file = file, .shipped = shipped}); }});
   } catch (const PresetError&) {
     // The dialog that opens files says what is wrong with one.
@@ -97,20 +103,20 @@ std::function<void(App&)> proposing(Change change) {
 void add_integrators(std::vector<PaletteEntry>& list) {
   for (const Scheme& method : schemes())
     list.push_back({"Integrator", std::string(method.title), std::string(method.equation), std::string(method.name),
-                    proposing([&method](Preset& next) { next.integrator = method.name; })});
+                    std::string(method.note), proposing([&method](Preset& next) { next.integrator = method.name; })});
 }
 
 void add_constants(const App& app, std::vector<PaletteEntry>& list) {
   for (const PresetRow& row : notation())
     if (applies(row, app.wished()))
       list.push_back({"Constant", std::string(row.symbol) + "  " + std::string(row.quantity), std::string(row.unit),
-                      std::string(row.key) + " " + std::string(row.storhet),
+                      std::string(row.key) + " " + std::string(row.storhet), std::string(row.help),
                       [key = row.key](App& a) { show_constant(a, key); }});
 }
 
 void add_views(std::vector<PaletteEntry>& list) {
   for (int k = 0; k < int(view_names.size()); ++k)
-    list.push_back({"View", view_names[std::size_t(k)] + 2, std::to_string(k + 1), "",
+    list.push_back({"View", view_names[std::size_t(k)] + 2, std::to_string(k + 1), "", "",
                     proposing([k](Preset& next) { next.mode = k + 1; })});
 }
 
@@ -220,12 +226,18 @@ std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_vie
   std::vector<std::pair<int, int>> ranked;  // rank, index
   for (int k = 0; k < int(entries.size()); ++k) {
     const PaletteEntry& entry = entries[std::size_t(k)];
-    const std::string title = lower(entry.title), all = title + " " + lower(entry.also) + " " + lower(entry.group);
-    const bool holds = std::all_of(words.begin(), words.end(),
-                                   [&](const std::string& word) { return all.find(word) != std::string::npos; });
-    if (!holds) continue;
+    const std::string title = lower(entry.title), all = title + " " + lower(entry.also) + " " + lower(entry.group),
+                      with_help = all + " " + lower(entry.help);
+    const auto holds = [&](const std::string& text) {
+      return std::all_of(words.begin(), words.end(),
+                         [&](const std::string& word) { return text.find(word) != std::string::npos; });
+    };
+    if (!holds(with_help)) continue;
     const std::string first = words.empty() ? "" : words.front();
-    const int rank = title.starts_with(first) ? 0 : (" " + all).find(" " + first) != std::string::npos ? 1 : 2;
+    const int rank = !holds(all)                                          ? 3
+                     : title.starts_with(first)                           ? 0
+                     : (" " + all).find(" " + first) != std::string::npos ? 1
+                                                                          : 2;
     ranked.emplace_back(rank, k);
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

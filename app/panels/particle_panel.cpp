@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
 
 #include "app/panels/curves.h"
 #include "app/panels/imgui_compat.h"
@@ -17,17 +19,9 @@ namespace {
 constexpr std::array<std::string_view, 7> forces{"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"};
 constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
 
-glm::dvec3 value_of(const ParticleReadout& r, std::string_view key) {
-  if (key == "F_s") return r.F_s;
-  if (key == "F_b") return r.F_b;
-  if (key == "F_d") return r.F_d;
-  if (key == "F_g") return r.F_g;
-  if (key == "F_int") return r.F_int;
-  if (key == "F_ext") return r.F_ext;
-  if (key == "F") return r.F;
-  if (key == "x") return r.x;
-  if (key == "v") return r.v;
-  return r.a;
+/// Whether the variable can be drawn at the particle: a position is a place, not an arrow.
+bool has_arrow(std::string_view key) {
+  return key != "x";
 }
 
 /// Whether a body's contact, which no formula gives, is missing from what is shown.
@@ -51,6 +45,7 @@ void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dve
         "the model, so it is in neither F nor the acceleration.",
         c.warning);
   wrapped(app, "equation (" + std::string(what.equation) + ")", c.quiet);
+  if (has_arrow(what.key)) wrapped(app, "Click: its arrow at the particle, on or off", c.quiet);
   end_tooltip(app);
 }
 
@@ -65,7 +60,7 @@ struct Grid {
 };
 
 Grid grid(const App& app) {
-  const float newton = app.theme.px(18), gap = app.theme.px(12);
+  const float newton = app.theme.px(18), gap = app.theme.px(8);
   const float last = app.ui.row_width - app.theme.px(34), first = std::floor((last - newton - gap) / 2);
   return {first, std::floor((first + last) / 2), last, first + newton + gap};
 }
@@ -84,7 +79,38 @@ void contact_note(App& app, ImVec2 at) {
                    "without the body's contact");
 }
 
-constexpr float sample_length = 20, symbol_at = 26;  // at scale 1
+constexpr float tick_side = 9, sample_at = 13, sample_length = 14, symbol_at = 31;  // at scale 1
+
+void toggle_arrow(App& app, std::string_view key) {
+  std::set<std::string>& arrows = app.settings.handling.arrows;
+  const std::string name(key);
+  const bool drawn = app.ui.arrows && arrows.count(name) > 0;
+  if (drawn) return void(arrows.erase(name));
+  arrows.insert(name);
+  app.ui.arrows = true;
+}
+
+/// The tick that shows the variable's arrow, and the sample of its curve. The item before is what a click takes.
+void tick_and_sample(App& app, std::string_view key, float left, float middle) {
+  if (!has_arrow(key)) return;
+  const Tokens& c = app.theme.colors;
+  const bool on = app.ui.arrows && app.settings.handling.arrows.count(std::string(key)) > 0;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float side = app.theme.px(tick_side), line = std::max(1.f, app.theme.px(1.2f));
+  const ImVec2 lo{left, std::round(middle - side / 2)}, hi{lo.x + side, lo.y + side};
+  const ImU32 edge = ImGui::IsItemHovered() ? c.text : on ? c.accent : c.quiet;
+  if (on) draw.AddRectFilled(lo, hi, c.accent, app.theme.px(2));
+  draw.AddRect(lo, hi, edge, app.theme.px(2), 0, line);
+  if (on) {
+    const ImVec2 check[3] = {{lo.x + side * 0.22f, lo.y + side * 0.52f},
+                             {lo.x + side * 0.42f, lo.y + side * 0.74f},
+                             {lo.x + side * 0.8f, lo.y + side * 0.26f}};
+    draw.AddPolyline(check, 3, c.on_accent, 0, app.theme.scale * 1.4f);
+  }
+  const ImVec2 sample[2] = {{left + app.theme.px(sample_at), middle},
+                            {left + app.theme.px(sample_at + sample_length), middle}};
+  draw_styled_line(draw, sample, 2, curve_style(c, key), app.theme.scale);
+}
 
 /// Symbol with the sample of its curve, magnitude, unit. The number ends `end` after the cell's left edge.
 void force_cell(App& app, std::string_view key, const ParticleReadout* readout, float end) {
@@ -94,13 +120,13 @@ void force_cell(App& app, std::string_view key, const ParticleReadout* readout, 
   const float width = end + app.theme.px(18);
   const float height = line_height(app), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  ImGui::InvisibleButton("variable", {width, height});
-  const glm::dvec3 value = readout != nullptr ? value_of(*readout, key) : glm::dvec3(0);
+  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(key)) toggle_arrow(app, key);
+  report_control(app, key);
+  tick_and_sample(app, key, lo.x, middle);
+  const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
   variable_tooltip(app, gui::item_id(), what, value, lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(sample_length), middle}};
-  draw_styled_line(draw, sample, 2, curve_style(c, key), app.theme.scale);
   const ImVec2 symbol{lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)};
   draw_symbol(draw, app.fonts, symbol, what.symbol, c.text);
   if (lacks_contact(readout, key)) contact_mark(app, symbol, what.symbol);
@@ -118,8 +144,10 @@ void motion_line(App& app, std::string_view key, const ParticleReadout* readout)
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = app.ui.row_width, height = line_height(app), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  ImGui::InvisibleButton("variable", {width, height});
-  const glm::dvec3 value = readout != nullptr ? value_of(*readout, key) : glm::dvec3(0);
+  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(key)) toggle_arrow(app, key);
+  report_control(app, key);
+  tick_and_sample(app, key, lo.x, middle);
+  const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
   variable_tooltip(app, gui::item_id(), what, value, lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -241,6 +241,8 @@ void map_plot_card(App& app, float height) {
   if (head_button(app, inner, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
   if (head_button(app, inner, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
     app.command(Command::export_map);
+  if (head_button(app, inner, 2, "png_map", icon::picture, "PNG", "Write the map as a picture…"))
+    app.command(Command::export_map_picture);
   stability_map(app, inner.size);
 }
 

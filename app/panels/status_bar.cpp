@@ -65,7 +65,7 @@ void status_bar(App& app, const Region& region) {
   if (app.preset().kind == Kind::cloth) {
     hints(app, draw, at, end,
           {{"Right drag", "grabs"},
-           {"Left drag", "cuts"},
+           {"Left drag", app.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},
            {"Middle drag", "orbits"},
            {"Right click", "picks"},
            {"Right double-click", "pins"},

@@ -135,9 +135,13 @@ float speed_combo(App& app, float x, float end) {
   const float width = app.theme.px(72), height = app.theme.px(26);
   if (x + width > end) return end;
   ImGui::SetCursorScreenPos({x, bar_middle(app, height)});
-  char shown[32];
-  std::snprintf(shown, sizeof shown, "%s ×", short_number(app.pacing.speed).c_str());
-  if (begin_combo(app, "##speed", shown, width)) {
+  const bool slowed = app.pacing.slowed != 1;
+  const std::string hand = slowed ? std::string(icon_or(app.fonts, icon::hand, "hand")) + " " : "";
+  const std::string shown = hand + short_number(app.pacing.aim()) + (slowed ? "×" : " ×");
+  ImGui::PushStyleColor(ImGuiCol_Text, slowed ? app.theme.colors.accent : app.theme.colors.text);
+  const bool open = begin_combo(app, "##speed", shown.c_str(), width);
+  ImGui::PopStyleColor();
+  if (open) {
     for (double speed : speeds)
       if (ImGui::Selectable((short_number(speed) + " ×").c_str(), speed == app.pacing.speed)) {
         app.pacing.speed = speed;
@@ -145,7 +149,9 @@ float speed_combo(App& app, float x, float end) {
       }
     end_combo();
   } else {
-    tooltip(app, gui::item_id(), "Speed: simulated time to real time. Below 1 is slow motion.");
+    tooltip(app, gui::item_id(),
+            slowed ? "Slow motion while the hand is in the cloth"
+                   : "Speed: simulated time to real time. Below 1 is slow motion.");
   }
   return x + width + app.theme.px(18);
 }
@@ -156,7 +162,7 @@ void readings(App& app, float x, float end) {
   const auto time = [&](double t) { return "t = " + time_number(t, app.preset().dt) + " s"; };
   x = reading(app, x, end, "", time(app.simulation->time()), time(10).c_str(), c.text, "Simulated time");
   x = speed_combo(app, x, end);
-  const double part = app.pacing.speed > 0 ? app.pacing.reached() / app.pacing.speed : 0;
+  const double part = app.pacing.aim() > 0 ? app.pacing.reached() / app.pacing.aim() : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * app.pacing.reached());
   const bool running = app.pacing.playing && !app.simulation->divergence() && !app.asleep();
   x = reading(

@@ -58,7 +58,7 @@ struct Plots {
 
 /// A question or a file dialog over everything else.
 struct Dialog {
-  enum class Kind { none, open, save, export_csv, texture, picture, unsaved, large_cloth };
+  enum class Kind { none, open, save, write_export, texture, picture, unsaved, large_cloth };
   Kind kind = Kind::none;
   bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
@@ -70,7 +70,7 @@ struct Dialog {
   bool path_follows = false;    ///< the path is made from the name until it is edited
   bool overwrite = false;       ///< the file exists, and the user is asked
   bool whole_window = false;    ///< of picture
-  CsvSource csv{};              ///< of export_csv
+  ExportSource source{};        ///< of write_export
   std::optional<Request> then;  ///< of a question: what follows a yes
   std::string question;
   struct Entry {
@@ -94,6 +94,7 @@ struct PaletteEntry {
   std::string group, title;
   std::string keys;  ///< at the right: keys, units, progress
   std::string also;  ///< words under which it is found too
+  std::string help;  ///< sentences under which it is found after all others
   std::function<void(App&)> act;
 };
 
@@ -106,8 +107,9 @@ struct CommandPalette {
   char text[128] = "";
   std::string narrowed;  ///< the text for which `selected` counts
   int selected = 0;
-  int go = 0;          ///< entries to go down, by the keys of this frame
-  bool enter = false;  ///< Enter was pressed
+  int go = 0;                   ///< entries to go down, by the keys of this frame
+  bool enter = false;           ///< Enter was pressed
+  std::vector<KeyEvent> later;  ///< pressed after it, for what stands there once it has acted
 };
 
 /// The cards that show a newcomer round.
@@ -128,15 +130,16 @@ struct Ui {
   Dialog dialog;
   Advice advice;
   bool help = false;
-  bool panels = true;  ///< Tab hides them all
-  bool force_arrows = true;
-  std::vector<std::string> devices;  ///< OpenCL's, by name, once one is in use
-  bool energy_shown = false;         ///< the ledger's card is open
-  bool accuracy_shown = false;       ///< the accuracy card is open
-  bool inside_shown = false;         ///< a step written out is in sight
-  bool map_shown = false;            ///< the map of stiffness against dt is in sight
-  double arrow_scale = 0;            ///< N for the longest arrow, smoothed
-  double now = 0;                    ///< s since the window opened
+  bool panels = true;                    ///< Tab hides them all
+  bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
+  std::optional<bool> wind_arrow;        ///< shown or not; none: while there is wind
+  std::vector<std::string> devices;      ///< OpenCL's, by name, once one is in use
+  bool energy_shown = false;             ///< the ledger's card is open
+  bool accuracy_shown = false;           ///< the accuracy card is open
+  bool inside_shown = false;             ///< a step written out is in sight
+  bool map_shown = false;                ///< the map of stiffness against dt is in sight
+  std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
+  double now = 0;                        ///< s since the window opened
   double draw_by = 0;      ///< when the next frame is wanted though nothing moves (a tooltip, a cursor, a message)
   double last_change = 0;  ///< when constants changed last, to tell gestures apart
   unsigned hovered = 0;    ///< what the pointer rests on, for tooltips
@@ -146,6 +149,7 @@ struct Ui {
   bool close_lists = false;       ///< Esc was pressed: open menus and combo boxes close in this frame
   bool constants_to_top = false;  ///< another preset was taken: its constants are shown from the first one on
   float viewport_left = 0;        ///< pixels
+  bool side_plots = false;        ///< where both columns have no room, the plots stand in the constants' place
   float row_width = 0;            ///< of the constants, pixels
 };
 

@@ -11,6 +11,8 @@
 namespace tyglab {
 namespace {
 
+constexpr float buttons_above = 46;  // pixels at scale 1
+
 void set_mode(App& app, int mode) {
   Preset next = app.wished();
   next.mode = mode;
@@ -98,6 +100,8 @@ void pictures(App& app, ImDrawList& draw) {
 
 void viewport_panel(App& app, const Region& region) {
   app.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}};
+  // Buttons stand over one picture, but above several: they would cover the tops of all but one.
+  if (app.copies.tiles() > 1) app.viewport.box.lo.y += app.theme.px(buttons_above);
   app.viewport.divide(app.copies.tiles());
   app.viewport.covers.clear();
   if (!begin_region("viewport", region, app.theme.colors.ground, {0, 0})) return end_region();

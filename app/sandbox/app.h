@@ -18,6 +18,7 @@
 #include "app/sandbox/cloth_views.h"
 #include "app/sandbox/convergence_watch.h"
 #include "app/sandbox/copies.h"
+#include "app/sandbox/edits.h"
 #include "app/sandbox/effects.h"
 #include "app/sandbox/engine_search.h"
 #include "app/sandbox/figure.h"

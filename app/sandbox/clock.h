@@ -10,13 +10,23 @@ class Pacing {
  public:
   bool playing = true;
   double speed = 1;  ///< simulated seconds per real second wished
+  static constexpr double slow_motion = 0.25;
+  double slowed = 1;  ///< times which, while the hand is in the cloth
+  /// Simulated seconds per real second that are aimed at now.
+  double aim() const { return speed * slowed; }
+  /// Slow motion begins or ends.
+  void slow(double factor) {
+    if (factor == slowed) return;
+    slowed = factor;
+    restart_measure();
+  }
   static constexpr double usual_budget_s = 0.012;
   double budget_s = usual_budget_s;  ///< wall time that a frame may spend on steps
 
   /// Whole steps due after `real_seconds` more of real time (a pause in drawing counts as a tenth of a second at most),
   /// not more than the budget is likely to allow.
   int due(double real_seconds, double dt) {
-    const double wish = speed * std::min(real_seconds, 0.1);
+    const double wish = aim() * std::min(real_seconds, 0.1);
     wished_ += wish, elapsed_ += std::min(real_seconds, 0.1);
     owed_ += wish;
     const double steps = std::floor(owed_ / dt * (1 + 1e-12));
@@ -33,7 +43,7 @@ class Pacing {
     got_ += steps * dt;
     owed_ = std::clamp(owed_ - steps * dt, 0.0, dt);
     if (elapsed_ < 0.5) return;
-    reached_ = wished_ > 0 ? std::min(got_ / wished_, 1.0) * speed : 0;
+    reached_ = wished_ > 0 ? std::min(got_ / wished_, 1.0) * aim() : 0;
     wished_ = got_ = elapsed_ = 0;
   }
   void forget_cost() { step_cost_s_ = 0; }

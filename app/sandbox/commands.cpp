@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 40> rows{{
+  static const std::array<CommandRow, 43> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -71,6 +71,24 @@ std::span<const CommandRow> command_rows() {
        {{GLFW_KEY_P, control | shift}},
        "saves a picture of the cloth",
        "png screenshot image export"},
+      {Command::toggle_cut_path,
+       "Cut along the path, or upwards",
+       "X",
+       {{GLFW_KEY_X, 0}},
+       "cuts along the pointer's path, or upwards",
+       "knife scissors tool mode springs"},
+      {Command::toggle_wind_arrow,
+       "Wind arrow",
+       "W",
+       {{GLFW_KEY_W, 0}},
+       "shows the wind as an arrow to drag",
+       "gust blow"},
+      {Command::toggle_slow_hand,
+       "Slow motion in the hand, on or off",
+       "H",
+       {{GLFW_KEY_H, 0}},
+       "slow motion while you grab or cut",
+       "speed quarter grab"},
       {Command::full_screen, "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window"},
       {Command::open_dialog, "Open…", "Ctrl+O", {{GLFW_KEY_O, control}}, "opens a preset", "file load"},
       {Command::save, "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write"},
@@ -103,6 +121,7 @@ std::span<const CommandRow> command_rows() {
       {Command::export_forces, "Write the forces as CSV…", "", {}, "", "export plot series"},
       {Command::export_height, "Write the height of the weight as CSV…", "", {}, "", "export plot series"},
       {Command::export_map, "Write the map as CSV…", "", {}, "", "export stability"},
+      {Command::export_map_picture, "Write the map as PNG…", "", {}, "", "export stability picture"},
       {Command::export_copies, "Write the copies' distances as CSV…", "", {}, "", "export lockstep"},
       {Command::export_values,
        "Write every particle's values as CSV…",

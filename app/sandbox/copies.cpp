@@ -82,7 +82,8 @@ CurveStyle style_of_cloth(const App& app, int n) {
   static constexpr std::array<LineStyle, Lockstep::most> lines{
       LineStyle::dashed, LineStyle::long_dash, LineStyle::dotted, LineStyle::dash_dot, LineStyle::sparse_dots};
   if (n == Copies::original) return {c.sky, LineStyle::solid, 2};
-  return {c.*colors[std::size_t(n)], lines[std::size_t(n)], 2};
+  const std::size_t seat = app.copies.lockstep[std::size_t(n)].seat;
+  return {c.*colors[seat], lines[seat], 2};
 }
 
 void add_copy(App& app, const std::vector<std::string>& differences, bool as_reference) {

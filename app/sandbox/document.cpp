@@ -43,6 +43,7 @@ void begin_document(App& app, const Document& document, const FoundPicture& pict
   app.tool = Tool{};
   app.ui.plots.forces.clear(), app.ui.plots.height.clear();
   app.ui.slider = SliderState{};
+  app.ui.wind_arrow.reset();
   app.ui.constants_to_top = true;
   app.pacing.forget_cost(), app.pacing.restart_measure();
   app.wants_framing = true;
@@ -110,6 +111,7 @@ bool save_document_as(App& app, const std::filesystem::path& file, const std::st
   }
   app.building.rename(name);
   if (!app.building.holds_present()) apply_to_all(app, edit::Change{preset});
+  if (app.labs.opened == app.document.label) app.labs.opened = file.stem().string();  // it is the lab's cloth still
   app.document = {preset, file.stem().string(), file};
   app.messages.note("Saved " + file.string());
   return true;

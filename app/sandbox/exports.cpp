@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "app/charts/map_chart.h"
+#include "app/commands/bench_output.h"
 #include "app/panels/curves.h"
 #include "app/sandbox/app.h"
 #include "core/notation/preset_io.h"
@@ -50,20 +52,40 @@ std::string values(App& app) {
   return values_csv(*app.simulation, reference);
 }
 
+template <std::string (*text)(App&)>
+void csv(App& app, const std::filesystem::path& file) {
+  write_atomically(file, text(app));
+}
+
+void map_picture(App& app, const std::filesystem::path& file) {
+  const auto known = app.map.findings();
+  if (!known) throw OutputError("There is no map yet; open it (M), and let some of it be measured.");
+  const Preset here = at_place(known->of, stiffness_of(app.wished()), app.wished().dt);
+  const Chart page =
+      map_page(app.theme.colors, here, app.document.label, machine_line(), known->grid, known->boundary, known->cells);
+  write_png(file, picture_of({page}, 1));
+}
+
+constexpr const char* rows_of_frames =
+    "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.";
+
 }  // namespace
 
-const CsvExport& csv_export(CsvSource source) {
-  static constexpr const char* a_plot =
-      "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.";
-  static constexpr std::array<CsvExport, 6> exports{
-      {{"Write the forces as CSV", a_plot, "forces.csv", forces},
-       {"Write the height of the weight as CSV", a_plot, "height.csv", height},
-       {"Write the map of stiffness and dt as CSV", "One row for each short run, units in the header.", "map.csv", map},
-       {"Write what the copies' plot holds as CSV", a_plot, "copies.csv", copies},
+const Export& export_of(ExportSource source) {
+  static constexpr std::array<Export, 7> exports{
+      {{"Write the forces as CSV", rows_of_frames, "forces.csv", csv<forces>},
+       {"Write the height of the weight as CSV", rows_of_frames, "height.csv", csv<height>},
+       {"Write the map of stiffness and dt as CSV",
+        "One row for each cell that has been measured: stiffness, dt, what the short run came to, theory's dt.",
+        "map.csv", csv<map>},
+       {"Write what the copies' plot holds as CSV", rows_of_frames, "copies.csv", csv<copies>},
        {"Write every particle's values as CSV",
         "One row for each particle as it is now, one column for each quantity that can colour the cloth.", "values.csv",
-        values},
-       {"Write the convergence as CSV", "One row for each dt, units in the header.", "convergence.csv", convergence}}};
+        csv<values>},
+       {"Write the convergence as CSV", "One row for each dt, units in the header.", "convergence.csv",
+        csv<convergence>},
+       {"Write the map of stiffness and dt as PNG", "A picture of the map as far as it has been measured.", "map.png",
+        map_picture}}};
   return exports[std::size_t(source)];
 }
 

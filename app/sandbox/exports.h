@@ -1,19 +1,20 @@
-// What the sandbox writes as CSV: a row each.
+// What the sandbox writes to files: a row each.
 #pragma once
 
-#include <string>
+#include <filesystem>
 
 #include "app/sandbox/requests.h"
 
 namespace tyglab {
 
-struct CsvExport {
+struct Export {
   const char* title;  ///< of the dialog
   const char* holds;  ///< a sentence
   const char* file;   ///< proposed
-  std::string (*text)(App& app);
+  /// Throws OutputError, GraphicsError.
+  void (*write)(App& app, const std::filesystem::path& file);
 };
 
-const CsvExport& csv_export(CsvSource source);
+const Export& export_of(ExportSource source);
 
 }  // namespace tyglab

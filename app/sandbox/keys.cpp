@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "app/sandbox/app.h"
 #include "app/sandbox/commands.h"
@@ -70,6 +71,10 @@ bool slider_takes(App& app, const KeyEvent& event) {
 bool palette_takes(App& app, const KeyEvent& event) {
   CommandPalette& palette = app.ui.palette;
   if (!palette.open) return false;
+  if (palette.enter) {
+    palette.later.push_back(event);
+    return true;
+  }
   if (event.key == GLFW_KEY_ESCAPE || (event.key == GLFW_KEY_P && event.mods == GLFW_MOD_CONTROL)) palette.open = false;
   palette.go += (event.key == GLFW_KEY_DOWN ? 1 : 0) - (event.key == GLFW_KEY_UP ? 1 : 0);
   palette.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
@@ -111,14 +116,26 @@ void command_for(App& app, const KeyEvent& event) {
         return app.command(row.command);
 }
 
+void take_key(App& app, const KeyEvent& event) {
+  const bool taken = dialog_takes(app, event) || palette_takes(app, event) || help_takes(app, event) ||
+                     list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event) ||
+                     tour_takes(app, event);
+  if (!taken) command_for(app, event);
+}
+
 }  // namespace
 
 void handle_keys(App& app) {
-  for (const KeyEvent& event : app.input.keys) {
-    if (dialog_takes(app, event) || palette_takes(app, event) || help_takes(app, event) || list_takes(app, event) ||
-        typing_takes(app, event) || slider_takes(app, event) || tour_takes(app, event))
-      continue;
-    command_for(app, event);
+  CommandPalette& palette = app.ui.palette;
+  // What was pressed after the palette's Enter comes once that has acted.
+  if (!palette.enter)
+    for (const KeyEvent& event : std::exchange(palette.later, {})) take_key(app, event);
+  for (std::size_t n = 0; n < app.input.keys.size(); ++n) {
+    const bool before = palette.enter;
+    take_key(app, app.input.keys[n]);
+    // Letters typed after it are no part of what is looked for.
+    if (palette.enter && !before)
+      std::erase_if(app.input.text, [&](const TypedCharacter& typed) { return typed.keys_before > n + 1; });
   }
 }
 

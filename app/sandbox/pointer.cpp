@@ -7,13 +7,16 @@
 #include <limits>
 
 #include "app/sandbox/app.h"
+#include "app/sandbox/wind_arrow.h"
 #include "app/sandbox/window.h"
 #include "app/viewport/picking.h"
+#include "app/viewport/spring_picking.h"
 
 namespace tyglab {
 namespace {
 
 constexpr float click_slack = 4;         // pixels at scale 1
+constexpr float nick = 6;                // half of the stroke that is shown before the press, pixels at scale 1
 constexpr float double_click_slack = 8;  // between the two presses of a double click
 
 using ToolKind = Tool::Kind;
@@ -57,6 +60,7 @@ void start_left(App& app, glm::vec2 at) {
   } else {
     tool.kind = ToolKind::cut;
     tool.path = {at};
+    tool.stroke.push_back({at, app.ui.now, tool.tile, true});
   }
 }
 
@@ -76,7 +80,9 @@ void start(App& app, const PointerEvent& event) {
   tool.press = tool.at = at;
   tool.press_time = event.time;
   const bool shift = (event.mods & GLFW_MOD_SHIFT) != 0, control = (event.mods & GLFW_MOD_CONTROL) != 0;
-  if (event.button == GLFW_MOUSE_BUTTON_MIDDLE || (event.button == GLFW_MOUSE_BUTTON_LEFT && control)) {
+  if (event.button == GLFW_MOUSE_BUTTON_LEFT && tool.tile == 0 && on_wind_tip(app, at)) {
+    take_wind(app);
+  } else if (event.button == GLFW_MOUSE_BUTTON_MIDDLE || (event.button == GLFW_MOUSE_BUTTON_LEFT && control)) {
     tool.kind = shift ? ToolKind::pan : ToolKind::orbit;
   } else if (event.button == GLFW_MOUSE_BUTTON_LEFT) {
     start_left(app, at);
@@ -135,6 +141,7 @@ void drag(App& app, glm::vec2 at) {
       break;
     case ToolKind::cut:
       tool.path.push_back(at);
+      tool.stroke.push_back({at, app.ui.now, tool.tile, false});
       break;
     case ToolKind::right:
       if (glm::length(at - tool.press) > app.theme.px(click_slack)) start_grab(app);
@@ -142,6 +149,7 @@ void drag(App& app, glm::vec2 at) {
     case ToolKind::none:
     case ToolKind::grab:
     case ToolKind::body:
+    case ToolKind::wind:
       break;
   }
 }
@@ -155,7 +163,21 @@ void wheel(App& app, const PointerEvent& event) {
   }
 }
 
-void cut(App& app) {
+/// What the pointer's way of this frame has crossed. A spring that it crossed twice is cut once.
+void cut_along_path(App& app) {
+  Tool& tool = app.tool;
+  const Simulation& cloth = cloth_in_tile(app, tool.tile);
+  edit::CutSprings cut;
+  for (std::size_t k = 1; k < tool.path.size(); ++k)
+    for (const SpringSite& spring : springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies,
+                                                   tool.path[k - 1], tool.path[k], app.viewport.size()))
+      if (std::find(cut.springs.begin(), cut.springs.end(), spring) == cut.springs.end()) cut.springs.push_back(spring);
+  tool.path = {tool.at};
+  if (!cut.springs.empty()) apply_edit(app, std::move(cut));
+}
+
+/// The report's cut: the particles near the pointer's way lose their springs upwards.
+void cut_upwards(App& app) {
   Tool& tool = app.tool;
   std::vector<Pins::Site> sites;
   if (tool.path.size() == 1) tool.path.push_back(tool.path.front());
@@ -165,6 +187,10 @@ void cut(App& app) {
       if (std::find(sites.begin(), sites.end(), site) == sites.end()) sites.push_back(site);
   tool.path = {tool.at};
   if (!sites.empty()) apply_edit(app, edit::Cut{std::move(sites)});
+}
+
+void cut(App& app) {
+  app.settings.handling.cut_along_path ? cut_along_path(app) : cut_upwards(app);
 }
 
 void move_body(App& app) {
@@ -186,6 +212,7 @@ void hold(App& app) {
     start_grab(app);
   if (tool.kind == ToolKind::cut) cut(app);
   if (tool.kind == ToolKind::body) move_body(app);
+  if (tool.kind == ToolKind::wind) drag_wind(app);
   if (tool.kind != ToolKind::grab) return;
   const auto held = app.simulation->held();
   if (!held) {
@@ -250,14 +277,42 @@ std::optional<Pins::Site> particle_under_pointer(App& app) {
   return nearest_site(app, tile, app.input.at - app.viewport.origin(tile), false);
 }
 
+bool wind_under_pointer(const App& app) {
+  if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
+  return app.viewport.tile_at(app.input.at) == 0 && on_wind_tip(app, app.input.at - app.viewport.origin(0));
+}
+
+std::vector<SpringSite> springs_under_pointer(App& app) {
+  const Lattice& lattice = app.simulation->lattice();
+  if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at) || lattice.size() > Lockstep::largest)
+    return {};
+  const int tile = app.viewport.tile_at(app.input.at);
+  const Simulation& cloth = cloth_in_tile(app, tile);
+  const glm::vec2 at = app.input.at - app.viewport.origin(tile);
+  std::vector<SpringSite> met;
+  for (const glm::vec2 half : {glm::vec2(app.theme.px(nick), 0), glm::vec2(0, app.theme.px(nick))})
+    for (const SpringSite& spring : springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies,
+                                                   at - half, at + half, app.viewport.size()))
+      if (std::find(met.begin(), met.end(), spring) == met.end()) met.push_back(spring);
+  return met;
+}
+
+bool hand_in_cloth(const App& app) {
+  return app.tool.kind == ToolKind::grab || app.tool.kind == ToolKind::cut;
+}
+
 bool body_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
   const int tile = app.viewport.tile_at(app.input.at);
   return body_pressed(app, tile, app.input.at - app.viewport.origin(tile)).has_value();
 }
 
+bool cuts_between_steps(const App& app) {
+  return app.tool.kind == ToolKind::cut && !app.settings.handling.cut_along_path;
+}
+
 void cut_between_steps(App& app) {
-  if (app.tool.kind == ToolKind::cut) cut(app);
+  if (cuts_between_steps(app)) cut(app);
 }
 
 void move_hand(App& app, int steps) {

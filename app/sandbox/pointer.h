@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/sandbox/input.h"
+#include "core/cloth/lattice.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -44,13 +45,23 @@ struct Viewport {
 
 /// What the pointer is doing in the viewport.
 struct Tool {
-  enum class Kind { none, orbit, pan, right, grab, cut, body };
+  enum class Kind { none, orbit, pan, right, grab, cut, body, wind };
   Kind kind = Kind::none;     ///< right: the right button is down and has not moved yet
   int button = 0;             ///< that ends it
   int tile = 0;               ///< the picture that was pressed
   glm::vec2 press{0}, at{0};  ///< pixels in that picture
   double press_time = 0;
   std::vector<glm::vec2> path;  ///< the pointer's way in this frame, for cuts
+  /// A knife's way through a picture, as it is still seen.
+  struct StrokePoint {
+    glm::vec2 at{0};  ///< pixels in that picture
+    double time = 0;  ///< s
+    int tile = 0;
+    bool begins = false;
+  };
+  std::vector<StrokePoint> stroke;
+  unsigned wind_gesture = 0;  ///< each drag of the wind's arrow is undone by itself
+  glm::dvec3 wind{0};         ///< N, as its arrow was pressed
   int body = -1;
   glm::dvec3 body_plane{0}, body_offset{0};
   std::optional<Pins::Site> site;  ///< under the right press
@@ -70,7 +81,15 @@ std::optional<Pins::Site> particle_under_pointer(App& app);
 Simulation& cloth_in_tile(App& app, int tile);
 /// Whether a left press would take a body.
 bool body_under_pointer(App& app);
-/// While the cut is held: cuts at the pointer, once a step, since the cloth moves under it between two frames.
+/// Whether a left press would take the wind's arrow by its tip.
+bool wind_under_pointer(const App& app);
+/// The springs that a nick there would cut, where cuts run along the pointer's path.
+std::vector<SpringSite> springs_under_pointer(App& app);
+/// Whether the pointer grabs or cuts now.
+bool hand_in_cloth(const App& app);
+/// While the report's cut is held: cuts at the pointer, once a step, since the cloth moves under it between two frames.
+/// A cut along the path is over with the frame whose path it is.
+bool cuts_between_steps(const App& app);
 void cut_between_steps(App& app);
 /// Sends the hand to the pointer over the next `steps` steps.
 void move_hand(App& app, int steps);

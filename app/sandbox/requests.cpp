@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <new>
 
-#include "app/data_files.h"
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
 #include "app/panels/palette.h"
@@ -12,6 +10,7 @@
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/exports.h"
+#include "app/sandbox/wind_arrow.h"
 #include "core/cloth/start.h"
 #include "core/notation/preset_io.h"
 
@@ -20,90 +19,6 @@ namespace {
 
 /// Above this many particles a frame may take seconds, so the user is asked first.
 constexpr double large_cloth = 1e6;
-
-/// A particle that was pinned and freed again leaves a list of pins; where it says what the document says by a name, or
-/// by a list in another order, it is put as the document puts it.
-void spell_pins_as_saved(App& app) {
-  const Preset& saved = app.document.saved;
-  if (app.preset().pins == saved.pins || !same_pins(app.preset(), saved)) return;
-  Preset next = app.preset();
-  next.pins = saved.pins;
-  apply_to_all(app, edit::Change{next});
-}
-
-/// A new picture for the cloth, if the edit brings one. False where the picture is of no use.
-bool take_texture(App& app, const Edit& edit) {
-  const auto* change = std::get_if<edit::Change>(&edit);
-  if (change == nullptr || change->preset.texture == app.wished().texture) return true;
-  if (const auto problem = app.renderer->set_texture(texture_file(change->preset.texture))) {
-    app.messages.error(*problem);
-    return false;
-  }
-  app.redraw_cloth = true;
-  return true;
-}
-
-void record(App& app, const Preset& before, const Preset& now, unsigned gesture) {
-  Preset same_view = before;
-  same_view.mode = now.mode;
-  if (!(same_view == now)) app.history.record(before, gesture);
-}
-
-/// What changes while another cloth is in work is felt at once where that is quick.
-void change_present(App& app, const Preset& before, const Preset& next) {
-  const edit::Change change{rebased(before, next, app.preset())};
-  if (app.building.holds_present() || change.preset == app.preset()) return;
-  if (app.simulation->rebuilds(change) || needs_programs(app, change.preset)) return;
-  const Preset old = app.preset();
-  apply_to_all(app, change);
-  follow_up(app, old);
-}
-
-/// What becomes of an edit of the cloth itself while its state is being read for another one: whether it is taken.
-bool defer(App& app, const Edit& edit) {
-  // Who would grab must see it at once.
-  if (std::holds_alternative<edit::Grab>(edit) || std::holds_alternative<edit::MoveHand>(edit)) return false;
-  app.building.defer(edit);
-  return true;
-}
-
-/// Whether an edit of all constants is to be made beside the frames, together with what is in work there.
-bool goes_beside(const App& app, const Edit& edit) {
-  const Building& building = app.building;
-  if (building.holds_present()) return true;
-  if (building.wished() == nullptr) return takes_long(app, edit);
-  const auto* change = std::get_if<edit::Change>(&edit);
-  return building.restarts() || app.simulation->rebuilds(edit) ||
-         (change != nullptr && needs_programs(app, change->preset));
-}
-
-/// Sees to an edit that takes long, or that comes while another cloth is in work: says whether it was taken. Nothing:
-/// it is to be made here and now.
-std::optional<bool> build_beside(App& app, const Edit& edit, unsigned gesture) {
-  Building& building = app.building;
-  const bool restarts = std::holds_alternative<edit::Restart>(edit);
-  const auto* change = std::get_if<edit::Change>(&edit);
-  if (change == nullptr && !restarts) {
-    if (!building.holds_present()) return std::nullopt;
-    return defer(app, edit);
-  }
-  if (!goes_beside(app, edit)) {
-    if (building.wished() != nullptr) building.drop();
-    return std::nullopt;
-  }
-  const Preset before = app.wished(), next = change != nullptr ? change->preset : before;
-  const History history = app.history;
-  record(app, before, next, gesture);
-  if (building.wished() != nullptr) change_present(app, before, next);
-  BuildOrder order;
-  order.target = next;
-  order.restarts = restarts || building.restarts();
-  order.programs = !order.restarts && !app.simulation->rebuilds(edit);
-  order.fresh = order.programs || order.restarts || lattice_of(next) != app.simulation->lattice() ||
-                next.kind != app.preset().kind;
-  building.order(app, std::move(order), history);
-  return true;
-}
 
 void restart(App& app) {
   if (!apply_edit(app, edit::Restart{})) return;
@@ -178,12 +93,26 @@ void follow_constants(App& app, Preset& next) {
 void toggle_plot(App& app, bool Layout::*card) {
   Layout& layout = app.settings.layout;
   layout.*card = !(layout.*card);
-  if (layout.*card) layout.right = app.ui.panels = true, app.ui.plots.tab = Plots::newest;
+  if (layout.*card) layout.right = app.ui.panels = app.ui.side_plots = true, app.ui.plots.tab = Plots::newest;
 }
 
-void open_export(App& app, CsvSource source) {
-  app.ui.dialog.csv = source;
-  open_dialog(app, Dialog::Kind::export_csv);
+void toggle_cut_path(App& app) {
+  bool& along = app.settings.handling.cut_along_path;
+  along = !along;
+  app.messages.note(along ? "A left drag cuts every spring that its path crosses."
+                          : "A left drag cuts the springs upwards of the particles near it, as in the report.");
+}
+
+void toggle_slow_hand(App& app) {
+  bool& slow = app.settings.handling.slow_hand;
+  slow = !slow;
+  app.messages.note(slow ? "While you grab or cut, time goes at a quarter of its speed."
+                         : "Time goes at its speed while you grab or cut.");
+}
+
+void open_export(App& app, ExportSource source) {
+  app.ui.dialog.source = source;
+  open_dialog(app, Dialog::Kind::write_export);
 }
 
 void reset_everything(App& app) {
@@ -279,9 +208,9 @@ void apply(App& app, const request::Do& what) {
     case Command::load_texture_dialog:
       return open_dialog(app, Dialog::Kind::texture);
     case Command::export_forces:
-      return open_export(app, CsvSource::forces);
+      return open_export(app, ExportSource::forces);
     case Command::export_height:
-      return open_export(app, CsvSource::height);
+      return open_export(app, ExportSource::height);
     case Command::toggle_help:
       app.ui.help = !app.ui.help;
       return;
@@ -300,14 +229,23 @@ void apply(App& app, const request::Do& what) {
       return toggle_plot(app, &Layout::map);
     case Command::toggle_inside:
       return toggle_plot(app, &Layout::inside);
+    case Command::toggle_cut_path:
+      return toggle_cut_path(app);
+    case Command::toggle_wind_arrow:
+      app.ui.wind_arrow = !wind_arrow_shown(app);
+      return;
+    case Command::toggle_slow_hand:
+      return toggle_slow_hand(app);
     case Command::export_map:
-      return open_export(app, CsvSource::map);
+      return open_export(app, ExportSource::map);
+    case Command::export_map_picture:
+      return open_export(app, ExportSource::map_picture);
     case Command::export_copies:
-      return open_export(app, CsvSource::copies);
+      return open_export(app, ExportSource::copies);
     case Command::export_values:
-      return open_export(app, CsvSource::values);
+      return open_export(app, ExportSource::values);
     case Command::export_convergence:
-      return open_export(app, CsvSource::convergence);
+      return open_export(app, ExportSource::convergence);
     case Command::measure_convergence:
       return show_convergence(app);
     case Command::toggle_effects:
@@ -372,11 +310,11 @@ bool apply(App& app, const request::SavePreset& what) {
   return save_document_as(app, what.file, what.name);
 }
 
-void apply(App& app, const request::WriteCsv& what) {
+void apply(App& app, const request::WriteExport& what) {
   try {
-    write_atomically(what.file, csv_export(what.source).text(app));
+    export_of(what.source).write(app, what.file);
     app.messages.note("Wrote " + what.file.string());
-  } catch (const OutputError& error) {
+  } catch (const std::runtime_error& error) {
     app.messages.error(error.what());
   }
 }
@@ -427,47 +365,6 @@ bool changed_since_divergence(const App& app) {
   const Preset& now = app.preset();
   then.mode = now.mode, then.texture = now.texture, then.name = now.name, then.description = now.description;
   return then != now;
-}
-
-void follow_up(App& app, const Preset& before) {
-  const Preset& now = app.preset();
-  const Lattice& lattice = app.simulation->lattice();
-  // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
-  if (app.picked && before.L != now.L) app.picked = site_in_resolution(*app.picked, before, now);
-  if (app.picked && !lattice.contains(app.picked->i, app.picked->j)) app.picked.reset();
-  if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
-    app.tool.site.reset(), app.tool.last_site.reset();
-    if (app.tool.kind == Tool::Kind::grab) app.tool.kind = Tool::Kind::none;
-    app.ui.plots.forces.clear(), app.ui.plots.height.clear();
-  }
-  if (before.bodies.size() != now.bodies.size() && app.tool.kind == Tool::Kind::body) app.tool.kind = Tool::Kind::none;
-  app.pacing.forget_cost();
-}
-
-void apply_to_all(App& app, const Edit& edit) {
-  app.simulation->apply(edit);
-  copies_apply(app, edit);
-}
-
-bool apply_edit(App& app, const Edit& edit, unsigned gesture) {
-  try {
-    if (const auto* change = std::get_if<edit::Change>(&edit))
-      if (const std::string wrong = check_preset(change->preset); !wrong.empty()) throw PresetError(wrong);
-    if (!take_texture(app, edit)) return false;
-    if (const auto taken = build_beside(app, edit, gesture)) return *taken;
-    const Preset before = app.preset();
-    apply_to_all(app, edit);
-    if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(app);
-    if (before == app.preset()) return true;
-    record(app, before, app.preset(), gesture);
-    follow_up(app, before);
-    return true;
-  } catch (const std::bad_alloc&) {
-    app.messages.error("There is not enough memory for that. Nothing was changed; try fewer rows and columns.");
-  } catch (const std::exception& error) {
-    app.messages.error(error.what());
-  }
-  return false;
 }
 
 void watch_dt(App& app) {

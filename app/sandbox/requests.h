@@ -40,7 +40,11 @@ enum class Command {
   toggle_panels,
   toggle_map,
   toggle_inside,
+  toggle_cut_path,    ///< cuts run along the pointer's path, or upwards
+  toggle_wind_arrow,  ///< shown, or not
+  toggle_slow_hand,   ///< slow motion while the hand is in the cloth, or not
   export_map,
+  export_map_picture,
   export_copies,
   full_screen,
   larger_text,
@@ -56,8 +60,8 @@ enum class Command {
   quit,
 };
 
-/// What a CSV file is written from (exports.h), in its order.
-enum class CsvSource { forces, height, map, copies, values, convergence };
+/// What can be written to a file (exports.h), in its order.
+enum class ExportSource { forces, height, map, copies, values, convergence, map_picture };
 
 namespace request {
 /// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.
@@ -85,9 +89,9 @@ struct SavePreset {
   std::filesystem::path file;
   std::string name;
 };
-struct WriteCsv {
+struct WriteExport {
   std::filesystem::path file;
-  CsvSource source = CsvSource::forces;
+  ExportSource source = ExportSource::forces;
 };
 /// A PNG of the window, or of the viewport with what its colours mean and without buttons.
 struct SavePicture {
@@ -114,7 +118,7 @@ struct Quit {
 };
 }  // namespace request
 
-using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteCsv,
+using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteExport,
                              request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy,
                              request::ColorBy, request::SavePicture, request::Quit>;
 
@@ -123,13 +127,6 @@ struct App;
 void apply_requests(App& app);
 /// While dt is automatic: halves it if the ledger finds that the method makes energy.
 void watch_dt(App& app);
-/// Applies one edit at once (the pointer's tools). Returns whether it was taken.
-bool apply_edit(App& app, const Edit& edit, unsigned gesture = 0);
-/// Gives an edit to the cloth and its copies, with no more checks or traces than they make themselves. Throws as
-/// Simulation::apply.
-void apply_to_all(App& app, const Edit& edit);
-/// What follows where the cloth of these constants has given way to the present one.
-void follow_up(App& app, const Preset& before);
 /// Whether the present constants differ from those of the file (the view apart).
 bool unsaved(const App& app);
 /// Whether the motion has diverged, and constants of it (not its name or picture) have been changed since.

@@ -196,6 +196,7 @@ void Sandbox::simulate(double real_seconds) {
     simulation.keep_ledger(wanted);
   if (!app_.pacing.playing || app_.asleep() || app_.building.holds_present() || app_.engine_search.in_work()) return;
   const double dt = app_.preset().dt;
+  app_.pacing.slow(app_.settings.handling.slow_hand && hand_in_cloth(app_) ? Pacing::slow_motion : 1);
   if (simulation.divergence()) {
     if (app_.copies.lockstep.alive()) app_.steps_made += copies_go_on(app_, app_.pacing.due(real_seconds, dt));
     return;
@@ -215,7 +216,7 @@ void Sandbox::simulate(double real_seconds) {
   // In pieces, so that a wrong guess of a step's cost cannot hold the window up.
   while (made < due && !simulation.divergence() && (made == 0 || spent() < app_.pacing.budget_s)) {
     const double cost = app_.pacing.step_cost_s();
-    const bool cutting = app_.tool.kind == Tool::Kind::cut;
+    const bool cutting = cuts_between_steps(app_);
     const int piece = cost > 0 && !cutting ? std::clamp(int(0.25 * app_.pacing.budget_s / cost), 1, due - made) : 1;
     const double before = spent();
     const Advance advance = simulation.advance(piece);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "app/sandbox/app.h"
+#include "app/sandbox/wind_arrow.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -194,13 +195,28 @@ int pinned_count(const App& app) {
   return count;
 }
 
+/// The wind and its arrow; `tip` in pixels of the window, null where none is shown.
+Json wind(const App& app) {
+  Json json = {{"W", vector(app.preset().W)}, {"now", vector(app.simulation->wind())}, {"tip", nullptr}};
+  if (wind_arrow_shown(app)) json["tip"] = on_screen(app, wind_arrow(app, app.wished().W).tip);
+  return json;
+}
+
+Json handling(const App& app) {
+  const Handling& handling = app.settings.handling;
+  return {{"cut_along_path", handling.cut_along_path},
+          {"slow_hand", handling.slow_hand},
+          {"arrows", handling.arrows},
+          {"arrows_shown", app.ui.arrows}};
+}
+
 std::string_view name_of(Tool::Kind kind) {
-  static constexpr std::string_view names[] = {"none", "orbit", "pan", "right", "grab", "cut", "body"};
+  static constexpr std::string_view names[] = {"none", "orbit", "pan", "right", "grab", "cut", "body", "wind"};
   return names[std::size_t(kind)];
 }
 
 std::string_view name_of(Dialog::Kind kind) {
-  static constexpr std::string_view names[] = {"none",    "open",    "save",    "export_csv",
+  static constexpr std::string_view names[] = {"none",    "open",    "save",    "write_export",
                                                "texture", "picture", "unsaved", "large_cloth"};
   return names[std::size_t(kind)];
 }
@@ -212,6 +228,8 @@ void add_simulation(Json& json, const App& app) {
   json["paused"] = !app.pacing.playing;
   json["asleep"] = app.asleep();
   json["speed"] = app.pacing.speed;
+  json["aim"] = app.pacing.aim();
+  json["wind"] = wind(app);
   json["divergence"] = divergence(app);
   json["dt_over_limit"] = dt_over_limit(app);
   json["auto_dt"] = app.auto_dt.has_value();
@@ -248,6 +266,7 @@ void add_window(Json& json, const App& app) {
   json["pictures"] = {app.viewport.columns, app.viewport.rows};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
+  json["handling"] = handling(app);
   json["theme"] = app.settings.theme;
   const SliderState& slider = app.ui.slider;
   const bool starts = slider.typing_starts || app.ui.dialog.refused || app.ui.dialog.selecting;  // takes no keys yet

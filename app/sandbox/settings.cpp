@@ -81,6 +81,14 @@ Layout layout_from(const Section& from) {
   return layout;
 }
 
+Handling handling_from(const Section& from) {
+  Handling handling;
+  from.take("cut_along_path", handling.cut_along_path);
+  from.take("slow_hand", handling.slow_hand);
+  from.take("arrows", handling.arrows);
+  return handling;
+}
+
 Session session_from(const Section& from) {
   Session session;
   session.preset = parse_preset(from.at("preset").dump(), "the last session's preset");
@@ -113,6 +121,7 @@ Settings settings_from(const Json& json) {
   all.take("tour_seen", settings.tour_seen);
   all.take("labs", settings.labs);
   if (all.has("layout")) settings.layout = layout_from(all.section("layout"));
+  if (all.has("handling")) settings.handling = handling_from(all.section("handling"));
   if (all.has("session")) settings.session = session_from(all.section("session"));
   return settings;
 }
@@ -151,6 +160,9 @@ Json to_json(const Settings& settings) {
                     {"map", layout.map},
                     {"inside", layout.inside},
                     {"folded", layout.folded}};
+  const Handling& handling = settings.handling;
+  json["handling"] = {
+      {"cut_along_path", handling.cut_along_path}, {"slow_hand", handling.slow_hand}, {"arrows", handling.arrows}};
   if (settings.session)
     json["session"] = {{"label", settings.session->label},
                        {"file", settings.session->file.string()},

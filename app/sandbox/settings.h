@@ -21,6 +21,13 @@ struct Layout {
   bool operator==(const Layout&) const = default;
 };
 
+/// How the pointer's tools work, and what they show.
+struct Handling {
+  bool cut_along_path = false;  ///< a cut takes what the pointer's way crosses; otherwise springs upwards (2.3.4)
+  bool slow_hand = false;       ///< slow motion while the hand is in the cloth
+  std::set<std::string> arrows{"F_s", "F_b", "F_d", "F_g"};  ///< variables drawn at the picked particle
+};
+
 /// The preset of the last session, with what was not saved.
 struct Session {
   Preset preset;
@@ -35,6 +42,7 @@ struct Settings {
   double ui_scale = 1;
   std::string theme = "dark";  ///< a Look's name
   Layout layout;
+  Handling handling;
   bool plot_log = false;
   bool all_effects = false;  ///< however slow they are to draw
   std::string color;         ///< name of the field that colours the cloth; empty: none

@@ -34,19 +34,19 @@ std::pair<double, double> span_of(std::string_view key, double centre, double re
   return {allowed(std::min(centre / reach, inside / 1.5)), allowed(std::max(centre * reach, inside * 1.5))};
 }
 
-double limit_of(const Preset& preset) {
+double between(double least, double most, double part) {
+  return least * std::pow(most / least, part);
+}
+
+}  // namespace
+
+double map_limit(const Preset& preset) {
   const Scheme& method = scheme(preset.integrator);
   if (!has_step_limit(method)) return 0;
   const std::array modes{any_configuration(preset)};
   const double limit = dt_crit(method, modes);
   return std::isfinite(limit) ? limit : 0;
 }
-
-double between(double least, double most, double part) {
-  return least * std::pow(most / least, part);
-}
-
-}  // namespace
 
 double MapGrid::stiffness(double at) const {
   return between(least_stiffness, most_stiffness, at / columns);
@@ -74,7 +74,7 @@ MapGrid map_grid(const Preset& preset, int columns, int rows) {
   const double stiffness = std::max(stiffness_of(preset), 1e-3);
   std::tie(grid.least_stiffness, grid.most_stiffness) =
       span_of(stiffness_key(preset), stiffness, stiffness_reach, stiffness);
-  const double limit = limit_of(preset);
+  const double limit = map_limit(preset);
   std::tie(grid.least_dt, grid.most_dt) = span_of("dt", limit > 0 ? limit : preset.dt, dt_reach, preset.dt);
   return grid;
 }
@@ -83,6 +83,7 @@ MapCell measure_cell(const Preset& preset, const MapGrid& grid, int column, int 
   MapCell cell{.column = column, .row = row, .stiffness = grid.stiffness(column + 0.5), .dt = grid.dt(row + 0.5)};
   Preset own = at_place(preset, cell.stiffness, cell.dt);
   own.engine = EngineKind::cpu;
+  cell.dt_theory = map_limit(own);
   Simulation simulation(own);
   simulation.keep_ledger(true);
   const double affordable = most_work / simulation.lattice().size();
@@ -118,7 +119,7 @@ MapBoundary map_boundary(const Preset& preset, const MapGrid& grid) {
   MapBoundary boundary;
   for (int n = 0; n <= samples; ++n) {
     const double stiffness = grid.stiffness(grid.columns * double(n) / samples);
-    const double limit = limit_of(at_place(preset, stiffness, preset.dt));
+    const double limit = map_limit(at_place(preset, stiffness, preset.dt));
     if (limit <= 0) continue;
     boundary.stiffness.push_back(stiffness), boundary.dt.push_back(limit);
   }
@@ -128,12 +129,14 @@ MapBoundary map_boundary(const Preset& preset, const MapGrid& grid) {
 std::string map_csv(const Preset& preset, std::span<const MapCell> cells) {
   const std::string key = stiffness_key(preset);
   std::string text = "# tyglab stability map, " + preset.integrator + ", preset hash " + preset_hash(preset) + "\n" +
-                     key + " [N/m],dt [s],outcome,t [s],energy error\n";
+                     key + " [N/m],dt [s],outcome,t [s],energy error,dt by theory [s]\n";
   for (const MapCell& cell : cells) {
-    std::array<char, 160> line;
-    std::snprintf(line.data(), line.size(), "%.9g,%.9g,%s,%.9g,%.9g\n", cell.stiffness, cell.dt,
-                  cell.diverged ? "diverged" : "bounded", cell.t, cell.share);
-    text += line.data();
+    std::array<char, 200> line;
+    const int size = std::snprintf(line.data(), line.size(), "%.9g,%.9g,%s,%.9g,%.9g,", cell.stiffness, cell.dt,
+                                   cell.diverged ? "diverged" : "bounded", cell.t, cell.share);
+    text.append(line.data(), std::size_t(size));
+    if (cell.dt_theory > 0) std::snprintf(line.data(), line.size(), "%.9g", cell.dt_theory), text += line.data();
+    text += '\n';
   }
   return text;
 }

@@ -30,6 +30,7 @@ MapGrid map_grid(const Preset& preset, int columns, int rows);
 struct MapCell {
   int column = 0, row = 0;
   double stiffness = 0, dt = 0;
+  double dt_theory = 0;  ///< s; the largest stable one at this stiffness, by theory; 0 where there is none
   bool diverged = false;
   double t = 0;      ///< s; when it diverged, or how long it ran
   double share = 0;  ///< energy that the method made (above 0) or ate, in parts of what the scene can hold
@@ -52,6 +53,8 @@ std::vector<int> coarse_first(const MapGrid& grid);
 struct MapBoundary {
   std::vector<double> stiffness, dt;
 };
+/// The same of the preset's own stiffness, s; 0 where there is none.
+double map_limit(const Preset& preset);
 MapBoundary map_boundary(const Preset& preset, const MapGrid& grid);
 
 /// CSV: a comment, a header with units, a row a cell.

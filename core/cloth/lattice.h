@@ -27,6 +27,13 @@ inline constexpr std::array<Direction, 6> directions{{
 inline constexpr int stretch_directions = 4;
 enum : std::uint8_t { bit_E = 1, bit_S = 2, bit_SE = 4, bit_SW = 8, bit_EE = 16, bit_SS = 32, all_springs = 63 };
 
+/// A spring by its owner and the direction, an index of `directions`, in which the owner has it.
+struct SpringSite {
+  int direction = 0;
+  int i = 0, j = 0;
+  bool operator==(const SpringSite&) const = default;
+};
+
 /// R x C particles; arrays over them have `stride` >= columns elements a row.
 struct Lattice {
   int rows = 2;

@@ -14,7 +14,7 @@ namespace {
 using enum Scale;
 using enum Effect;
 
-const std::array<PresetRow, 23> rows{{
+const std::array<PresetRow, 25> rows{{
     {"cloth", "rows", "R", "Rows of particles", "Partikelrader", "", &Preset::rows, 2, 4096, logarithmic, rebuild, "",
      "Particles from top to bottom; a change builds the cloth anew.", false, Kind::cloth, true},
     {"cloth", "columns", "C", "Columns of particles", "Partikelkolumner", "", &Preset::columns, 1, 4096, logarithmic,
@@ -49,6 +49,12 @@ const std::array<PresetRow, 23> rows{{
      constant, "2.2", "Acts along -y: F_g = m·g."},
     {"forces", "W", "W", "Wind", "Vind", "N", &Preset::W, -1e3, 1e3, linear, constant, "2.16",
      "Force on each triangle along its normal: N (N·W).", false, Kind::cloth, true},
+    {"forces", "gust", "W_gust", "Strength of gusts, as a part of W", "Vindbyarnas styrka", "", &Preset::gust, 0, 10,
+     linear, constant, "", "The wind swells and falls by up to so many times W; 0 is the report's steady wind.", false,
+     Kind::cloth, true},
+    {"forces", "gust_period", "T_gust", "Period of the gusts", "Vindbyarnas period", "s", &Preset::gust_period, 0.01,
+     1e3, logarithmic, constant, "", "Time from one gust to the next; two shorter swells are laid over it.", false,
+     Kind::cloth, true},
 
     {"tearing", "F_max", "F_max", "Greatest force that a spring bears", "Maximal fjäderkraft", "N", &Preset::F_max, 0,
      1e9, logarithmic, constant, "", "A stretch spring whose F_s is larger breaks, for good.", true, Kind::cloth, true},

@@ -61,6 +61,8 @@ struct Preset {
   double k = 50;  ///< one weight only
   double g = 9.82;
   glm::dvec3 W{0, 0, 0};
+  double gust = 0;         ///< 0: the wind is steady
+  double gust_period = 2;  ///< s
 
   // tearing
   double F_max = 0;      ///< 0: never

@@ -88,9 +88,11 @@ TEST_CASE("a map's CSV has a row a cell with its units") {
   for (const int n : coarse_first(grid)) cells.push_back(measure_cell(preset, grid, n % 2, n / 2, never));
   const std::string text = map_csv(preset, cells);
   CHECK(std::count(text.begin(), text.end(), '\n') == 6);
-  CHECK(text.find("k_s [N/m],dt [s],outcome,t [s],energy error\n") != std::string::npos);
+  CHECK(text.find("k_s [N/m],dt [s],outcome,t [s],energy error,dt by theory [s]\n") != std::string::npos);
   CHECK(text.find(",diverged,") != std::string::npos);
   CHECK(text.find(",bounded,") != std::string::npos);
+  for (const MapCell& cell : cells)
+    CHECK(cell.dt_theory == doctest::Approx(map_limit(at_place(preset, cell.stiffness, cell.dt))));
 }
 
 }  // namespace tyglab::stability_map_test

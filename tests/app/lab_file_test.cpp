@@ -30,6 +30,23 @@ bool says(const std::string& text, const char* what) {
   return text.find(what) != std::string::npos;
 }
 
+TEST_CASE("all wrong lines of blocks are told at once, each with its number") {
+  const std::string all = problem_in("open: hangin\ncheck: k_z > 3\nfoo: bar\ncheck: k_s >= 3 N/m\nstop: now");
+  for (const char* line : {"my.md:9: ", "my.md:10: ", "my.md:12: "}) CHECK(says(all, line));
+  CHECK_FALSE(says(all, "my.md:11: "));
+  CHECK(says(all, "my.md:8: "));  // a preset that is not there, found at the block's end
+  const std::string unclosed = problem_of(head + "check: k_z > 3");
+  CHECK(says(unclosed, "my.md:8: "));
+  CHECK(says(unclosed, "never closed"));
+}
+
+TEST_CASE("formulas and quantities are broken in no place within them") {
+  const Lab lab =
+      parse_lab("# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m).\n", "my.md");
+  CHECK(lab.steps[0].text[0] ==
+        "With k =\u00a02\u00a0·\u00a03\u00a0/\u00a04\u00a0×\u00a05 it weighs 0.115\u00a0N, in 2\u00a0s (of 5\u00a0m).");
+}
+
 TEST_CASE("a lab is read whole") {
   const Lab lab = parse_lab(
       "# A **short** lab\nWhat it\nis about.\n\n## First\n\nRead `k_s`.\n\n- one\n- two\n  goes on\n\n```lab\n"

@@ -3,6 +3,7 @@
 
 #include "app/labs/observables.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/notation/preset_io.h"
 #include "tests/app/lab_player.h"
 
 namespace tyglab::lab_play_test {
@@ -286,9 +287,85 @@ TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
   CHECK(without.done());  // there is nothing to do but to read on
 }
 
+TEST_CASE("lab: what bending springs do") {
+  LabPlayer play("11_bending");
+  play.predict("0.2");
+  play.run(0.5);
+  CHECK_FALSE(play.done());
+  play.run(10);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.set("k_b=10");
+  play.run(3);
+  CHECK_FALSE(play.done());  // these are other springs
+  set_up_step(play.app());
+  play.take_requests();
+  play.run(10);
+  finish(play);
+  play.next();
+  play.choose(2);
+  play.run(3);
+  CHECK_FALSE(play.done());  // k_b is what it was
+  play.set("k_b=1000");
+  play.run(10);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.set("k_s=300");
+  play.run(3);
+  CHECK_FALSE(play.done());
+  play.set("k_s=600");
+  play.run(10);
+  finish(play);
+}
+
+TEST_CASE("lab: wind, gusts and a swinging sheet") {
+  LabPlayer play("12_wind");
+  play.predict("0.00085");
+  play.set("W=[0,0,0.0004]");
+  play.run(6);
+  CHECK_FALSE(play.done());  // it leans too little
+  play.set("W=[0,0,0.00095]");
+  play.run(12);
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.set("W=[0.001,0,0]");
+  play.run(3);
+  CHECK_FALSE(play.done());
+  play.set("W=[0.003,0,0]");
+  play.run(6);
+  finish(play);
+  play.next();
+  play.predict("1.6");
+  play.run(8);
+  CHECK_FALSE(play.done());  // gusts that are too fast
+  play.app().simulation->apply(edit::Restart{});
+  play.set("gust_period=1.6");
+  play.run(15);
+  finish(play);
+}
+
+TEST_CASE("a lab waits while another preset is open, and goes on with its own") {
+  LabPlayer play("12_wind");
+  App& app = play.app();
+  play.predict("0.00085");
+  CHECK_FALSE(lab_waits(app));
+  app.document.label = "flag";
+  CHECK(lab_waits(app));
+  app.simulation->apply(edit::Change{with_settings(app.preset(), {"W=[0,0,0.00095]"})});
+  play.run(12);
+  CHECK_FALSE(play.done());  // whatever the checks would say
+  resume_lab(app);
+  REQUIRE(app.requests.size() == 1);
+  play.take_requests();
+  CHECK_FALSE(lab_waits(app));
+}
+
 TEST_CASE("every shipped lab is read, and what it opens is there") {
   App app;
-  CHECK(find_labs(app).size() >= 10);
+  CHECK(find_labs(app).size() >= 12);
   for (const std::string& problem : app.labs.problems) FAIL_CHECK(problem);
 }
 

@@ -1,12 +1,16 @@
 // The palette finds everything by its words, and the table of commands holds all of them.
 #include "app/panels/palette.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <set>
 
 #include "app/sandbox/commands.h"
+#include "app/sandbox/keys.h"
 #include "core/integrators/names.h"
 #include "tests/support/scenes.h"
 
@@ -35,11 +39,38 @@ TEST_CASE("what is typed finds commands, presets, methods, labs, constants and v
   CHECK(first_for(app, "outlines") == "View: Outlines");
   CHECK(first_for(app, "text larger") == "Command: Larger text");
   CHECK(first_for(app, "no such thing").empty());
+  CHECK(first_for(app, "stiff") == "Lab: k_s and the critical time step");
+  const std::vector<PaletteEntry> entries = palette_entries(app);
+  const std::vector<int> found = matching(entries, "stiffness against stretching");
+  REQUIRE_FALSE(found.empty());
+  CHECK(entries[std::size_t(found[0])].title.find("k_s") == 0);  // by its help alone
+}
+
+TEST_CASE("keys that follow the palette's Enter within its frame are kept for what comes after it") {
+  ImGuiContext* gui = ImGui::CreateContext();
+  ImGui::SetCurrentContext(gui);
+  App app = app_with(test::cloth(8, 8));
+  open_palette(app, false);
+  app.input.keys = {{GLFW_KEY_ENTER, 0, false}, {GLFW_KEY_M, 0, false}};
+  app.input.text = {{'x', 0}, {'m', 2}};
+  handle_keys(app);
+  CHECK(app.ui.palette.enter);
+  CHECK(app.requests.empty());
+  REQUIRE(app.input.text.size() == 1);  // what was typed before Enter is looked for, what came after it is not
+  CHECK(app.input.text[0].character == 'x');
+  app.input.clear();
+  app.ui.palette.open = app.ui.palette.enter = false;  // it has acted
+  handle_keys(app);
+  REQUIRE(app.requests.size() == 1);
+  CHECK(std::get<request::Do>(app.requests[0]).command == Command::toggle_map);
+  handle_keys(app);
+  CHECK(app.requests.size() == 1);
+  ImGui::DestroyContext(gui);
 }
 
 TEST_CASE("constants that play no part in the scene are left out") {
   App app = app_with(test::one_weight());
-  CHECK(first_for(app, "stretching").empty());
+  CHECK(first_for(app, "stretching").find("Constant") != 0);
   CHECK(first_for(app, "constant of the one weight").find("Constant: k ") == 0);
 }
 

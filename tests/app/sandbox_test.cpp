@@ -103,6 +103,8 @@ TEST_CASE("settings come back, and a broken file gives a sentence and the defaul
   settings.width = 1000;
   settings.ui_scale = 1.5;
   settings.layout.right = false;
+  settings.handling.cut_along_path = settings.handling.slow_hand = true;
+  settings.handling.arrows = {"F", "v"};
   settings.session = Session{with_k_s(77), with_k_s(76), "denim", "/a/b.json"};
   save_settings(settings);
   const Settings again = load_settings(problem);
@@ -110,6 +112,9 @@ TEST_CASE("settings come back, and a broken file gives a sentence and the defaul
   CHECK(again.width == 1000);
   CHECK(again.ui_scale == 1.5);
   CHECK(again.layout == settings.layout);
+  CHECK(again.handling.cut_along_path);
+  CHECK(again.handling.slow_hand);
+  CHECK(again.handling.arrows == settings.handling.arrows);
   REQUIRE(again.session.has_value());
   CHECK(again.session->preset == settings.session->preset);
   CHECK(again.session->saved == settings.session->saved);

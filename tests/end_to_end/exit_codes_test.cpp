@@ -40,6 +40,7 @@ TEST_CASE("0: help of the program and of every command, with an example; version
                {{"devices", "--help"}, 0, "xample"},
                {{"presets"}, 0, "denim"},
                {{"labs"}, 0, "01_hooke"},
+               {{"run", "hanging", "--dt", "auto", "--steps", "5"}, 0, "--dt auto took"},
                {{"presets", "show", "denim"}, 0, "\"tyglab_preset\": 1"},
                {{"devices"}, 0, "cpu"}},
               folder.path());
@@ -90,7 +91,8 @@ TEST_CASE("2: the command line is wrong, --set included") {
 TEST_CASE("2: an option that would do nothing, or outputs that would be one file") {
   const test::TemporaryFolder folder;
   test::write_file(folder / "own.json", preset_to_json({}));
-  check_calls({{{"run", "denim", "--steps", "1", "--series-every", "5"}, 2, "--series F.csv"},
+  check_calls({{{"run", "hanging", "--engine", "foo", "--steps", "1"}, 2, "opencl:N and auto"},
+               {{"run", "denim", "--steps", "1", "--series-every", "5"}, 2, "--series F.csv"},
                {{"run", "denim", "--steps", "1", "--fps", "5"}, 2, "--obj, --pc2"},
                {{"run", "denim", "--steps", "1", "--series", "t.csv", "--series-every", "1", "--fps", "5"}, 2, "--fps"},
                {{"run", "denim", "--steps", "1", "--state", "-", "--json", "-"}, 2, "both go to standard output"},

@@ -38,7 +38,7 @@ def convergence(stage):
     check(report["accuracy"] is None, "the card's other side rests")
     stage.keep("convergence", still=True)
     sandbox.click_control("plots.csv_convergence")
-    sandbox.wait(lambda r: r["dialog"] == "export_csv" and r["typing"], "the dialog")
+    sandbox.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
     file = os.path.join(sandbox.own.name, "convergence.csv")
     sandbox.key("ctrl+a")
     sandbox.type(file)

@@ -98,7 +98,7 @@ def values(stage):
     sandbox.type("particle's values")
     sandbox.later(3)
     sandbox.key("Return")
-    sandbox.wait(lambda r: r["dialog"] == "export_csv" and r["typing"], "the dialog")
+    sandbox.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
     file = os.path.join(sandbox.own.name, "values.csv")
     sandbox.key("ctrl+a")
     sandbox.type(file)

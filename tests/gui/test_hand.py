@@ -96,6 +96,119 @@ def cut(stage):
 
 
 @case
+def cut_along(stage):
+    """X makes a cut run along the pointer's path: a slanting stroke parts the springs that it crosses, and is seen"""
+    sandbox = stage.start("taut_sheet")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["paused"], "the pause")
+    sandbox.key("x")
+    sandbox.wait(lambda r: r["handling"]["cut_along_path"] and any("crosses" in m for m in r["messages"]), "the other way to cut")
+    report = sandbox.later()
+    corners = [report["particles"][k]["at"] for k in (0, 4, 20, 24)]
+    a = [corners[0][0] + 0.2 * (corners[1][0] - corners[0][0]), corners[0][1] + 0.3 * (corners[2][1] - corners[0][1])]
+    b = [corners[0][0] + 0.8 * (corners[1][0] - corners[0][0]), corners[0][1] + 0.8 * (corners[2][1] - corners[0][1])]
+    sandbox.move((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+    sandbox.later()
+    stage.keep("nick")
+    sandbox.move(*a)
+    sandbox.press(LEFT)
+    for part in (0.25, 0.5, 0.75, 1):
+        sandbox.move(a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]))
+        stage.keep("stroke")
+    sandbox.release(LEFT)
+    report = sandbox.later()
+    check(20 < report["torn_springs"] < 400, f"{report['torn_springs']} springs are torn")
+    check(report["steps"] == sandbox.report()["steps"], "a cut makes no step")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["t"] > 0.15, "the cut to open")
+    stage.keep("open")
+    again = sandbox.report()["torn_springs"]
+    sandbox.wait(lambda r: r["t"] > 0.2, "time to pass")
+    check(sandbox.report()["torn_springs"] == again, "nothing is cut once the knife is put away")
+    sandbox.key("ctrl+q")
+    sandbox.click_the_end("dialog.Discard_the_changes") if sandbox.report()["dialog"] == "unsaved" else sandbox.ended()
+    other = stage.start("hanging", config=sandbox.config)
+    check(other.report()["handling"]["cut_along_path"], "the next session remembers it")
+
+
+@case
+def wind(stage):
+    """the wind's arrow is dragged by its tip, and one undo takes it back; W shows and hides it"""
+    sandbox = stage.start("flag")
+    sandbox.wait(lambda r: r["t"] > 0.5, "the flag to fly")
+    report = sandbox.later()
+    x, y = report["wind"]["tip"]
+    before = report["wind"]["W"]
+    stage.keep("arrow")
+    sandbox.drag([(x, y), (x + 4, y - 20), (x + 8, y - 60)])
+    report = sandbox.wait(lambda r: r["wind"]["W"][1] > 0.001, "the wind to blow upwards")
+    check(report["torn_springs"] == 0 and report["tool"] == "none", "the drag cut nothing")
+    check(apart(report["wind"]["tip"], [x + 8, y - 60]) < 4, "the tip came to the pointer")
+    sandbox.key("ctrl+z")
+    sandbox.wait(lambda r: r["wind"]["W"] == before, "one undo to bring the old wind back")
+    sandbox.key("w")
+    sandbox.wait(lambda r: r["wind"]["tip"] is None, "W to hide it")
+    sandbox.key("w")
+    sandbox.wait(lambda r: r["wind"]["tip"] is not None, "W to show it")
+
+
+@case
+def gusts(stage):
+    """in gusts the wind that blows is shown beside W, and follows simulated time"""
+    sandbox = stage.start("flag", "--set", "gust=0.6", "--set", "gust_period=0.8")
+    seen = set()
+    for n in range(1, 6):
+        report = sandbox.wait(lambda r: r["t"] > 0.15 * n, "the flag to fly")
+        check(report["wind"]["W"][0] == 0.004, "W itself stays")
+        seen.add(round(report["wind"]["now"][0], 5))
+    check(len(seen) >= 3, f"the wind changes: {seen}")
+    stage.keep("flag")
+
+
+@case
+def slow_hand(stage):
+    """with slow motion in the hand time goes at a quarter while a particle is held, and at its speed afterwards"""
+    sandbox = stage.start("hanging")
+    sandbox.key("h")
+    report = sandbox.wait(lambda r: r["handling"]["slow_hand"], "the setting")
+    check(report["aim"] == report["speed"] == 1, "nothing is slow yet")
+    x, y = particle(sandbox.later(), *middle(report))["at"]
+    sandbox.move(x, y)
+    sandbox.press(RIGHT)
+    sandbox.move(x + 20, y)
+    report = sandbox.wait(lambda r: r["held"] is not None and r["aim"] == 0.25, "slow motion while it is held")
+    check(report["speed"] == 1, "the speed that was chosen stays")
+    sandbox.later(30)
+    stage.keep("held")
+    sandbox.release(RIGHT)
+    sandbox.wait(lambda r: r["aim"] == 1, "the speed to come back")
+
+
+@case
+def arrows(stage):
+    """a tick in the read-out shows a variable's arrow; what is ticked is remembered"""
+    sandbox = stage.start("hanging")
+    sandbox.wait(lambda r: r["t"] > 0.6, "the cloth to swing")
+    sandbox.key("space")
+    sandbox.wait(lambda r: r["paused"], "the pause")
+    check(sandbox.report()["handling"]["arrows"] == ["F_b", "F_d", "F_g", "F_s"], "four are ticked at first")
+    for name in ("F", "v", "a"):
+        sandbox.click_control("constants." + name)
+        sandbox.wait(lambda r: name in r["handling"]["arrows"], f"the arrow of {name}")
+    sandbox.click_control("constants.F_s")
+    report = sandbox.wait(lambda r: "F_s" not in r["handling"]["arrows"], "F_s to go")
+    sandbox.click_control("constants.x")
+    check("x" not in sandbox.later()["handling"]["arrows"], "a position is no arrow")
+    sandbox.move(*centre(report["viewport"]))
+    sandbox.later(4)
+    stage.keep("ticked")
+    sandbox.key("ctrl+q")
+    sandbox.ended()
+    other = stage.start("hanging", config=sandbox.config)
+    check(other.report()["handling"]["arrows"] == ["F", "F_b", "F_d", "F_g", "a", "v"], "the next session remembers them")
+
+
+@case
 def buttons(stage):
     """a press on a button over the cloth is the button's: nothing is cut"""
     sandbox = stage.start("hanging")

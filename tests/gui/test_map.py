@@ -37,7 +37,7 @@ def csv(stage):
     sandbox.wait(lambda r: r["map_cells"] == 28 * 20, "the map of one weight")
     stage.keep("weight")
     sandbox.click_control("plots.csv_map")
-    sandbox.wait(lambda r: r["dialog"] == "export_csv" and r["typing"], "the dialog")
+    sandbox.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
     file = os.path.join(sandbox.own.name, "map.csv")
     sandbox.key("ctrl+a")
     sandbox.type(file)
@@ -45,8 +45,30 @@ def csv(stage):
     sandbox.wait(lambda r: r["dialog"] == "none", "the dialog to close")
     with open(file) as written:
         lines = written.read().splitlines()
-    check(lines[1] == "k [N/m],dt [s],outcome,t [s],energy error", "a header with units")
+    check(lines[1] == "k [N/m],dt [s],outcome,t [s],energy error,dt by theory [s]", "a header with units")
     check(len(lines) == 2 + 28 * 20, "a row a cell")
+
+
+@case
+def png(stage):
+    """the map is written as a picture, and the window goes on as before"""
+    sandbox = stage.start("hanging")
+    sandbox.key("m")
+    sandbox.wait(lambda r: r["map_cells"] and r["map_cells"] > 100, "cells to be measured")
+    sandbox.click_control("plots.png_map")
+    sandbox.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
+    file = os.path.join(sandbox.own.name, "map.png")
+    sandbox.key("ctrl+a")
+    sandbox.type(file)
+    sandbox.key("Return")
+    report = sandbox.wait(lambda r: r["dialog"] == "none" and any("map.png" in m for m in r["messages"]), "it to be written")
+    with open(file, "rb") as written:
+        head = written.read(24)
+    check(head[:8] == b"\x89PNG\r\n\x1a\n", "it is a PNG")
+    check(int.from_bytes(head[16:20], "big") == 1280 and int.from_bytes(head[20:24], "big") == 800, "of the charts' size")
+    os.replace(file, os.path.join(stage.shots, "map-png-written.png"))
+    sandbox.wait(lambda r: r["t"] > report["t"] + 0.2, "the cloth to move on")
+    stage.keep("after")
 
 
 if __name__ == "__main__":

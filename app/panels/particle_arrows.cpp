@@ -1,0 +1,130 @@
+// The picked particle's variables of table B.1 as arrows, each in the colour and line of its curve.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/panels/curves.h"
+#include "app/panels/numbers.h"
+#include "app/panels/overlay.h"
+#include "app/panels/symbol.h"
+
+namespace tyglab {
+namespace {
+
+constexpr float longest_px = 90;    // of an arrow, at scale 1
+constexpr double most_of_it = 1.6;  // while the scale has not followed yet
+
+/// Variables of one unit share a scale.
+struct Group {
+  std::string_view unit;
+  std::vector<std::string_view> keys;
+  double (*least)(const Preset&);  ///< below this the longest arrow is noise, and stays short
+};
+
+const std::array<Group, 3>& groups() {
+  static const std::array<Group, 3> list{
+      {{"N", {"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"}, [](const Preset& p) { return 0.01 * p.m * 9.82; }},
+       {"m/s", {"v"}, [](const Preset&) { return 1e-3; }},
+       {"m/s²", {"a"}, [](const Preset&) { return 0.1; }}}};
+  return list;
+}
+
+/// The largest 1, 2 or 5 times a power of ten that is not above the value.
+double round_below(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= value) return digit * power;
+  return power;
+}
+
+/// The symbol beside an arrow's head. `labels`: the middles of those drawn before.
+void arrow_label(App& app, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std::string_view symbol,
+                 std::vector<ImVec2>& labels) {
+  const float length = std::hypot(to.x - from.x, to.y - from.y);
+  if (length < app.theme.px(24)) return;
+  const float ux = (to.x - from.x) / length, uy = (to.y - from.y) / length;
+  const float width = symbol_width(app.fonts, symbol), away = app.theme.px(18), high = app.theme.px(12),
+              pad = app.theme.px(7);
+  ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
+  // Labels of arrows that point the same way make room for each other, farther out.
+  const auto covered = [&](ImVec2 other) {
+    return std::abs(other.x - middle.x) < width + 2 * pad && std::abs(other.y - middle.y) < 2 * high + 1;
+  };
+  while (std::any_of(labels.begin(), labels.end(), covered)) middle.x += ux, middle.y += uy;
+  const glm::vec2 lo = app.viewport.origin(tile), hi = lo + app.viewport.size();
+  middle = {std::round(std::clamp(middle.x, lo.x + width / 2 + pad, std::max(lo.x, hi.x - width / 2 - pad))),
+            std::round(std::clamp(middle.y, lo.y + high, std::max(lo.y, hi.y - high)))};
+  labels.push_back(middle);
+  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high}, {middle.x + width / 2 + pad, middle.y + high},
+                     faded(app.theme.colors.ground, 0.88f), app.theme.px(6));
+  draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, symbol, app.theme.colors.text);
+}
+
+/// The scale, in units for the longest arrow, follows within half a second, so that growth is seen; and at once where
+/// arrows would leave the picture or vanish.
+void follow(App& app, double& scale, double longest) {
+  const double part = 1 - std::exp(-double(ImGui::GetIO().DeltaTime) / 0.5);
+  const bool far = longest > 3 * scale || longest < scale / 20;
+  scale = far ? longest : scale + part * (longest - scale);
+  if (std::abs(longest - scale) > 0.01 * scale) app.ui.draw_by = app.ui.now;
+}
+
+/// A bar in the picture's corner, as long as an arrow of the value beside it. Returns where the next one begins.
+float scale_bar(App& app, ImDrawList& draw, ImVec2 at, double scale, std::string_view unit) {
+  const Tokens& c = app.theme.colors;
+  const ImFont& font = *app.fonts.small;
+  const double value = round_below(scale);
+  const float length = std::round(float(value / scale) * app.theme.px(longest_px)), tick = app.theme.px(3),
+              pad = app.theme.px(6);
+  const std::string text = short_number(value) + " " + std::string(unit);
+  const float end = at.x + length + pad + text_width(font, text);
+  draw.AddRectFilled({at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2},
+                     faded(c.ground, 0.75f), app.theme.px(6));
+  const float width = std::max(1.f, app.theme.px(1.5f));
+  draw.AddLine(at, {at.x + length, at.y}, c.text, width);
+  for (const float x : {at.x, at.x + length}) draw.AddLine({x, at.y - tick}, {x, at.y + tick + 1}, c.text, width);
+  draw_text(draw, font, {at.x + length + pad, std::round(at.y - font.FontSize / 2)}, c.text, text);
+  return end + 3 * pad;
+}
+
+}  // namespace
+
+void particle_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from) {
+  const ParticleReadout r = cloth_in_tile(app, tile).particle(app.picked->i, app.picked->j);
+  const double per_pixel = metres_per_pixel(app, r.x);
+  const std::set<std::string>& ticked = app.settings.handling.arrows;
+  std::vector<ImVec2> labels;
+  const glm::vec2 corner = app.viewport.origin(0) + glm::vec2(0, app.viewport.size().y);
+  const float names = app.copies.lockstep.empty()
+                          ? 0
+                          : app.theme.px(30) * float(app.copies.overlaid ? app.copies.lockstep.size() + 1 : 1);
+  ImVec2 bar{corner.x + app.theme.px(22), std::round(corner.y - app.theme.px(22) - names)};
+  for (std::size_t k = 0; k < groups().size(); ++k) {
+    const Group& group = groups()[k];
+    double longest = 0;
+    bool any = false;
+    for (const std::string_view key : group.keys)
+      if (ticked.count(std::string(key)) > 0) longest = std::max(longest, glm::length(vector_of(r, key))), any = true;
+    if (!any || !std::isfinite(longest)) continue;
+    double& scale = app.ui.arrow_scales[k];
+    // The original leads; its copies' arrows are to the same scale.
+    if (tile == 0 || scale <= 0) follow(app, scale, std::max(longest, group.least(app.preset())));
+    if (tile == 0) bar.x = scale_bar(app, draw, bar, scale, group.unit);
+    for (const std::string_view key : group.keys) {
+      const glm::dvec3 value = vector_of(r, key);
+      const double pixels = std::min(glm::length(value) / scale, most_of_it) * app.theme.px(longest_px);
+      if (ticked.count(std::string(key)) == 0 || pixels < 1) continue;
+      auto to = on_screen(app, tile, r.x + glm::normalize(value) * pixels * per_pixel);
+      if (!to) continue;
+      const bool cut_short = keep_in_picture(app, tile, from, *to) || glm::length(value) > most_of_it * scale;
+      if (draw_arrow(app, draw, from, *to, curve_style(app.theme.colors, key), cut_short))
+        arrow_label(app, draw, tile, from, *to, variable(key).symbol, labels);
+    }
+  }
+}
+
+}  // namespace tyglab

@@ -1,0 +1,29 @@
+// The wind as an arrow that can be taken by its tip.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace tyglab {
+
+struct App;
+
+/// An arrow in space, near the lower right corner of the first picture.
+struct WindArrow {
+  glm::dvec3 base{0}, tip{0};    ///< m
+  double metres_per_newton = 0;  ///< so long is what is drawn of W, unless it would leave its place
+};
+
+/// Whether the arrow is shown: while there is wind, or as it was asked for.
+bool wind_arrow_shown(const App& app);
+/// The arrow of a wind W, N: as long as 80 pixels for the wind of the preset as it was opened, or, where that has
+/// none, for the weight of a particle.
+WindArrow wind_arrow(const App& app, const glm::dvec3& W);
+/// Whether a press at that pixel of the first picture takes the tip.
+bool on_wind_tip(const App& app, glm::vec2 at);
+/// The tip has been pressed, and is dragged: W follows in the plane of the camera; with Shift along the view; with Ctrl
+/// along the nearest axis. Every drag is one change to undo.
+void take_wind(App& app);
+void drag_wind(App& app);
+
+}  // namespace tyglab
