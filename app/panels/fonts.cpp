@@ -124,7 +124,6 @@ Fonts build_fonts(float scale) {
   fonts.title = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 14, text_glyphs, true);
   fonts.brand = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 17, plain_glyphs);
   fonts.large_icons = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 18, plain_glyphs, true);
-  fonts.huge = builder.load("Inter-SemiBold.otf", "DejaVuSans.ttf", 40, plain_glyphs);
   fonts.symbol = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 19, symbol_glyphs);
   fonts.subscript = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 13, symbol_glyphs);
   fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13, number_glyphs);

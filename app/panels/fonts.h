@@ -14,7 +14,6 @@ struct Fonts {
   ImFont* title = nullptr;         ///< 14, semibold, with icons
   ImFont* brand = nullptr;         ///< 17, semibold
   ImFont* large_icons = nullptr;   ///< 18, icons alone
-  ImFont* huge = nullptr;          ///< 40, semibold: PAUSED
   ImFont* symbol = nullptr;        ///< 19, italic
   ImFont* subscript = nullptr;     ///< 13, italic
   ImFont* mono = nullptr;          ///< 13

@@ -103,27 +103,22 @@ const char* ways_on(const App& app) {
   return "Space runs · → makes one step";
 }
 
+/// One line on a ground of its own under the view buttons, where a hanging cloth sags: what is paused should be seen.
 void paused(App& app, ImDrawList& draw) {
   if (app.pacing.playing || app.simulation->divergence()) return;
   const Tokens& c = app.theme.colors;
-  const char* word = "PAUSED";
+  const ImFont &bold = *app.fonts.brand, &text = *app.fonts.text;
+  const char *word = "PAUSED", *how = ways_on(app);
   const glm::vec2 lo = app.viewport.box.lo, hi = app.viewport.box.hi;
-  const float room = hi.x - lo.x - app.theme.px(32);
-  const bool wide = text_width(*app.fonts.huge, word) <= room;
-  const ImFont &font = wide ? *app.fonts.huge : *app.fonts.title, &small = *app.fonts.text;
-  const auto centred = [&](const ImFont& of, const char* text) {
-    return std::round((lo.x + hi.x - text_width(of, text)) / 2);
-  };
-  const float y = lo.y + app.theme.px(52);
-  draw_text(draw, font, {centred(font, word), y}, faded(c.text, 0.75f), word);
-  const char* how = ways_on(app);
-  const float pad = app.theme.px(8), width = text_width(small, how);
-  if (width + 2 * pad > room) return;
-  // On a ground of its own, since a light cloth may hang behind it.
-  const ImVec2 at{centred(small, how), y + font.FontSize + app.theme.px(6)};
-  draw.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + width + pad, at.y + small.FontSize + pad / 2},
-                     faded(c.ground, 0.7f), app.theme.px(6));
-  draw_text(draw, small, at, c.text, how);
+  const float pad = app.theme.px(12), height = app.theme.px(32), word_width = text_width(bold, word);
+  const float with_how = word_width + text_width(text, how) + 3 * pad;
+  const bool wide = with_how <= hi.x - lo.x - app.theme.px(32);
+  const float width = wide ? with_how : word_width + 2 * pad;
+  const ImVec2 at{std::round((lo.x + hi.x - width) / 2), std::round(lo.y + app.theme.px(52))};
+  const float baseline = baseline_at(app.fonts, at.y + height / 2);
+  draw.AddRectFilled(at, {at.x + width, at.y + height}, faded(c.ground, 0.8f), app.theme.px(6));
+  draw_on_baseline(draw, bold, {at.x + pad, baseline}, c.text, word);
+  if (wide) draw_on_baseline(draw, text, {at.x + word_width + 2 * pad, baseline}, c.quiet, how);
 }
 
 }  // namespace

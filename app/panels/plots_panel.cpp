@@ -22,7 +22,8 @@ namespace {
 /// A card's ground, with its title; the cursor goes inside it.
 class Card {
  public:
-  Card(App& app, const char* id, std::string_view title, std::string_view note, float height) {
+  /// `buttons`: how many head_buttons follow; the note stands to their left.
+  Card(App& app, const char* id, std::string_view title, std::string_view note, float height, int buttons = 0) {
     const Tokens& c = app.theme.colors;
     const float padding = app.theme.px(12);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -33,7 +34,7 @@ class Card {
     const float top = lo.y + padding;
     draw_text(draw, *app.fonts.title, {lo.x + padding, top}, c.text, title);
     const ImFont& small = *app.fonts.small;
-    const float note_x = lo.x + width - padding - text_width(small, note);
+    const float note_x = lo.x + width - padding - float(buttons) * head_pitch(app) - text_width(small, note);
     if (note_x > lo.x + 2 * padding + text_width(*app.fonts.title, title))
       draw_text(draw, small, {note_x, top + app.fonts.title->Ascent - small.Ascent}, c.quiet, note);
     inner_ = {{lo.x + padding, top + app.theme.px(24)}, {width - 2 * padding, height - 2 * padding - app.theme.px(24)}};
@@ -44,7 +45,20 @@ class Card {
   Card& operator=(const Card&) = delete;
   const Region& inner() const { return inner_; }
 
+  /// A button on the title's line, the n-th from the right; the cursor stays.
+  bool head_button(App& app, int n, const char* id, const char* glyph, const char* word, const char* tip) const {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::SetCursorScreenPos({inner_.at.x + inner_.size.x - float(n + 1) * head_pitch(app) + app.theme.px(4),
+                               inner_.at.y - app.theme.px(28)});
+    const bool clicked = quiet_button(app, id, glyph, word, tip);
+    report_control(app, id);
+    ImGui::SetCursorScreenPos(at);
+    return clicked;
+  }
+
  private:
+  static float head_pitch(const App& app) { return app.theme.px(26); }
+
   Region inner_;
 };
 
@@ -211,24 +225,11 @@ struct PlotCard {
   void (*draw)(App&, float height);
 };
 
-/// A button in a card's head, the n-th from the right; the cursor stays.
-bool head_button(App& app, const Region& inner, int n, const char* id, const char* glyph, const char* word,
-                 const char* tip) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float side = app.theme.px(22);
-  ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side - float(n) * (side + app.theme.px(4)), inner.at.y});
-  const bool clicked = quiet_button(app, id, glyph, word, tip);
-  report_control(app, id);
-  ImGui::SetCursorScreenPos(at);
-  return clicked;
-}
-
 void copies_plot_card(App& app, float height) {
   const bool energy = app.copies.plotted == Copies::Quantity::energy;
   const Card card(app, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
-                  energy ? "J" : "m, log", height);
-  if (head_button(app, card.inner(), 0, "csv_copies", icon::download, "CSV",
-                  "Write what the plot holds as a CSV file…"))
+                  energy ? "J" : "m, log", height, 1);
+  if (card.head_button(app, 0, "csv_copies", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
     app.command(Command::export_copies);
   copies_plot(app, card.inner().size);
 }
@@ -236,23 +237,19 @@ void copies_plot_card(App& app, float height) {
 void map_plot_card(App& app, float height) {
   const bool weight = app.preset().kind == Kind::one_weight;
   const Card card(app, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
-                  app.map.busy() ? "measuring" : "", height);
-  const Region& inner = card.inner();
-  if (head_button(app, inner, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
-  if (head_button(app, inner, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
+                  app.map.busy() ? "measuring" : "", height, 3);
+  if (card.head_button(app, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
+  if (card.head_button(app, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
     app.command(Command::export_map);
-  if (head_button(app, inner, 2, "png_map", icon::picture, "PNG", "Write the map as a picture…"))
+  if (card.head_button(app, 2, "png_map", icon::picture, "PNG", "Write the map as a picture…"))
     app.command(Command::export_map_picture);
-  stability_map(app, inner.size);
+  stability_map(app, card.inner().size);
 }
 
 void inside_card(App& app, float height) {
-  const Card card(app, "inside", "Inside a step", "", height);
-  if (head_button(app, card.inner(), 0, "close_inside", icon::close, "×", "Close")) app.command(Command::toggle_inside);
-  const Region& inner = card.inner();
-  const float head = app.theme.px(24);  // of the button: what scrolls keeps clear of it
-  ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  inside_step(app, {inner.size.x, inner.size.y - head});
+  const Card card(app, "inside", "Inside a step", "", height, 1);
+  if (card.head_button(app, 0, "close_inside", icon::close, "×", "Close")) app.command(Command::toggle_inside);
+  inside_step(app, card.inner().size);
 }
 
 std::vector<PlotCard> plot_cards(const App& app) {
