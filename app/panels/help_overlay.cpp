@@ -19,7 +19,7 @@ constexpr Entry mouse_entries[] = {
     {"Right drag", "grabs a particle and pulls it"},
     {"Right click", "picks a particle: its forces are shown"},
     {"Right double-click", "pins or unpins a particle"},
-    {"Left drag", "cuts the springs upwards, or what it crosses (X)"},
+    {"Left drag", "cuts the springs upwards, or what it crosses (C)"},
     {"Drag the wind's tip", "changes W; Shift in depth, Ctrl on an axis"},
     {"Left drag on a sphere", "moves the sphere"},
     {"Middle or Ctrl+left drag", "orbits; with Shift pans"},

@@ -97,11 +97,11 @@ def cut(stage):
 
 @case
 def cut_along(stage):
-    """X makes a cut run along the pointer's path: a slanting stroke parts the springs that it crosses, and is seen"""
+    """C makes a cut run along the pointer's path: a slanting stroke parts the springs that it crosses, and is seen"""
     sandbox = stage.start("taut_sheet")
     sandbox.key("space")
     sandbox.wait(lambda r: r["paused"], "the pause")
-    sandbox.key("x")
+    sandbox.key("c")
     sandbox.wait(lambda r: r["handling"]["cut_along_path"] and any("crosses" in m for m in r["messages"]), "the other way to cut")
     report = sandbox.later()
     corners = [report["particles"][k]["at"] for k in (0, 4, 20, 24)]
