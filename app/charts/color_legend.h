@@ -28,7 +28,7 @@ std::string legend_words(const FieldInfo& field);
 /// Its size, px.
 ImVec2 legend_size(const Theme& theme);
 /// Draws it with its upper left corner there, on a ground of its own. Returns where the number at the scale's end
-/// belongs: its upper right corner.
+/// belongs: the middle of its right end.
 ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& legend);
 
 }  // namespace tyglab

@@ -31,7 +31,7 @@ Chart convergence_chart(const Tokens& c, const Convergence& study) {
   Chart chart;
   chart.padding = 0;
   chart.x.title = "dt, s", chart.x.log = true;
-  chart.y.title = study.referenced ? "error, m (rms)" : "difference to dt/2, m (rms)", chart.y.log = true;
+  chart.y.title = by_reference(study) ? "error, m (rms)" : "difference to dt/2, m (rms)", chart.y.log = true;
   CurveStyle style = integrator_style(c, study.of.integrator);
   ChartSeries measured{std::string(scheme(study.of.integrator).title), style, true, 3.5f, {}, {}};
   ChartSeries hidden{"cannot be told", {c.quiet, LineStyle::solid, 1}, false, 3, {}, {}};
@@ -39,9 +39,10 @@ Chart convergence_chart(const Tokens& c, const Convergence& study) {
   const auto order = measured_order(study);
   int inside = 0;
   for (const ConvergencePoint& point : study.points) {
-    const double error = study.referenced ? point.error_rms_m : point.difference_rms_m;
+    const auto shown = shown_error(study, point);
+    const double error = shown ? *shown : by_reference(study) ? point.error_rms_m : 0;
     if (!std::isfinite(error) || error <= 0) continue;
-    ChartSeries& to = point.told || !study.referenced ? measured : hidden;
+    ChartSeries& to = shown ? measured : hidden;
     to.x.push_back(point.dt), to.y.push_back(error);
     if (!order || &to == &hidden || point.dt > order->coarsest * (1 + 1e-9)) continue;
     middle_dt += std::log(point.dt), middle_error += std::log(error), ++inside;

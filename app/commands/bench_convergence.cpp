@@ -100,7 +100,9 @@ int convergence(const ConvergenceOptions& options) {
   if (!options.bench.png.empty()) {
     Chart chart = convergence_chart(dark_tokens(), study);
     chart.title = "Error over dt: " + scene.source.label;
-    chart.note = convergence_words(study);
+    std::array<char, 80> note;
+    std::snprintf(note.data(), note.size(), "in double, over the first %.3g s", study.seconds);
+    chart.note = note.data();
     chart.padding = 20;
     write_charts(options.bench.png, {chart}, 1);
   }

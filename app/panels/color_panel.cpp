@@ -24,10 +24,10 @@ void choice(App& app, std::optional<ParticleField> field, const char* title, con
 }
 
 /// The number at the end of the scale, which can be typed: the scale is then fixed until nothing is typed.
-void top_cell(App& app, FieldColors& colors, ImVec2 upper_right) {
+void top_cell(App& app, FieldColors& colors, ImVec2 right_end) {
   const FieldInfo& field = info(colors.field);
   const float width = app.theme.px(70), height = app.theme.px(18);
-  ImGui::SetCursorScreenPos({upper_right.x - width, upper_right.y - app.theme.px(2)});
+  ImGui::SetCursorScreenPos({right_end.x + app.theme.px(4) - width, std::round(right_end.y - height / 2)});
   const SliderResult typed =
       value_cell(app, "colour top", colors.top(), short_number(rounded(colors.top(), 4)), width, height, field.unit);
   report_control(app, "colour_top");
