@@ -37,13 +37,12 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
     x += text_width(with, text);
   };
   say(font, c.text, legend.field.title);
-  x += paint.theme.px(6);
   if (!legend.field.symbol.empty()) {
+    x += paint.theme.px(6);
     draw_symbol(paint.draw, paint.fonts, {x, baseline}, legend.field.symbol, c.text);
     x += symbol_width(paint.fonts, legend.field.symbol);
   }
-  if (!legend.field.unit.empty())
-    say(font, c.quiet, (legend.field.symbol.empty() ? "" : ", ") + std::string(legend.field.unit));
+  if (!legend.field.unit.empty()) say(font, c.quiet, ", " + std::string(legend.field.unit));
   if (!legend.marked) return;
   const std::string value = steady_number(*legend.marked);
   draw_on_baseline(paint.draw, *paint.fonts.mono, {right - text_width(*paint.fonts.mono, value), baseline}, c.text,
@@ -70,14 +69,13 @@ std::string legend_words(const FieldInfo& field) {
   return words;
 }
 
-ImVec2 legend_size(const Theme& theme) {
-  return {theme.px(width), theme.px(height)};
+ImVec2 legend_size(const Theme& theme, float room) {
+  return {std::min(theme.px(width), room), theme.px(height)};
 }
 
-ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& legend) {
+ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
-  const ImVec2 size = legend_size(theme);
   paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.75f), theme.px(6));
   const float pad = theme.px(padding);
   const ImVec2 lo{at.x + pad, at.y + theme.px(bar_top)}, hi{at.x + size.x - pad, lo.y + theme.px(bar_height)};

@@ -6,9 +6,9 @@
 
 namespace tyglab {
 
-PictureGui::PictureGui(ImVec2 size, const Theme& theme) : size_(size) {
+PictureGui::PictureGui(ImVec2 size, const Theme& theme) : window_(ImGui::GetCurrentContext()), size_(size) {
   IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
+  ImGui::SetCurrentContext(ImGui::CreateContext());
   gui::prepare_io(ImGui::GetIO());
   ImGui::GetIO().DisplaySize = size;
   ImGui::GetIO().DeltaTime = 1;
@@ -22,10 +22,15 @@ PictureGui::PictureGui(ImVec2 size, const Theme& theme) : size_(size) {
 PictureGui::~PictureGui() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui::DestroyContext();
+  ImGui::SetCurrentContext(window_);
 }
 
 ImDrawList& PictureGui::draw() const {
   return *ImGui::GetBackgroundDrawList();
+}
+
+void PictureGui::show(unsigned texture) const {
+  draw().AddImage(gui::texture(texture), {0, 0}, size_, {0, 1}, {1, 0});
 }
 
 Image PictureGui::pixels() const {

@@ -7,7 +7,8 @@
 
 namespace tyglab {
 
-/// Lives in the OpenGL context that is current; one at a time. What is drawn goes into draw(), and pixels() ends it.
+/// Lives in the OpenGL context that is current; a window's own Dear ImGui comes back after it. What is drawn goes into
+/// draw(), and pixels() ends it.
 class PictureGui {
  public:
   PictureGui(ImVec2 size, const Theme& theme);
@@ -16,10 +17,13 @@ class PictureGui {
   PictureGui& operator=(const PictureGui&) = delete;
   const Fonts& fonts() const { return fonts_; }
   ImDrawList& draw() const;
+  /// Draws a texture over all of it, whose first row is the picture's bottom one.
+  void show(unsigned texture) const;
   /// The picture. Throws GraphicsError.
   Image pixels() const;
 
  private:
+  ImGuiContext* window_;
   ImVec2 size_;
   Fonts fonts_;
 };

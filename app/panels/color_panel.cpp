@@ -62,18 +62,19 @@ void color_menu(App& app) {
 void color_legend(App& app) {
   const FieldColors* shown = shown_colors(app);
   if (shown == nullptr) return;
-  const ImVec2 size = legend_size(app.theme);
   const float margin = app.theme.px(16);
-  // Above the names that copies have at the foot of their pictures.
-  const float names = app.copies.lockstep.empty() ? 0 : app.fonts.text->FontSize + app.theme.px(16);
+  const ImVec2 size = legend_size(app.theme, app.viewport.whole().x - 2 * margin);
+  // Above the names that copies have at the foot of their pictures, where both have no room beside each other.
+  const bool beside = app.copies.lockstep.empty() || app.viewport.size().x > 2 * size.x + 3 * margin;
+  const float names = beside ? 0 : app.fonts.text->FontSize + app.theme.px(16);
   const glm::vec2 corner = app.viewport.box.hi;
-  const ImVec2 at{std::max(corner.x - margin - size.x, app.viewport.box.lo.x), corner.y - margin - names - size.y};
+  const ImVec2 at{corner.x - margin - size.x, corner.y - margin - names - size.y};
   if (at.y < app.viewport.box.lo.y) return;
   const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
   const ColorLegend legend{info(shown->field), shown->map(light_ground(app)),
                            shown->top(),       app.colors.under_pointer,
                            shown->beyond(),    false};
-  top_cell(app, *app.colors.chosen, draw_color_legend(paint, at, legend));
+  top_cell(app, *app.colors.chosen, draw_color_legend(paint, at, size, legend));
   cover_viewport(app, at, {at.x + size.x, at.y + size.y});
 }
 
