@@ -10,7 +10,7 @@ namespace tyglab {
 namespace {
 
 // Lengths at scale 1.
-constexpr float width = 248, height = 74, padding = 14, bar_top = 32, bar_height = 12, ticks_top = 52;
+constexpr float width = 248, height = 74, padding = 14, bar_top = 32, bar_height = 12, ticks_middle = 59;
 
 /// The leading digit of a round number.
 int lead(double value) {
@@ -37,13 +37,12 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
     x += text_width(with, text);
   };
   say(font, c.text, legend.field.title);
-  x += paint.theme.px(6);
   if (!legend.field.symbol.empty()) {
+    x += paint.theme.px(6);
     draw_symbol(paint.draw, paint.fonts, {x, baseline}, legend.field.symbol, c.text);
     x += symbol_width(paint.fonts, legend.field.symbol);
   }
-  if (!legend.field.unit.empty())
-    say(font, c.quiet, (legend.field.symbol.empty() ? "" : ", ") + std::string(legend.field.unit));
+  if (!legend.field.unit.empty()) say(font, c.quiet, ", " + std::string(legend.field.unit));
   if (!legend.marked) return;
   const std::string value = steady_number(*legend.marked);
   draw_on_baseline(paint.draw, *paint.fonts.mono, {right - text_width(*paint.fonts.mono, value), baseline}, c.text,
@@ -70,14 +69,13 @@ std::string legend_words(const FieldInfo& field) {
   return words;
 }
 
-ImVec2 legend_size(const Theme& theme) {
-  return {theme.px(width), theme.px(height)};
+ImVec2 legend_size(const Theme& theme, float room) {
+  return {std::min(theme.px(width), room), theme.px(height)};
 }
 
-ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& legend) {
+ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
-  const ImVec2 size = legend_size(theme);
   paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.75f), theme.px(6));
   const float pad = theme.px(padding);
   const ImVec2 lo{at.x + pad, at.y + theme.px(bar_top)}, hi{at.x + size.x - pad, lo.y + theme.px(bar_height)};
@@ -93,20 +91,21 @@ ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& l
   const auto place = [&](double value) {
     return std::round(lo.x + float(std::clamp(scale.at(value), 0.0, 1.0)) * (hi.x - lo.x));
   };
-  const ImFont& small = *paint.fonts.small;
+  const ImFont& mono = *paint.fonts.mono;
+  const float baseline = baseline_at(paint.fonts, std::round(at.y + theme.px(ticks_middle)));
   const std::vector<PlotTick> ticks = legend_ticks(legend.field, legend.top);
   for (const PlotTick& tick : ticks) {
-    const float x = place(tick.at), half = text_width(small, tick.label) / 2;
+    const float x = place(tick.at), half = text_width(mono, tick.label) / 2;
     paint.draw.AddLine({x, hi.y}, {x, hi.y + theme.px(3)}, c.quiet);
     if (&tick == &ticks.back() && !legend.top_is_drawn) continue;
     const float left = std::clamp(x - half, lo.x - pad / 2, hi.x + pad / 2 - 2 * half);
-    draw_text(paint.draw, small, {std::round(left), at.y + theme.px(ticks_top)}, c.text, tick.label);
+    draw_on_baseline(paint.draw, mono, {left, baseline}, c.text, tick.label);
   }
   if (legend.marked) {
     const float x = place(*legend.marked), r = theme.px(5);
     paint.draw.AddTriangleFilled({x - r, lo.y - r}, {x + r, lo.y - r}, {x, lo.y + r / 2}, c.text);
   }
-  return {hi.x + pad / 2, at.y + theme.px(ticks_top)};
+  return {hi.x + pad / 2, at.y + theme.px(ticks_middle)};
 }
 
 }  // namespace tyglab

@@ -25,10 +25,10 @@ std::vector<PlotTick> legend_ticks(const FieldInfo& field, double top);
 /// "Tension F_s, N": the heading without typesetting.
 std::string legend_words(const FieldInfo& field);
 
-/// Its size, px.
-ImVec2 legend_size(const Theme& theme);
-/// Draws it with its upper left corner there, on a ground of its own. Returns where the number at the scale's end
-/// belongs: its upper right corner.
-ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, const ColorLegend& legend);
+/// Its size, px, where there is so much room for its width.
+ImVec2 legend_size(const Theme& theme, float room);
+/// Draws it of that size with its upper left corner there, on a ground of its own. Returns where the number at the
+/// scale's end belongs: the middle of its right end.
+ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend);
 
 }  // namespace tyglab

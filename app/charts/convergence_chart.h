@@ -6,7 +6,8 @@
 
 namespace tyglab {
 
-/// The errors of a study, the slope through them, and the slope that the method's table promises.
+/// The errors of a study (quiet where the reference cannot tell them), the slope through them, and the slope that the
+/// method's table promises.
 Chart convergence_chart(const Tokens& colors, const Convergence& study);
 
 }  // namespace tyglab

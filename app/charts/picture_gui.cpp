@@ -6,7 +6,7 @@
 
 namespace tyglab {
 
-PictureGui::PictureGui(ImVec2 size, const Theme& theme) : size_(size) {
+PictureGui::PictureGui(ImVec2 size, const Theme& theme) : window_(ImGui::GetCurrentContext()), size_(size) {
   IMGUI_CHECKVERSION();
   ImGui::SetCurrentContext(ImGui::CreateContext());
   gui::prepare_io(ImGui::GetIO());
@@ -27,6 +27,10 @@ PictureGui::~PictureGui() {
 
 ImDrawList& PictureGui::draw() const {
   return *ImGui::GetBackgroundDrawList();
+}
+
+void PictureGui::show(unsigned texture) const {
+  draw().AddImage(gui::texture(texture), {0, 0}, size_, {0, 1}, {1, 0});
 }
 
 Image PictureGui::pixels() const {

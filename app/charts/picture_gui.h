@@ -17,11 +17,13 @@ class PictureGui {
   PictureGui& operator=(const PictureGui&) = delete;
   const Fonts& fonts() const { return fonts_; }
   ImDrawList& draw() const;
+  /// Draws a texture over all of it, whose first row is the picture's bottom one.
+  void show(unsigned texture) const;
   /// The picture. Throws GraphicsError.
   Image pixels() const;
 
  private:
-  ImGuiContext* window_ = ImGui::GetCurrentContext();  ///< null without a window
+  ImGuiContext* window_;  ///< null without a window
   ImVec2 size_;
   Fonts fonts_;
 };

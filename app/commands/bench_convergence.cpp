@@ -99,8 +99,10 @@ int convergence(const ConvergenceOptions& options) {
   if (!options.csv.empty()) write_output(options.csv, convergence_csv(study));
   if (!options.bench.png.empty()) {
     Chart chart = convergence_chart(dark_tokens(), study);
-    chart.title = "Error over dt: " + scene.source.label;
-    chart.note = convergence_words(study);
+    chart.title = "Error over dt: " + scene.source.label + ", " + std::string(scheme(study.of.integrator).title);
+    std::array<char, 80> note;
+    std::snprintf(note.data(), note.size(), "in double, over the first %.3g s", study.seconds);
+    chart.note = note.data();
     chart.padding = 20;
     write_charts(options.bench.png, {chart}, 1);
   }

@@ -6,7 +6,6 @@
 #include "app/charts/color_legend.h"
 #include "app/charts/picture_gui.h"
 #include "app/data_files.h"
-#include "app/panels/imgui_compat.h"
 #include "app/viewport/drawn_cloth.h"
 #include "app/viewport/image.h"
 
@@ -27,11 +26,12 @@ Image Film::with_legend() const {
   constexpr float height_at_1 = 720, least_scale = 0.6f;
   Theme theme;
   theme.scale = std::max(float(size_.height) / height_at_1, least_scale);
-  const ImVec2 size{float(size_.width), float(size_.height)}, legend = legend_size(theme);
-  const PictureGui gui(size, theme);
-  gui.draw().AddImage(gui::texture(renderer_.texture_id()), {0, 0}, size, {0, 1}, {1, 0});
+  const ImVec2 size{float(size_.width), float(size_.height)};
   const float margin = theme.px(16);
-  draw_color_legend({gui.draw(), theme, gui.fonts()}, {size.x - margin - legend.x, size.y - margin - legend.y},
+  const ImVec2 legend = legend_size(theme, std::max(size.x - 2 * margin, 1.f));
+  const PictureGui gui(size, theme);
+  gui.show(renderer_.texture_id());
+  draw_color_legend({gui.draw(), theme, gui.fonts()}, {size.x - margin - legend.x, size.y - margin - legend.y}, legend,
                     {info(colors_->field), colors_->map(false), colors_->top(), {}, colors_->beyond()});
   return gui.pixels();
 }

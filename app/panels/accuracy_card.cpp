@@ -8,6 +8,7 @@
 #include "app/panels/curves.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
+#include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
 #include "core/integrators/amplification.h"
 
@@ -17,7 +18,20 @@ namespace {
 constexpr const char* stability_heading = "Stability";
 constexpr const char* accuracy_heading = "Accuracy";
 // Pixels at scale 1.
-constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 76;
+constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
+
+/// The text with its lines ended at spaces: Dear ImGui breaks lines at the points of numbers too.
+std::string in_lines(const ImFont& font, const std::string& text, float width) {
+  std::string lines, line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string word = text.substr(at, end - at);
+    if (!line.empty() && text_width(font, line + ' ' + word) > width) lines += line + '\n', line.clear();
+    line += (line.empty() ? "" : " ") + word;
+    at = end + 1;
+  }
+  return lines + line;
+}
 
 /// Words over a chart, in what the card's height leaves.
 void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
@@ -25,8 +39,7 @@ void words_and_chart(App& app, float height, const std::string& words, const Cha
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = card_width(app), line = app.theme.px(room_at_1);
   const ImFont& font = *app.fonts.small;
-  ImGui::GetWindowDrawList()->AddText(&font, font.FontSize, lo, app.theme.colors.text, words.data(),
-                                      words.data() + words.size(), width);
+  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, in_lines(font, words, width));
   ImGui::Dummy({width, line});
   const float rest = height - app.theme.px(card::head + card::foot) - line;
   if (chart == nullptr || rest < app.theme.px(100)) return;
@@ -182,11 +195,11 @@ void errors_shown(App& app, float height) {
 void convergence_shown(App& app, float height) {
   app.convergence.poll(app);
   const auto study = app.convergence.study();
-  const std::string over = study ? "Over the " + short_number(rounded(study->seconds, 2)) +
-                                       " s from t = " + time_number(study->t, study->of.dt) + " s, in double. "
+  const std::string over = study ? " Over the " + short_number(rounded(study->seconds, 2)) +
+                                       " s from t = " + time_number(study->t, study->of.dt) + " s, in double."
                                  : "";
   const Chart chart = study ? convergence_chart(app.theme.colors, *study) : Chart{};
-  words_and_chart(app, height, !study || !study->done ? "Measuring…" : over + convergence_words(*study),
+  words_and_chart(app, height, !study || !study->done ? "Measuring…" : convergence_words(*study) + over,
                   chart.series.empty() ? nullptr : &chart, convergence_words_at_1);
 }
 

@@ -24,10 +24,10 @@ void choice(App& app, std::optional<ParticleField> field, const char* title, con
 }
 
 /// The number at the end of the scale, which can be typed: the scale is then fixed until nothing is typed.
-void top_cell(App& app, FieldColors& colors, ImVec2 upper_right) {
+void top_cell(App& app, FieldColors& colors, ImVec2 right_end) {
   const FieldInfo& field = info(colors.field);
   const float width = app.theme.px(70), height = app.theme.px(18);
-  ImGui::SetCursorScreenPos({upper_right.x - width, upper_right.y - app.theme.px(2)});
+  ImGui::SetCursorScreenPos({right_end.x + app.theme.px(4) - width, std::round(right_end.y - height / 2)});
   const SliderResult typed =
       value_cell(app, "colour top", colors.top(), short_number(rounded(colors.top(), 4)), width, height, field.unit);
   report_control(app, "colour_top");
@@ -62,18 +62,19 @@ void color_menu(App& app) {
 void color_legend(App& app) {
   const FieldColors* shown = shown_colors(app);
   if (shown == nullptr) return;
-  const ImVec2 size = legend_size(app.theme);
   const float margin = app.theme.px(16);
-  // Above the names that copies have at the foot of their pictures.
-  const float names = app.copies.lockstep.empty() ? 0 : app.fonts.text->FontSize + app.theme.px(16);
+  const ImVec2 size = legend_size(app.theme, app.viewport.whole().x - 2 * margin);
+  // Above the names that copies have at the foot of their pictures, where both have no room beside each other.
+  const bool beside = app.copies.lockstep.empty() || app.viewport.size().x > 2 * size.x + 3 * margin;
+  const float names = beside ? 0 : app.fonts.text->FontSize + app.theme.px(16);
   const glm::vec2 corner = app.viewport.box.hi;
-  const ImVec2 at{std::max(corner.x - margin - size.x, app.viewport.box.lo.x), corner.y - margin - names - size.y};
+  const ImVec2 at{corner.x - margin - size.x, corner.y - margin - names - size.y};
   if (at.y < app.viewport.box.lo.y) return;
   const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
   const ColorLegend legend{info(shown->field), shown->map(light_ground(app)),
                            shown->top(),       app.colors.under_pointer,
                            shown->beyond(),    false};
-  top_cell(app, *app.colors.chosen, draw_color_legend(paint, at, legend));
+  top_cell(app, *app.colors.chosen, draw_color_legend(paint, at, size, legend));
   cover_viewport(app, at, {at.x + size.x, at.y + size.y});
 }
 

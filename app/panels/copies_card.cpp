@@ -26,7 +26,7 @@ void item(App& app, const std::string& label, std::vector<std::string> differenc
 
 std::string dt_setting(double dt) {
   char text[40];
-  std::snprintf(text, sizeof text, "dt=%.17g", rounded(dt, 6));
+  std::snprintf(text, sizeof text, "dt=%.6g", rounded(dt, 6));
   return text;
 }
 

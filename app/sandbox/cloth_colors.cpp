@@ -40,7 +40,7 @@ void ClothColors::update(App& app, int tile, int every) {
   picture.sites = {cloth.lattice(), every};
   read_field(chosen->field, cloth, reference, picture.sites, picture.values);
   picture.version = ++versions_;
-  chosen->look(span_of(picture.values));
+  if (!cloth.divergence()) chosen->look(span_of(picture.values));  // what is left of it would take all of the scale
 }
 
 void ClothColors::give(App& app, int tile, ClothRenderer& renderer) {

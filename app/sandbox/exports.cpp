@@ -44,7 +44,7 @@ std::string copies(App& app) {
 }
 
 std::string convergence(App& app) {
-  return convergence_csv(app.convergence.study().value_or(Convergence{.of = app.preset()}));
+  return convergence_csv(app.convergence.study().value_or(Convergence{}));
 }
 
 std::string values(App& app) {

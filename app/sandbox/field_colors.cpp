@@ -17,26 +17,17 @@ double round_up(double value) {
   return 10 * power;
 }
 
-/// The round number below a round number.
-double next_lower(double top) {
-  const double power = std::pow(10, std::floor(std::log10(top) + 1e-9));
-  for (std::size_t k = leads.size(); k-- > 0;)
-    if (leads[k] * power < top * (1 - 1e-9)) return leads[k] * power;
-  return leads.back() * power / 10;
-}
-
 }  // namespace
 
 double SteadyTop::look(double greatest) {
   if (!(greatest > 0) || !std::isfinite(greatest)) return top_;
   const double wanted = round_up(greatest);
-  if (wanted > top_) {
-    top_ = wanted, calm_ = 0;
-  } else if (top_ == 0 || wanted > next_lower(top_) * (1 + 1e-9)) {
-    calm_ = 0;
-  } else if (++calm_ >= patience) {
-    top_ = next_lower(top_), calm_ = 0;
+  if (wanted >= top_ * (1 - 1e-9)) {
+    top_ = wanted, calm_ = 0, calm_top_ = 0;
+    return top_;
   }
+  calm_top_ = std::max(calm_top_, wanted);
+  if (++calm_ >= patience) top_ = calm_top_, calm_ = 0, calm_top_ = 0;
   return top_;
 }
 

@@ -11,10 +11,10 @@
 namespace tyglab {
 
 /// The top of a scale that follows a quantity and does not flicker: a round number (1, 2, 3 or 5 times a power of ten)
-/// that grows at once, and shrinks by one such number after so many looks at which the next lower one would have done.
+/// that grows at once, and shrinks once it was not needed for so many looks, to what they needed.
 class SteadyTop {
  public:
-  static constexpr int patience = 45;
+  static constexpr int patience = 40;
   /// Takes the greatest value of now; what is not above 0 changes nothing.
   double look(double greatest);
   double now() const { return top_; }
@@ -23,6 +23,7 @@ class SteadyTop {
  private:
   double top_ = 0;  ///< 0: nothing has been seen yet
   int calm_ = 0;
+  double calm_top_ = 0;  ///< what would have done since it was needed last
 };
 
 struct FieldColors {

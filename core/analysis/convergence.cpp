@@ -80,16 +80,30 @@ int nominal_order(const Preset& preset) {
   return preset.k_d > 0 ? method.order_damped : method.order_undamped;
 }
 
+bool by_reference(const Convergence& study) {
+  const auto told = std::count_if(study.points.begin(), study.points.end(), [](const ConvergencePoint& point) {
+    return point.told && std::isfinite(point.error_rms_m) && point.error_rms_m > 0;
+  });
+  const bool others = std::any_of(study.points.begin(), study.points.end(),
+                                  [](const ConvergencePoint& point) { return point.difference_rms_m > 0; });
+  return study.referenced && (told >= 2 || !others);
+}
+
+std::optional<double> shown_error(const Convergence& study, const ConvergencePoint& point) {
+  const bool reference = by_reference(study);
+  const double error = reference ? point.error_rms_m : point.difference_rms_m;
+  if (!std::isfinite(error) || error <= 0 || (reference && !point.told)) return std::nullopt;
+  return error;
+}
+
 std::optional<MeasuredOrder> measured_order(const Convergence& study) {
   constexpr std::size_t most = 4;
   std::vector<std::pair<double, double>> points;
-  for (const ConvergencePoint& point : study.points) {
-    const double error = study.referenced ? point.error_rms_m : point.difference_rms_m;
-    if (std::isfinite(error) && error > 0 && (point.told || !study.referenced)) points.emplace_back(point.dt, error);
-  }
+  for (const ConvergencePoint& point : study.points)
+    if (const auto error = shown_error(study, point)) points.emplace_back(point.dt, *error);
   if (points.size() < 2) return std::nullopt;
   if (points.size() > most) points.erase(points.begin(), points.end() - most);
-  return MeasuredOrder{slope(points), points.front().first, points.back().first, !study.referenced};
+  return MeasuredOrder{slope(points), points.front().first, points.back().first, !by_reference(study)};
 }
 
 std::string convergence_words(const Convergence& study) {
@@ -102,13 +116,13 @@ std::string convergence_words(const Convergence& study) {
     return words + (words.empty() ? "The error is smaller than can be told from the reference's own. Take a larger dt."
                                   : "Take a smaller dt.");
   words += printed("Measured order %.2f", order->order);
-  if (order->by_differences) words += ", from runs compared with each other";
+  if (order->by_differences) words += " of runs compared with each other, for want of a reference that is sure enough";
   words += printed("; %s has %d on smooth motion. ", method.c_str(), nominal);
   if (order->order < nominal - as_promised) words += why_lower(study) + " ";
   if (order->order > nominal + as_promised) words += "The coarsest dt are too coarse for a clean slope. ";
   const auto hidden =
       std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.told; });
-  if (study.referenced && hidden != study.points.end())
+  if (!order->by_differences && hidden != study.points.end())
     words += printed("From dt = %.3g s on the error cannot be told from the reference's own, %.2g m. ", hidden->dt,
                      study.reference.agreement_rms_m);
   words.pop_back();
@@ -117,7 +131,8 @@ std::string convergence_words(const Convergence& study) {
 
 void measure_convergence(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop,
                          const std::function<void(const Convergence&)>& found) {
-  Convergence study{.of = start.preset, .t = start.from ? start.from->t : 0, .seconds = seconds};
+  Convergence study;
+  study.of = start.preset, study.t = start.from ? start.from->t : 0, study.seconds = seconds;
   const auto end = [&](std::string problem = {}) {
     study.problem = std::move(problem), study.done = true;
     found(study);

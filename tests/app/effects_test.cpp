@@ -10,7 +10,7 @@ void draw(Effects& effects, double ms, int frames) {
   for (int n = 0; n < frames; ++n) effects.drew(ms);
 }
 
-constexpr int enough = 2 * Effects::looks;  // and to settle
+constexpr int enough = Effects::looks + 10;  // to settle, and for a mean
 
 TEST_CASE("slow drawing leaves out one effect after another, in their order, and says so") {
   Effects effects;

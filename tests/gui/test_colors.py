@@ -24,7 +24,7 @@ def middle(report):
 
 @case
 def keys(stage):
-    """C goes through what can colour the cloth and back to its own look, which is as it was"""
+    """K goes through what can colour the cloth and back to its own look, which is as it was"""
     sandbox = paused(stage)
     report = sandbox.report()
     box = middle(report)
@@ -32,18 +32,20 @@ def keys(stage):
     check(report["colors"] is None, "nothing colours the cloth at first")
     last = plain
     for name in ("tension", "strain", "speed", "kinetic"):
-        sandbox.key("c")
-        report = sandbox.wait(lambda r: r["colors"] and r["colors"]["field"] == name, f"C to colour by {name}")
+        sandbox.key("k")
+        report = sandbox.wait(lambda r: r["colors"] and r["colors"]["field"] == name, f"K to colour by {name}")
         check(report["colors"]["top"] > 0, "a scale")
         picture = stage.keep(name, still=True)
         check(picture.crop(box).differs_from(last.crop(box), 10) > 0.3, f"{name} looks other than what was before")
         last = picture
-    sandbox.key("c")
-    sandbox.wait(lambda r: r["colors"] is None, "C to come back to the cloth's own look")
+    sandbox.key("k")
+    sandbox.wait(lambda r: r["colors"] is None, "K to come back to the cloth's own look")
     again = stage.keep("own-again", still=True)
     x, y, width, height = report["viewport"]
     part = (x + 8, y + 80, width - 16, height - 90)
-    check(again.crop(part).differs_from(plain.crop(part), 0) == 0, "not a pixel of it has changed")
+    # The arrows' length follows slowly, by less than a step of colour; the cloth's own pixels are held to the byte by
+    # tests/app/color_test.cpp.
+    check(again.crop(part).differs_from(plain.crop(part), 3) == 0, "not a pixel of it has changed")
 
 
 @case
@@ -82,10 +84,10 @@ def copies(stage):
     check(sandbox.report()["colors"] is None, "without a copy there is nothing to measure from")
     sandbox.click_control("plots.Copies")
     sandbox.click_control("plots.add")
-    sandbox.click_control("menu.dt_2_0.002_s")
+    sandbox.click_control("menu.dt_2_5e_4_s")
     report = sandbox.wait(lambda r: len(r["copies"]) == 1 and r["colors"], "the copy, and the colours with it")
     check(report["colors"]["field"] == "distance", "the distance colours it")
-    sandbox.wait(lambda r: r["colors"]["top"] < 1 and r["t"] > 1, "a scale for what they are apart")
+    sandbox.wait(lambda r: r["colors"]["top"] < 0.1 and r["t"] > 1, "a scale for what they are apart")
     stage.keep("distance")
 
 
