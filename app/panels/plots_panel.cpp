@@ -238,12 +238,13 @@ void map_plot_card(App& app, float height) {
   const Card card(app, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
                   app.map.busy() ? "measuring" : "", height);
   const Region& inner = card.inner();
+  stability_map(app, inner.size);
+  ImGui::SetCursorScreenPos(inner.at);  // over the chart's ground
   if (head_button(app, inner, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
   if (head_button(app, inner, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
     app.command(Command::export_map);
   if (head_button(app, inner, 2, "png_map", icon::picture, "PNG", "Write the map as a picture…"))
     app.command(Command::export_map_picture);
-  stability_map(app, inner.size);
 }
 
 void inside_card(App& app, float height) {
