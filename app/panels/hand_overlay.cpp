@@ -7,6 +7,7 @@
 #include "app/panels/numbers.h"
 #include "app/panels/overlay.h"
 #include "app/panels/symbol.h"
+#include "app/sandbox/knife.h"
 #include "app/sandbox/wind_arrow.h"
 
 namespace tyglab {
@@ -62,18 +63,17 @@ void wind_overlay(App& app, ImDrawList& draw) {
   draw_arrow(app, draw, *base, end, {c.sky, LineStyle::solid, 2}, shortened);
   draw.AddCircleFilled(*base, app.theme.px(3), c.sky, 16);
   ring(app, draw, end, 8, taken || near ? c.accent : faded(c.sky, 0.7f), taken || near ? 2.5f : 1.5f);
-  wind_label(app, draw, {base->x, base->y + app.theme.px(44)}, W);
+  wind_label(app, draw, {base->x, base->y + app.theme.px(22)}, W);
 }
 
 void knife_stroke(App& app, ImDrawList& draw) {
   auto& stroke = app.tool.stroke;
-  const auto gone = [&](const Tool::StrokePoint& point) {
+  if (!app.settings.handling.cut_along_path) stroke.clear();
+  std::erase_if(stroke, [&](const Tool::StrokePoint& point) {
     return app.ui.now - point.time > stroke_seen || point.tile >= app.copies.tiles();
-  };
-  std::erase_if(stroke, gone);
+  });
   if (stroke.empty()) return;
   app.ui.draw_by = app.ui.now;  // it fades
-  if (!app.settings.handling.cut_along_path) return;
   for (std::size_t k = 1; k < stroke.size(); ++k)
     if (!stroke[k].begins) stroke_part(app, draw, stroke[k - 1], stroke[k]);
 }

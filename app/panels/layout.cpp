@@ -79,6 +79,7 @@ void draw_layout(App& app, ImVec2 window) {
   // Where both have no room, they take turns in one place.
   const bool shared = left > 0 && left + right > spare;
   if (left + right > spare) right = 0;
+  if (shared) left = std::round(std::min(layout.left_width * app.theme.scale, std::max(spare, left)));
   if (left + app.theme.px(140) > window.x) left = 0;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;

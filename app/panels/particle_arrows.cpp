@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -91,40 +93,62 @@ float scale_bar(App& app, ImDrawList& draw, ImVec2 at, double scale, std::string
   return end + 3 * pad;
 }
 
+/// Of the variables that are ticked; none where no one of the group is.
+std::optional<double> longest_of(const Group& group, const std::set<std::string>& ticked, const ParticleReadout& r) {
+  std::optional<double> longest;
+  for (const std::string_view key : group.keys)
+    if (ticked.count(std::string(key)) > 0) longest = std::max(longest.value_or(0), glm::length(vector_of(r, key)));
+  return longest;
+}
+
+/// Where the scales stand: in the first picture's lower left corner, above the names of copies.
+ImVec2 place_of_bars(const App& app) {
+  const glm::vec2 corner = app.viewport.origin(0) + glm::vec2(0, app.viewport.size().y);
+  const std::size_t copies = app.copies.lockstep.size();
+  const float names = copies == 0 ? 0.f : app.copies.overlaid ? float(copies + 1) : 1.f;
+  return {corner.x + app.theme.px(22), std::round(corner.y - app.theme.px(22) - app.theme.px(30) * names)};
+}
+
+struct DrawnArrow {
+  ImVec2 to;
+  std::string_view symbol;
+};
+
+/// One variable's arrow; none where it is too short to be seen.
+std::optional<DrawnArrow> variable_arrow(App& app, ImDrawList& draw, int tile, ImVec2 from, const ParticleReadout& r,
+                                         std::string_view key, double scale) {
+  const glm::dvec3 value = vector_of(r, key);
+  const double parts = glm::length(value) / scale, pixels = std::min(parts, most_of_it) * app.theme.px(longest_px);
+  if (pixels < 1) return std::nullopt;
+  auto to = on_screen(app, tile, r.x + glm::normalize(value) * pixels * metres_per_pixel(app, r.x));
+  if (!to) return std::nullopt;
+  const bool cut_short = keep_in_picture(app, tile, from, *to) || parts > most_of_it;
+  if (!draw_arrow(app, draw, from, *to, curve_style(app.theme.colors, key), cut_short)) return std::nullopt;
+  return DrawnArrow{*to, variable(key).symbol};
+}
+
 }  // namespace
 
 void particle_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from) {
   const ParticleReadout r = cloth_in_tile(app, tile).particle(app.picked->i, app.picked->j);
-  const double per_pixel = metres_per_pixel(app, r.x);
   const std::set<std::string>& ticked = app.settings.handling.arrows;
-  std::vector<ImVec2> labels;
-  const glm::vec2 corner = app.viewport.origin(0) + glm::vec2(0, app.viewport.size().y);
-  const float names = app.copies.lockstep.empty()
-                          ? 0
-                          : app.theme.px(30) * float(app.copies.overlaid ? app.copies.lockstep.size() + 1 : 1);
-  ImVec2 bar{corner.x + app.theme.px(22), std::round(corner.y - app.theme.px(22) - names)};
+  std::vector<DrawnArrow> arrows;
+  ImVec2 bar = place_of_bars(app);
   for (std::size_t k = 0; k < groups().size(); ++k) {
     const Group& group = groups()[k];
-    double longest = 0;
-    bool any = false;
-    for (const std::string_view key : group.keys)
-      if (ticked.count(std::string(key)) > 0) longest = std::max(longest, glm::length(vector_of(r, key))), any = true;
-    if (!any || !std::isfinite(longest)) continue;
+    const auto longest = longest_of(group, ticked, r);
+    if (!longest || !std::isfinite(*longest)) continue;
     double& scale = app.ui.arrow_scales[k];
     // The original leads; its copies' arrows are to the same scale.
-    if (tile == 0 || scale <= 0) follow(app, scale, std::max(longest, group.least(app.preset())));
+    if (tile == 0 || scale <= 0) follow(app, scale, std::max(*longest, group.least(app.preset())));
     if (tile == 0) bar.x = scale_bar(app, draw, bar, scale, group.unit);
-    for (const std::string_view key : group.keys) {
-      const glm::dvec3 value = vector_of(r, key);
-      const double pixels = std::min(glm::length(value) / scale, most_of_it) * app.theme.px(longest_px);
-      if (ticked.count(std::string(key)) == 0 || pixels < 1) continue;
-      auto to = on_screen(app, tile, r.x + glm::normalize(value) * pixels * per_pixel);
-      if (!to) continue;
-      const bool cut_short = keep_in_picture(app, tile, from, *to) || glm::length(value) > most_of_it * scale;
-      if (draw_arrow(app, draw, from, *to, curve_style(app.theme.colors, key), cut_short))
-        arrow_label(app, draw, tile, from, *to, variable(key).symbol, labels);
-    }
+    for (const std::string_view key : group.keys)
+      if (ticked.count(std::string(key)) > 0)
+        if (const auto arrow = variable_arrow(app, draw, tile, from, r, key, scale)) arrows.push_back(*arrow);
   }
+  // Last, so that no arrow runs over a symbol.
+  std::vector<ImVec2> labels;
+  for (const DrawnArrow& arrow : arrows) arrow_label(app, draw, tile, from, arrow.to, arrow.symbol, labels);
 }
 
 }  // namespace tyglab

@@ -19,9 +19,9 @@ namespace {
 constexpr std::array<std::string_view, 7> forces{"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"};
 constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
 
-/// Whether the variable can be drawn at the particle: a position is a place, not an arrow.
-bool has_arrow(std::string_view key) {
-  return key != "x";
+/// Whether the variable can be drawn at the particle: a position is a place, not an arrow, and the one weight has none.
+bool has_arrow(const App& app, std::string_view key) {
+  return app.preset().kind == Kind::cloth && key != "x";
 }
 
 /// Whether a body's contact, which no formula gives, is missing from what is shown.
@@ -45,7 +45,7 @@ void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dve
         "the model, so it is in neither F nor the acceleration.",
         c.warning);
   wrapped(app, "equation (" + std::string(what.equation) + ")", c.quiet);
-  if (has_arrow(what.key)) wrapped(app, "Click: its arrow at the particle, on or off", c.quiet);
+  if (has_arrow(app, what.key)) wrapped(app, "Click: its arrow at the particle, on or off", c.quiet);
   end_tooltip(app);
 }
 
@@ -90,9 +90,8 @@ void toggle_arrow(App& app, std::string_view key) {
   app.ui.arrows = true;
 }
 
-/// The tick that shows the variable's arrow, and the sample of its curve. The item before is what a click takes.
-void tick_and_sample(App& app, std::string_view key, float left, float middle) {
-  if (!has_arrow(key)) return;
+/// The tick that shows the variable's arrow. The item before is what a click takes.
+void draw_tick(App& app, std::string_view key, float left, float middle) {
   const Tokens& c = app.theme.colors;
   const bool on = app.ui.arrows && app.settings.handling.arrows.count(std::string(key)) > 0;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -101,15 +100,21 @@ void tick_and_sample(App& app, std::string_view key, float left, float middle) {
   const ImU32 edge = ImGui::IsItemHovered() ? c.text : on ? c.accent : c.quiet;
   if (on) draw.AddRectFilled(lo, hi, c.accent, app.theme.px(2));
   draw.AddRect(lo, hi, edge, app.theme.px(2), 0, line);
-  if (on) {
-    const ImVec2 check[3] = {{lo.x + side * 0.22f, lo.y + side * 0.52f},
-                             {lo.x + side * 0.42f, lo.y + side * 0.74f},
-                             {lo.x + side * 0.8f, lo.y + side * 0.26f}};
-    draw.AddPolyline(check, 3, c.on_accent, 0, app.theme.scale * 1.4f);
-  }
+  if (!on) return;
+  const ImVec2 check[3] = {{lo.x + side * 0.22f, lo.y + side * 0.52f},
+                           {lo.x + side * 0.42f, lo.y + side * 0.74f},
+                           {lo.x + side * 0.8f, lo.y + side * 0.26f}};
+  draw.AddPolyline(check, 3, c.on_accent, 0, app.theme.scale * 1.4f);
+}
+
+/// A tick where there is an arrow to show, and the colour and line of what is drawn or plotted.
+void tick_and_sample(App& app, std::string_view key, float left, float middle) {
+  const bool arrow = has_arrow(app, key), plotted = key.front() == 'F';
+  if (arrow) draw_tick(app, key, left, middle);
+  if (!arrow && !plotted) return;
   const ImVec2 sample[2] = {{left + app.theme.px(sample_at), middle},
                             {left + app.theme.px(sample_at + sample_length), middle}};
-  draw_styled_line(draw, sample, 2, curve_style(c, key), app.theme.scale);
+  draw_styled_line(*ImGui::GetWindowDrawList(), sample, 2, curve_style(app.theme.colors, key), app.theme.scale);
 }
 
 /// Symbol with the sample of its curve, magnitude, unit. The number ends `end` after the cell's left edge.
@@ -120,7 +125,7 @@ void force_cell(App& app, std::string_view key, const ParticleReadout* readout, 
   const float width = end + app.theme.px(18);
   const float height = line_height(app), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(key)) toggle_arrow(app, key);
+  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(app, key)) toggle_arrow(app, key);
   report_control(app, key);
   tick_and_sample(app, key, lo.x, middle);
   const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
@@ -144,7 +149,7 @@ void motion_line(App& app, std::string_view key, const ParticleReadout* readout)
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = app.ui.row_width, height = line_height(app), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(key)) toggle_arrow(app, key);
+  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(app, key)) toggle_arrow(app, key);
   report_control(app, key);
   tick_and_sample(app, key, lo.x, middle);
   const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);

@@ -132,7 +132,7 @@ float reading(App& app, float x, float end, const char* label, const std::string
 
 float speed_combo(App& app, float x, float end) {
   static constexpr double speeds[] = {0.01, 0.03, 0.1, 0.25, 0.5, 1, 2};
-  const float width = app.theme.px(72), height = app.theme.px(26);
+  const float width = app.theme.px(88), height = app.theme.px(26);
   if (x + width > end) return end;
   ImGui::SetCursorScreenPos({x, bar_middle(app, height)});
   const bool slowed = app.pacing.slowed != 1;

@@ -75,7 +75,9 @@ void cloth_names(App& app, ImDrawList& draw) {
     draw.AddRectFilled(lo, {lo.x + sample + 3 * pad + text_width(font, name), lo.y + height}, faded(c.ground, 0.75f),
                        app.theme.px(6));
     const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
-    draw_styled_line(draw, ends, 2, style_of_cloth(app, n), app.theme.scale);
+    CurveStyle style = style_of_cloth(app, n);
+    if (copies.overlaid) style.line = LineStyle::solid;  // as the nets are drawn
+    draw_styled_line(draw, ends, 2, style, app.theme.scale);
     draw_text(draw, font, {lo.x + 2 * pad + sample, std::round(middle - font.FontSize / 2)},
               divergence ? c.danger : c.text, name);
   }

@@ -7,28 +7,24 @@
 #include <limits>
 
 #include "app/sandbox/app.h"
+#include "app/sandbox/knife.h"
 #include "app/sandbox/wind_arrow.h"
 #include "app/sandbox/window.h"
 #include "app/viewport/picking.h"
-#include "app/viewport/spring_picking.h"
 
 namespace tyglab {
 namespace {
 
 constexpr float click_slack = 4;         // pixels at scale 1
-constexpr float nick = 6;                // half of the stroke that is shown before the press, pixels at scale 1
 constexpr float double_click_slack = 8;  // between the two presses of a double click
 
 using ToolKind = Tool::Kind;
 
-float reach(const App& app) {
-  return app.theme.px(24);
-}
-
 std::optional<Pins::Site> nearest_site(App& app, int tile, glm::vec2 at, bool free_only) {
   Simulation& simulation = cloth_in_tile(app, tile);
   const auto skip = [&](int i, int j) { return free_only && simulation.pinned(i, j); };
-  const auto hit = nearest_particle(simulation.positions(), app.camera, at, app.viewport.size(), reach(app), skip);
+  const auto hit =
+      nearest_particle(simulation.positions(), app.camera, at, app.viewport.size(), pointer_reach(app), skip);
   if (!hit) return std::nullopt;
   return Pins::Site{hit->i, hit->j};
 }
@@ -163,36 +159,6 @@ void wheel(App& app, const PointerEvent& event) {
   }
 }
 
-/// What the pointer's way of this frame has crossed. A spring that it crossed twice is cut once.
-void cut_along_path(App& app) {
-  Tool& tool = app.tool;
-  const Simulation& cloth = cloth_in_tile(app, tool.tile);
-  edit::CutSprings cut;
-  for (std::size_t k = 1; k < tool.path.size(); ++k)
-    for (const SpringSite& spring : springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies,
-                                                   tool.path[k - 1], tool.path[k], app.viewport.size()))
-      if (std::find(cut.springs.begin(), cut.springs.end(), spring) == cut.springs.end()) cut.springs.push_back(spring);
-  tool.path = {tool.at};
-  if (!cut.springs.empty()) apply_edit(app, std::move(cut));
-}
-
-/// The report's cut: the particles near the pointer's way lose their springs upwards.
-void cut_upwards(App& app) {
-  Tool& tool = app.tool;
-  std::vector<Pins::Site> sites;
-  if (tool.path.size() == 1) tool.path.push_back(tool.path.front());
-  for (std::size_t k = 1; k < tool.path.size(); ++k)
-    for (const Pins::Site& site : particles_near_path(cloth_in_tile(app, tool.tile).positions(), app.camera,
-                                                      tool.path[k - 1], tool.path[k], app.viewport.size(), reach(app)))
-      if (std::find(sites.begin(), sites.end(), site) == sites.end()) sites.push_back(site);
-  tool.path = {tool.at};
-  if (!sites.empty()) apply_edit(app, edit::Cut{std::move(sites)});
-}
-
-void cut(App& app) {
-  app.settings.handling.cut_along_path ? cut_along_path(app) : cut_upwards(app);
-}
-
 void move_body(App& app) {
   Tool& tool = app.tool;
   if (tool.body < 0 || std::size_t(tool.body) >= app.preset().bodies.size()) {
@@ -210,7 +176,7 @@ void hold(App& app) {
   // Held still for longer than a click takes.
   if (tool.kind == ToolKind::right && tool.site && app.ui.now - tool.press_time > app.input.double_click_s)
     start_grab(app);
-  if (tool.kind == ToolKind::cut) cut(app);
+  if (tool.kind == ToolKind::cut) use_knife(app);
   if (tool.kind == ToolKind::body) move_body(app);
   if (tool.kind == ToolKind::wind) drag_wind(app);
   if (tool.kind != ToolKind::grab) return;
@@ -224,6 +190,10 @@ void hold(App& app) {
 }
 
 }  // namespace
+
+float pointer_reach(const App& app) {
+  return app.theme.px(24);
+}
 
 int Viewport::tile_at(glm::vec2 p) const {
   const glm::vec2 inside = (p - box.lo) / glm::max(size(), glm::vec2(1));
@@ -282,21 +252,6 @@ bool wind_under_pointer(const App& app) {
   return app.viewport.tile_at(app.input.at) == 0 && on_wind_tip(app, app.input.at - app.viewport.origin(0));
 }
 
-std::vector<SpringSite> springs_under_pointer(App& app) {
-  const Lattice& lattice = app.simulation->lattice();
-  if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at) || lattice.size() > Lockstep::largest)
-    return {};
-  const int tile = app.viewport.tile_at(app.input.at);
-  const Simulation& cloth = cloth_in_tile(app, tile);
-  const glm::vec2 at = app.input.at - app.viewport.origin(tile);
-  std::vector<SpringSite> met;
-  for (const glm::vec2 half : {glm::vec2(app.theme.px(nick), 0), glm::vec2(0, app.theme.px(nick))})
-    for (const SpringSite& spring : springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies,
-                                                   at - half, at + half, app.viewport.size()))
-      if (std::find(met.begin(), met.end(), spring) == met.end()) met.push_back(spring);
-  return met;
-}
-
 bool hand_in_cloth(const App& app) {
   return app.tool.kind == ToolKind::grab || app.tool.kind == ToolKind::cut;
 }
@@ -305,14 +260,6 @@ bool body_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
   const int tile = app.viewport.tile_at(app.input.at);
   return body_pressed(app, tile, app.input.at - app.viewport.origin(tile)).has_value();
-}
-
-bool cuts_between_steps(const App& app) {
-  return app.tool.kind == ToolKind::cut && !app.settings.handling.cut_along_path;
-}
-
-void cut_between_steps(App& app) {
-  if (cuts_between_steps(app)) cut(app);
 }
 
 void move_hand(App& app, int steps) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/sandbox/input.h"
-#include "core/cloth/lattice.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -83,14 +82,10 @@ Simulation& cloth_in_tile(App& app, int tile);
 bool body_under_pointer(App& app);
 /// Whether a left press would take the wind's arrow by its tip.
 bool wind_under_pointer(const App& app);
-/// The springs that a nick there would cut, where cuts run along the pointer's path.
-std::vector<SpringSite> springs_under_pointer(App& app);
+/// How near to the pointer a particle is taken, pixels.
+float pointer_reach(const App& app);
 /// Whether the pointer grabs or cuts now.
 bool hand_in_cloth(const App& app);
-/// While the report's cut is held: cuts at the pointer, once a step, since the cloth moves under it between two frames.
-/// A cut along the path is over with the frame whose path it is.
-bool cuts_between_steps(const App& app);
-void cut_between_steps(App& app);
 /// Sends the hand to the pointer over the next `steps` steps.
 void move_hand(App& app, int steps);
 

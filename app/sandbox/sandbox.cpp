@@ -13,6 +13,7 @@
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/keys.h"
+#include "app/sandbox/knife.h"
 #include "app/sandbox/preparing.h"
 #include "app/sandbox/sampling.h"
 #include "app/sandbox/start.h"

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "app/panels/overlay.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/wind_arrow.h"
 #include "app/viewport/spring_picking.h"
@@ -223,6 +224,23 @@ TEST_CASE("Shift drags along the view, Ctrl snaps to an axis, and at its foot th
   calm.drag(from, foot + glm::vec2(2, 1));
   CHECK(calm.app.preset().W == glm::dvec3(0));
   CHECK(wind_arrow_shown(calm.app));
+}
+
+TEST_CASE("an arrow that would leave its picture is cut short at its edge, any other is left as it is") {
+  Desk desk(upright());
+  App& app = desk.app;
+  app.viewport.box = {{100, 50}, {740, 530}};
+  const ImVec2 from{300, 200};
+  for (const ImVec2 goal : {ImVec2{2000, 200}, {-500, -900}, {310, 4000}, {739, 529}}) {
+    ImVec2 to = goal;
+    CHECK(keep_in_picture(app, 0, from, to));
+    CHECK((to.x > 100 && to.x < 740 && to.y > 50 && to.y < 530));
+    // On the way to where it was to go.
+    CHECK((to.x - from.x) * (goal.y - from.y) == doctest::Approx((to.y - from.y) * (goal.x - from.x)));
+  }
+  ImVec2 inside{400, 300};
+  CHECK_FALSE(keep_in_picture(app, 0, from, inside));
+  CHECK((inside.x == 400 && inside.y == 300));
 }
 
 TEST_CASE("slow motion is a quarter of the speed, and measured as such") {

@@ -143,5 +143,27 @@ def unsaved_work(stage):
     sandbox.wait(lambda r: r["lab"] is None, "the lab to be left")
 
 
+@case
+def waits(stage):
+    """a lab waits while another preset is open, says so, and puts its own cloth back"""
+    sandbox = stage.start("denim")
+    begin(sandbox, "wind", "12_wind")
+    sandbox.wait(lambda r: r["label"] == "hanging", "its preset")
+    stage.keep("1-lab")
+    sandbox.key("ctrl+p")
+    sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
+    sandbox.later(3)
+    sandbox.type("flag in")
+    sandbox.later(4)
+    sandbox.key("Return")
+    sandbox.wait(lambda r: r["label"] == "flag", "the flag")
+    sandbox.control("lab.Open_the_lab_s_cloth")
+    stage.keep("2-waits")
+    sandbox.click_control("lab.Open_the_lab_s_cloth")
+    sandbox.wait(lambda r: r["label"] == "hanging" and r["lab"]["label"] == "12_wind", "the lab's cloth")
+    report = sandbox.later(4)
+    check("lab.Open_the_lab_s_cloth" not in report["controls"], "it goes on")
+
+
 if __name__ == "__main__":
     main()

@@ -55,6 +55,29 @@ def resizing(stage):
 
 
 @case
+def narrow(stage):
+    """where both columns have no room, tabs choose one; what asks for a card, or for a constant, brings it"""
+    sandbox = stage.start("hanging", size=(700, 600))
+    report = sandbox.later(4)
+    check("side.columns.2" in report["controls"] and "constants.k_s.slider" in report["controls"], "constants at first")
+    sandbox.click_control("side.columns.2")
+    report = sandbox.wait(lambda r: "plots.Stability" in r["controls"], "the plots in their place")
+    check("constants.k_s.slider" not in report["controls"], "one column at a time")
+    check_controls(report)
+    stage.keep("plots")
+    sandbox.click_control("side.columns.1")
+    sandbox.wait(lambda r: "constants.k_s.slider" in r["controls"], "the constants again")
+    sandbox.key("m")
+    sandbox.wait(lambda r: "plots.map" in r["controls"], "the map to be shown, though the constants stood there")
+    stage.keep("map")
+    sandbox.key("m")
+    resize(sandbox, 1280, 720)
+    report = sandbox.later(4)
+    check("side.columns.1" not in report["controls"], "no tabs where both have room")
+    check("constants.k_s.slider" in report["controls"] and "plots.Stability" in report["controls"], "both columns")
+
+
+@case
 def borders(stage):
     """the borders between the regions drag, and the cloth gets what is left"""
     sandbox = stage.start("hanging")

@@ -1,0 +1,21 @@
+// The knife: a held left button cuts upwards, as in the report (2.3.4), or along the pointer's path.
+#pragma once
+
+#include <vector>
+
+#include "core/cloth/lattice.h"
+
+namespace tyglab {
+
+struct App;
+
+/// Cuts what the pointer has passed since the last call.
+void use_knife(App& app);
+/// Whether it cuts at the pointer once a step, since the cloth moves under it between two frames. A cut along the path
+/// is over with the frame whose path it is.
+bool cuts_between_steps(const App& app);
+void cut_between_steps(App& app);
+/// The springs that a nick at the pointer would cut, if it is free over the viewport.
+std::vector<SpringSite> springs_under_pointer(App& app);
+
+}  // namespace tyglab
