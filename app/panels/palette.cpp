@@ -124,11 +124,11 @@ void add_colors(const App& app, std::vector<PaletteEntry>& list) {
   const auto colored = [](std::optional<ParticleField> field) {
     return [field](App& a) { a.request(request::ColorBy{field}); };
   };
-  list.push_back({"Colour", "Own colours", "", "cloth texture", colored(std::nullopt)});
+  list.push_back({"Colour", "Own colours", "", "cloth texture", "", colored(std::nullopt)});
   for (const FieldInfo& field : particle_fields())
     if (why_not_colored(app, field.field).empty())
       list.push_back({"Colour", std::string(field.title), std::string(field.unit),
-                      std::string(field.name) + " color cloth", colored(field.field)});
+                      std::string(field.name) + " color cloth", "", colored(field.field)});
 }
 
 /// The kind of thing stands before its name, unless all are of one.

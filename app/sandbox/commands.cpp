@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 43> rows{{
+  static const std::array<CommandRow, 44> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",

@@ -17,7 +17,7 @@ namespace tyglab {
 namespace {
 
 constexpr int most_side = 1024;  // beyond it nothing is in caches, and a step's time grows with the particles
-constexpr double run_seconds = 0.03;
+constexpr double trial_seconds = 0.03;
 constexpr int rounds = 3;
 constexpr double clearly = 0.95;  // of the CPU engine's time: less is a reason to take another
 
@@ -36,7 +36,7 @@ class Runner {
  public:
   Runner(const Preset& preset, int threads) : simulation_(preset, threads) {
     simulation_.advance(steps_);  // drivers build kernels when they are first used
-    while (step(steps_) < run_seconds && !simulation_.divergence()) steps_ *= 2;
+    while (step(steps_) < trial_seconds && !simulation_.divergence()) steps_ *= 2;
   }
   void run() { shortest_ = std::min(shortest_, step(steps_) / steps_); }
   /// 0: it did not last.
