@@ -61,6 +61,10 @@ class Simulation {
   /// The constants with which it diverged; of use only while divergence() holds one.
   const Preset& diverged_preset() const { return diverged_preset_; }
   Engine& engine() { return *engine_; }
+  /// Goes on with what is made of the present engine: tests see one fail in this way.
+  void wrap_engine(const std::function<std::unique_ptr<Engine>(std::unique_ptr<Engine>)>& wrap) {
+    engine_ = wrap(std::move(engine_));
+  }
   const Engine& engine() const { return *engine_; }
   PositionView positions() const { return engine_->positions(); }
 

@@ -89,6 +89,9 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
 #define MEET_BODIES(old, x, v, seen)
 #endif
 
+/// Of a block on which no force is computed.
+#define FIND_FIXED(mask) const maskv fixed = (LOAD_MASK(mask) & bit_free) == 0
+
 #if WIDTH == 1
 /// Where a work-item's particle lies, and the force on it; x and v are the vectors that forces are computed from.
 #define FIND_PARTICLE(x_field, v_field)                                                                             \

@@ -38,7 +38,7 @@ Json number_or_null(double value) {
 
 Json row_json(const AccuracyRow& row) {
   Json json = {{"scene", row.scene},
-               {"engine", name_of(EngineKind::cpu)},
+               {"engine", name_of(row.engine)},
                {"precision", name_of(row.precision)},
                {"integrator", row.integrator},
                {"dt", row.dt},
@@ -76,6 +76,7 @@ void add_reached(Json& list, std::span<const AccuracyRow> method, const Referenc
       list.push_back({{"scene", method.front().scene},
                       {"integrator", method.front().integrator},
                       {"precision", name_of(method.front().precision)},
+                      {"engine", name_of(method.front().engine)},
                       {"error_rms_m", error},
                       {"seconds", at->seconds},
                       {"at_largest_dt", at->at_largest_dt}});
@@ -132,6 +133,7 @@ Chart chart_of(const AccuracyResult& result) {
   const Tokens colors = dark_tokens();
   for (const auto method : by_method(result.rows)) {
     const AccuracyRow& row = method.front();
+    if (row.engine != EngineKind::cpu) continue;  // its times are of another clock
     const bool single = row.precision == Precision::float_;
     if (const OdeintCurve* curve = odeint_curve(row.integrator)) {
       const CurveStyle style{colors.vermilion, curve->line, 1.4f};
@@ -177,7 +179,8 @@ void print_scene(std::ostream& out, const AccuracyResult& result) {
 void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows, const Reference& reference) {
   if (rows.empty()) return;
   const AccuracyRow& first = rows.front();
-  std::string text = printed("  %-41s %-6s", first.integrator.c_str(), std::string(name_of(first.precision)).c_str());
+  const std::string name = first.integrator + (first.engine == EngineKind::cpu ? "" : ", OpenCL, on the wall");
+  std::string text = printed("  %-41s %-6s", name.c_str(), std::string(name_of(first.precision)).c_str());
   for (const double error : decades) {
     const auto at = told(rows, error, reference);
     text += at ? printed("%9.3g%s", at->seconds * 1e3, at->at_largest_dt ? "*" : " ") : printed("%10s", "- ");

@@ -12,6 +12,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/names.h"
 #include "core/output/destination.h"
 
@@ -39,20 +40,41 @@ std::vector<AccuracyScene> chosen_scenes(const std::string& name) {
   throw UsageError("--scene " + name + ": there is no such scene; there are " + names);
 }
 
+/// Methods that are measured on OpenCL too: one of each kind.
+constexpr std::array<const char*, 3> on_opencl{"verlet", "rk4", "implicit_euler"};
+
 /// One method to be measured in one precision.
 struct Contestant {
   std::string name;
   Precision precision;
+  EngineKind engine = EngineKind::cpu;
 };
 
 std::vector<Contestant> contestants(const AccuracyScene& scene) {
   std::vector<Contestant> list;
   for (const Precision precision : {Precision::float_, Precision::double_})
     for (const std::string_view name : integrator_names()) list.push_back({std::string(name), precision});
+  if (!opencl_devices().devices.empty())
+    for (const Precision precision : {Precision::float_, Precision::double_})
+      for (const char* name : on_opencl) list.push_back({name, precision, EngineKind::opencl});
   if (odeint_can(scene))
     for (const Precision precision : {Precision::float_, Precision::double_})
       for (const std::string& name : odeint_methods()) list.push_back({name, precision});
   return list;
+}
+
+/// A contestant's rows; none where the device that they ask for does not run them.
+std::vector<AccuracyRow> measure(AccuracyScene scene, const Reference& reference, const Contestant& contestant,
+                                 const AccuracyEffort& effort, const Stop& stop) {
+  const auto& [name, precision, engine] = contestant;
+  if (name.starts_with("odeint_")) return measure_odeint(scene, reference, name, precision, effort, stop);
+  scene.preset.engine = engine;
+  try {
+    return measure_integrator(scene, reference, name, precision, effort, stop);
+  } catch (const EngineError&) {
+    if (engine == EngineKind::cpu) throw;
+    return {};
+  }
 }
 
 /// Measures one scene, the `number`-th of `of`; what is measured when Ctrl-C comes is kept.
@@ -65,10 +87,7 @@ AccuracyResult measure(const AccuracyScene& scene, bool quick, std::ostream& out
   print_scene(out, result);
   const auto list = contestants(scene);
   for (std::size_t n = 0; n < list.size() && !stop(); ++n) {
-    const auto& [name, precision] = list[n];
-    const auto rows = name.starts_with("odeint_")
-                          ? measure_odeint(scene, result.reference, name, precision, effort, stop)
-                          : measure_integrator(scene, result.reference, name, precision, effort, stop);
+    const auto rows = measure(scene, result.reference, list[n], effort, stop);
     progress.clear();
     print_method(out, rows, result.reference);
     result.rows.insert(result.rows.end(), rows.begin(), rows.end());
@@ -84,7 +103,8 @@ int accuracy(const AccuracyOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
-      << "\nProcessor time in ms, on one thread, until the rms error of all positions falls under so many metres;\n"
+      << "\nProcessor time in ms, on one thread (on OpenCL: time on the wall), until the rms error of all positions "
+         "falls under so many metres;\n"
          "* is the method's largest stable dt, - an error that it does not reach or that the reference cannot tell\n"
       << std::flush;
   std::vector<AccuracyResult> results;
@@ -111,7 +131,7 @@ int accuracy(const AccuracyOptions& options) {
 
 void add_bench_accuracy(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
-      "accuracy", "Error against run time: every integrator, in float and double, and Boost.Odeint's");
+      "accuracy", "Error against run time: every integrator, in float and double, some on OpenCL, and Boost.Odeint's");
   const auto options = std::make_shared<AccuracyOptions>();
   add_quick(*command, *options, "Fewer dt, shorter runs, coarser references");
   std::string names;

@@ -72,10 +72,11 @@ void Building::start(const App& app) {
   next_.reset();
   dropped_ = false;
   const auto prepare = needs_programs(app, making_->target) ? prepare_programs : nullptr;
+  const bool ledger = app.simulation->ledger().has_value();
   work_ = std::async(std::launch::async,
-                     [prepare, order = *making_, present = app.simulation.get(),
+                     [prepare, ledger, order = *making_, present = app.simulation.get(),
                       threads = app.threads]() -> std::unique_ptr<Simulation> {
-                       if (prepare) prepare(order.target);
+                       if (prepare) prepare(order.target, ledger);
                        if (order.programs) return nullptr;
                        if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
                        return present->rebuilt(edit::Change{order.target});
@@ -155,6 +156,18 @@ void Building::go_on(App& app) {
   const Preset before = app.preset();
   apply_to_all(app, change);
   follow_up(app, before);
+}
+
+bool Building::ledger_ready(const App& app) {
+  if (ledger_programs_.valid()) {
+    if (ledger_programs_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    ledger_programs_.get();
+    return true;  // from disk, or built here where that did not work
+  }
+  if (app.scripted || !prepare_programs || app.simulation->engine().ready_for_contacts()) return true;
+  ledger_programs_ =
+      std::async(std::launch::async, [prepare = prepare_programs, preset = app.preset()] { prepare(preset, true); });
+  return false;
 }
 
 void Building::dispose(std::unique_ptr<Simulation> simulation) {

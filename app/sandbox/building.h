@@ -36,7 +36,8 @@ struct BuildOrder {
 class Building {
  public:
   /// Builds the programs that the preset's device needs, beside the frames. None: they are built when they are needed.
-  std::function<void(const Preset&)> prepare_programs;
+  /// `ledger`: those of steps that note what bodies stop.
+  std::function<void(const Preset&, bool ledger)> prepare_programs;
 
   bool in_work() const { return making_.has_value(); }
   /// Whether the present cloth is being read, so that it may neither step nor change.
@@ -65,6 +66,8 @@ class Building {
   void rename(const std::string& name);
   /// Called in every frame: takes the cloth that is ready, if one is.
   void poll(App& app);
+  /// Whether the ledger can be kept from now on without waiting for a compiler. Otherwise its program is being built.
+  bool ledger_ready(const App& app);
   /// Frees a cloth beside the frame: that takes a while too.
   void dispose(std::unique_ptr<Simulation> simulation);
 
@@ -83,7 +86,7 @@ class Building {
   History before_;
   std::int64_t frames_beside_ = 0;
   std::future<std::unique_ptr<Simulation>> work_;
-  std::future<void> disposal_;
+  std::future<void> disposal_, ledger_programs_;
 };
 
 /// Of the preset's cloth.

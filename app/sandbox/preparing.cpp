@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -19,8 +21,10 @@ namespace {
 
 /// As small as it can be with every kernel run that the preset's cloth runs.
 Preset miniature(Preset preset) {
-  constexpr int side = 16;
-  preset.rows = std::min(preset.rows, side), preset.columns = std::min(preset.columns, side);
+  const bool solves = is_implicit(scheme(preset.integrator));
+  const int side = solves ? 150 : 16, most = solves ? most_solved_in_one_launch : 0;
+  const auto shortened = [&](int length, int other) { return std::min(length, std::max(side, most / other + 1)); };
+  preset.columns = shortened(preset.columns, preset.rows), preset.rows = shortened(preset.rows, preset.columns);
   if (preset.pins.mode == Pins::Mode::list) preset.pins = Pins{};
   return preset;
 }
@@ -35,7 +39,7 @@ int file_of(const std::string& text) {
 
 }  // namespace
 
-void prepare_programs(const Preset& preset) {
+void prepare_programs(const Preset& preset, bool ledger) {
   const int input = file_of(preset_to_json(miniature(preset)));
   if (input < 0) return;
   posix_spawn_file_actions_t files;
@@ -44,9 +48,10 @@ void prepare_programs(const Preset& preset) {
   for (const int output : {STDOUT_FILENO, STDERR_FILENO})
     posix_spawn_file_actions_addopen(&files, output, "/dev/null", O_WRONLY, 0);
   const std::string engine = preset.device < 0 ? "opencl" : "opencl:" + std::to_string(preset.device);
-  // A time series reads the cloth, which is a kernel too.
-  std::vector<std::string> words{"tyglab", "run",      "/dev/stdin", "--steps",        "3", "--engine",
-                                 engine,   "--series", "-",          "--series-every", "1"};
+  // A time series reads the cloth, which is a kernel too; so does the ledger.
+  std::vector<std::string> words{"tyglab",   "run",  "/dev/stdin",     "--steps", "3",
+                                 "--engine", engine, "--series-every", "1",       ledger ? "--ledger" : "--series",
+                                 "-"};
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());

@@ -8,7 +8,8 @@ namespace tyglab {
 /// Has this very program, in another process, make a few steps of a small cloth with that preset's constants on its
 /// device, and waits for its end. What a driver builds for it stands on disk then, so that here it is only loaded.
 /// Built here, in a thread, it would keep the present cloth waiting: pocl starts no kernel while it builds another.
-/// Nothing is prepared where that does not work; whoever needs the program builds it then.
-void prepare_programs(const Preset& preset);
+/// Nothing is prepared where that does not work; whoever needs the program builds it then. `ledger`: of steps that note
+/// what bodies stop.
+void prepare_programs(const Preset& preset, bool ledger);
 
 }  // namespace tyglab

@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "app/commands/interrupt.h"
-#include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/tour.h"
 #include "app/sandbox/app.h"
 #include "app/sandbox/document.h"
+#include "app/sandbox/falling_back.h"
 #include "app/sandbox/keys.h"
 #include "app/sandbox/knife.h"
 #include "app/sandbox/preparing.h"
@@ -63,7 +63,6 @@ class Sandbox {
   void take_dropped_files();
   void rescale();
   void simulate(double real_seconds);
-  void fall_back(const std::string& why);
   void draw_cloth();
   void draw_panels();
   void present();
@@ -194,7 +193,7 @@ void Sandbox::simulate(double real_seconds) {
   Simulation& simulation = *app_.simulation;
   app_.sleep.begin(simulation);
   if (const bool wanted = app_.ui.energy_shown || app_.auto_dt; wanted != simulation.ledger().has_value())
-    simulation.keep_ledger(wanted);
+    if (!wanted || app_.building.ledger_ready(app_)) simulation.keep_ledger(wanted);
   if (!app_.pacing.playing || app_.asleep() || app_.building.holds_present() || app_.engine_search.in_work()) return;
   const double dt = app_.preset().dt;
   app_.pacing.slow(app_.settings.handling.slow_hand && hand_in_cloth(app_) ? Pacing::slow_motion : 1);
@@ -248,18 +247,6 @@ void Sandbox::simulate(double real_seconds) {
   pause_at_stop(app_);
   if (app_.auto_dt && !simulation.divergence()) watch_dt(app_);
   if (!app_.scripted) app_.sleep.look(simulation, app_.tool.kind != Tool::Kind::none || !app_.copies.lockstep.empty());
-}
-
-/// The device is gone: the CPU engine goes on from the last state that is kept.
-void Sandbox::fall_back(const std::string& why) {
-  Preset next = app_.preset();
-  if (next.engine == EngineKind::cpu) throw EngineError(why);
-  next.engine = EngineKind::cpu;
-  auto simulation = std::make_unique<Simulation>(next, app_.threads);
-  if (const Snapshot* then = app_.rewind.before(*simulation, app_.simulation->time(), 0)) simulation->restore(*then);
-  app_.messages.error(why + " The CPU engine goes on from t = " + time_number(simulation->time(), next.dt) + " s.");
-  app_.tool.kind = Tool::Kind::none;
-  swap_in(app_, std::move(simulation));
 }
 
 void Sandbox::draw_cloth() {
@@ -348,7 +335,7 @@ void Sandbox::frame_parts() {
   try {
     simulate(elapsed);
   } catch (const EngineError& error) {
-    fall_back(error.what());
+    fall_back(app_, error.what());
   }
   app_.costs.add_steps(app_.steps_made);
   sample(app_);

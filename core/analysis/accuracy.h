@@ -18,9 +18,10 @@ std::string_view name_of(AccuracyStatus);
 struct AccuracyRow {
   std::string scene, integrator;
   Precision precision = Precision::double_;
+  EngineKind engine = EngineKind::cpu;
   double dt = 0;  ///< s; the mean step where the method chooses its own
   std::int64_t steps = 0, force_evaluations = 0;
-  double seconds = 0;  ///< thread_seconds() of the steps, the least of a few runs where they are short
+  double seconds = 0;  ///< thread_seconds() of the steps, on OpenCL wall_seconds(); the least of a few runs if short
   double error_rms_m = 0;
   AccuracyStatus status = AccuracyStatus::ok;
   std::optional<double> tolerance = {};  ///< m and m/s, for those methods
@@ -38,6 +39,9 @@ struct AccuracyEffort {
 /// Processor time of this thread so far, s: what another process takes meanwhile is not in it.
 double thread_seconds();
 
+/// A clock on the wall, s: a device's work is not this thread's.
+double wall_seconds();
+
 /// The least dt that presets allow, s.
 inline constexpr double least_dt = 1e-7;
 
@@ -53,7 +57,8 @@ std::vector<double> tolerance_ladder(Precision precision, const AccuracyEffort& 
 /// or where rounding makes the error grow.
 bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& effort);
 
-/// All rows of one integrator of this project, largest dt first; the last are missing if `stop` says so.
+/// All rows of one integrator of this project, largest dt first; the last are missing if `stop` says so. On the engine
+/// of the scene's preset; throws EngineError where that is not there.
 std::vector<AccuracyRow> measure_integrator(const AccuracyScene& scene, const Reference& reference,
                                             const std::string& integrator, Precision precision,
                                             const AccuracyEffort& effort, const Stop& stop);
@@ -88,10 +93,10 @@ struct Reached {
 /// From the rows of one method, coarsest first; between two rows on a straight line in logarithms.
 std::optional<Reached> reached(std::span<const AccuracyRow> rows, double error_rms_m);
 
-/// A line for each decade of error from 1e-2 to 1e-6 m that this project reaches and the reference can tell, from all
-/// rows of one scene, those of a method one after the other.
+/// A line for each decade of error from 1e-2 to 1e-6 m that this project reaches on the CPU engine and the reference
+/// can tell, from all rows of one scene, those of a method one after the other.
 std::vector<AccuracyWinner> accuracy_winners(std::span<const AccuracyRow> rows, const Reference& reference);
-/// Takes rows apart by method and precision.
+/// Takes rows apart by method, precision and engine.
 std::vector<std::span<const AccuracyRow>> by_method(std::span<const AccuracyRow> rows);
 
 }  // namespace tyglab

@@ -34,7 +34,7 @@ std::optional<Reached> reached(std::span<const AccuracyRow> rows, double error) 
 std::vector<std::span<const AccuracyRow>> by_method(std::span<const AccuracyRow> rows) {
   std::vector<std::span<const AccuracyRow>> methods;
   const auto differ = [](const AccuracyRow& a, const AccuracyRow& b) {
-    return a.scene != b.scene || a.integrator != b.integrator || a.precision != b.precision;
+    return a.scene != b.scene || a.integrator != b.integrator || a.precision != b.precision || a.engine != b.engine;
   };
   for (std::size_t from = 0, n = 1; n <= rows.size(); ++n)
     if (n == rows.size() || differ(rows[n - 1], rows[n])) methods.push_back(rows.subspan(from, n - from)), from = n;
@@ -51,6 +51,7 @@ std::vector<AccuracyWinner> accuracy_winners(std::span<const AccuracyRow> rows, 
       const auto at = reached(method, winner.error_rms_m);
       if (!at) continue;
       const AccuracyRow& row = method.front();
+      if (row.engine != EngineKind::cpu) continue;  // another clock
       if (row.integrator.starts_with("odeint_")) {
         if (winner.odeint.empty() || at->seconds < winner.odeint_seconds)
           winner.odeint = row.integrator, winner.odeint_precision = row.precision, winner.odeint_seconds = at->seconds;

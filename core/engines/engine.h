@@ -104,6 +104,8 @@ class Engine {
   /// Whether set_preset() would be quick. Otherwise a program must be built for what the preset has, which takes
   /// seconds, unless it has been built for another engine and is kept.
   virtual bool ready_for(const Preset&) const { return true; }
+  /// The same of note_contacts(true).
+  virtual bool ready_for_contacts() const { return true; }
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
   /// Up to `steps` steps; ends early on divergence or release of the hand. `tears` is updated by tearing.
   virtual Advance advance(int steps, Tears& tears) = 0;

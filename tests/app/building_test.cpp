@@ -126,7 +126,7 @@ TEST_CASE("a restart is built beside the frames too, and an engine that is not t
 /// A cloth on an OpenCL device whose compiler waits until it may go on.
 struct SlowCompiler {
   explicit SlowCompiler(const Preset& preset) : app(app_with(preset)) {
-    app.building.prepare_programs = [this](const Preset&) {
+    app.building.prepare_programs = [this](const Preset&, bool) {
       ++builds;
       while (!may_go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
@@ -141,6 +141,30 @@ struct SlowCompiler {
   std::atomic<int> builds = 0;
   App app;
 };
+
+TEST_CASE("the ledger is kept once the program that notes contacts has been built beside the frames") {
+  if (!test::device_there()) return;
+  Preset preset = test::cloth(20, 20);
+  preset.engine = EngineKind::opencl;
+  preset.bodies = {Body{}};
+  SlowCompiler slow(preset);
+  App& app = slow.app;
+  CHECK_FALSE(app.building.ledger_ready(app));
+  CHECK_FALSE(app.building.ledger_ready(app));  // it is not ordered twice
+  app.simulation->advance(2);
+  slow.may_go_on = true;
+  while (!app.building.ledger_ready(app)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK(slow.builds == 1);
+  app.simulation->keep_ledger(true);
+  app.simulation->advance(1);
+  app.simulation->keep_ledger(false);
+  CHECK(app.building.ledger_ready(app));  // the program is there now
+  CHECK(slow.builds == 1);
+  Preset bare = test::cloth(20, 20);
+  bare.engine = EngineKind::opencl;
+  SlowCompiler other(bare);  // without bodies no other program is needed
+  CHECK(other.app.building.ledger_ready(other.app));
+}
 
 TEST_CASE("a feature that a device builds a program for is switched on beside the frames") {
   if (!test::device_there()) return;

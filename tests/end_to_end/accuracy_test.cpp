@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/integrators/names.h"
+#include "tests/support/devices.h"
 #include "tests/support/files.h"
 
 namespace tyglab::accuracy_test {
@@ -62,12 +63,15 @@ TEST_CASE("bench accuracy: the fixed fields in their order, every integrator in 
   const std::vector<std::string> fields{"scene",       "engine", "precision",         "integrator",
                                         "dt",          "steps",  "force_evaluations", "seconds",
                                         "error_rms_m", "status"};
-  std::set<std::pair<std::string, std::string>> methods;
+  std::set<std::pair<std::string, std::string>> methods, on_opencl;
   for (const Json& row : json["runs"]) {
     REQUIRE(first_keys(row, fields.size()) == fields);
     CHECK((row["status"] == "diverged") == row["error_rms_m"].is_null());
-    methods.insert({row["integrator"].get<std::string>(), row["precision"].get<std::string>()});
+    auto& list = row["engine"] == "opencl" ? on_opencl : methods;
+    list.insert({row["integrator"].get<std::string>(), row["precision"].get<std::string>()});
   }
+  for (const char* name : {"verlet", "rk4", "implicit_euler"})
+    CHECK(on_opencl.count({name, "float"}) == (test::device_there() ? 1 : 0));
   for (const std::string precision : {"float", "double"}) {
     for (const std::string_view name : integrator_names()) CHECK(methods.count({std::string(name), precision}) == 1);
     for (const char* name : {"odeint_runge_kutta4", "odeint_runge_kutta_dopri5", "odeint_runge_kutta_fehlberg78",

@@ -1,5 +1,5 @@
 // The direct way through an implicit step's linear systems.
-#include "core/engines/cpu/banded.h"
+#include "core/engines/banded.h"
 
 #include <doctest/doctest.h>
 
@@ -21,7 +21,7 @@ TEST_CASE("a banded system is solved to rounding, at the ends of the matrix too"
     CAPTURE(band);
     std::vector<double> full(std::size_t(size) * size, 0), x(size), b(size, 0);
     const auto at = [&](int r, int c) -> double& { return full[std::size_t(r) * size + c]; };
-    cpu::BandedCholesky matrix;
+    BandedCholesky matrix;
     matrix.begin(size, band);
     for (int r = 0; r < size; ++r)
       for (int c = std::max(0, r - band); c <= r; ++c) {
@@ -39,7 +39,7 @@ TEST_CASE("a banded system is solved to rounding, at the ends of the matrix too"
 }
 
 TEST_CASE("a matrix that is not positive definite is refused") {
-  cpu::BandedCholesky matrix;
+  BandedCholesky matrix;
   matrix.begin(2, 1);
   matrix.at(0, 0) = 1, matrix.at(1, 0) = 2, matrix.at(1, 1) = 1;
   CHECK_FALSE(matrix.factor());

@@ -289,7 +289,7 @@ void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignmen
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& out) {
+void Band<R, Present>::accelerations(const ResolvedSweep& s, const Tears& tears, Field& out, bool of_step) {
   PairTask<R> t = task(s);
   const R per_mass = R(1 / cloth_.preset.m);
   const glm::dvec3 hand_force = hand_force_;  // a look must not change what the last step measured
@@ -306,7 +306,7 @@ void Band<R, Present>::accelerations(const ResolvedSweep& s, const Tears& tears,
       }
     }
   }
-  hand_force_ = hand_force;
+  if (!of_step) hand_force_ = hand_force;
 }
 
 #define TYGLAB_MAKE(R, present) template class Band<R, (present)>;

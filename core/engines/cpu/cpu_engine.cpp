@@ -244,20 +244,20 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out) {
+void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step) {
   if (out.empty()) out.resize(array_rows(), cloth_.stride);
   ResolvedSweep look;
   look.position = position, look.velocity = velocity;
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
   for (const auto& band : bands_) band->copy_halo(look);
-  for (const auto& band : bands_) band->accelerations(look, tears, out);
+  for (const auto& band : bands_) band->accelerations(look, tears, out, of_step);
 }
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   for (const auto& band : bands_) band->assign(sweep.before, false);
   solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-                [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out); });
+                [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); });
 }
 
 template <class R, unsigned Present>

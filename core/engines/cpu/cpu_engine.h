@@ -54,8 +54,8 @@ class CpuEngine final : public Engine {
   bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
-  /// F/m at two of the vectors.
-  void accelerations(int position, int velocity, const Tears& tears, Field& out);
+  /// F/m at two of the vectors. `of_step`: as Band has it.
+  void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
   /// The implicit stage of a sweep, on this thread alone.
   void solve(const ResolvedSweep& sweep, const Tears& tears);
   /// Works the coefficients out for steps of that length.

@@ -1,25 +1,19 @@
-// Solves the implicit stage of a method: x = c_x + β dt v, v = c_v + β dt a(x, v), by Newton's method with line search,
-// its linear systems by preconditioned conjugate gradients that store no matrix (stiffness.h), or, where those do not
-// get there, by a banded factorisation (banded.h).
-//
-// Stretch springs pull only, so their potential is convex; bending springs push, and a compressed one would make the
-// system indefinite: of its stiffness only the part along the spring is taken, which changes how quickly Newton's
-// method converges and not what it converges to. Likewise the wind, which the linear system leaves out. D. Baraff, A.
-// Witkin, SIGGRAPH 1998; J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed. (2006), 7.1.
+// The implicit stages of a method on this processor (newton.h), in SIMD, on one thread. Its linear systems are
+// multiplied row by row from what each spring resists with (stiffness.h); no matrix is stored unless one has to be
+// factorised.
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "core/engines/cpu/band.h"
-#include "core/engines/cpu/banded.h"
 #include "core/engines/cpu/stiffness.h"
-#include "core/engines/engine.h"
+#include "core/engines/direct_solve.h"
+#include "core/engines/newton.h"
 
 namespace tyglab::cpu {
 
 template <class R>
-class ImplicitSolver {
+class ImplicitSolver final : private ImplicitStage {
  public:
   using Field = RowField<R>;
   /// Writes a of the vectors that are being solved for.
@@ -32,34 +26,46 @@ class ImplicitSolver {
   std::size_t bytes() const;
 
  private:
-  void resize(const Cloth<R>& cloth);
-  double evaluate(Cloth<R>& cloth, int position, int velocity, double dt, const Accelerations& accelerations);
-  double take_step(Cloth<R>& cloth, int position, int velocity, double dt, const Accelerations& accelerations);
-  void linearise(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears);
-  void linearise_row(const Cloth<R>& cloth, const Field& x, double dt, const Tears& tears, int direction, int i);
-  void invert_blocks(const Cloth<R>& cloth);
-  bool solve_linear(const Cloth<R>& cloth);
-  bool conjugate_gradients(const Cloth<R>& cloth);
-  bool factorises(const Cloth<R>& cloth) const;
-  bool solve_directly(const Cloth<R>& cloth);
-  void assemble(const Cloth<R>& cloth);
-  double multiply(const Cloth<R>& cloth);
-  Residual update(const Cloth<R>& cloth, double alpha);
+  /// What solve() was called with.
+  struct Task {
+    Cloth<R>* cloth;
+    int position, velocity;
+    double dt;
+    const Tears* tears;
+    const Accelerations* accelerations;
+  };
+  double start_size() override;
+  double evaluate() override;
+  void linearise() override;
+  bool gradients() override;
+  bool solve_directly() override;
+  Step step() override;
+  Landing go(double part) override;
+  void take() override;
+
+  const Cloth<R>& cloth() const { return *task_.cloth; }
+  Field& position() { return task_.cloth->vector(task_.position); }
+  Field& velocity() { return task_.cloth->vector(task_.velocity); }
+  void resize();
+  void linearise_row(int direction, int i);
+  void invert_blocks();
+  bool conjugate_gradients();
+  double multiply();
+  Residual update(double alpha);
   double inner(const Field& a, const Field& b) const;
   R* block(int i) { return blocks_.data() + std::size_t(i) * 6 * stride_; }
 
+  Task task_{};
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< of A's diagonal beside the springs
   Field start_x_, start_v_;  ///< c_x and c_v
   Field acceleration_, before_;
-  Field residual_;  ///< β dt a - (v - c_v), m/s; then what conjugate gradients leave of it
-  Field step_;      ///< Newton's, m/s
+  Field residual_;  ///< and what conjugate gradients leave of it
+  Field step_;
   Field direction_, product_, preconditioned_;
   Array<R> blocks_;  ///< of the diagonal, then their inverses
   Array<R> coefficients_;
-  BandedCholesky matrix_;
-  std::vector<double> right_side_;
-  bool direct_ = false;  ///< gradients have failed in this stage
+  DirectSolver direct_;
   SolveCounts counts_;
 };
 

@@ -36,6 +36,22 @@ struct DeviceContact {
   std::int32_t particle, unused;
 };
 
+/// Linear of implicit.cl.
+template <class R>
+struct DeviceLinear {
+  R k_s = 0, k_b = 0, k_d = 0;
+  R own = 1;
+  R straight = 0, diagonal = 0, bending = 0;
+  R shortest = 0;
+};
+
+/// Gradients of implicit.cl.
+template <class B>
+struct DeviceGradients {
+  B squared, preconditioned, curvature, enough, before;
+  std::int32_t count, unused;
+};
+
 /// What a step reports.
 struct StepReport {
   float way;  ///< the largest component of a particle's way, m; ∞ or NaN if something is not finite

@@ -42,6 +42,9 @@ class DeviceState {
   Memory field() const { return device_->zeros(numbers_ * sizeof(R)); }
   Memory mask_field() const { return device_->zeros(mask_bytes_); }
 
+  /// One field into another.
+  void copy(cl_mem from, cl_mem to) const;
+
   /// The host's view of a vector, of its row 0: a mapping where memory is shared, a copy otherwise; good until
   /// take_back(). Several threads may ask.
   const R* host(int n) const;
@@ -85,7 +88,6 @@ class DeviceState {
     const R* host = nullptr;
   };
   std::size_t lead() const { return 2 * 3 * std::size_t(stride_) + 16; }
-  void copy(cl_mem from, cl_mem to) const;
 
   std::shared_ptr<Device> device_;
   Lattice lattice_;

@@ -27,8 +27,12 @@ struct OpenClInventory {
 };
 OpenClInventory opencl_devices();
 
-/// Whether OpenCL devices run the method: explicit ones of fixed dt.
+/// Whether OpenCL devices run the method: those of fixed dt that do not project.
 bool runs_on_opencl(const Scheme& method);
+
+/// Particles of the largest cloth whose linear systems a processor solves in one launch; larger ones take other
+/// kernels.
+inline constexpr int most_solved_in_one_launch = 20000;
 
 /// Whether the device really computes in one precision.
 struct OpenClProbe {

@@ -25,12 +25,14 @@ OpenClEngine<R>::OpenClEngine(const Preset& preset, const Lattice& lattice, std:
       lattice_(lattice),
       scheme_(&scheme(preset.integrator)),
       state_(device_, lattice, scheme_->vectors),
+      passes_(passes(*scheme_)),
       width_(width > 0 ? width : device_->width(sizeof(R))),
       kernels_(make_kernels(preset, false)),
       options_(options(preset, false)) {
   reports_ = device_->zeros((steps_between_backups + 1) * sizeof(StepReport));
   hand_ = device_->zeros((steps_between_backups + 1) * 4 * sizeof(R));
   guards_ = state_.mask_field();
+  if (is_implicit(*scheme_)) solver_ = std::make_unique<DeviceSolver<R>>(device_, lattice_, state_, width_);
   plan_bands();
   resolve();
 }
@@ -38,6 +40,7 @@ OpenClEngine<R>::OpenClEngine(const Preset& preset, const Lattice& lattice, std:
 template <class R>
 std::string OpenClEngine<R>::options(const Preset& p, bool contacts) const {
   std::string text = std::string("-cl-std=CL1.2 -D REAL=") + real<R> + " -D WIDTH=" + std::to_string(width_);
+  if (width_ == 1) text += " -D GROUP=" + std::to_string(DeviceSolver<R>::group_items);
   if constexpr (sizeof(R) == 8) text += " -D REAL_IS_DOUBLE";
   text += device_->facts().fp64 ? " -D BODY_REAL=double -D BODY_REAL_IS_DOUBLE" : " -D BODY_REAL=float";
   if (p.k_d > 0) text += " -D DAMPING";
@@ -49,11 +52,21 @@ std::string OpenClEngine<R>::options(const Preset& p, bool contacts) const {
 }
 
 template <class R>
+std::string OpenClEngine<R>::program_name(const Preset& preset, const std::string& options) const {
+  // Large systems are solved by other kernels than small ones.
+  const bool in_launches = solver_ && lattice_.size() > DeviceSolver<R>::most_at_once(width_);
+  return preset.integrator + options + (in_launches ? ", in launches" : "");
+}
+
+template <class R>
 typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& preset, bool contacts) const {
   const auto program = device_->program(program_text(*scheme_), options(preset, contacts));
   Kernels kernels;
-  for (std::size_t n = 0; n < scheme_->sweeps.size(); ++n)
-    kernels.sweeps.push_back(program->kernel(("sweep_" + std::to_string(n)).c_str()));
+  for (std::size_t n = 0; n < passes_.size(); ++n)
+    kernels.passes.push_back(
+        passes_[n].work == Work::solution ? Kernel() : program->kernel(("pass_" + std::to_string(n)).c_str()));
+  if (is_implicit(*scheme_))
+    kernels.residual = program->kernel("residual"), kernels.solver = DeviceSolver<R>::make_kernels(*program);
   if (!scheme_->start.empty()) kernels.start = program->kernel("start");
   kernels.accelerations = program->kernel("accelerations");
   kernels.set_fixed = program->kernel("set_fixed");
@@ -87,8 +100,13 @@ DeviceConstants<R> OpenClEngine<R>::constants(const Preset& p, const Sweep& swee
 
 template <class R>
 void OpenClEngine<R>::resolve() {
-  sweeps_.clear();
-  for (const Sweep& sweep : scheme_->sweeps) sweeps_.push_back({&sweep, constants(preset_, sweep)});
+  resolved_.clear();
+  for (const Pass& pass : passes_) {
+    Preset over = preset_;  // a stage's residual is over β dt
+    if (pass.work == Work::solution) over.dt *= pass.sweep.solves;
+    const Sweep& summed = pass.work == Work::solution ? residual() : pass.sweep;
+    resolved_.push_back({&pass.sweep, constants(over, summed), pass.work});
+  }
   upload_bodies();
   measure_again();
 }
@@ -132,7 +150,7 @@ void OpenClEngine<R>::plan_bands() {
   const std::size_t pitch = 3 * std::size_t(state_.stride());
   const auto numbers = [&](int levels) { return (4 * (levels - 1) * scheme_->vectors + 3 * levels) * pitch + 64; };
   levels_ = 1;
-  while (scheme_->sweeps.size() == 1 && levels_ < most_levels && numbers(levels_ + 1) * sizeof(R) <= cache) ++levels_;
+  while (passes_.size() == 1 && levels_ < most_levels && numbers(levels_ + 1) * sizeof(R) <= cache) ++levels_;
   band_numbers_ = numbers(levels_);
   scratch_ = device_->zeros(std::size_t(bands_) * band_numbers_ * sizeof(R));
 }
@@ -174,13 +192,26 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
                                      [n](const Assignment& assignment) { return assignment.target == n; });
     // What others read while it is written stands twice: neighbours, bands that make their neighbours' rows too, and
     // who draws.
-    const bool read = levels > 1 || n == sweep.position || (n == sweep.velocity && preset_.k_d > 0) || state_.lent(n);
+    const bool seen = n == sweep.position || (n == sweep.velocity && preset_.k_d > 0);
+    const bool read = levels > 1 || (resolved.work == Work::forces && seen) || state_.lent(n);
     const cl_mem in = state_.vector(n), out = written && read ? state_.other(n) : in;
     at = set_arguments(kernel, at, in, out);
     if (out != in) swapped.push_back(n);
   }
   launch_sweep(kernel, at, resolved.constants, slot, levels);
   for (const int n : swapped) state_.swap(n);
+}
+
+template <class R>
+void OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
+  std::vector<int> fixed = pinned_;
+  if (held_.particle >= 0) fixed.push_back(held_.particle);
+  const auto residual = [&](cl_mem x, cl_mem v, cl_mem c_v, cl_mem out) {
+    const int at = set_arguments(kernels_.residual, 0, x, x, v, v, c_v, c_v, out, out);
+    launch_sweep(kernels_.residual, at, resolved.constants, slot, 1);
+  };
+  solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
+                  resolved.sweep->solves * preset_.dt, residual});
 }
 
 template <class R>
@@ -252,7 +283,13 @@ template <class R>
 bool OpenClEngine<R>::ready_for(const Preset& preset) const {
   if (preset.integrator != preset_.integrator || preset.precision != preset_.precision) return false;
   const std::string wanted = options(preset, notes_contacts_);
-  return wanted == options_ || device_->has_run(preset.integrator + wanted);
+  return wanted == options_ || device_->has_run(program_name(preset, wanted));
+}
+
+template <class R>
+bool OpenClEngine<R>::ready_for_contacts() const {
+  const std::string wanted = options(preset_, true);
+  return wanted == options_ || device_->has_run(program_name(preset_, wanted));
 }
 
 template <class R>
@@ -338,12 +375,10 @@ void OpenClEngine<R>::take_changes(const Tears& tears) {
 
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {
   const Scheme& method = scheme(preset.integrator);
-  const char* why = is_implicit(method) ? "solves equations in every step"
-                    : projects(method)  ? "moves particles one after the other"
-                                        : "chooses its own steps";
+  const char* why = projects(method) ? "moves particles one after the other" : "chooses its own steps";
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
-                      "; use --engine cpu, or an explicit integrator of fixed dt, such as verlet");
+                      "; use --engine cpu, or an integrator of fixed dt, such as verlet");
   std::shared_ptr<Device> device = open_device(preset.device);
   if (preset.precision == Precision::float_)
     return std::make_unique<OpenClEngine<float>>(preset, lattice, std::move(device), width);
@@ -361,7 +396,7 @@ template class OpenClEngine<double>;
 namespace tyglab {
 
 bool runs_on_opencl(const Scheme& method) {
-  return !is_implicit(method) && !projects(method) && !chooses_steps(method);
+  return !projects(method) && !chooses_steps(method);
 }
 
 }  // namespace tyglab

@@ -1,4 +1,4 @@
-// The OpenCL engine: runs every explicit scheme of fixed dt on an OpenCL device.
+// The OpenCL engine: runs every explicit scheme of fixed dt, and those that solve, on an OpenCL device.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,9 @@
 #include "core/engines/engine.h"
 #include "core/engines/fault.h"
 #include "core/engines/opencl/device_constants.h"
+#include "core/engines/opencl/device_solver.h"
 #include "core/engines/opencl/device_state.h"
+#include "core/engines/opencl/program_text.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::opencl {
@@ -24,6 +26,7 @@ class OpenClEngine final : public Engine {
   void load(const StateRows& rows, const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   bool ready_for(const Preset& preset) const override;
+  bool ready_for_contacts() const override;
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override;
@@ -38,7 +41,7 @@ class OpenClEngine final : public Engine {
   StoredParticle stored(int i, int j) const override;
   std::size_t bytes() const override;
   int threads() const override { return int(device_->facts().compute_units); }
-  SolveCounts solves() const override { return {}; }
+  SolveCounts solves() const override { return solver_ ? solver_->counts() : SolveCounts{}; }
   InnerSteps inner_steps() const override { return {}; }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
@@ -47,13 +50,15 @@ class OpenClEngine final : public Engine {
   using Constants = DeviceConstants<R>;
   /// The kernels of one set of features.
   struct Kernels {
-    std::vector<Kernel> sweeps;
-    Kernel start, accelerations, set_fixed, combine, tear, derive_masks, to_float;
+    std::vector<Kernel> passes;  ///< none for a solution
+    Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, to_float;
+    typename DeviceSolver<R>::Kernels solver;
   };
-  /// A sweep with its constants worked out.
+  /// A sweep with its constants worked out; of a solution those of its residual.
   struct Resolved {
     const Sweep* sweep;
     Constants constants;
+    Work work = Work::forces;
   };
   enum class End { none, fault, released, overtaken };
 
@@ -61,6 +66,8 @@ class OpenClEngine final : public Engine {
   bool meets_bodies(const Preset& preset) const { return !preset.bodies.empty() && preset.kind == Kind::cloth; }
   double velocity_scale() const { return scheme_->keeps_displacement ? preset_.dt : 1; }
   std::string options(const Preset& preset, bool contacts) const;
+  /// What the device knows the kernels by that such a preset runs.
+  std::string program_name(const Preset& preset, const std::string& options) const;
   /// Kernels for a preset; throws and changes nothing if they do not build.
   Kernels make_kernels(const Preset& preset, bool contacts) const;
   Constants constants(const Preset& preset, const Sweep& sweep) const;
@@ -76,6 +83,8 @@ class OpenClEngine final : public Engine {
   void launch_sweep(const Kernel& kernel, int at, const Constants& constants, int slot, int levels) const;
   /// One sweep, or as many steps as there are levels of a method of one sweep.
   void enqueue_sweep(const Kernel& kernel, const Resolved& resolved, int slot, int levels = 1);
+  /// Solves the implicit stage of a sweep; waits for it.
+  void solve(const Resolved& resolved, int slot);
   void plan_bands();
   void enqueue_tear(int slot);
   /// F/m now, into acceleration_.
@@ -108,7 +117,9 @@ class OpenClEngine final : public Engine {
   Lattice lattice_;
   const Scheme* scheme_;
   mutable DeviceState<R> state_;
-  std::vector<Resolved> sweeps_;
+  std::vector<Pass> passes_;
+  std::vector<Resolved> resolved_;  ///< as passes_
+  std::unique_ptr<DeviceSolver<R>> solver_;
   mutable Memory acceleration_;
   int width_;                     ///< particles that a work-item works on at a time
   int bands_ = 1, levels_ = 1;    ///< work-items of a sweep, and steps of a launch at most, where width_ is over 1

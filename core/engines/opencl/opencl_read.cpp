@@ -104,7 +104,7 @@ StoredParticle OpenClEngine<R>::stored(int i, int j) const {
 template <class R>
 std::size_t OpenClEngine<R>::bytes() const {
   const std::size_t fields = acceleration_ ? state_.numbers() * sizeof(R) : 0;
-  return state_.bytes() + fields + std::size_t(lattice_.size());
+  return state_.bytes() + fields + std::size_t(lattice_.size()) + (solver_ ? solver_->bytes() : 0);
 }
 
 template <class R>

@@ -42,14 +42,18 @@ void OpenClEngine<R>::make_steps(int count, bool tear_each) {
   const int most = tear_each ? 1 : levels_;
   for (int n = 0, levels = 1; n < count; n += levels) {
     levels = std::min(most, count - n);
-    for (std::size_t s = 0; s < sweeps_.size(); ++s) enqueue_sweep(kernels_.sweeps[s], sweeps_[s], n, levels);
+    for (std::size_t p = 0; p < resolved_.size(); ++p)
+      if (resolved_[p].work == Work::solution)
+        solve(resolved_[p], n);
+      else
+        enqueue_sweep(kernels_.passes[p], resolved_[p], n, levels);
     if (tear_each) enqueue_tear(n);
     if (n == 0) check(clFlush(device_->queue()), "starting a step");
   }
   report_.resize(std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, bytes, report_.data(), 0, nullptr, nullptr),
         "making a step");
-  if (!noted_run_) device_->note_run(preset_.integrator + options_), noted_run_ = true;
+  if (!noted_run_) device_->note_run(program_name(preset_, options_)), noted_run_ = true;
   if (held_.particle < 0) return;
   hand_forces_.resize(4 * std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), hand_.get(), CL_TRUE, 0, hand_forces_.size() * sizeof(R),
@@ -60,8 +64,8 @@ void OpenClEngine<R>::make_steps(int count, bool tear_each) {
 template <class R>
 int OpenClEngine<R>::steps_in_batch(int left) const {
   const double motion = tears_watched() && !tears_often_ ? std::min(free_motion_, tear_motion_) : free_motion_;
-  if (!(motion > 0)) return 1;
-  constexpr double margin = 2;  // motion does not double within a batch, unless something is going wrong
+  if (!(motion > 0) || solver_) return 1;  // to solve is to wait anyway
+  constexpr double margin = 2;             // motion does not double within a batch, unless something is going wrong
   return int(std::clamp(motion / (margin * growth_), 1.0, double(left)));
 }
 

@@ -5,12 +5,14 @@
 namespace tyglab::opencl {
 namespace {
 
-/// A sweep as a kernel. `last`: it ends a step, so bodies act and motion is watched.
+/// A sweep as a kernel.
 struct Wanted {
   const Sweep& sweep;
   int vectors;
-  int seen;  ///< vector that damping sees where a step begins
-  bool last;
+  int seen;            ///< vector that damping sees where a step begins
+  bool last = false;   ///< it ends a step, so bodies act and motion is watched
+  bool force = true;   ///< it computes one
+  bool often = false;  ///< as often as the last one, so it is built for speed
 };
 
 /// A factor that is 1 whatever dt is takes no multiplication.
@@ -43,9 +45,9 @@ std::string update_text(const Wanted& wanted) {
   const Sweep& sweep = wanted.sweep;
   std::string text;
   for (int n = 0; n < wanted.vectors; ++n) {
-    const std::string from = n == sweep.position   ? "own_x"
-                             : n == sweep.velocity ? "own_v"
-                                                   : "load(" + numbered("i", n) + " + at, stride)";
+    const std::string from = wanted.force && n == sweep.position   ? "own_x"
+                             : wanted.force && n == sweep.velocity ? "own_v"
+                                                                   : "load(" + numbered("i", n) + " + at, stride)";
     text += "    vec " + numbered("y", n) + " = " + from + ";\n";
   }
   if (wanted.last) text += "    const vec old = y0;\n";
@@ -66,7 +68,8 @@ std::string update_text(const Wanted& wanted) {
 std::string particle_text(const Wanted& wanted) {
   std::string text = wanted.last ? "  LOCAL_WATCH;\n" : "";
   text += "  FIND_PARTICLE(" + numbered("in", wanted.sweep.position) + ", " + numbered("in", wanted.sweep.velocity) +
-          ");\n  bitsv most = 0;\n  if (inside) {\n    FIND_FORCE;\n";
+          ");\n  bitsv most = 0;\n  if (inside) {\n    " + (wanted.force ? "FIND_FORCE" : "FIND_FIXED(block.mask)") +
+          ";\n";
   for (int n = 0; n < wanted.vectors; ++n) {
     const std::string k = std::to_string(n);
     text += "    global const REAL* i" + k + " = in" + k + ";\n    global REAL* o" + k + " = out" + k + ";\n";
@@ -74,22 +77,35 @@ std::string particle_text(const Wanted& wanted) {
   return text + update_text(wanted) + "  }\n" + (wanted.last ? "  WATCH(way_word(most));\n" : "");
 }
 
+/// What a row's forces are computed from, and where they are carried to.
+std::string row_text(const Sweep& sweep) {
+  const std::string P = std::to_string(sweep.position), V = std::to_string(sweep.velocity);
+  return "    const Row r = {i" + P + ", IN(" + P + ", in" + P + ", 1), IN(" + P + ", in" + P + ", 2), i" + V +
+         ", IN(" + V + ", in" + V +
+         ", 1), RING(0), RING(1), RING(2), masks + place(row, 0, mask_pitch), stride, mask_pitch, row};\n"
+         "    if (row == first) clear_row(r.f0, pitch), clear_row(r.f1, pitch);\n"
+         "    Carry carry = {{ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}};\n";
+}
+
+/// What a block begins with.
+std::string force_text(const Wanted& wanted) {
+  if (!wanted.force) return "FIND_FIXED(masks + place(row, column, mask_pitch));\n    const int at = column";
+  return wanted.last || wanted.often ? "FIND_FORCE" : "FIND_FORCE_SLOWLY";
+}
+
 /// A kernel of band.cl: a band of rows, some steps of it.
 std::string band_text(const Wanted& wanted) {
-  const std::string P = std::to_string(wanted.sweep.position), V = std::to_string(wanted.sweep.velocity);
+  const Sweep& sweep = wanted.sweep;
   std::string text = "  FOR_EACH_ROW {\n    FIND_ROW(" + std::to_string(wanted.vectors) + ");\n";
   for (int n = 0; n < wanted.vectors; ++n) {
     const std::string k = std::to_string(n);
     text += "    global const REAL* i" + k + " = IN(" + k + ", in" + k + ", 0);\n";
     text += "    global REAL* o" + k + " = OUT(" + k + ", out" + k + ");\n";
   }
-  text += "    const Row r = {i" + P + ", IN(" + P + ", in" + P + ", 1), IN(" + P + ", in" + P + ", 2), i" + V +
-          ", IN(" + V + ", in" + V +
-          ", 1), RING(0), RING(1), RING(2), masks + place(row, 0, mask_pitch), stride, mask_pitch, " + "row};\n";
-  text += "    if (row == first) clear_row(r.f0, pitch), clear_row(r.f1, pitch);\n";
-  text += "    Carry carry = {{ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}, {ZERO, ZERO, ZERO}};\n    bitsv most = 0;\n";
-  text += "    for (int column = 0; column < columns; column += WIDTH) {\n    " +
-          std::string(wanted.last ? "FIND_FORCE" : "FIND_FORCE_SLOWLY") + ";\n" + update_text(wanted) + "    }\n";
+  text += wanted.force ? row_text(sweep) : "    if (!updates) continue;\n";
+  text += "    bitsv most = 0;\n";
+  text += "    for (int column = 0; column < columns; column += WIDTH) {\n    " + force_text(wanted) + ";\n" +
+          update_text(wanted) + "    }\n";
   if (wanted.last) text += "    if (updates) atomic_max(report + report_way, way_word(most));\n";
   return text + "  }\n";
 }
@@ -117,16 +133,45 @@ const Sweep& look() {
   return sweep;
 }
 
+std::vector<Pass> passes(const Scheme& scheme) {
+  std::vector<Pass> list;
+  for (const Sweep& sweep : scheme.sweeps) {
+    Sweep before = sweep;
+    before.assignments = sweep.before;
+    if (!sweep.before.empty()) list.push_back({Work::sums, before});
+    if (sweep.solves != 0) list.push_back({Work::solution, sweep});
+    list.push_back({sweep.solves != 0 ? Work::sums : Work::forces, sweep});
+  }
+  return list;
+}
+
+const Sweep& residual() {
+  static const Sweep sweep{
+      vector_x, vector_v, 0, {{residual_target, {{residual_start, 1, 0}, {vector_v, -1, 0}, {acceleration, 1, 1}}}}};
+  return sweep;
+}
+
 std::string program_text(const Scheme& scheme) {
   const int vectors = scheme.vectors, seen = seen_velocity(scheme);
   std::string text;
   for (const char* file : {"cloth.cl", "gather.cl", "band.cl", "bodies.cl", "sweep.cl", "tears.cl"})
     text += kernel_text(file);
-  for (std::size_t n = 0; n < scheme.sweeps.size(); ++n)
-    text += kernel_for("sweep_" + std::to_string(n), {scheme.sweeps[n], vectors, seen, n + 1 == scheme.sweeps.size()});
+  const std::vector<Pass> list = passes(scheme);
+  for (std::size_t n = 0; n < list.size(); ++n)
+    if (list[n].work != Work::solution)
+      text += kernel_for("pass_" + std::to_string(n), {.sweep = list[n].sweep,
+                                                       .vectors = vectors,
+                                                       .seen = seen,
+                                                       .last = n + 1 == list.size(),
+                                                       .force = list[n].work == Work::forces});
   const Sweep start{vector_x, vector_v, 0, scheme.start};
-  if (!scheme.start.empty()) text += kernel_for("start", {start, vectors, seen, false});
-  return text + kernel_for("accelerations", {look(), look_target + 1, vector_v, false});
+  if (!scheme.start.empty()) text += kernel_for("start", {.sweep = start, .vectors = vectors, .seen = seen});
+  if (is_implicit(scheme)) {
+    text += kernel_text("implicit.cl");
+    text +=
+        kernel_for("residual", {.sweep = residual(), .vectors = residual_target + 1, .seen = vector_v, .often = true});
+  }
+  return text + kernel_for("accelerations", {.sweep = look(), .vectors = look_target + 1, .seen = vector_v});
 }
 
 }  // namespace tyglab::opencl

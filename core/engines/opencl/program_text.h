@@ -16,12 +16,24 @@ struct Coefficient {
 };
 std::vector<Coefficient> coefficients(const std::vector<Assignment>& assignments);
 
+/// A part of a step that is a launch, or the solution of an implicit stage.
+enum class Work { forces, sums, solution };
+struct Pass {
+  Work work;    ///< a sweep; assignments without a force; the stage that the sweep `solves`
+  Sweep sweep;  ///< with the assignments of this pass
+};
+std::vector<Pass> passes(const Scheme& scheme);
+
+/// The sweep of the kernel `residual`, of a stage's x, v and c_v: β dt a - (v - c_v) into a fourth vector, for β = 1.
+inline constexpr int residual_start = 2, residual_target = 3;
+const Sweep& residual();
+
 /// The sweep of the kernel `accelerations`: F/m of the first two vectors into a third.
 inline constexpr int look_target = 2;
 const Sweep& look();
 
-/// All kernels for a scheme: sweep_0, sweep_1 …, start if it has one, accelerations, and those of kernels/. Text and
-/// options depend on nothing that a slider changes.
+/// All kernels for a scheme: pass_0, pass_1 … for its passes but for solutions, start if it has one, residual if it
+/// solves, accelerations, and those of kernels/. Text and options depend on nothing that a slider changes.
 std::string program_text(const Scheme& scheme);
 
 }  // namespace tyglab::opencl

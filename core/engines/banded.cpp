@@ -1,9 +1,9 @@
-#include "core/engines/cpu/banded.h"
+#include "core/engines/banded.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tyglab::cpu {
+namespace tyglab {
 
 void BandedCholesky::begin(int size, int band) {
   size_ = size, band_ = band;
@@ -42,4 +42,4 @@ void BandedCholesky::solve(std::span<double> b) const {
   }
 }
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab

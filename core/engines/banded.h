@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace tyglab::cpu {
+namespace tyglab {
 
 /// A symmetric positive definite matrix of `size` rows whose elements further than `band` from the diagonal are 0, in
 /// double; then its factor L, A = L Lᵀ, in the same place.
@@ -34,4 +34,4 @@ class BandedCholesky {
   std::vector<double> column_;    ///< of L, below the diagonal
 };
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab

@@ -1,0 +1,67 @@
+#include "core/engines/newton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tyglab {
+namespace {
+
+constexpr double flat_enough = 0.2;  // slope along a step where it ends, of that at its beginning
+constexpr int most_tries = 20;
+
+/// Finds the step; directly where conjugate gradients do not get there, and from then on in this stage.
+bool find_step(ImplicitStage& stage, bool& direct) {
+  if (direct && stage.solve_directly()) return true;
+  if (stage.gradients()) return true;
+  direct = !direct && stage.solve_directly();
+  return direct;
+}
+
+/// Goes along the step, or less far where that overshoots; returns |r| there.
+double take_step(ImplicitStage& stage, double slope, SolveCounts& counts) {
+  // The residual is minus the slope of the potential that a solution makes least; the system is positive, so `slope` is
+  // > 0. Along the step the potential is convex, its slope thus rises: where the step overshoots, the least value lies
+  // between 0 and its end. False position, in the form that halves the slope of an end that stays (Illinois).
+  double part = 1, lower = 0, lower_slope = slope, upper = 0, upper_slope = 0;
+  ImplicitStage::Landing now{};
+  for (int tries = 0; tries <= most_tries; ++tries) {
+    now = stage.go(part);
+    ++counts.force_evaluations;
+    if (std::abs(now.slope) <= flat_enough * slope || (now.slope > 0 && part == 1)) break;
+    if (!(now.slope > 0)) {  // beyond it, or not finite
+      if (upper != 0) lower_slope /= 2;
+      upper = part, upper_slope = std::isfinite(now.slope) ? now.slope : -std::numeric_limits<double>::max();
+    } else {
+      if (lower != 0) upper_slope /= 2;
+      lower = part, lower_slope = now.slope;
+    }
+    const double secant = lower + (upper - lower) * lower_slope / (lower_slope - upper_slope);
+    part = std::clamp(secant, lower + 0.01 * (upper - lower), lower + 0.9 * (upper - lower));
+  }
+  return now.residual;
+}
+
+}  // namespace
+
+void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) {
+  const double first = stage.evaluate();
+  ++counts.force_evaluations;
+  // A step that moves nothing by more than the last digits of a position cannot be bettered.
+  const double last_digits = 4 * rules.epsilon * stage.start_size();
+  bool direct = false;  // every stage tries anew: a repeated step must give the same bits
+  bool solved = first == 0;
+  double norm = first;
+  for (int n = 0; n < rules.most && !solved && std::isfinite(norm); ++n) {
+    stage.linearise();
+    if (!find_step(stage, direct)) ++counts.unconverged;
+    ++counts.newton;
+    if (rules.most == 1) return stage.take();
+    const ImplicitStage::Step step = stage.step();
+    norm = take_step(stage, step.slope, counts);
+    solved = norm <= rules.tolerance * first || rules.h * step.size <= last_digits;
+  }
+  if (!solved) ++counts.unconverged;
+}
+
+}  // namespace tyglab

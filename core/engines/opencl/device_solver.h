@@ -1,0 +1,108 @@
+// The implicit stages of a method on a device (newton.h, kernels/implicit.cl): vectors stay there, the host reads the
+// sums that Newton's method asks for.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/engines/direct_solve.h"
+#include "core/engines/newton.h"
+#include "core/engines/opencl/device.h"
+#include "core/engines/opencl/device_constants.h"
+#include "core/engines/opencl/device_state.h"
+#include "core/engines/opencl/opencl_devices.h"
+
+namespace tyglab::opencl {
+
+template <class R>
+class DeviceSolver final : private ImplicitStage {
+ public:
+  struct Kernels {
+    Kernel linearise, gradients, begin_gradients, multiply, update, go, inner_products;
+  };
+  static Kernels make_kernels(const Program& program);
+  /// Work-items of a group where a work-item has one particle.
+  static constexpr int group_items = 128;
+  /// Particles up to which a launch for every step of conjugate gradients would take longer than its work, so that all
+  /// are made in one.
+  static constexpr int most_at_once(int width) { return width == 1 ? 4096 : most_solved_in_one_launch; }
+  /// Writes the residual of x and v, for c_v.
+  using Residual = std::function<void(cl_mem x, cl_mem v, cl_mem c_v, cl_mem residual)>;
+
+  /// `width`: particles that a work-item works on at a time.
+  DeviceSolver(std::shared_ptr<Device> device, const Lattice& lattice, DeviceState<R>& state, int width);
+
+  struct Task {
+    const Kernels* kernels;
+    const Preset* preset;
+    const std::vector<int>* fixed;  ///< particles that keep their velocity
+    int position, velocity;         ///< vectors
+    double h;                       ///< β dt
+    Residual residual;
+  };
+  /// Replaces c_x and c_v in the two vectors by the solution.
+  void solve(const Task& task);
+  const SolveCounts& counts() const { return counts_; }
+  std::size_t bytes() const;
+
+ private:
+  /// Of two vectors a and b.
+  struct Products {
+    double aa, ab, bb;
+  };
+  /// What is left of a system.
+  struct Left {
+    double squared, enough;
+    int count;
+  };
+
+  double start_size() override { return start_size_; }
+  double evaluate() override;
+  void linearise() override;
+  bool gradients() override;
+  bool solve_directly() override;
+  Step step() override;
+  Landing go(double part) override;
+  void take() override;
+
+  /// Makes the velocity that go() went to the present one.
+  void arrive();
+  void launch_go(double part);
+  void launch(const Kernel& kernel, std::size_t groups) const;
+  /// Sets what all kernels of a system begin with; returns the number of the next argument.
+  int set_system(const Kernel& kernel) const;
+  /// A number in the precision of sums.
+  int set_sum(const Kernel& kernel, int at, double value) const;
+  Products inner_products(cl_mem a, cl_mem b) const;
+  /// All steps by one group, in one launch.
+  Left make_gradients(int most) const;
+  /// Two launches for every step; now and then the host looks whether they have ended.
+  Left make_gradients_in_launches(int most);
+  void launch_step(int n, int most) const;
+  Left read_left(const Memory& progress, std::size_t groups) const;
+  template <class B>
+  Left read_left_as(const Memory& progress, std::size_t groups) const;
+
+  std::shared_ptr<Device> device_;
+  Lattice lattice_;
+  DeviceState<R>& state_;
+  int width_;
+  std::size_t groups_;  ///< of a launch over the whole cloth
+  bool at_once_;        ///< one group makes all steps of conjugate gradients
+  std::size_t coefficient_numbers_, block_numbers_;
+  Memory start_x_, start_v_, residual_, step_;
+  Memory left_, preconditioned_, product_;  ///< of conjugate gradients
+  std::array<Memory, 2> directions_;        ///< theirs, of an even and of an odd step
+  std::array<Memory, 2> progress_;          ///< likewise, before it
+  Memory coefficients_, blocks_, sums_;
+  DirectSolver direct_;
+  Task task_{};
+  bool away_ = false;  ///< go() has gone somewhere
+  double start_size_ = 0;
+  int last_count_ = 16;  ///< steps of the last system: so many are likely again
+  SolveCounts counts_;
+};
+
+}  // namespace tyglab::opencl
