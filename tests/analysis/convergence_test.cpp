@@ -8,8 +8,7 @@
 
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::convergence_test {
 
 const Stop never = [] { return false; };
 constexpr StudyEffort effort{.reference = 4e7, .point = 1e7};
@@ -114,5 +113,4 @@ TEST_CASE("the CSV has a row for each dt") {
         std::string::npos);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::convergence_test

@@ -15,8 +15,7 @@
 #include "app/viewport/headless_context.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::color_test {
 
 constexpr int width = 160, height = 120;
 
@@ -205,5 +204,4 @@ TEST_CASE("values are worked out once for a state, and again when it moves or a 
   CHECK_FALSE(app.colors.value(0, {9, 0}).has_value());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::color_test

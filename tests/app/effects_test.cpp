@@ -3,8 +3,7 @@
 
 #include <doctest/doctest.h>
 
-namespace tyglab {
-namespace {
+namespace tyglab::effects_test {
 
 void draw(Effects& effects, double ms, int frames) {
   for (int n = 0; n < frames; ++n) effects.drew(ms);
@@ -73,5 +72,4 @@ TEST_CASE("who wishes all effects, or few, has them at once and for good") {
   CHECK(effects.left_out() == Effects::count);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::effects_test

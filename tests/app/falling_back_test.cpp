@@ -10,8 +10,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::falling_back_test {
 
 /// An engine whose device is lost after so many calls of advance().
 class LostEngine final : public Engine {
@@ -115,5 +114,4 @@ TEST_CASE(
   CHECK_THROWS_AS(fall_back(app, "Lost."), EngineError);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::falling_back_test

@@ -12,8 +12,7 @@
 #include "app/viewport/spring_picking.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::hand_test {
 
 constexpr glm::vec2 size{640, 480};
 
@@ -264,5 +263,4 @@ TEST_CASE("slow motion is a quarter of the speed, and measured as such") {
   CHECK(simulated(2) == doctest::Approx(1).epsilon(0.05));
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::hand_test

@@ -9,8 +9,7 @@
 #include "tests/engines/engine_pair.h"
 #include "tests/support/devices.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::opencl_implicit_test {
 
 using test::everything;
 using test::Pair;
@@ -162,5 +161,4 @@ TEST_CASE("solves: every run has the same bits, whatever the pieces in which ste
     }
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::opencl_implicit_test

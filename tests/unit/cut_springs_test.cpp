@@ -7,8 +7,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::cut_springs_test {
 
 const edit::CutSprings slanting{{{0, 2, 2}, {1, 3, 3}, {2, 3, 3}, {3, 4, 5}, {1, 4, 4}}};
 
@@ -104,5 +103,4 @@ TEST_CASE("a copy keeps its seat when one before it goes, and a new one takes th
   CHECK(copies[2].seat == 0);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::cut_springs_test

@@ -10,8 +10,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::gust_test {
 
 Preset windy(const char* integrator = "verlet") {
   Preset preset = test::cloth(9, 8, integrator);
@@ -146,5 +145,4 @@ TEST_CASE("the OpenCL engine blows the same gusts") {
   CHECK(rms_distance(device, cpu) < 1e-9);
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::gust_test

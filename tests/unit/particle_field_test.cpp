@@ -9,8 +9,7 @@
 #include "core/forces/readout.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab {
-namespace {
+namespace tyglab::particle_field_test {
 
 std::vector<float> field_of(ParticleField field, Simulation& cloth, int every = 1, Simulation* reference = nullptr) {
   std::vector<float> values;
@@ -142,5 +141,4 @@ TEST_CASE("of a cloth that is drawn in part, those particles are read") {
   CHECK_FALSE(field_called("colour").has_value());
 }
 
-}  // namespace
-}  // namespace tyglab
+}  // namespace tyglab::particle_field_test
