@@ -29,7 +29,8 @@ def show(sandbox, stage, mode, name=None):
 
 def coarse(stage):
     """A paused cloth with wide meshes, free of the picked particle's ring and arrows: nothing is picked."""
-    sandbox = stage.start("hanging", "--set", "rows=13", "--set", "columns=13", "--set", "L=0.08", "--set", "texture=linen.png")
+    sandbox = stage.start("hanging", "--set", "rows=13", "--set", "columns=13", "--set", "L=0.08", "--set", "texture=linen.png",
+                          effects="all")
     sandbox.wait(lambda r: r["t"] > 0.3, "the cloth to fall a little")
     sandbox.key("space")
     sandbox.wait(lambda r: r["paused"], "the pause")
