@@ -60,6 +60,15 @@ install_packages() {
   rm -f "$log"
 }
 
+# install_more SECTION…: installs what is missing as far as apt has it; tests that need the rest are left out.
+install_more() {
+  local name
+  for name in $(missing_of $(packages_of "$@")); do
+    apt-cache show "$name" >/dev/null 2>&1 && apt_get install -y --no-install-recommends "$name" >/dev/null 2>&1 ||
+      say "$name could not be installed; what needs it is not tested."
+  done
+}
+
 # quietly WHAT COMMAND…: runs it; its output is shown only if it fails.
 quietly() {
   local what=$1 log start=$SECONDS
