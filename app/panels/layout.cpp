@@ -92,7 +92,7 @@ void draw_layout(App& app, ImVec2 window) {
   viewport_panel(app, {{left, top}, {middle, height - lab}});
   if (lab > 0) lab_panel(app, {{low, top + height - lab}, {left + middle - low, lab}});
   if (panels) top_bar(app, {{0, 0}, {window.x, top}});
-  const float tabs = shared && left > 0 ? side_tabs(app, {{0, top}, {left, app.theme.px(40)}}) : 0;
+  const float tabs = shared && left > 0 ? side_tabs(app, {{0, top}, {left, app.theme.px(42)}}) : 0;
   const Region side{{0, top + tabs}, {left, column - tabs}};
   if (left > 0) shared&& app.ui.side_plots ? plots_panel(app, side) : constants_panel(app, side);
   if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});

@@ -287,7 +287,10 @@ void SessionReport::add_control(std::string_view name) {
   const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   if (!window.ClipRect.Contains(ImVec2((lo.x + hi.x) / 2, (lo.y + hi.y) / 2))) return;
-  drawing_[place_of(window) + "." + plain(name)] = {{lo.x, lo.y}, {hi.x - lo.x, hi.y - lo.y}};
+  // As much of it as is seen: a list may cut it at its edge.
+  ImRect seen(lo, hi);
+  seen.ClipWith(window.ClipRect);
+  drawing_[place_of(window) + "." + plain(name)] = {{seen.Min.x, seen.Min.y}, {seen.GetWidth(), seen.GetHeight()}};
 }
 
 std::string SessionReport::json(const App& app, bool ended) const {
