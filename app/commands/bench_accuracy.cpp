@@ -50,11 +50,11 @@ struct Contestant {
   EngineKind engine = EngineKind::cpu;
 };
 
-std::vector<Contestant> contestants(const AccuracyScene& scene) {
+std::vector<Contestant> contestants(const AccuracyScene& scene, bool with_opencl) {
   std::vector<Contestant> list;
   for (const Precision precision : {Precision::float_, Precision::double_})
     for (const std::string_view name : integrator_names()) list.push_back({std::string(name), precision});
-  if (!opencl_devices().devices.empty())
+  if (with_opencl && !opencl_devices().devices.empty())
     for (const Precision precision : {Precision::float_, Precision::double_})
       for (const char* name : on_opencl) list.push_back({name, precision, EngineKind::opencl});
   if (odeint_can(scene))
@@ -85,7 +85,7 @@ AccuracyResult measure(const AccuracyScene& scene, bool quick, std::ostream& out
   AccuracyResult result{scene, make_reference(scene, quick, stop), {}};
   progress.clear();
   print_scene(out, result);
-  const auto list = contestants(scene);
+  const auto list = contestants(scene, !quick || number == 0);  // programs take a while to be built
   for (std::size_t n = 0; n < list.size() && !stop(); ++n) {
     const auto rows = measure(scene, result.reference, list[n], effort, stop);
     progress.clear();
@@ -133,7 +133,7 @@ void add_bench_accuracy(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
       "accuracy", "Error against run time: every integrator, in float and double, some on OpenCL, and Boost.Odeint's");
   const auto options = std::make_shared<AccuracyOptions>();
-  add_quick(*command, *options, "Fewer dt, shorter runs, coarser references");
+  add_quick(*command, *options, "Fewer dt, shorter runs, coarser references, OpenCL in the first scene alone");
   std::string names;
   for (const AccuracyScene& scene : accuracy_scenes()) names += (names.empty() ? "" : ", ") + scene.name;
   command->add_option("--scene", options->scene, "One scene alone: " + names)
