@@ -33,10 +33,10 @@ TEST_CASE("the quickest engine is chosen, the CPU's where it is nearly so, and t
 }
 
 TEST_CASE("what no device runs is not measured") {
-  const EngineChoice choice = choose_engine(test::cloth(8, 8, "implicit_euler"), 1);
+  const EngineChoice choice = choose_engine(test::cloth(8, 8, "xpbd"), 1);
   CHECK(choice.engine == EngineKind::cpu);
   CHECK(choice.times.empty());
-  CHECK(choice.why == "the CPU engine, since no other runs implicit_euler");
+  CHECK(choice.why == "the CPU engine, since no other runs xpbd");
 }
 
 TEST_CASE("times are measured once and then read from disk, for scenes of the same kind") {
