@@ -104,8 +104,8 @@ class Band {
   void sweep_pair(int i);
   /// Makes assignments, none of which names a. `last` as above.
   void assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last);
-  /// F/m of the present state into `out`. `of_step`: it belongs to the step, so the hand feels it; otherwise nothing else
-  /// changes.
+  /// F/m of the present state into `out`. `of_step`: it belongs to the step, so the hand feels it; otherwise nothing
+  /// else changes.
   void accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out, bool of_step = false);
 
   void begin_watch();
