@@ -85,8 +85,7 @@ void strain_double(const FieldSprings<double>& s, double* sum) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tyglab {
-namespace cpu {
+namespace tyglab::cpu {
 namespace {
 
 HWY_EXPORT(tension_float);
@@ -95,24 +94,19 @@ HWY_EXPORT(strain_float);
 HWY_EXPORT(strain_double);
 
 }  // namespace
-}  // namespace cpu
 
 void take_tension(const FieldSprings<float>& springs, float* largest) {
-  using namespace cpu;
   HWY_DYNAMIC_DISPATCH(tension_float)(springs, largest);
 }
 void take_tension(const FieldSprings<double>& springs, double* largest) {
-  using namespace cpu;
   HWY_DYNAMIC_DISPATCH(tension_double)(springs, largest);
 }
 void add_strain(const FieldSprings<float>& springs, float* sum) {
-  using namespace cpu;
   HWY_DYNAMIC_DISPATCH(strain_float)(springs, sum);
 }
 void add_strain(const FieldSprings<double>& springs, double* sum) {
-  using namespace cpu;
   HWY_DYNAMIC_DISPATCH(strain_double)(springs, sum);
 }
 
-}  // namespace tyglab
+}  // namespace tyglab::cpu
 #endif

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace tyglab {
+namespace tyglab::cpu {
 
 /// Springs between the particles begin <= j < end of a row and those that stand at j + other of the same arrays.
 template <class R>
@@ -21,4 +21,4 @@ void take_tension(const FieldSprings<double>& springs, double* largest);
 void add_strain(const FieldSprings<float>& springs, float* sum);
 void add_strain(const FieldSprings<double>& springs, double* sum);
 
-}  // namespace tyglab
+}  // namespace tyglab::cpu
