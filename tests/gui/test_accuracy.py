@@ -26,7 +26,7 @@ def error(stage):
 @case
 def convergence(stage):
     """the other side of the accuracy card measures the order beside the frames, and writes it as CSV"""
-    sandbox = stage.start("taut_sheet", "--integrator", "rk4")
+    sandbox = stage.start("taut_sheet", "--integrator", "rk4", "--set", "rows=9", "--set", "columns=9")
     sandbox.key("ctrl+p")
     sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
     sandbox.type("order of conv")

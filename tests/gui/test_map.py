@@ -9,7 +9,7 @@ from sandbox import k_s
 @case
 def click(stage):
     """the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work"""
-    sandbox = stage.start("hanging")
+    sandbox = stage.start("hanging", "--set", "rows=13", "--set", "columns=13")
     sandbox.key("m")
     x, y, width, height = sandbox.control("plots.map")
     report = sandbox.wait(lambda r: r["map_cells"] and r["map_cells"] > 60, "cells to be measured")
