@@ -191,7 +191,7 @@ void message_list(App& app) {
   const ImFont& font = *app.fonts.text;
   const float padding = app.theme.px(12), icon_width = app.theme.px(24), close = app.theme.px(22);
   const float most = std::min(app.theme.px(460), app.viewport.whole().x - app.theme.px(32));
-  float y = app.viewport.box.lo.y + app.theme.px(52);
+  float y = app.ui.notes_from;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto& list = app.messages.list();
   std::size_t dismissed = list.size();

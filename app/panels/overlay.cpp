@@ -103,7 +103,7 @@ const char* ways_on(const App& app) {
   return "Space runs · → makes one step";
 }
 
-/// One line on a ground of its own under the view buttons (above several pictures they stand by themselves), where a
+/// One line on a ground of its own under the view buttons, where a
 /// hanging cloth sags: what is paused should be seen.
 void paused(App& app, ImDrawList& draw) {
   if (app.pacing.playing || app.simulation->divergence()) return;
@@ -115,8 +115,7 @@ void paused(App& app, ImDrawList& draw) {
   const float with_how = word_width + text_width(text, how) + 3 * pad;
   const bool wide = with_how <= hi.x - lo.x - app.theme.px(32);
   const float width = wide ? with_how : word_width + 2 * pad;
-  const ImVec2 at{std::round((lo.x + hi.x - width) / 2),
-                  std::round(lo.y + app.theme.px(app.copies.tiles() > 1 ? 12 : 52))};
+  const ImVec2 at{std::round((lo.x + hi.x - width) / 2), std::round(app.ui.notes_from)};
   const float baseline = baseline_at(app.fonts, at.y + height / 2);
   draw.AddRectFilled(at, {at.x + width, at.y + height}, faded(c.ground, 0.8f), app.theme.px(6));
   draw_on_baseline(draw, bold, {at.x + pad, baseline}, c.text, word);

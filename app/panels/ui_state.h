@@ -131,6 +131,7 @@ struct Ui {
   Advice advice;
   bool help = false;
   bool panels = true;                    ///< Tab hides them all
+  float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
   std::optional<bool> wind_arrow;        ///< shown or not; none: while there is wind
   std::vector<std::string> devices;      ///< OpenCL's, by name, once one is in use

@@ -179,6 +179,16 @@ class Sandbox:
         self.wait(lambda r: not r["typing"], "the text field to close")
         return self.later(2)
 
+    def write_export(self, name):
+        """In the dialog that asks for an export's file: writes it into the own folder, and returns its path."""
+        self.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
+        file = os.path.join(self.own.name, name)
+        self.key("ctrl+a")
+        self.type(file)
+        self.key("Return")
+        self.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+        return file
+
     def rest(self):
         """Takes the pointer where it touches nothing."""
         x, y, width, height = self.report()["viewport"]

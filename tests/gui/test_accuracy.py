@@ -1,7 +1,5 @@
 """The cards that say how stable and how exact the present settings are."""
 
-import os
-
 from cases import case, check, main
 from sandbox import k_s
 
@@ -38,12 +36,7 @@ def convergence(stage):
     check(report["accuracy"] is None, "the card's other side rests")
     stage.keep("convergence", still=True)
     sandbox.click_control("plots.csv_convergence")
-    sandbox.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
-    file = os.path.join(sandbox.own.name, "convergence.csv")
-    sandbox.key("ctrl+a")
-    sandbox.type(file)
-    sandbox.key("Return")
-    sandbox.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+    file = sandbox.write_export("convergence.csv")
     with open(file) as written:
         lines = written.read().splitlines()
     check(lines[1] == "dt [s],error [m],difference to dt/2 [m],status" and len(lines) == 7, "a row for each dt")

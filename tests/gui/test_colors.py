@@ -1,7 +1,6 @@
 """Colouring the cloth: by key, by list and from the palette; the legend says what colours mean."""
 
 import csv
-import os
 
 from cases import case, check, main
 
@@ -100,12 +99,7 @@ def values(stage):
     sandbox.type("particle's values")
     sandbox.later(3)
     sandbox.key("Return")
-    sandbox.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
-    file = os.path.join(sandbox.own.name, "values.csv")
-    sandbox.key("ctrl+a")
-    sandbox.type(file)
-    sandbox.key("Return")
-    sandbox.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+    file = sandbox.write_export("values.csv")
     with open(file) as written:
         next(written)
         rows = list(csv.DictReader(written))
