@@ -2,6 +2,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "app/panels/accuracy_card.h"
 #include "app/panels/copies_card.h"
@@ -223,6 +226,7 @@ void height_card(App& app, float height) {
 struct PlotCard {
   const char* tab;
   void (*draw)(App&, float height);
+  bool shown_when_new = true;  ///< its tab is chosen when it comes
 };
 
 void copies_plot_card(App& app, float height) {
@@ -262,27 +266,82 @@ std::vector<PlotCard> plot_cards(const App& app) {
   return cards;
 }
 
-/// What stands at the foot takes what the plots can spare, the lowest card first.
+/// A card at the foot: its heading, and under it what it holds unless it is folded.
 struct FootCard {
+  const char* tab;  ///< its name where it joins the plots; nullptr: it never does
   float (*wanted)(const App&);
   void (*draw)(App&, float height);
   float height = 0;
 };
 
+/// Heights of the cards at the foot, the lowest first, where the plots can spare so much room (px). What has no room, a
+/// heading or an open card, joins the plots. Returns the height of those that stay, with their gaps.
+float place_at_foot(App& app, std::span<FootCard> foot, float room, std::vector<PlotCard>& plots) {
+  const float gap = app.theme.px(12), head = app.theme.px(card::head);
+  room -= float(foot.size()) * (head + gap);
+  float all = 0;
+  // Those that cannot join take what there is before the others do.
+  for (FootCard& card : foot)
+    if (card.tab == nullptr) {
+      card.height = head + std::floor(std::clamp(card.wanted(app) - head, 0.f, std::max(room, 0.f)));
+      room -= card.height - head;
+      all += card.height + gap;
+    }
+  for (FootCard& card : foot) {
+    if (card.tab == nullptr) continue;
+    const float more = std::ceil(card.wanted(app) - head);
+    if (room < 0 || more > room) {
+      plots.push_back({card.tab, card.draw, more > 0});
+      room += head + gap;
+    } else {
+      card.height = head + more;
+      room -= more;
+      all += card.height + gap;
+    }
+  }
+  return all;
+}
+
+/// The tab of a card that was not there in the last frame is chosen.
+void choose_new_card(Plots& plots, std::span<const PlotCard> cards) {
+  const auto known = [&](const PlotCard& card) {
+    return std::find(plots.cards.begin(), plots.cards.end(), card.tab) != plots.cards.end();
+  };
+  for (const PlotCard& card : cards)
+    if (card.shown_when_new && !plots.cards.empty() && !known(card)) plots.tab = card.tab;
+  plots.cards.clear();
+  for (const PlotCard& card : cards) plots.cards.emplace_back(card.tab);
+}
+
+/// Tabs for the cards; what is chosen alone remains.
+void choose_tab(App& app, std::vector<PlotCard>& cards) {
+  Plots& plots = app.ui.plots;
+  constexpr float roomy = 11, narrow = 4;  // pixels at scale 1 to both sides of a name
+  std::vector<const char*> names;
+  float width = 0;
+  for (const PlotCard& card : cards) {
+    names.push_back(card.tab);
+    width += text_width(*app.fonts.text, card.tab) + 2 * app.theme.px(roomy) + 1;
+  }
+  const auto found =
+      std::find_if(cards.begin(), cards.end(), [&](const PlotCard& card) { return card.tab == plots.tab; });
+  int chosen = found == cards.end() ? 0 : int(found - cards.begin());
+  const float padding = width <= ImGui::GetContentRegionAvail().x ? roomy : narrow;
+  if (const int k = segments(app, "cards", names.data(), int(names.size()), chosen, padding); k >= 0) chosen = k;
+  report_control(app, "cards");
+  plots.tab = names[std::size_t(chosen)];
+  cards = {cards[std::size_t(chosen)]};
+}
+
 /// Which of the plots are shown in a column of that height, and how high each is.
 float choose_plots(App& app, std::vector<PlotCard>& cards, float available, float gap) {
   const auto count = float(cards.size());
   const float each = (available - gap * (count - 1)) / count;
+  choose_new_card(app.ui.plots, cards);
   if (cards.size() == 1)  // does not need the whole column: a plot much taller than wide is hard to read
     return std::max(0.6f * available, std::min(available, app.theme.px(420)));
   if (each >= app.theme.px(240)) return each;
-  Plots& plots = app.ui.plots;
-  std::vector<const char*> names;
-  for (const PlotCard& card : cards) names.push_back(card.tab);
-  plots.tab = std::clamp(plots.tab, 0, int(cards.size()) - 1);
-  if (const int k = segments(app, "cards", names.data(), int(names.size()), plots.tab); k >= 0) plots.tab = k;
-  report_control(app, "cards");
-  cards = {cards[std::size_t(plots.tab)]};
+  choose_tab(app, cards);
   return available - app.theme.px(26) - ImGui::GetStyle().ItemSpacing.y;
 }
 
@@ -294,15 +353,12 @@ void plots_panel(App& app, const Region& region) {
   if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
   const float column = ImGui::GetContentRegionAvail().y,
               least_plots = app.theme.px(app.settings.layout.map || app.settings.layout.inside ? 340.f : 260.f);
-  std::array foot_cards{FootCard{performance_card_height, performance_card}, FootCard{energy_card_height, energy_card},
-                        FootCard{accuracy_card_height, accuracy_card}, FootCard{stability_card_height, stability_card},
-                        FootCard{copies_card_height, copies_card}};
-  float foot = 0;
-  for (FootCard& card : foot_cards) {
-    card.height = std::floor(std::max(std::min(card.wanted(app), column - foot - gap - least_plots), 0.f));
-    if (card.height > 0) foot += card.height + gap;
-  }
+  std::array foot_cards{
+      FootCard{"Performance", performance_card_height, performance_card},
+      FootCard{"Energy", energy_card_height, energy_card}, FootCard{"Accuracy", accuracy_card_height, accuracy_card},
+      FootCard{"Stability", stability_card_height, stability_card}, FootCard{nullptr, copies_card_height, copies_card}};
   std::vector<PlotCard> cards = plot_cards(app);
+  const float foot = place_at_foot(app, foot_cards, column - least_plots, cards);
   const float height = choose_plots(app, cards, column - foot, gap);
   for (const PlotCard& card : cards) {
     plots.height_shown |= card.draw == height_card;

@@ -44,9 +44,9 @@ struct Plots {
   Source source = Source::particle;
   bool paused = false;
   bool log = false;
-  std::optional<double> window_s;    ///< simulated time shown, once the wheel has set it; until then it grows
-  static constexpr int newest = 99;  ///< as a tab: the last one
-  int tab = 0;                       ///< the card shown where only one has room
+  std::optional<double> window_s;  ///< simulated time shown, once the wheel has set it; until then it grows
+  std::string tab;                 ///< name of the card shown where only one has room
+  std::vector<std::string> cards;  ///< names of those of the last frame
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
   Series height{5};  ///< of the weight, then by the curves of Figure

@@ -11,7 +11,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float buttons_above = 46, low_picture = 480;  // pixels at scale 1
+constexpr float buttons_above = 46, least_picture = 260, low_picture = 480;  // pixels at scale 1
 
 void set_mode(App& app, int mode) {
   Preset next = app.wished();
@@ -103,8 +103,9 @@ void pictures(App& app, ImDrawList& draw) {
 void viewport_panel(App& app, const Region& region) {
   app.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}};
   // Buttons stand over a picture, but above several, whose tops they would cover, and above a low one, which they would
-  // cover too much of.
-  const bool low = app.wished().kind == Kind::cloth && region.size.y < app.theme.px(low_picture);
+  // cover too much of, unless it would become too small.
+  const bool low = app.wished().kind == Kind::cloth && region.size.y < app.theme.px(low_picture) &&
+                   region.size.y >= app.theme.px(least_picture + buttons_above);
   const bool above = app.copies.tiles() > 1 || low;
   if (above) app.viewport.box.lo.y += app.theme.px(buttons_above);
   app.ui.notes_from = app.viewport.box.lo.y + app.theme.px(above ? 12 : 52);

@@ -99,7 +99,7 @@ void add_copy(App& app, const std::vector<std::string>& differences, bool as_ref
   copies.forget();
   app.tool.kind = Tool::Kind::none;  // all have been loaded anew, and the hand has let go
   app.settings.layout.folded.erase("Copies");
-  app.ui.plots.tab = Plots::newest;
+  app.ui.plots.tab = "Copies";
   app.wants_framing |= !copies.overlaid;
   app.redraw_cloth = true;
 }

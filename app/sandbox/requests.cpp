@@ -93,7 +93,7 @@ void follow_constants(App& app, Preset& next) {
 void toggle_plot(App& app, bool Layout::*card) {
   Layout& layout = app.settings.layout;
   layout.*card = !(layout.*card);
-  if (layout.*card) layout.right = app.ui.panels = app.ui.side_plots = true, app.ui.plots.tab = Plots::newest;
+  if (layout.*card) layout.right = app.ui.panels = app.ui.side_plots = true;
 }
 
 void toggle_cut_path(App& app) {
@@ -149,8 +149,9 @@ void next_theme(App& app) {
 /// Opens the card that shows it, where it is measured from the present moment on.
 void show_convergence(App& app) {
   Layout& layout = app.settings.layout;
-  layout.right = app.ui.panels = true;
+  layout.right = app.ui.panels = app.ui.side_plots = true;
   layout.folded.erase("Accuracy");
+  app.ui.plots.tab = "Accuracy";
   app.convergence.drop();
   app.convergence.shown = true;
 }

@@ -14,9 +14,9 @@ def click(stage):
     x, y, width, height = sandbox.control("plots.map")
     report = sandbox.wait(lambda r: r["map_cells"] and r["map_cells"] > 60, "cells to be measured")
     at = report["t"]
-    sandbox.wait(lambda r: r["map_cells"] == 28 * 20 and r["t"] > at, "the map to be whole while the cloth moves on")
+    sandbox.wait(lambda r: r["map_cells"] > 140 and r["t"] > at, "a quarter of the map, while the cloth moves on")
     sandbox.rest()
-    stage.keep("whole")
+    stage.keep("filling")
     sandbox.move(x + 0.8 * width, y + 0.2 * height)
     sandbox.later(60)
     stage.keep("words")
