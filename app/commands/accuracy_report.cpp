@@ -12,6 +12,7 @@
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
+#include "core/output/text.h"
 
 namespace tyglab {
 namespace {
@@ -19,13 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::array decades{1e-2, 1e-3, 1e-4, 1e-5, 1e-6};
-
-template <class... Values>
-std::string printed(const char* format, Values... values) {
-  std::array<char, 512> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 void flush_line(std::ostream& out, const std::string& line) {
   out << line << std::flush;

@@ -16,8 +16,6 @@ inline ImVec2 vec(glm::vec2 v) {
 /// Pixel in the window of a place in a picture, if it is before the camera.
 std::optional<ImVec2> on_screen(const App& app, int tile, glm::dvec3 world);
 std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site);
-/// Metres that a pixel shows at the depth of a place.
-double metres_per_pixel(const App& app, glm::dvec3 at);
 
 void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width);
 /// An arrow with a dark rim; one that is `cut_short` has an open head. False where it is too short to be drawn.

@@ -19,11 +19,6 @@ std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site) {
   return on_screen(app, tile, cloth_in_tile(app, tile).positions().at(site.i, site.j));
 }
 
-double metres_per_pixel(const App& app, glm::dvec3 at) {
-  const double depth = glm::dot(at - glm::dvec3(app.camera.eye()), glm::dvec3(app.camera.forward()));
-  return 2 * depth * std::tan(app.camera.fov_y / 2) / app.viewport.size().y;
-}
-
 void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {
   // A dark rim keeps it visible on a light cloth.
   draw.AddCircle(at, app.theme.px(radius), faded(app.theme.colors.ground, 0.6f), 32, app.theme.scale * (width + 2));

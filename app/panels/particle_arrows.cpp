@@ -120,7 +120,8 @@ std::optional<DrawnArrow> variable_arrow(App& app, ImDrawList& draw, int tile, I
   const glm::dvec3 value = vector_of(r, key);
   const double parts = glm::length(value) / scale, pixels = std::min(parts, most_of_it) * app.theme.px(longest_px);
   if (pixels < 1) return std::nullopt;
-  auto to = on_screen(app, tile, r.x + glm::normalize(value) * pixels * metres_per_pixel(app, r.x));
+  auto to = on_screen(app, tile,
+                      r.x + glm::normalize(value) * pixels * app.camera.metres_per_pixel(r.x, app.viewport.size().y));
   if (!to) return std::nullopt;
   const bool cut_short = keep_in_picture(app, tile, from, *to) || parts > most_of_it;
   if (!draw_arrow(app, draw, from, *to, curve_style(app.theme.colors, key), cut_short)) return std::nullopt;

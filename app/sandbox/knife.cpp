@@ -1,6 +1,7 @@
 #include "app/sandbox/knife.h"
 
 #include <algorithm>
+#include <array>
 
 #include "app/sandbox/app.h"
 #include "app/viewport/picking.h"
@@ -11,16 +12,17 @@ namespace {
 
 constexpr float nick = 6;  // half of the stroke that is shown before the press, pixels at scale 1
 
-/// What the pointer's way of this frame has crossed. A spring that it crossed twice is cut once.
+/// What the pointer's way of this frame has crossed.
 void cut_along_path(App& app) {
   Tool& tool = app.tool;
   const Simulation& cloth = cloth_in_tile(app, tool.tile);
-  edit::CutSprings cut;
+  std::vector<Way> ways;
   for (std::size_t k = 1; k < tool.path.size(); ++k)
-    for (const SpringSite& spring : springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies,
-                                                   tool.path[k - 1], tool.path[k], app.viewport.size()))
-      if (std::find(cut.springs.begin(), cut.springs.end(), spring) == cut.springs.end()) cut.springs.push_back(spring);
+    if (tool.path[k] != tool.path[k - 1]) ways.push_back({tool.path[k - 1], tool.path[k]});
   tool.path = {tool.at};
+  if (ways.empty()) return;
+  edit::CutSprings cut{
+      springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies, ways, app.viewport.size())};
   if (!cut.springs.empty()) apply_edit(app, std::move(cut));
 }
 
@@ -59,12 +61,9 @@ std::vector<SpringSite> springs_under_pointer(App& app) {
   const int tile = app.viewport.tile_at(app.input.at);
   const Simulation& cloth = cloth_in_tile(app, tile);
   const glm::vec2 at = app.input.at - app.viewport.origin(tile);
-  std::vector<SpringSite> met;
-  for (const glm::vec2 half : {glm::vec2(app.theme.px(nick), 0), glm::vec2(0, app.theme.px(nick))})
-    for (const SpringSite& spring : springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies,
-                                                   at - half, at + half, app.viewport.size()))
-      if (std::find(met.begin(), met.end(), spring) == met.end()) met.push_back(spring);
-  return met;
+  const glm::vec2 across(app.theme.px(nick), 0), down(0, app.theme.px(nick));
+  const std::array ways{Way{at - across, at + across}, Way{at - down, at + down}};
+  return springs_across(cloth.positions(), cloth.tears(), app.camera, app.preset().bodies, ways, app.viewport.size());
 }
 
 }  // namespace tyglab

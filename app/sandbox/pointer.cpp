@@ -37,13 +37,12 @@ std::optional<int> body_pressed(App& app, int tile, glm::vec2 at) {
   const auto site = nearest_site(app, tile, at, false);
   if (!site) return body;
   const glm::dvec3 eye(app.camera.eye());
-  const glm::dvec3 ray = app.camera.ray(at, app.viewport.size()), to_centre = bodies[*body].c - eye;
-  const double along = glm::dot(ray, to_centre), r = bodies[*body].r;
-  const double half_chord2 = r * r - (glm::dot(to_centre, to_centre) - along * along);
-  const double surface = along - std::sqrt(std::max(0.0, half_chord2));
+  const glm::dvec3 ray = app.camera.ray(at, app.viewport.size());
+  const double r = bodies[*body].r;
+  const auto surface = sphere_surface(eye, ray, bodies[*body].c, r);
   const double particle = glm::dot(ray, cloth_in_tile(app, tile).positions().at(site->i, site->j) - eye);
   const double resting = std::max(3 * app.preset().L, 0.15 * r);
-  return particle > surface - resting ? body : std::nullopt;
+  return surface && particle > *surface - resting ? body : std::nullopt;
 }
 
 void start_left(App& app, glm::vec2 at) {

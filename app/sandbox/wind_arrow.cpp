@@ -18,13 +18,6 @@ constexpr float from_right = 132, from_below = 120;
 constexpr double most = 1e3;                    // N, of a component
 constexpr unsigned first_gesture = 0x77000000;  // apart from those of sliders and bodies
 
-/// Metres that a pixel shows in the plane through a point.
-double metres_per_pixel(const App& app, glm::dvec3 at) {
-  const glm::vec2 size = app.viewport.size(), middle = size / 2.0f;
-  return glm::distance(app.camera.unproject_in_camera_plane(middle, at, size),
-                       app.camera.unproject_in_camera_plane(middle + glm::vec2(1, 0), at, size));
-}
-
 glm::dvec3 place(const App& app) {
   const glm::vec2 size = app.viewport.size(), away{app.theme.px(from_right), app.theme.px(from_below)};
   return app.camera.unproject_in_camera_plane(glm::max(size - away, size / 2.0f), glm::dvec3(app.camera.target), size);
@@ -64,7 +57,7 @@ bool wind_arrow_shown(const App& app) {
 
 WindArrow wind_arrow(const App& app, const glm::dvec3& W) {
   const glm::dvec3 base = place(app);
-  const double per_pixel = metres_per_pixel(app, base);
+  const double per_pixel = app.camera.metres_per_pixel(base, app.viewport.size().y);
   const double per_newton = app.theme.px(usual) * per_pixel / unit_of(app);
   const double length = glm::length(W) * per_newton, room = app.theme.px(longest) * per_pixel;
   return {base, base + W * per_newton * (length > room ? room / length : 1), per_newton};
@@ -90,7 +83,7 @@ void drag_wind(App& app) {
   const glm::vec2 size = app.viewport.size();
   glm::dvec3 way = app.camera.unproject_in_camera_plane(tool.at, arrow.tip, size) -
                    app.camera.unproject_in_camera_plane(tool.press, arrow.tip, size);
-  const double per_pixel = metres_per_pixel(app, arrow.base);
+  const double per_pixel = app.camera.metres_per_pixel(arrow.base, size.y);
   if ((app.input.mods & GLFW_MOD_SHIFT) != 0)
     way = double(tool.press.y - tool.at.y) * per_pixel * glm::dvec3(app.camera.forward());
   glm::dvec3 W = tool.wind + way / arrow.metres_per_newton;

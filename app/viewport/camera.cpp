@@ -46,8 +46,8 @@ void Camera::orbit(float dx, float dy) {
 }
 
 void Camera::pan(float dx, float dy, float viewport_height) {
-  const float metres_per_pixel = 2 * distance * std::tan(fov_y / 2) / std::max(viewport_height, 1.0f);
-  target += metres_per_pixel * (dy * up() - dx * right());
+  const auto of_pixel = float(metres_per_pixel(glm::dvec3(target), viewport_height));
+  target += of_pixel * (dy * up() - dx * right());
 }
 
 void Camera::zoom(float wheel_steps) {
@@ -141,6 +141,11 @@ glm::dvec3 Camera::ray(glm::vec2 pixel, glm::vec2 size) const {
   const double slope_per_pixel = 2 * std::tan(fov_y / 2) / size.y;
   return glm::normalize(glm::dvec3(forward()) + slope_per_pixel * ((pixel.x - size.x / 2.0) * glm::dvec3(right()) -
                                                                    (pixel.y - size.y / 2.0) * glm::dvec3(up())));
+}
+
+double Camera::metres_per_pixel(glm::dvec3 at, float viewport_height) const {
+  const double depth = glm::dot(at - glm::dvec3(eye()), glm::dvec3(forward()));
+  return 2 * depth * std::tan(fov_y / 2) / std::max(viewport_height, 1.0f);
 }
 
 glm::dvec3 Camera::unproject_in_camera_plane(glm::vec2 pixel, glm::dvec3 through, glm::vec2 size) const {

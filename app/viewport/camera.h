@@ -43,6 +43,8 @@ struct Camera {
 
   /// Pixel of a point, none when it is behind the camera. `size` is the viewport's, in pixels.
   std::optional<glm::vec2> project(glm::dvec3 world, glm::vec2 size) const;
+  /// Metres that a pixel shows at the depth of a place.
+  double metres_per_pixel(glm::dvec3 at, float viewport_height) const;
   /// The point under the pixel in the plane through `through` that is parallel to the camera plane ("The hand").
   glm::dvec3 unproject_in_camera_plane(glm::vec2 pixel, glm::dvec3 through, glm::vec2 size) const;
   /// Unit direction from the eye through a pixel.

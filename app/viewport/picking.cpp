@@ -131,6 +131,13 @@ std::vector<Pins::Site> particles_near_path(const PositionView& positions, const
   return sites;
 }
 
+std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 centre, double r) {
+  const glm::dvec3 to_centre = centre - eye;
+  const double along = glm::dot(ray, to_centre), half_chord2 = r * r - (glm::dot(to_centre, to_centre) - along * along);
+  if (along <= 0 || half_chord2 < 0) return std::nullopt;
+  return along - std::sqrt(half_chord2);
+}
+
 std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& camera, glm::vec2 pixel, glm::vec2 size) {
   const glm::dvec3 eye(camera.eye()), direction = camera.ray(pixel, size);
   std::optional<int> found;
@@ -138,14 +145,10 @@ std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& cam
   for (int index = 0; index < int(bodies.size()); ++index) {
     const Body& body = bodies[index];
     if (body.shape != Body::Shape::sphere) continue;
-    const glm::dvec3 to_eye = eye - body.c;
-    const double b = glm::dot(to_eye, direction), c = glm::dot(to_eye, to_eye) - body.r * body.r;
-    const double discriminant = b * b - c;
-    if (discriminant < 0) continue;
-    const double distance = -b - std::sqrt(discriminant);
-    if (distance <= 0 || (found && distance >= nearest_distance)) continue;
+    const auto distance = sphere_surface(eye, direction, body.c, body.r);
+    if (!distance || *distance <= 0 || (found && *distance >= nearest_distance)) continue;
     found = index;
-    nearest_distance = distance;
+    nearest_distance = *distance;
   }
   return found;
 }

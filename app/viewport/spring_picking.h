@@ -11,10 +11,15 @@
 
 namespace tyglab {
 
-/// The whole stretch springs, edges of triangles among them, whose pictures the way from `from` to `to` (pixels)
-/// crosses: through all layers of the cloth, as scissors go, but not through what a sphere hides. A spring that meets
-/// the end of one way and the beginning of the next is crossed by one of them. In the order of their owners.
+/// A way across the picture, pixels.
+struct Way {
+  glm::vec2 from, to;
+};
+
+/// The whole stretch springs, edges of triangles among them, whose pictures one of the ways crosses: through all layers
+/// of the cloth, as scissors go, but not through what a sphere hides. A spring that meets the end of one way and the
+/// beginning of the next is crossed by one of them. Each stands once, in the order of their owners.
 std::vector<SpringSite> springs_across(const PositionView& positions, const Tears& tears, const Camera& camera,
-                                       std::span<const Body> bodies, glm::vec2 from, glm::vec2 to, glm::vec2 size);
+                                       std::span<const Body> bodies, std::span<const Way> ways, glm::vec2 size);
 
 }  // namespace tyglab

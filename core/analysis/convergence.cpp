@@ -1,27 +1,19 @@
 #include "core/analysis/convergence.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/analysis/study_run.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
+#include "core/output/text.h"
 
 namespace tyglab {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double as_promised = 0.25;  // how far a measured order may be from the nominal one to count as the same
-
-template <class... Values>
-std::string printed(const char* format, Values... values) {
-  std::array<char, 256> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 /// The motion with one dt: positions at the times of comparison, none of them once it has diverged.
 struct Run {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 
 #include "core/analysis/one_weight.h"
 #include "core/analysis/plain_forces.h"
+#include "core/output/text.h"
 
 namespace tyglab {
 namespace {
@@ -18,12 +18,6 @@ namespace odeint = boost::numeric::odeint;
 
 double sample_time(const AccuracyScene& scene, int n) {
   return scene.seconds * n / accuracy_samples;
-}
-
-std::string sentence(const char* format, const std::string& name, double value) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, name.c_str(), value);
-  return text;
 }
 
 Preset in_double(const AccuracyScene& scene, const std::string& integrator, int steps) {
@@ -99,10 +93,10 @@ Reference refined(const AccuracyScene& scene, double dt, const Stop& stop) {
   const Track coarser = own_track(scene, method, steps, stop);
   reference.agreement_rms_m = rms_distance(reference.track, coarser);
   const double used = sample_time(scene, 1) / steps;
-  reference.made_by = {sentence("this project's %s in double with dt = %.3g s", method, used / 2),
-                       sentence("the same %s with dt = %.3g s: not independent, since no other library has these "
-                                "bodies",
-                                method, used)};
+  reference.made_by = {printed("this project's %s in double with dt = %.3g s", method.c_str(), used / 2),
+                       printed("the same %s with dt = %.3g s: not independent, since no other library has these "
+                               "bodies",
+                               method.c_str(), used)};
   return reference;
 }
 
@@ -174,9 +168,9 @@ Reference make_reference(const AccuracyScene& scene, bool quick, const Stop& sto
     reference.track = odeint_track(scene, tolerance, stop);
     reference.agreement_rms_m = rms_distance(reference.track, own_track(scene, method, steps, stop));
     reference.made_by = {
-        sentence("Boost.Odeint's %s with error control to %.0e, on forces written apart from the engine",
-                 "runge_kutta_fehlberg78", tolerance),
-        sentence("this project's %s in double with dt = %.3g s", method, sample_time(scene, 1) / steps)};
+        printed("Boost.Odeint's %s with error control to %.0e, on forces written apart from the engine",
+                "runge_kutta_fehlberg78", tolerance),
+        printed("this project's %s in double with dt = %.3g s", method.c_str(), sample_time(scene, 1) / steps)};
   } else {
     reference = refined(scene, dt / 2, stop);
   }

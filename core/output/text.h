@@ -1,11 +1,21 @@
 // Numbers as text: quick, and the same in every locale.
 #pragma once
 
+#include <array>
+#include <cstdio>
 #include <string>
 
 namespace tyglab {
 
 /// Appends `value` with that many significant digits. Text with 17 gives back the same double, with 9 the same float.
 void append_number(std::string& text, double value, int digits = 17);
+
+/// What printf makes of it, for people; at most 511 characters.
+template <class... Values>
+std::string printed(const char* format, Values... values) {
+  std::array<char, 512> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
 
 }  // namespace tyglab

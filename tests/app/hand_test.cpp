@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "app/panels/overlay.h"
@@ -35,9 +36,9 @@ struct Scene {
     const glm::dvec3 a = simulation.positions().at(0, 0), b = simulation.positions().at(8, 8);
     return *camera.project({a.x + (b.x - a.x) * j / 8, a.y + (b.y - a.y) * i / 8, a.z}, size);
   }
-  std::vector<SpringSite> across(glm::vec2 from, glm::vec2 to) const {
-    return springs_across(simulation.positions(), simulation.tears(), camera, simulation.preset().bodies, from, to,
-                          size);
+  std::vector<SpringSite> across(glm::vec2 from, glm::vec2 to) const { return across(std::array{Way{from, to}}); }
+  std::vector<SpringSite> across(std::span<const Way> ways) const {
+    return springs_across(simulation.positions(), simulation.tears(), camera, simulation.preset().bodies, ways, size);
   }
   Simulation simulation;
   Camera camera;

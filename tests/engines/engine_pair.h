@@ -61,6 +61,25 @@ struct Pair {
   Simulation cpu, opencl;
 };
 
+/// A hundred steps of everything(), with the hand, cuts, another pin and a body that is moved; checked on the way.
+inline void check_handling(Pair pair) {
+  pair.advance(40);
+  pair.check();
+  pair.apply(edit::Grab{20, 30});
+  pair.apply(edit::MoveHand{{0.1, 1.1, 0.4}, 60});
+  pair.apply(edit::Cut{{{10, 20}, {10, 21}, {10, 22}, {11, 23}}});
+  pair.advance(30);
+  pair.check();
+  const double hand = glm::length(pair.cpu.hand_force());
+  CHECK(hand > 0);
+  CHECK(glm::length(pair.opencl.hand_force() - pair.cpu.hand_force()) <= 1e-3 * hand);
+  pair.apply(edit::Release{});
+  pair.apply(edit::Pin{5, 40, true});
+  pair.apply(edit::MoveBody{0, {0.05, 0.72, 0.4}});
+  pair.advance(30);
+  pair.check();
+}
+
 /// Everything that a sweep can have.
 inline Preset everything(Precision precision, const std::string& integrator = "verlet") {
   Preset preset = cloth(33, 47, integrator);

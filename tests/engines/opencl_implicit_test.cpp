@@ -30,22 +30,7 @@ TEST_CASE("solves: wind, pins, bodies, the hand, cuts, as on the CPU engine") {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       CAPTURE(std::string(method));
       CAPTURE(int(precision));
-      Pair pair(everything(precision, method));
-      pair.advance(40);
-      pair.check();
-      pair.apply(edit::Grab{20, 30});
-      pair.apply(edit::MoveHand{{0.1, 1.1, 0.4}, 60});
-      pair.apply(edit::Cut{{{10, 20}, {10, 21}, {10, 22}, {11, 23}}});
-      pair.advance(30);
-      pair.check();
-      const double hand = glm::length(pair.cpu.hand_force());
-      CHECK(hand > 0);
-      CHECK(glm::length(pair.opencl.hand_force() - pair.cpu.hand_force()) <= 1e-3 * hand);
-      pair.apply(edit::Release{});
-      pair.apply(edit::Pin{5, 40, true});
-      pair.apply(edit::MoveBody{0, {0.05, 0.72, 0.4}});
-      pair.advance(30);
-      pair.check();
+      check_handling(Pair(everything(precision, method)));
     }
   }
 }

@@ -40,20 +40,7 @@ TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
   if (!test::device_there()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
-    Pair pair(everything(precision));
-    pair.advance(40);
-    pair.check();
-    pair.apply(edit::Grab{20, 30});
-    pair.apply(edit::MoveHand{{0.1, 1.1, 0.4}, 60});
-    pair.apply(edit::Cut{{{10, 20}, {10, 21}, {10, 22}, {11, 23}}});
-    pair.advance(30);
-    pair.check();
-    CHECK(glm::length(pair.opencl.hand_force() - pair.cpu.hand_force()) <= 1e-3 * glm::length(pair.cpu.hand_force()));
-    pair.apply(edit::Release{});
-    pair.apply(edit::Pin{5, 40, true});
-    pair.apply(edit::MoveBody{0, {0.05, 0.72, 0.4}});
-    pair.advance(30);
-    pair.check();
+    check_handling(Pair(everything(precision)));
   }
 }
 

@@ -56,5 +56,24 @@ def stability(stage):
     stage.keep("stiffer")
 
 
+@case
+def tab(stage):
+    """a card that has no room under the plots becomes a tab beside them, and goes back to its place when it is folded"""
+    sandbox = stage.start("hanging")
+    headings = {"plots." + name for name in ("Copies", "Stability", "Accuracy", "Energy", "Performance")}
+    check("plots.cards" not in sandbox.report()["controls"], "no tabs while all are folded")
+    for name in ("Stability", "Energy"):
+        sandbox.click_control("plots." + name)
+        report = sandbox.wait(lambda r: "plots.cards" in r["controls"], "the tabs")
+        stage.keep(name)
+    report = sandbox.later(4)
+    check(report["energy"] is not None, "the one that was opened last is shown, and its ledger kept")
+    check(headings - set(report["controls"]) == {"plots.Stability"}, "the headings stay but of the one behind the other")
+    sandbox.click_control("plots.Energy")
+    sandbox.wait(lambda r: "plots.Stability" in r["controls"] or r["energy"] is None, "Energy to be folded")
+    report = sandbox.later(4)
+    check("plots.cards" in report["controls"] and report["energy"] is None, "Stability is a tab still")
+
+
 if __name__ == "__main__":
     main()
