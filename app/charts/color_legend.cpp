@@ -36,15 +36,17 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
     draw_on_baseline(paint.draw, with, {x, baseline}, color, text);
     x += text_width(with, text);
   };
-  say(font, c.text, legend.field.title);
+  const std::string value = legend.marked ? steady_number(*legend.marked) : "";
+  const std::string unit = legend.field.unit.empty() ? "" : ", " + std::string(legend.field.unit);
+  const float others = symbol_width(paint.fonts, legend.field.symbol) + text_width(font, unit) +
+                       text_width(*paint.fonts.mono, value) + paint.theme.px(value.empty() ? 6 : 14);
+  say(font, c.text, fitted(font, std::string(legend.field.title), right - lo.x - others));
   if (!legend.field.symbol.empty()) {
     x += paint.theme.px(6);
     draw_symbol(paint.draw, paint.fonts, {x, baseline}, legend.field.symbol, c.text);
     x += symbol_width(paint.fonts, legend.field.symbol);
   }
-  if (!legend.field.unit.empty()) say(font, c.quiet, ", " + std::string(legend.field.unit));
-  if (!legend.marked) return;
-  const std::string value = steady_number(*legend.marked);
+  say(font, c.quiet, unit);
   draw_on_baseline(paint.draw, *paint.fonts.mono, {right - text_width(*paint.fonts.mono, value), baseline}, c.text,
                    value);
 }
@@ -76,7 +78,7 @@ ImVec2 legend_size(const Theme& theme, float room) {
 ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
-  paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.75f), theme.px(6));
+  paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.85f), theme.px(6));
   const float pad = theme.px(padding);
   const ImVec2 lo{at.x + pad, at.y + theme.px(bar_top)}, hi{at.x + size.x - pad, lo.y + theme.px(bar_height)};
   draw_heading(paint, {lo.x, at.y}, hi.x, legend);

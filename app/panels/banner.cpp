@@ -41,10 +41,8 @@ std::string what_happened(const Divergence& d, const Preset& then) {
                     " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
   const double limit = stable_dt(then, then.integrator);
-  if (limit > 0 && std::isfinite(limit)) {
-    std::snprintf(text, sizeof text, ", %.2g times the largest that is stable", then.dt / limit);
-    all += text;
-  }
+  if (limit > 0 && std::isfinite(limit))
+    all += ", " + short_number(then.dt / limit, 2) + " times the largest that is stable";
   return all + ".";
 }
 
@@ -53,12 +51,6 @@ std::string capitalised(std::string text) {
   const std::size_t space = text.find(' ');
   const bool word = space != std::string::npos && space > 2 && text.find('_') > space && text.find('/') > space;
   if (word && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
-  return text;
-}
-
-std::string sentence(std::string text) {
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
-  if (!text.empty() && text.back() != '.') text += '.';
   return text;
 }
 
@@ -104,7 +96,7 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
 std::vector<Way> ways_out(App& app) {
   std::vector<Way> ways;
   if (app.history.can_undo())
-    ways.push_back({"Undo last change and restart", "Takes the last change of constants back", "Ctrl+Z, then R",
+    ways.push_back({"Undo and restart", "Takes the last change of constants back, and begins anew", "Ctrl+Z, then R",
                     [](App& a) { a.command(Command::undo_and_restart); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
                     [](App& a) { a.command(Command::restart); }};
@@ -124,13 +116,17 @@ std::vector<Way> ways_out(App& app) {
   return ways;
 }
 
+float button_width(const App& app, const Way& way) {
+  return text_width(*app.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
 /// Places the buttons from the left, in as many lines as they need; returns where each begins, relative to the first.
 std::vector<ImVec2> flow(App& app, const std::vector<Way>& ways, float width) {
   const float gap = app.theme.px(8), line = app.theme.px(30) + gap;
   std::vector<ImVec2> places;
   ImVec2 at{0, 0};
   for (const Way& way : ways) {
-    const float button = text_width(*app.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
+    const float button = button_width(app, way);
     if (at.x > 0 && at.x + button > width) at = {0, at.y + line};
     places.push_back(at);
     at.x += button + gap;
@@ -144,6 +140,14 @@ void way_buttons(App& app, const std::vector<Way>& ways, const std::vector<ImVec
     if (text_button(app, ways[k].label.c_str(), k == 0)) ways[k].go(app);
     tooltip(app, gui::item_id(), ways[k].tip, ways[k].keys);
   }
+}
+
+/// In the middle of the lower end of a picture of that size, above the names of cloths where there is room.
+Box place_of_banner(const App& app, glm::vec2 picture, glm::vec2 size) {
+  const glm::vec2 lo = app.viewport.box.lo;
+  const float left = std::round(lo.x + (picture.x - size.x) / 2), foot = lo.y + picture.y - app.theme.px(20);
+  const auto free = app.ui.placing.in_corner({{left, lo.y}, {left + size.x, foot}}, size, ScreenCorner::lower_left);
+  return free.value_or(Box{{left, foot - size.y}, {left + size.x, foot}});
 }
 
 }  // namespace
@@ -161,14 +165,16 @@ void banner(App& app) {
   const std::string happened = what_happened(*divergence, app.simulation->diverged_preset()),
                     why = why_and_what_now(app, *divergence);
   const std::vector<Way> ways = ways_out(app);
-  const std::vector<ImVec2> places = flow(app, ways, inner);
+  // A button that is wider than the text's column begins under the icon.
+  const bool wide = std::any_of(ways.begin(), ways.end(), [&](const Way& w) { return button_width(app, w) > inner; });
+  const float buttons_left = wide ? padding : padding + icon;
+  const std::vector<ImVec2> places = flow(app, ways, width - padding - buttons_left);
   const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);
   const float happened_height = wrapped_height(text, happened, inner), why_height = wrapped_height(text, why, inner);
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
-  const ImVec2 lo{std::round(app.viewport.box.lo.x + (size.x - width) / 2),
-                  app.viewport.box.lo.y + size.y - height - app.theme.px(20)};
-  const ImVec2 hi{lo.x + width, lo.y + height};
+  const Box box = place_of_banner(app, size, {width, height});
+  const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(8));
   draw.AddRect(lo, hi, c.danger, app.theme.px(8), 0, std::max(1.f, app.theme.px(1.5f)));
@@ -181,8 +187,9 @@ void banner(App& app) {
   y += happened_height + gap;
   draw_wrapped(draw, text, {x, y}, c.quiet, why, inner);
   y += why_height + app.theme.px(12);
-  way_buttons(app, ways, places, {x, y});
+  way_buttons(app, ways, places, {lo.x + buttons_left, y});
   cover_viewport(app, lo, hi);
+  app.ui.placing.take("banner", box);
 }
 
 void message_list(App& app) {
@@ -192,6 +199,7 @@ void message_list(App& app) {
   const float padding = app.theme.px(12), icon_width = app.theme.px(24), close = app.theme.px(22);
   const float most = std::min(app.theme.px(460), app.viewport.whole().x - app.theme.px(32));
   float y = app.ui.notes_from;
+  const Box* paused = app.ui.placing.find("paused");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto& list = app.messages.list();
   std::size_t dismissed = list.size();
@@ -202,8 +210,10 @@ void message_list(App& app) {
     const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
     const float inner = most - 2 * padding - icon_width - close;
     const float height = std::max(wrapped_height(font, text, inner) + 2 * app.theme.px(9), app.theme.px(36));
-    const ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
-    draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(6));
+    ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
+    if (paused != nullptr && overlap(*paused, {{lo.x, lo.y}, {hi.x, hi.y}}))
+      lo.y = paused->hi.y + app.theme.px(8), hi.y = lo.y + height;
+    draw.AddRectFilled(lo, hi, c.panel, app.theme.px(6));
     draw.AddRectFilled(lo, {lo.x + app.theme.px(3), hi.y}, color, app.theme.px(6), ImDrawFlags_RoundCornersLeft);
     draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
               icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
