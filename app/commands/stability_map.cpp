@@ -13,6 +13,7 @@
 #include "app/commands/progress.h"
 #include "app/commands/stability.h"
 #include "core/analysis/in_parallel.h"
+#include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
 #include "core/output/destination.h"
 

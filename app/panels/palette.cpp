@@ -5,11 +5,11 @@
 #include <sstream>
 #include <utility>
 
-#include "app/commands/preset_argument.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/preset_files.h"
 #include "app/sandbox/commands.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
