@@ -7,10 +7,10 @@
 #include <sstream>
 #include <utility>
 
-#include "app/commands/preset_argument.h"
 #include "app/labs/lab.h"
 #include "app/panels/text_lines.h"
 #include "app/labs/observables.h"
+#include "app/preset_files.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 #include "core/notation/words.h"
