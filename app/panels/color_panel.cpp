@@ -6,6 +6,7 @@
 #include "app/charts/color_legend.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
+#include "app/panels/overlay.h"
 #include "app/panels/panels.h"
 #include "app/panels/slider.h"
 #include "app/panels/symbol.h"
