@@ -4,12 +4,13 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <utility>
 
 #include "app/labs/lab.h"
-#include "app/panels/text_lines.h"
 #include "app/labs/observables.h"
+#include "app/panels/text_lines.h"
 #include "app/preset_files.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
@@ -121,6 +122,7 @@ class LabReader {
     throw LabError(source_ + ":" + std::to_string(line) + ": " + why);
   }
   void note(const LabError& error);
+  void noted(const std::function<void()>& read);
   void take_or_note(std::string_view line);
   void take_line(std::string_view line);
   void end_file();
@@ -181,8 +183,12 @@ void LabReader::note(const LabError& error) {
 /// headings are wrong the reading ends.
 void LabReader::take_or_note(std::string_view line) {
   if (!in_block_) return take_line(line);
+  noted([&] { take_line(line); });
+}
+
+void LabReader::noted(const std::function<void()>& read) {
   try {
-    take_line(line);
+    read();
   } catch (const LabError& error) {
     note(error);
   }
@@ -260,8 +266,8 @@ void LabReader::end_prediction() {
 
 void LabReader::end_block() {
   in_block_ = false;
-  if (step().prediction) end_prediction();
-  if (step().open) end_opening();
+  if (step().prediction) noted([&] { end_prediction(); });
+  if (step().open) noted([&] { end_opening(); });
 }
 
 /// The preset must be there, and its settings such as it takes.
@@ -365,6 +371,7 @@ void LabReader::take_seconds(std::string_view value) {
 /// "0.098 m within 10 %", "dt_crit within 0.0001".
 void LabReader::take_answer(std::string_view value) {
   Prediction& given = prediction("answer");
+  answered_ = true;  // if perhaps not well: that is told for itself
   std::vector<std::string> words = words_in(value);
   const auto within = std::find(words.begin(), words.end(), "within");
   const auto after = std::size_t(words.end() - within);
@@ -384,7 +391,6 @@ void LabReader::take_answer(std::string_view value) {
   if (given.relative && given.answer.name.empty() && given.answer.factor == 0)
     fail("a part of 0 is 0, so nothing near it would be right; say how far off in its unit: answer: 0 " +
          (given.unit.empty() ? "" : given.unit + " ") + "within 0.01");
-  answered_ = true;
 }
 
 std::string LabReader::known_name(const std::string& name) const {

@@ -10,6 +10,7 @@
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
+#include "app/panels/text_lines.h"
 #include "app/panels/widgets.h"
 #include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
@@ -19,13 +20,14 @@ namespace {
 
 constexpr float least_banner = 380;  // pixels at scale 1, of the width
 
-/// Height of text wrapped to a width.
-float wrapped_height(const ImFont& font, const std::string& text, float width) {
-  return font.CalcTextSizeA(font.FontSize, 1e9f, width, text.data(), text.data() + text.size()).y;
+/// The text in lines of that width, none of which ends within a number or between it and its unit.
+std::string in_lines(const ImFont& font, const std::string& text, float width) {
+  return broken_into_lines(with_whole_terms(text), width,
+                           [&font](std::string_view piece) { return text_width(font, piece); });
 }
 
-void draw_wrapped(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text, float width) {
-  draw.AddText(&font, font.FontSize, at, color, text.data(), text.data() + text.size(), width);
+float height_of(const ImFont& font, const std::string& lines) {
+  return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
 }
 
 /// What it was, and the constants that decided it: they may be others by now.
@@ -116,17 +118,13 @@ std::vector<Way> ways_out(App& app) {
   return ways;
 }
 
-float button_width(const App& app, const Way& way) {
-  return text_width(*app.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
-}
-
 /// Places the buttons from the left, in as many lines as they need; returns where each begins, relative to the first.
 std::vector<ImVec2> flow(App& app, const std::vector<Way>& ways, float width) {
   const float gap = app.theme.px(8), line = app.theme.px(30) + gap;
   std::vector<ImVec2> places;
   ImVec2 at{0, 0};
   for (const Way& way : ways) {
-    const float button = button_width(app, way);
+    const float button = text_width(*app.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
     if (at.x > 0 && at.x + button > width) at = {0, at.y + line};
     places.push_back(at);
     at.x += button + gap;
@@ -160,17 +158,16 @@ void banner(App& app) {
   const bool roomy = app.viewport.size().x >= app.theme.px(least_banner);
   const glm::vec2 size = roomy ? app.viewport.size() : app.viewport.whole();
   const float width = std::min(app.theme.px(600), size.x - app.theme.px(32)), padding = app.theme.px(16);
-  const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
+  // In a narrow one the text begins under the icon.
+  const float icon = app.theme.px(30), indent = width < app.theme.px(least_banner) ? 0 : icon;
+  const float inner = width - 2 * padding - indent;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const std::string happened = what_happened(*divergence, app.simulation->diverged_preset()),
-                    why = why_and_what_now(app, *divergence);
+  const std::string happened = in_lines(text, what_happened(*divergence, app.simulation->diverged_preset()), inner),
+                    why = in_lines(text, why_and_what_now(app, *divergence), inner);
   const std::vector<Way> ways = ways_out(app);
-  // A button that is wider than the text's column begins under the icon.
-  const bool wide = std::any_of(ways.begin(), ways.end(), [&](const Way& w) { return button_width(app, w) > inner; });
-  const float buttons_left = wide ? padding : padding + icon;
-  const std::vector<ImVec2> places = flow(app, ways, width - padding - buttons_left);
+  const std::vector<ImVec2> places = flow(app, ways, inner);
   const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);
-  const float happened_height = wrapped_height(text, happened, inner), why_height = wrapped_height(text, why, inner);
+  const float happened_height = height_of(text, happened), why_height = height_of(text, why);
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
   const Box box = place_of_banner(app, size, {width, height});
@@ -180,14 +177,14 @@ void banner(App& app) {
   draw.AddRect(lo, hi, c.danger, app.theme.px(8), 0, std::max(1.f, app.theme.px(1.5f)));
   draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(app.fonts, icon::warning, "!"));
   float y = lo.y + padding;
-  const float x = lo.x + padding + icon;
-  draw_text(draw, title, {x, y}, c.text, "The simulation diverged");
+  const float x = lo.x + padding + indent;
+  draw_text(draw, title, {lo.x + padding + icon, y}, c.text, "The simulation diverged");
   y += title.FontSize + gap;
-  draw_wrapped(draw, text, {x, y}, c.text, happened, inner);
+  draw_text(draw, text, {x, y}, c.text, happened);
   y += happened_height + gap;
-  draw_wrapped(draw, text, {x, y}, c.quiet, why, inner);
+  draw_text(draw, text, {x, y}, c.quiet, why);
   y += why_height + app.theme.px(12);
-  way_buttons(app, ways, places, {lo.x + buttons_left, y});
+  way_buttons(app, ways, places, {x, y});
   cover_viewport(app, lo, hi);
   app.ui.placing.take("banner", box);
 }
@@ -205,11 +202,10 @@ void message_list(App& app) {
   std::size_t dismissed = list.size();
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Message& message = list[k];
-    const std::string text = capitalised(message.text);
     const bool note = message.severity == Message::Severity::note;
     const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
-    const float inner = most - 2 * padding - icon_width - close;
-    const float height = std::max(wrapped_height(font, text, inner) + 2 * app.theme.px(9), app.theme.px(36));
+    const std::string text = in_lines(font, capitalised(message.text), most - 2 * padding - icon_width - close);
+    const float height = std::max(height_of(font, text) + 2 * app.theme.px(9), app.theme.px(36));
     ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
     if (paused != nullptr && overlap(*paused, {{lo.x, lo.y}, {hi.x, hi.y}}))
       lo.y = paused->hi.y + app.theme.px(8), hi.y = lo.y + height;
@@ -217,7 +213,7 @@ void message_list(App& app) {
     draw.AddRectFilled(lo, {lo.x + app.theme.px(3), hi.y}, color, app.theme.px(6), ImDrawFlags_RoundCornersLeft);
     draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
               icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
-    draw_wrapped(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text, inner);
+    draw_text(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text);
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(int(k));
     if (ImGui::InvisibleButton("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;

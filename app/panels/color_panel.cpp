@@ -42,30 +42,29 @@ void top_cell(App& app, FieldColors& colors, ImVec2 right_end) {
   if (typed.value > 0) colors.fixed = typed.value;
 }
 
-/// Where the legend can stand, the best first: where the viewport has room for one more picture, or in a corner; of its
-/// own width, or else narrow.
-std::array<std::optional<Box>, 9> legend_places(const App& app) {
-  constexpr float narrow = 176;  // px at scale 1
+/// Where the legend can stand, the best first: where the viewport has room for one more picture, or in a corner; whole,
+/// or else on a single line.
+std::array<std::optional<Box>, 10> legend_places(const App& app) {
   const Viewport& viewport = app.viewport;
   const float margin = app.theme.px(16);
-  const auto in = [&](glm::vec2 lo, float widest, ScreenCorner corner) -> std::optional<Box> {
+  const auto in = [&](glm::vec2 lo, auto size_in, ScreenCorner corner) {
     const Box area{lo + margin, viewport.box.hi - margin};
-    const ImVec2 size = legend_size(app.theme, std::min(widest, area.hi.x - area.lo.x));
+    const ImVec2 size = size_in(app.theme, area.hi.x - area.lo.x);
     return app.ui.placing.in_corner(area, {size.x, size.y}, corner);
   };
   const int pictures = app.copies.tiles();
   const bool room = pictures < viewport.columns * viewport.rows;
-  const float full = viewport.whole().x, brief = app.theme.px(narrow);
-  const glm::vec2 lo = viewport.box.lo;
-  return {room ? in(viewport.origin(pictures), full, ScreenCorner::lower_right) : std::nullopt,
-          in(lo, full, ScreenCorner::lower_right),
-          in(lo, full, ScreenCorner::lower_left),
-          in(lo, full, ScreenCorner::upper_right),
-          in(lo, full, ScreenCorner::upper_left),
-          in(lo, brief, ScreenCorner::lower_right),
-          in(lo, brief, ScreenCorner::lower_left),
-          in(lo, brief, ScreenCorner::upper_right),
-          in(lo, brief, ScreenCorner::upper_left)};
+  const glm::vec2 lo = viewport.box.lo, empty = viewport.origin(pictures);
+  return {room ? in(empty, legend_size, ScreenCorner::lower_right) : std::nullopt,
+          room ? in(empty, legend_line_size, ScreenCorner::lower_right) : std::nullopt,
+          in(lo, legend_size, ScreenCorner::lower_right),
+          in(lo, legend_size, ScreenCorner::lower_left),
+          in(lo, legend_size, ScreenCorner::upper_right),
+          in(lo, legend_size, ScreenCorner::upper_left),
+          in(lo, legend_line_size, ScreenCorner::lower_right),
+          in(lo, legend_line_size, ScreenCorner::lower_left),
+          in(lo, legend_line_size, ScreenCorner::upper_right),
+          in(lo, legend_line_size, ScreenCorner::upper_left)};
 }
 
 }  // namespace

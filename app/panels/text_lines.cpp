@@ -70,6 +70,19 @@ class Filled {
       line_ = word;
     }
   }
+  /// The same of one that may be wider than a line: it is then cut where the line ends.
+  void add_any(std::string word) {
+    while (!fits(word)) {
+      std::size_t end = 1;
+      for (std::size_t next = 1; next < word.size() && fits(word.substr(0, next)); ++next)
+        if ((word[next] & 0xC0) != 0x80) end = next;
+      while (end < word.size() && (word[end] & 0xC0) == 0x80) ++end;
+      if (end >= word.size()) break;
+      add(word.substr(0, end));
+      word.erase(0, end);
+    }
+    add(word);
+  }
   std::string all() const { return lines_ + line_; }
 
  private:
@@ -87,6 +100,9 @@ std::string with_whole_terms(std::string text) {
 }
 
 std::string broken_into_lines(std::string_view text, float width, const Measure& measure) {
+  if (const std::size_t end = text.find('\n'); end != std::string_view::npos)
+    return broken_into_lines(text.substr(0, end), width, measure) + "\n" +
+           broken_into_lines(text.substr(end + 1), width, measure);
   Filled lines(width, measure);
   for (const std::string& word : split(text, " ")) {
     if (lines.fits(word)) {
@@ -97,7 +113,7 @@ std::string broken_into_lines(std::string_view text, float width, const Measure&
       if (lines.fits(term)) {
         lines.add(term);
       } else {
-        for (const std::string& piece : split(term, no_break)) lines.add(piece);
+        for (const std::string& piece : split(term, no_break)) lines.add_any(piece);
       }
     }
   }

@@ -16,7 +16,7 @@ std::string with_whole_terms(std::string text);
 using Measure = std::function<float(std::string_view)>;
 
 /// The text with a line feed where each line ends; `width` in the unit of `measure`. A formula that is wider than a
-/// line is broken before a relation sign, or else at any of its spaces; a single word that is wider stays one line.
+/// line is broken before a relation sign, or else at any of its spaces; a single word that is wider is cut.
 std::string broken_into_lines(std::string_view text, float width, const Measure& measure);
 
 /// As much of the text as has that width, with an ellipsis where it was cut.

@@ -116,6 +116,10 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK(says(settings, "my.md:11: set: m: "));
   CHECK_FALSE(says(settings, "my.md:8: "));
   CHECK_FALSE(says(settings, "--set"));
+  const std::string both = problem_in("open: hanging\nset: k_s=-4\npredict: How?\nanswer: 0 m within 5 %");
+  CHECK(says(both, "my.md:9: set: "));
+  CHECK(says(both, "my.md:11: a part of 0"));
+  CHECK_FALSE(says(both, "no answer"));
   CHECK(problem_in("open: hanging\nset: pins=[[39, 39]]\nset: rows=40\nset: columns=40") == "none");
   for (const char* wrong : {"nan within 5 %", "inf m within 1 m", "3 m within nan %", "3 m within inf"})
     CHECK(says(problem_in("predict: How?\nanswer: " + std::string(wrong)), "my.md:9: "));

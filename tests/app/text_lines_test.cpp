@@ -25,11 +25,12 @@ TEST_CASE("a formula goes to the next line whole") {
   CHECK(broken("so Δ = m·g/k ≈ 0.1 m", 17) == "so\nΔ = m·g/k ≈ 0.1 m");
 }
 
-TEST_CASE("a formula that is wider than a line is parted before a relation, else at a space, and never within a word") {
+TEST_CASE("a formula that is wider than a line is parted before a relation, else at a space, and within a word last") {
   CHECK(broken("so F = F_int + F_ext = m·a = 0 holds", 20) == "so F = F_int + F_ext\n= m·a = 0 holds");
   CHECK(broken("F = F_int + F_ext", 9) == "F = F_int\n+ F_ext");
-  CHECK(broken("0.0001 incomprehensibilities", 9) == "0.0001\nincomprehensibilities");
+  CHECK(broken("0.0001 incomprehensibilities", 9) == "0.0001\nincompreh\nensibilit\nies");
   CHECK(broken("", 9).empty());
+  CHECK(broken("one\ntwo words", 7) == "one\ntwo\nwords");
 }
 
 TEST_CASE("a name gives way to what has become of it") {
