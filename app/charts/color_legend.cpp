@@ -41,12 +41,12 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
   const std::string value = legend.marked ? steady_number(*legend.marked) : "";
   const std::string unit = legend.field.unit.empty() ? "" : ", " + std::string(legend.field.unit);
   const float others = symbol_width(paint.fonts, legend.field.symbol) + text_width(font, unit) +
-                       text_width(*paint.fonts.mono, value) + paint.theme.px(value.empty() ? 6 : 14);
+                       text_width(*paint.fonts.mono, value) + paint.theme.px(value.empty() ? 8 : 16);
   say(font, c.text, fitted(font, std::string(legend.field.title), right - lo.x - others));
   if (!legend.field.symbol.empty()) {
     x += paint.theme.px(6);
     draw_symbol(paint.draw, paint.fonts, {x, baseline}, legend.field.symbol, c.text);
-    x += symbol_width(paint.fonts, legend.field.symbol);
+    x += symbol_width(paint.fonts, legend.field.symbol) + paint.theme.px(2);
   }
   say(font, c.quiet, unit);
   draw_on_baseline(paint.draw, *paint.fonts.mono, {right - text_width(*paint.fonts.mono, value), baseline}, c.text,

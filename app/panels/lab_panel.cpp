@@ -195,8 +195,8 @@ void more_below(App& app) {
   if (ImGui::GetScrollMaxY() - ImGui::GetScrollY() < app.theme.px(6)) return;
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  const float high = app.theme.px(24), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
-  const float x = std::round((lo.x + right) / 2), y = bottom - app.theme.px(9), r = app.theme.px(5);
+  const float high = app.theme.px(16), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
+  const float x = std::round((lo.x + right) / 2), y = bottom - app.theme.px(7), r = app.theme.px(5);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 clear = faded(c.panel, 0);
   draw.AddRectFilledMultiColor({lo.x, bottom - high}, {right, bottom}, clear, clear, c.panel, c.panel);
