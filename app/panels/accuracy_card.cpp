@@ -19,19 +19,6 @@ constexpr const char* accuracy_heading = "Accuracy";
 // Pixels at scale 1.
 constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
 
-/// The text with its lines ended at spaces: Dear ImGui breaks lines at the points of numbers too.
-std::string in_lines(const ImFont& font, const std::string& text, float width) {
-  std::string lines, line;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    if (!line.empty() && text_width(font, line + ' ' + word) > width) lines += line + '\n', line.clear();
-    line += (line.empty() ? "" : " ") + word;
-    at = end + 1;
-  }
-  return lines + line;
-}
-
 /// Words over a chart, in what the card's height leaves.
 void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
                      float room_at_1 = words_at_1) {

@@ -20,12 +20,6 @@ namespace {
 
 constexpr float least_banner = 380;  // pixels at scale 1, of the width
 
-/// The text in lines of that width, none of which ends within a number or between it and its unit.
-std::string in_lines(const ImFont& font, const std::string& text, float width) {
-  return broken_into_lines(with_whole_terms(text), width,
-                           [&font](std::string_view piece) { return text_width(font, piece); });
-}
-
 float height_of(const ImFont& font, const std::string& lines) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
 }
@@ -162,8 +156,9 @@ void banner(App& app) {
   const float icon = app.theme.px(30), indent = width < app.theme.px(least_banner) ? 0 : icon;
   const float inner = width - 2 * padding - indent;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const std::string happened = in_lines(text, what_happened(*divergence, app.simulation->diverged_preset()), inner),
-                    why = in_lines(text, why_and_what_now(app, *divergence), inner);
+  const std::string happened = in_lines(
+                        text, with_whole_terms(what_happened(*divergence, app.simulation->diverged_preset())), inner),
+                    why = in_lines(text, with_whole_terms(why_and_what_now(app, *divergence)), inner);
   const std::vector<Way> ways = ways_out(app);
   const std::vector<ImVec2> places = flow(app, ways, inner);
   const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);

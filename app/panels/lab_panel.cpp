@@ -27,14 +27,9 @@ void small_head(App& app, const char* text, ImU32 color) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - app.theme.px(3));
 }
 
-/// The text in lines of that width, as broken_into_lines breaks them; Dear ImGui would also break within 0.001.
-std::string lines_of(App& app, std::string_view text, float width) {
-  const ImFont& font = *app.fonts.text;
-  return broken_into_lines(text, width, [&font](std::string_view piece) { return text_width(font, piece); });
-}
-
+/// Text in the column's width.
 void set_text(App& app, std::string_view text, ImU32 color) {
-  wrapped(app, lines_of(app, text, ImGui::GetContentRegionAvail().x), color);
+  wrapped(app, in_lines(*app.fonts.text, text, ImGui::GetContentRegionAvail().x), color);
 }
 
 void paragraphs_of(App& app, const Paragraphs& text, ImU32 color) {
@@ -94,7 +89,7 @@ void choice_list(App& app, const Prediction& asked, StepRecord& record) {
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, indent = app.theme.px(24), pad = app.theme.px(5);
     const ImFont& font = *app.fonts.text;
-    const std::string words = lines_of(app, asked.choices[std::size_t(k)], width - indent - pad);
+    const std::string words = in_lines(font, asked.choices[std::size_t(k)], width - indent - pad);
     const float height = font.CalcTextSizeA(font.FontSize, 1e9f, 0, words.c_str()).y + 2 * pad;
     if (ImGui::InvisibleButton("choice", {width, height})) record.chosen = k, clicked = true;
     report_control(app, "choice." + std::to_string(k + 1));

@@ -67,4 +67,8 @@ std::string fitted(const ImFont& font, const std::string& text, float width) {
   return shortened(text, width, [&font](std::string_view piece) { return text_width(font, piece); });
 }
 
+std::string in_lines(const ImFont& font, std::string_view text, float width) {
+  return broken_into_lines(text, width, [&font](std::string_view piece) { return text_width(font, piece); });
+}
+
 }  // namespace tyglab
