@@ -9,6 +9,8 @@ target_compile_options(tyglab_options INTERFACE -fno-math-errno -fno-trapping-ma
 # GCC warns falsely about std::string concatenation (its bug 105651, GCC 12) and about the members of a std::variant
 # that it does not hold (GCC 14).
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
+# GCC's own memory is looked through for garbage less often: a tenth of its time, for 200 MB more of memory.
+target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 if(TYGLAB_SANITIZE)
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   add_link_options(-fsanitize=address,undefined)

@@ -35,13 +35,17 @@ double value_of(const Preset& preset, std::string_view key) {
   return preset.k;
 }
 
+std::string no_part_of_it(std::string_view key) {
+  return key == "L" ? ": rest lengths do not enter the largest frequency" : "";
+}
+
 }  // namespace
 
 void draw_zones(App& app, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi) {
   const auto& limits = app.stability.limits();
   if (!limits || app.auto_dt) return;
   const auto zones = limits->zones.find(key);
-  if (zones == limits->zones.end() || zones->second.size() == 1) return;
+  if (zones == limits->zones.end() || std::isinf(limits->any)) return;
   const float top = std::round((lo.y + hi.y) / 2 + app.theme.px(9)), foot = top + app.theme.px(4);
   for (const ZoneSpan& span : zones->second) {
     const auto at = [&](double value) {
@@ -65,7 +69,10 @@ std::string zone_words(const StabilityLimits& limits, std::string_view key, std:
       std::find_if(zones.begin(), zones.end(), [&](const ZoneSpan& z) { return value >= z.from && value <= z.to; });
   if (here == zones.end()) return "";
   const auto unstable = [](const ZoneSpan& z) { return z.zone == Zone::unstable; };
-  if (std::none_of(zones.begin(), zones.end(), unstable)) return "";
+  if (std::none_of(zones.begin(), zones.end(), unstable)) {
+    if (std::isinf(limits.any)) return "";
+    return method + " holds at this dt, whatever " + name + " is" + no_part_of_it(key) + ".";
+  }
   const std::string others = key == "dt" ? "" : key == "k_d" ? " at this dt" : " at this dt; implicit Euler does not";
   if (!unstable(*here)) {
     const auto above = std::find_if(here, zones.end(), unstable);
@@ -76,7 +83,7 @@ std::string zone_words(const StabilityLimits& limits, std::string_view key, std:
   std::string text = method + " is unstable here";
   if (here != zones.begin()) return text + "; it holds below " + quantity(here->from) + ".";
   if (here + 1 != zones.end()) return text + "; it holds above " + quantity(here->to) + ".";
-  return text + ", whatever " + name + " is.";
+  return text + ", whatever " + name + " is" + no_part_of_it(key) + ".";
 }
 
 }  // namespace tyglab

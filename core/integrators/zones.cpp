@@ -59,7 +59,7 @@ std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*fiel
     }
     zones.back().to = before = value;
   }
-  const bool may_be_0 = field != &Preset::m && field != &Preset::dt;
+  const bool may_be_0 = field != &Preset::m && field != &Preset::dt && field != &Preset::L;
   if (may_be_0 && at(0) == zones.front().zone) zones.front().from = 0;
   return zones;
 }

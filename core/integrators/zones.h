@@ -22,11 +22,16 @@ struct ZonedConstant {
   std::string_view key;
   double Preset::*field;
 };
-/// L is not among them: rest lengths do not enter the largest frequency, √((12 k_s + 8 k_b)/m).
-inline constexpr std::array<ZonedConstant, 5> zoned_cloth{
-    {{"dt", &Preset::dt}, {"k_s", &Preset::k_s}, {"k_b", &Preset::k_b}, {"k_d", &Preset::k_d}, {"m", &Preset::m}}};
-inline constexpr std::array<ZonedConstant, 4> zoned_weight{
-    {{"dt", &Preset::dt}, {"k", &Preset::k}, {"k_d", &Preset::k_d}, {"m", &Preset::m}}};
+/// L has one zone only: rest lengths do not enter the largest frequency, √((12 k_s + 8 k_b)/m), and a slider that shows
+/// so says that shortening springs is no cure.
+inline constexpr std::array<ZonedConstant, 6> zoned_cloth{{{"dt", &Preset::dt},
+                                                           {"k_s", &Preset::k_s},
+                                                           {"k_b", &Preset::k_b},
+                                                           {"k_d", &Preset::k_d},
+                                                           {"m", &Preset::m},
+                                                           {"L", &Preset::L}}};
+inline constexpr std::array<ZonedConstant, 5> zoned_weight{
+    {{"dt", &Preset::dt}, {"k", &Preset::k}, {"k_d", &Preset::k_d}, {"m", &Preset::m}, {"L", &Preset::L}}};
 
 /// The present zone. stable for methods that no dt makes unstable.
 Zone zone_of(const Preset& preset);

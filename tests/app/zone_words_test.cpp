@@ -1,13 +1,17 @@
 // What a slider's tooltip says of stability.
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "app/panels/zones.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab::zone_words_test {
 
 StabilityLimits limits_with(std::vector<ZoneSpan> zones, double k_s, const char* method = "verlet") {
   StabilityLimits limits;
   limits.of.integrator = method, limits.of.k_s = k_s;
+  limits.any = is_implicit(scheme(method)) ? std::numeric_limits<double>::infinity() : 0.01;
   limits.zones.emplace("k_s", std::move(zones));
   return limits;
 }
@@ -23,6 +27,19 @@ TEST_CASE("it says where the method breaks, or where it would hold") {
   CHECK(zone_words(limits_with(from_below, 1), "k_s", "N/m") == "Verlet is unstable here; it holds above k_s = 3 N/m.");
   CHECK(zone_words(limits_with({{0, 1e6, Zone::unstable}}, 50), "k_s", "N/m") ==
         "Verlet is unstable here, whatever k_s is.");
+}
+
+TEST_CASE("it says of rest lengths that they move no limit") {
+  const auto words = [](Zone zone) {
+    StabilityLimits limits;
+    limits.of.integrator = "verlet";
+    limits.zones.emplace("L", std::vector<ZoneSpan>{{1e-3, 1e3, zone}});
+    return zone_words(limits, "L", "m");
+  };
+  CHECK(words(Zone::stable) ==
+        "Verlet holds at this dt, whatever L is: rest lengths do not enter the largest frequency.");
+  CHECK(words(Zone::unstable) ==
+        "Verlet is unstable here, whatever L is: rest lengths do not enter the largest frequency.");
 }
 
 TEST_CASE("it says nothing of constants without zones, and nothing where nothing breaks") {

@@ -51,6 +51,16 @@ TEST_CASE("zones cover the span without gaps, stable, near, unstable") {
   CHECK(zones[1].from == doctest::Approx((0.81 * top - 8 * p.k_b) / 12).epsilon(3e-3));
 }
 
+TEST_CASE("rest lengths move no limit: one zone, that of the other constants") {
+  Preset p = undamped("verlet");
+  for (const double k_s : {p.k_s, 4 * p.m / (p.dt * p.dt)}) {
+    p.k_s = k_s;
+    const auto zones = stability_zones(p, &Preset::L, 1e-4, 10);
+    REQUIRE(zones.size() == 1);
+    CHECK(zones.front().zone == zone_of(p));
+  }
+}
+
 TEST_CASE("damping that heals Euler, and too much of it, both show") {
   Preset p = undamped("euler");
   p.dt = 1e-4;

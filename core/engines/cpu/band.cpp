@@ -100,14 +100,16 @@ void Band<R, Present>::begin_forces(PairTask<R>& t, const Tears& tears) {
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::forces_on_pair(const PairTask<R>& t, Update update) {
+void Band<R, Present>::forces_on_pair(PairTask<R>& t, Update update) {
   if (cloth_.preset.kind == Kind::one_weight) {
     const R x = t.x[t.stride], v = t.v[t.stride];
     t.f[0][0] = R(0), t.f[0][2 * t.stride] = R(0);
     t.f[0][t.stride] = R(HWY_NAMESPACE::hooke(x, cloth_.preset.x_0.y, t.k_s, v, t.k_d) - t.weight);
     return;
   }
-  cloth_.sweeps.sweep[features_][std::size_t(update)](t);
+  t.update = update;
+  const auto& sweeps = cloth_.sweeps.sweep[features_];
+  (update == Update::displacement ? sweeps.displacement : sweeps.other)(t);
 }
 
 /// The force on the hand's particle, if it is in this row.

@@ -133,7 +133,7 @@ class Band {
   bool in_tail(int i) const { return end_ < cloth_.lattice.rows && i >= end_ - 2; }
   void copy_rows(const ResolvedSweep& sweep, int first, int count, Halo& halo, int at);
   void begin_forces(PairTask<R>& task, const Tears& tears);
-  void forces_on_pair(const PairTask<R>& task, Update update);
+  void forces_on_pair(PairTask<R>& task, Update update);
   void read_hand(int i);
   void fix_row(int i);
   void assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i);

@@ -34,8 +34,8 @@ struct Four {
   HWY_INLINE Four(V r, V d, V g, V c) : right(r), down(d), diagonal(g), crossing(c) {}
 };
 
-/// Two rows, block by block. F: features; U: update.
-template <class R, unsigned F, Update U>
+/// Two rows, block by block. F: features; displacements: the task's update is Update::displacement.
+template <class R, unsigned F, bool displacements>
 class PairSweep {
   using D = hn::ScalableTag<R>;
   using L = Lanes<D>;
@@ -59,6 +59,7 @@ class PairSweep {
         v_to_x_(L::all(task.v_to_x)),
         force_to_x_(L::all(task.force_to_x)),
         force_to_v_(L::all(task.force_to_v)),
+        keeps_force_(task.update == Update::force),
         dt_v_(L::all(task.dt_v)),
         third_of_W_(L::all(task.W[0] / 3), L::all(task.W[1] / 3), L::all(task.W[2] / 3)),
         largest_(L::load(task.largest_way)) {}
@@ -179,27 +180,25 @@ class PairSweep {
   template <bool masked, int row>
   HWY_INLINE void update(int j, R* x_at, R* v_at, V force, M moving) {
     force.y = force.y - weight_;
-    if constexpr (U == Update::force) {
-      force.store(f_[row] + j, stride_);
+    if constexpr (!displacements)
+      if (keeps_force_) return force.store(f_[row] + j, stride_);
+    if constexpr (masked) {
+      if (t_.fixed[row]) force.store(f_[row] + j, stride_);  // the hand's force is read there
+      force = where<D>(moving, force);
+    }
+    const V x = load(x_at), v = load(v_at);
+    if constexpr (displacements) {
+      const V d = multiply_add(force_to_v_, force, v);
+      watch(d);
+      d.store(v_at, stride_);
+      (x + d).store(x_at, stride_);
     } else {
-      if constexpr (masked) {
-        if (t_.fixed[row]) force.store(f_[row] + j, stride_);  // the hand's force is read there
-        force = where<D>(moving, force);
-      }
-      const V x = load(x_at), v = load(v_at);
-      if constexpr (U == Update::displacement) {
-        const V d = multiply_add(force_to_v_, force, v);
-        watch(d);
-        d.store(v_at, stride_);
-        (x + d).store(x_at, stride_);
-      } else {
-        const V way = multiply_add(force_to_x_, force, v_to_x_ * v);
-        const V next = multiply_add(force_to_v_, force, v);
-        watch(way);
-        watch(dt_v_ * next);
-        next.store(v_at, stride_);
-        (x + way).store(x_at, stride_);
-      }
+      const V way = multiply_add(force_to_x_, force, v_to_x_ * v);
+      const V next = multiply_add(force_to_v_, force, v);
+      watch(way);
+      watch(dt_v_ * next);
+      next.store(v_at, stride_);
+      (x + way).store(x_at, stride_);
     }
   }
 
@@ -216,7 +215,9 @@ class PairSweep {
   const std::ptrdiff_t stride_, pitch_;
   R *const x_, *const v_, *const f_[4];
   const Spring<L> straight_, diagonal_, bending_;
-  const L k_d_, weight_, v_to_x_, force_to_x_, force_to_v_, dt_v_;
+  const L k_d_, weight_, v_to_x_, force_to_x_, force_to_v_;
+  const bool keeps_force_;
+  const L dt_v_;
   const V third_of_W_;
   const L smallest_ = L::all(double(std::numeric_limits<R>::min()));
   L largest_;
@@ -228,7 +229,7 @@ class PairSweep {
 /// there. Each would take as long to compile as an instruction set that is used.
 constexpr bool fallback = HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSE4;
 
-template <class R, unsigned F, Update U>
+template <class R, unsigned F, bool displacements>
 void sweep_pair(const PairTask<R>& task) {
   constexpr unsigned all = feature_sets - 1;
   if constexpr (fallback && F != all) {
@@ -236,16 +237,15 @@ void sweep_pair(const PairTask<R>& task) {
     if ((F & bending) == 0) t.k_b = 0;
     if ((F & damping) == 0) t.k_d = 0;
     if ((F & wind) == 0) t.W[0] = t.W[1] = t.W[2] = 0;
-    sweep_pair<R, all, U>(t);
+    sweep_pair<R, all, displacements>(t);
   } else {
-    PairSweep<R, F, U>(task).run();
+    PairSweep<R, F, displacements>(task).run();
   }
 }
 
 template <class R, std::size_t... F>
 PairSweeps<R> table_of(std::index_sequence<F...>) {
-  using enum Update;
-  return {{{&sweep_pair<R, F, displacement>, &sweep_pair<R, F, general>, &sweep_pair<R, F, force>}...},
+  return {{{&sweep_pair<R, F, true>, &sweep_pair<R, F, false>}...},
           int(hn::MaxLanes(hn::ScalableTag<R>())),
           HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86 ? "AVX-512" : hwy::TargetName(HWY_TARGET)};
 }

@@ -17,8 +17,7 @@ enum Feature : unsigned { bending = 1, damping = 2, wind = 4, feature_sets = 8 }
 enum class Update : unsigned {
   displacement,  ///< v += force_to_v·F, x += v: Verlet, whose v is a displacement
   general,       ///< x += v_to_x·v + force_to_x·F, v += force_to_v·F
-  force,         ///< F takes the place of f[0] and f[1]: for schemes with more vectors, readouts
-  count
+  force          ///< F takes the place of f[0] and f[1]: for schemes with more vectors, readouts
 };
 
 /// Two rows for the sweep, the upper one of even number. Vectors of particles are laid out as in row_field.h and begin
@@ -40,6 +39,7 @@ struct PairTask {
   double weight;                 ///< m·g, N
   double W[3];
   double v_to_x, force_to_x, force_to_v;
+  Update update;
   double dt_v;     ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
   R* largest_way;  ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
 };
@@ -48,8 +48,12 @@ struct PairTask {
 template <class R>
 struct PairSweeps {
   using Function = void (*)(const PairTask<R>&);
-  /// Indexed [features][update]. A way that is not finite makes largest_way ∞ or NaN.
-  Function sweep[feature_sets][std::size_t(Update::count)];
+  /// Verlet's update is compiled in; the others are looked up in the task for each row, which costs them next to
+  /// nothing, and every build less. A way that is not finite makes largest_way ∞ or NaN.
+  struct OfFeatures {
+    Function displacement, other;
+  };
+  OfFeatures sweep[feature_sets];
   int lanes;
   const char* target;  ///< the instruction set: "AVX-512", "AVX2" …
 };
