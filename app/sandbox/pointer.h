@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/sandbox/input.h"
+#include "app/viewport/camera.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -59,6 +60,14 @@ struct Tool {
     bool begins = false;
   };
   std::vector<StrokePoint> stroke;
+  /// Where the pointer rests over a picture, and the particle that was found there.
+  struct Rest {
+    glm::vec2 at{-1};
+    int tile = 0;
+    Camera camera;
+    std::optional<Pins::Site> site;
+  };
+  Rest rest;
   unsigned wind_gesture = 0;  ///< each drag of the wind's arrow is undone by itself
   glm::dvec3 wind{0};         ///< N, as its arrow was pressed
   int body = -1;
