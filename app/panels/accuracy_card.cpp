@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/charts/convergence_chart.h"
 #include "app/panels/curves.h"
@@ -47,12 +46,6 @@ void words_and_chart(App& app, float height, const std::string& words, const Cha
   ImGui::Dummy({width, rest});
 }
 
-std::string words_of(const char* format, double a, double b) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
-}
-
 /// A vertical line from the chart's foot to its head.
 ChartSeries mark_at(const std::string& name, double x, ImU32 color, LineStyle line, double lo, double hi) {
   return {name, {color, line, 1.6f}, true, 0, {x, x}, {lo, hi}};
@@ -65,10 +58,11 @@ std::string stability_sentence(const StabilityLimits& limits) {
   const double h = limits.fastest.omega() * limits.of.dt;
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
   const double radius = spectral_radius(amplification(method, h, zeta));
-  const char* verdict = radius > 1 + 1e-9 ? "%.3g, where a swing grows %.4g-fold a step."
-                                          : "%.3g, where a swing keeps %.4g of its size a step.";
-  return std::string(limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ") +
-         words_of(verdict, h, radius);
+  const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
+  const std::string kept = short_number(radius);
+  return of + short_number(h, 3) +
+         (radius > 1 + 1e-9 ? ", where a swing grows " + kept + "-fold a step."
+                            : ", where a swing keeps " + kept + " of its size a step.");
 }
 
 }  // namespace

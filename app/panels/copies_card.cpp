@@ -1,9 +1,7 @@
 #include "app/panels/copies_card.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
@@ -25,9 +23,7 @@ void item(App& app, const std::string& label, std::vector<std::string> differenc
 }
 
 std::string dt_setting(double dt) {
-  char text[40];
-  std::snprintf(text, sizeof text, "dt=%.6g", rounded(dt, 6));
-  return text;
+  return "dt=" + short_number(dt, 6);
 }
 
 /// What a copy may be made with; constants offer the same in their own menus.
@@ -77,9 +73,7 @@ void head(App& app) {
 }
 
 std::string number_or_dash(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return std::isfinite(value) ? text : "–";
+  return std::isfinite(value) ? short_number(value, 2) : "–";
 }
 
 /// A cloth: its line, its name, what a simulated second costs, how far it is from the reference. A click makes it the

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/placing.h"
 #include "app/sandbox/input.h"
 #include "app/sandbox/requests.h"
 #include "app/sandbox/series.h"
@@ -130,7 +131,9 @@ struct Ui {
   Dialog dialog;
   Advice advice;
   bool help = false;
-  bool panels = true;                    ///< Tab hides them all
+  bool panels = true;                                    ///< Tab hides them all
+  Placing placing;                                       ///< what stands where over the cloth in this frame
+  std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
   std::optional<bool> wind_arrow;        ///< shown or not; none: while there is wind

@@ -10,6 +10,7 @@
 #include "core/integrators/scheme.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -38,12 +39,8 @@ std::string present(const Preset& preset, const std::string& key) {
   if (key == "precision") return key + "=" + std::string(name_of(preset.precision));
   const PresetRow* row = find_row(key);
   if (row == nullptr) return {};
-  if (const auto* number = std::get_if<double Preset::*>(&row->field)) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.4g", preset.**number);
-    return key + "=" + text;
-  }
-  return {};
+  const auto* number = std::get_if<double Preset::*>(&row->field);
+  return number != nullptr ? key + "=" + short_number(preset.**number) : "";
 }
 
 }  // namespace

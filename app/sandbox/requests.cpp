@@ -1,7 +1,6 @@
 #include "app/sandbox/requests.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
@@ -278,11 +277,11 @@ void apply(App& app, const request::Apply& what) {
     if (count > large_cloth && count > 1.001 * now) {
       request::Apply agreed = what;
       agreed.confirmed = true;
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "%d × %d is %.3g million particles. A frame may then take seconds. Build it all the same?",
-                    change->preset.rows, change->preset.columns, count / 1e6);
-      ask(app, Dialog::Kind::large_cloth, text, std::move(agreed));
+      const std::string size = std::to_string(change->preset.rows) + " × " + std::to_string(change->preset.columns);
+      ask(app, Dialog::Kind::large_cloth,
+          size + " is " + short_number(count / 1e6, 3) +
+              " million particles. A frame may then take seconds. Build it all the same?",
+          std::move(agreed));
       return;
     }
   }

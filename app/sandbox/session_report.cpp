@@ -279,6 +279,12 @@ void add_window(Json& json, const App& app) {
   Json messages = Json::array();
   for (const Message& message : app.messages.list()) messages.push_back(message.text);
   json["messages"] = messages;
+  Json marks = Json::object();
+  for (const Placing::Mark& mark : app.ui.placing.marks()) {
+    const glm::vec2 lo = mark.box.lo, extent = mark.box.hi - lo;
+    marks[mark.name] = {lo.x, lo.y, extent.x, extent.y};
+  }
+  json["marks"] = marks;
 }
 
 }  // namespace
