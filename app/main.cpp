@@ -1,38 +1,6 @@
-// Tyglab's one binary: picks a command; nothing else.
-#include "app/commands/bench.h"
-#include "app/commands/command_line.h"
-#include "app/commands/devices.h"
-#include "app/commands/labs.h"
-#include "app/commands/presets.h"
-#include "app/commands/render.h"
-#include "app/commands/run.h"
-#include "app/commands/sandbox.h"
-#include "app/commands/stability.h"
+// Tyglab's one binary.
+#include "app/commands/program.h"
 
 int main(int argc, char** argv) {
-  tyglab::prepare_process();
-  tyglab::Action action;
-  CLI::App program(
-      "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
-      "Without a command it opens the sandbox with PRESET, or as it was left the last time.",
-      "tyglab");
-  program.set_version_flag("--version", "tyglab " TYGLAB_VERSION);
-  program.footer(
-      "Examples: tyglab denim\n"
-      "          tyglab run denim --seconds 2 --state denim.csv\n"
-      "`tyglab COMMAND --help` says what a command takes.");
-  tyglab::add_sandbox_command(program, action);
-  tyglab::add_run_command(program, action);
-  tyglab::add_render_command(program, action);
-  tyglab::add_presets_command(program, action);
-  tyglab::add_labs_command(program, action);
-  tyglab::add_bench_command(program, action);
-  tyglab::add_stability_command(program, action);
-  tyglab::add_devices_command(program, action);
-  try {
-    program.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return tyglab::exit_of_parsing(program, error, {argv + 1, argv + argc});
-  }
-  return tyglab::run_action(action);
+  return tyglab::run_program(argc, argv);
 }

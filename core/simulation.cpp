@@ -349,8 +349,16 @@ void Simulation::diverge(const Advance& part) {
             : part.quantity == "distance from x_0"
                 ? "the weight is more than 1000 times L, or its offset if that is more, away from x_0"
                 : "a " + part.quantity + " is no longer a finite number";
-  d.cause += ": " + preset_.integrator + " is unstable here at dt = " + printed("%g s", preset_.dt);
-  d.remedy = remedy(preset_);
+  const std::string dt = "at dt = " + printed("%g s", preset_.dt);
+  if (outer_forces_win(preset_)) {
+    d.cause += preset_.kind == Kind::cloth ? ": weight and wind are more than the springs can hold; "
+                                           : ": m·g is more than the spring can hold; ";
+    d.cause += preset_.integrator + " is stable here " + dt;
+    d.remedy = remedy_for_weak_springs(preset_);
+  } else {
+    d.cause += ": " + preset_.integrator + " is unstable here " + dt;
+    d.remedy = remedy(preset_);
+  }
   divergence_ = d;
   diverged_preset_ = preset_;
 }

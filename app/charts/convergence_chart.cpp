@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/panels/curves.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
@@ -32,8 +33,8 @@ Chart convergence_chart(const Tokens& c, const Convergence& study) {
   chart.x.title = "dt, s", chart.x.log = true;
   chart.y.title = by_reference(study) ? "error, m (rms)" : "difference to dt/2, m (rms)", chart.y.log = true;
   CurveStyle style = integrator_style(c, study.of.integrator);
-  ChartSeries measured{"", style, true, 3.5f, {}, {}};
-  ChartSeries hidden{"not told", {c.quiet, LineStyle::solid, 1}, false, 3, {}, {}};
+  ChartSeries measured{std::string(scheme(study.of.integrator).title), style, true, 3.5f, {}, {}};
+  ChartSeries hidden{"too small to tell", {c.quiet, LineStyle::solid, 1}, false, 3, {}, {}};
   double middle_dt = 0, middle_error = 0;
   const auto order = measured_order(study);
   int inside = 0;

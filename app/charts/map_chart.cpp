@@ -7,6 +7,7 @@
 
 #include "app/charts/color_map.h"
 #include "app/panels/numbers.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
@@ -40,7 +41,7 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
                            grid.dt(cell.row + 1), color_of(c, cell), cell.diverged});
   if (!boundary.dt.empty())
     chart.series.push_back(
-        {"largest stable dt, by theory", {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
+        {"stable dt, by theory", {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
   chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
   chart.series.push_back(key("energy error 1e-6", magnitude_color(part_of(1e-6))));
@@ -52,7 +53,8 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
 Chart map_page(const Tokens& c, const Preset& preset, const std::string& label, const std::string& note,
                const MapGrid& grid, const MapBoundary& boundary, std::span<const MapCell> cells) {
   Chart chart = map_chart(c, preset, grid, boundary, cells);
-  chart.title = "Which " + stiffness_key(preset) + " and dt " + preset.integrator + " bears: " + label;
+  chart.title =
+      "Which " + stiffness_key(preset) + " and dt " + std::string(scheme(preset.integrator).title) + " bears: " + label;
   chart.note = note;
   return chart;
 }

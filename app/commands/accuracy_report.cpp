@@ -8,6 +8,7 @@
 
 #include "app/commands/bench_output.h"
 #include "app/panels/curves.h"
+#include "core/analysis/machine.h"
 #include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"

@@ -12,6 +12,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "core/analysis/machine.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/names.h"
 #include "core/output/destination.h"

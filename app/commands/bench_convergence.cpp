@@ -12,6 +12,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/progress.h"
+#include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
 #include "core/output/destination.h"
 

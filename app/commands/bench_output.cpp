@@ -41,12 +41,6 @@ CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string
   return add_output(command, "--png", options.png, does + "; - is standard output")->type_name("F.png");
 }
 
-std::string machine_line() {
-  const Machine machine = this_machine();
-  return machine.processor + ", " + counted(machine.cores, "core") + ", " + machine.instruction_set +
-         "; tyglab " TYGLAB_VERSION ", " + build_description();
-}
-
 nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs) {
   const Machine machine = this_machine();
   return {{"benchmark", benchmark},

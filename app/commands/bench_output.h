@@ -25,9 +25,6 @@ void add_threads(CLI::App& command, BenchOptions& options, const std::string& do
 void add_json(CLI::App& command, BenchOptions& options, const std::string& does = "Write the figures for programs");
 CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does);
 
-/// "AMD EPYC, 2 cores, AVX-512; tyglab 0.1.0, Release, GCC 12.2.0"
-std::string machine_line();
-
 /// The frame of a benchmark's JSON: its name, the machine, the version and build, and the rows under "runs".
 nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs);
 

@@ -259,8 +259,9 @@ std::string number(double value, int digits) {
 std::string closing(const Json& summary, const std::string& hint) {
   const std::string label = summary["preset"];
   std::string text = label + ": " + counted(summary["steps"], "step") + " to t = " + number(summary["t"], 6) +
-                     " s, computed in " + number(summary["seconds"], 3) + " s (" +
-                     number(summary["ns_per_particle_step"], 3) + " ns per particle and step).";
+                     " s, computed in " + number(summary["seconds"], 3) + " s";
+  if (summary["steps"] > 0) text += " (" + number(summary["ns_per_particle_step"], 3) + " ns per particle and step)";
+  text += ".";
   std::string files;
   for (const Json& file : summary["files"]) {
     if (!files.empty()) files += ", ";

@@ -13,6 +13,7 @@
 #include "app/commands/progress.h"
 #include "app/commands/stability.h"
 #include "core/analysis/in_parallel.h"
+#include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
 #include "core/output/destination.h"
 
@@ -47,11 +48,9 @@ Json map_json(const Preset& preset, const std::string& label, const std::vector<
   return json;
 }
 
-/// The map as letters, stiffness to the right and dt upwards: × diverged, · stayed bounded. A stroke stands in each row
-/// where theory's largest stable dt is passed.
-void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, std::vector<MapCell> cells) {
-  std::sort(cells.begin(), cells.end(),
-            [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
+/// The map as letters, from cells row by row: stiffness to the right and dt upwards: × diverged, · stayed bounded. A
+/// stroke stands in each row where theory's largest stable dt is passed.
+void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, const std::vector<MapCell>& cells) {
   std::array<char, 200> line;
   for (auto cell = cells.begin(); cell != cells.end();) {
     const int row = cell->row;
@@ -95,6 +94,8 @@ int map(const MapOptions& options) {
       [&](int) { progress.update(double(++done) / double(order.size())); }, InterruptGuard::interrupted);
   progress.clear();
   cells.resize(done);
+  std::sort(cells.begin(), cells.end(),
+            [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
   print_map(out, scene.preset, grid, cells);
   if (!options.bench.json.empty())
     write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n");

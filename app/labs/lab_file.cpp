@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "app/commands/preset_argument.h"
 #include "app/labs/lab.h"
 #include "app/labs/observables.h"
+#include "app/preset_files.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
 #include "core/notation/words.h"

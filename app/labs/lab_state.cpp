@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "app/commands/preset_argument.h"
 #include "app/data_files.h"
 #include "app/labs/observables.h"
 #include "app/panels/numbers.h"
+#include "app/preset_files.h"
 #include "app/sandbox/app.h"
 #include "core/engines/opencl/opencl_devices.h"
 

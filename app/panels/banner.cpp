@@ -118,7 +118,7 @@ std::vector<Way> ways_out(App& app) {
   }
   Advice& advice = app.ui.advice;
   if (advice.of != app.preset()) advice = {app.preset(), cure(app.preset())};
-  add_retries(app, advice, past, ways);
+  if (!outer_forces_win(app.preset())) add_retries(app, advice, past, ways);
   if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;

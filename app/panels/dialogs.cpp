@@ -6,11 +6,11 @@
 #include <cstring>
 #include <utility>
 
-#include "app/commands/preset_argument.h"
 #include "app/data_files.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/preset_files.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/exports.h"
 #include "core/notation/preset_io.h"

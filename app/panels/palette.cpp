@@ -5,11 +5,11 @@
 #include <sstream>
 #include <utility>
 
-#include "app/commands/preset_argument.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/preset_files.h"
 #include "app/sandbox/commands.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
@@ -235,11 +235,12 @@ std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_vie
                          [&](const std::string& word) { return text.find(word) != std::string::npos; });
     };
     if (!holds(with_help)) continue;
-    const std::string first = words.empty() ? "" : words.front();
-    const int rank = !holds(all)                                          ? 3
-                     : title.starts_with(first)                           ? 0
-                     : (" " + all).find(" " + first) != std::string::npos ? 1
-                                                                          : 2;
+    const std::string first = words.empty() ? "" : words.front(), spaced = " " + all + " ";
+    const bool key = entry.group == "Constant" && spaced.find(" " + first + " ") != std::string::npos;
+    const int rank = !holds(all)                                     ? 3
+                     : title.starts_with(first) || key               ? 0
+                     : spaced.find(" " + first) != std::string::npos ? 1
+                                                                     : 2;
     ranked.emplace_back(rank, k);
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -3,9 +3,9 @@
 #include <array>
 
 #include "app/charts/map_chart.h"
-#include "app/commands/bench_output.h"
 #include "app/panels/curves.h"
 #include "app/sandbox/app.h"
+#include "core/analysis/machine.h"
 #include "core/notation/preset_io.h"
 #include "core/output/values_csv.h"
 

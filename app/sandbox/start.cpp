@@ -36,6 +36,9 @@ App start_app(const SandboxOptions& options) {
   const bool all = app.scripted || app.settings.all_effects;  // the same frames come on every machine
   app.effects.wish = options.effects.value_or(all ? Effects::Wish::all : Effects::Wish::automatic);
   app.colors.choose(options.color ? options.color : field_called(app.settings.color));
+  if (options.color)
+    if (const std::string why = why_not_colored(app, *options.color); !why.empty())
+      app.messages.note("The cloth is not coloured yet. " + why);
   app.costs.started(StartPart::settings);
   if (!options.session_report.empty()) app.report = std::make_unique<SessionReport>(options.session_report);
   return app;

@@ -43,6 +43,12 @@ std::string build_description() {
 #endif
 }
 
+std::string machine_line() {
+  const Machine machine = this_machine();
+  return machine.processor + ", " + std::to_string(machine.cores) + (machine.cores == 1 ? " core, " : " cores, ") +
+         machine.instruction_set + "; tyglab " TYGLAB_VERSION ", " + build_description();
+}
+
 double memory_limit_ns(std::size_t bytes, int threads, int repeats) {
   const std::size_t count = std::max<std::size_t>(bytes / sizeof(float) / threads, 1024);
   const int passes = std::max<int>(1, int((64u << 20) / std::max<std::size_t>(bytes, 1)));

@@ -18,6 +18,9 @@ int processors();
 /// "Release, GCC 12.2.0": how this program was built.
 std::string build_description();
 
+/// "AMD EPYC, 2 cores, AVX-512; tyglab 0.1.0, Release, GCC 12.2.0"
+std::string machine_line();
+
 /// Nanoseconds to read and write `bytes` once, in place, by `threads` threads over a working set of that size: the time
 /// that a step's memory traffic takes at least. Best of `repeats`.
 double memory_limit_ns(std::size_t bytes, int threads, int repeats);

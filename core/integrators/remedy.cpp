@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include <glm/geometric.hpp>
+
 #include "core/integrators/modes.h"
 #include "core/notation/words.h"
 
@@ -69,7 +71,22 @@ std::string remedy(const Preset& p) {
   return "Take the integrator verlet" + step + " and restart; " + own + ".";
 }
 
+bool outer_forces_win(const Preset& p) {
+  if (p.dt > stable_dt(p, p.integrator)) return false;
+  constexpr double times = 1000;
+  if (p.kind == Kind::one_weight) return p.m * std::abs(p.g) > p.k * times * std::max(p.L, std::abs(p.offset));
+  const double particles = double(p.rows) * p.columns, per_column = 3;  // springs of a seam: across, and two diagonals
+  const double pull = particles * (p.m * std::abs(p.g) + 2 * glm::length(p.W) * (1 + p.gust));
+  return pull > p.k_s * times * p.L * per_column * std::min(p.rows, p.columns);
+}
+
+std::string remedy_for_weak_springs(const Preset& p) {
+  if (p.kind == Kind::one_weight) return "Take a larger k or a smaller m, and restart: neither dt nor method matters.";
+  return "Take a larger k_s, or less weight (m, g) or wind, and restart: neither dt nor method matters.";
+}
+
 std::optional<Preset> cure(const Preset& p) {
+  if (outer_forces_win(p)) return std::nullopt;
   Preset cured = p;
   cured.integrator = "verlet";
   cured.dt = std::min(p.dt, advised_dt(p, "verlet"));

@@ -24,6 +24,12 @@ std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 /// What to change so that the preset does not diverge again.
 std::string remedy(const Preset& preset);
 
+/// Whether weight and wind stretch springs to a thousand times their rest length by any method: all that pulls is more
+/// than all springs of a seam across the cloth can hold there, and dt is one that linear theory calls stable.
+bool outer_forces_win(const Preset& preset);
+/// What to change where they do.
+std::string remedy_for_weak_springs(const Preset& preset);
+
 /// The preset with the change of integrator and dt that remedy() names first, made; none where it names none.
 std::optional<Preset> cure(const Preset& preset);
 

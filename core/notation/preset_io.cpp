@@ -116,8 +116,17 @@ class Reader {
     if (node.type != Type::text) wrong_type(node, path, "a text");
     out = node.text;
   }
+  /// A text that is drawn in every frame, of at most so many bytes.
+  void words(const JsonNode& node, const std::string& path, std::size_t most, std::string& out) const {
+    value(node, path, out);
+    if (out.size() > most)
+      fail(node.line, path,
+           "must be a text of at most " + std::to_string(most) + " bytes; it has " + std::to_string(out.size()));
+  }
   void value(const JsonNode& node, const std::string& path, glm::dvec3& out) const {
-    if (node.type != Type::list || node.items.size() != 3) wrong_type(node, path, "a list of three numbers");
+    if (node.type != Type::list) wrong_type(node, path, "a list of three numbers");
+    if (node.items.size() != 3)
+      fail(node.line, path, "must be a list of three numbers, not of " + std::to_string(node.items.size()));
     for (int c = 0; c < 3; ++c) value(node.items[c], path + "[" + std::to_string(c) + "]", out[c]);
   }
 
@@ -183,8 +192,8 @@ class Reader {
   /// A key of the file's top level that is not a section.
   bool top_key(const std::string& name, const JsonNode& node, Preset& p) const {
     if (name == "kind") return choice(node, name, kind_names, p.kind), true;
-    if (name == "name") return value(node, name, p.name), true;
-    if (name == "description") return value(node, name, p.description), true;
+    if (name == "name") return words(node, name, 200, p.name), true;
+    if (name == "description") return words(node, name, 4000, p.description), true;
     if (name == "bodies") return bodies(node, name, p.bodies), true;
     return false;
   }

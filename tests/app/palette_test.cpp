@@ -70,6 +70,13 @@ TEST_CASE("keys that follow the palette's Enter within its frame are kept for wh
   ImGui::DestroyContext(gui);
 }
 
+TEST_CASE("a constant comes first by its key") {
+  Preset windy = test::cloth(8, 8);
+  windy.W = {0, 0, 1e-3};
+  App app = app_with(windy);
+  CHECK(first_for(app, "gust").find("Constant: W_gust ") == 0);
+}
+
 TEST_CASE("constants that play no part in the scene are left out") {
   App app = app_with(test::one_weight());
   CHECK(first_for(app, "stretching").find("Constant") != 0);

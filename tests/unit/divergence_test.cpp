@@ -193,6 +193,29 @@ TEST_CASE("what is bounded is not diverged: 10 s of free fall, and a torn spring
   CHECK_FALSE(cut.divergence().has_value());
 }
 
+TEST_CASE("where weight and wind are more than the springs can hold, the method is not blamed") {
+  const auto falls = [](const char* integrator, double dt) {
+    Preset p;
+    p.rows = p.columns = 4, p.pins.mode = Pins::Mode::top_row;
+    p.k_s = p.k_b = p.k_d = 0, p.L = 0.01;
+    p.integrator = integrator, p.dt = dt;
+    return p;
+  };
+  for (const Preset& preset : {falls("verlet", 1e-3), falls("verlet", 1e-2), falls("implicit_euler", 1e-2)}) {
+    CAPTURE(preset.integrator);
+    Simulation simulation(preset);
+    REQUIRE(simulation.advance(4000).diverged);
+    const Divergence& d = *simulation.divergence();
+    CHECK(d.t == doctest::Approx(std::sqrt(2 * 1000 * preset.L / preset.g)).epsilon(0.02));  // ½ g t² = 1000 L
+    CHECK(d.cause.find("is unstable") == std::string::npos);
+    CHECK(d.cause.find("more than the springs can hold") != std::string::npos);
+    CHECK(d.remedy.find("larger k_s") != std::string::npos);
+    CHECK_FALSE(cure(preset).has_value());
+  }
+  CHECK_FALSE(outer_forces_win(explosive("verlet", Precision::double_)));
+  CHECK_FALSE(outer_forces_win(Preset{}));
+}
+
 TEST_CASE("the cure makes the change that the remedy names first, and heals") {
   for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
     CAPTURE(std::string(integrator));
