@@ -1,5 +1,7 @@
 #include "app/panels/card_tabs.h"
 
+#include <algorithm>
+
 #include "app/panels/imgui_compat.h"
 #include "app/panels/widgets.h"
 
@@ -28,7 +30,8 @@ int CardTabs::draw(App& app, int chosen) const {
     return clicked;
   }
   int clicked = -1;
-  const bool open = begin_combo(app, "##cards", names_[std::size_t(chosen)], width_);
+  const float width = std::min(width_, ImGui::GetContentRegionAvail().x);  // beside the bar where the column scrolls
+  const bool open = begin_combo(app, "##cards", names_[std::size_t(chosen)], width);
   if (!open) return clicked;
   for (int k = 0; k < int(names_.size()); ++k) {
     if (ImGui::Selectable(names_[std::size_t(k)], k == chosen)) clicked = k;

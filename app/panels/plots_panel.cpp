@@ -27,7 +27,7 @@ namespace tyglab {
 namespace {
 
 constexpr float margin_at_1 = 12, under_tabs_at_1 = 8, tabs_at_1 = 26;  // pixels at scale 1
-constexpr float tabs_stay_at_1 = 150;                                   // in a lower column they scroll with their card
+constexpr float tabs_stay_at_1 = 150, stacked_at_1 = 240;               // in a lower column they scroll with their card
 
 void copies_plot_card(App& app, float height) {
   const bool energy = app.copies.plotted == Copies::Quantity::energy;
@@ -86,25 +86,19 @@ struct FootCard {
   float height = 0;  ///< px; 0 once it has become a tab
 };
 
-/// Of a card with a chart: that may be so much lower than wanted (at scale 1).
-constexpr float chart_gives_at_1 = 60;
+/// The least of one that is not to be cut.
 template <float (*wanted)(const App&)>
-float all_of(const App& app, float) {
+float whole(const App& app, float) {
   return wanted(app);
-}
-template <float (*wanted)(const App&)>
-float most_of(const App& app, float) {
-  return wanted(app) - app.theme.px(chart_gives_at_1);
 }
 
 /// The lowest first.
 std::array<FootCard, 5> foot_cards() {
-  return {
-      FootCard{{card_name::performance, performance_card, all_of<performance_card_height>}, performance_card_height},
-      FootCard{{card_name::energy, energy_card, all_of<energy_card_height>}, energy_card_height},
-      FootCard{{card_name::accuracy, accuracy_card, most_of<accuracy_card_height>}, accuracy_card_height},
-      FootCard{{card_name::stability, stability_card, most_of<stability_card_height>}, stability_card_height},
-      FootCard{{card_name::copies, copies_card, all_of<copies_card_height>}, copies_card_height}};
+  return {FootCard{{card_name::performance, performance_card, whole<performance_card_height>}, performance_card_height},
+          FootCard{{card_name::energy, energy_card, whole<energy_card_height>}, energy_card_height},
+          FootCard{{card_name::accuracy, accuracy_card, whole<accuracy_card_height>}, accuracy_card_height},
+          FootCard{{card_name::stability, stability_card, whole<stability_card_height>}, stability_card_height},
+          FootCard{{card_name::copies, copies_card, whole<copies_card_height>}, copies_card_height}};
 }
 
 /// Heights of the cards at the foot, where the plots can spare so much room (px). What has no room, a heading or an
@@ -130,15 +124,20 @@ float place_at_foot(App& app, std::span<FootCard> foot, float room, std::vector<
   return all;
 }
 
+/// Height of a card that shares the column with others, px.
+float stacked_height(const App& app, const ColumnCard& card) {
+  return std::max(card.least(app, app.ui.plots.width), app.theme.px(stacked_at_1));
+}
+
 /// Cards above each other: what is left over is shared out alike. One alone does not need the whole column: a plot much
 /// taller than wide is hard to read.
 std::vector<float> heights_of(const App& app, std::span<const ColumnCard> cards, float available, float spare) {
+  if (cards.size() == 1)
+    return {std::floor(std::max(cards[0].least(app, app.ui.plots.width),
+                                std::max(0.6f * available, std::min(available, app.theme.px(420)))))};
   std::vector<float> heights;
   for (const ColumnCard& card : cards)
-    heights.push_back(std::floor(card.least(app, app.ui.plots.width) + std::max(spare, 0.f) / float(cards.size())));
-  if (cards.size() == 1)
-    heights[0] = std::max(cards[0].least(app, app.ui.plots.width),
-                          std::max(0.6f * available, std::min(available, app.theme.px(420))));
+    heights.push_back(std::floor(stacked_height(app, card) + spare / float(cards.size())));
   return heights;
 }
 
@@ -207,15 +206,15 @@ void plots_panel(App& app, const Region& region) {
   plots.cards.clear();
   std::vector<ColumnCard> cards = plot_cards(app);
   const std::size_t alone = cards.size();
-  float least = 0, tallest = 0;
+  float stacked = 0, tallest = 0;
   for (const ColumnCard& card : cards) {
-    least += card.least(app, column.x) + gap;
+    stacked += stacked_height(app, card) + gap;
     tallest = std::max(tallest, card.least(app, column.x));
   }
   std::array<FootCard, 5> foot = foot_cards();
   const float tabs = app.theme.px(tabs_at_1) + app.theme.px(under_tabs_at_1);
   const float available = column.y - place_at_foot(app, foot, column.y - tallest - tabs - gap, cards);
-  const float spare = available - least + gap;
+  const float spare = available - stacked + gap;
   if (cards.size() > alone || (cards.size() > 1 && spare < 0)) {
     draw_tabbed(app, cards, {column.x, available});
   } else {
