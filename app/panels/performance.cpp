@@ -8,11 +8,12 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* performance_heading = "Performance";
+constexpr const char* performance_heading = card_name::performance;
 
 bool cloth(const App& app) {
   return app.preset().kind == Kind::cloth;

@@ -266,6 +266,10 @@ void add_window(Json& json, const App& app) {
   json["pictures"] = {app.viewport.columns, app.viewport.rows};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
+  json["camera"] = {{"yaw", app.camera.yaw}, {"pitch", app.camera.pitch}, {"distance", app.camera.distance}};
+  json["view_buttons"] = app.viewport.buttons;
+  json["tabs"] = app.ui.plots.cards;
+  json["tab"] = app.ui.plots.tab;
   json["handling"] = handling(app);
   json["theme"] = app.settings.theme;
   const SliderState& slider = app.ui.slider;
