@@ -247,7 +247,7 @@ void Simulation::grab(const edit::Grab& e) {
 void Simulation::move_hand(const edit::MoveHand& e) {
   if (held_.particle < 0 || e.steps <= 0) return;
   const auto site = *held();
-  held_.velocity = (e.to - positions().at(site.i, site.j)) / (e.steps * preset_.dt);
+  held_.velocity = (e.to - position(site.i, site.j)) / (e.steps * preset_.dt);
   hand_steps_left_ = e.steps;
   begun_with_.reset();  // what the hand lets go keeps its velocity
   update_fixed();

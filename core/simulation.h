@@ -68,6 +68,8 @@ class Simulation {
   }
   const Engine& engine() const { return *engine_; }
   PositionView positions() const { return engine_->positions(); }
+  /// Of one particle.
+  glm::dvec3 position(int i, int j) const { return engine_->position(i, j); }
 
   bool pinned(int i, int j) const { return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0; }
   std::optional<Pins::Site> held() const;

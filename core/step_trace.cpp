@@ -168,7 +168,7 @@ StepTrace trace_step(const Simulation& simulation, int i, int j) {
   if (trace.whole) return trace;
   const auto next = simulation.rebuilt(edit::Change{preset});
   next->advance(1);
-  trace.x_after = next->positions().at(i, j);
+  trace.x_after = next->position(i, j);
   return trace;
 }
 

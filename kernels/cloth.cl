@@ -39,7 +39,7 @@ typedef JOIN(MASK, WIDTH) maskv;
 
 enum { bit_E = 1, bit_S = 2, bit_SE = 4, bit_SW = 8, bit_EE = 16, bit_SS = 32, bit_free = 64, bit_plain = 128 };
 
-/// A step's words in the report, which begins with zeros. The last three are of the look that tears.
+/// A step's words in the report, which begins with zeros. Those from report_torn on are of looks at the springs.
 enum {
   report_way = 0,
   report_inside = 1,
@@ -47,6 +47,8 @@ enum {
   report_torn = 3,
   report_straight = 4,
   report_diagonal = 5,
+  report_bending = 6,
+  report_bad = 7,
   report_words = 8
 };
 

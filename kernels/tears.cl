@@ -1,4 +1,5 @@
-// Tearing: every spring is looked at, and torn, by the particle that owns it (lattice.h).
+// Looks at every spring, by the particle that owns it (lattice.h): which are overloaded and tear, and whether one is so
+// long that the motion has diverged.
 
 #ifdef BODY_REAL_IS_DOUBLE
 #define EXACT double
@@ -96,4 +97,37 @@ kernel void derive_masks(global const uchar* springs, global uchar* masks, globa
 #endif
   if (plain) mask |= bit_plain;
   masks[at] = (uchar)mask;
+}
+
+/// The square of a whole spring's length; 0 for one that is torn or leaves the cloth.
+INLINE REAL whole_squared(global const REAL* x, int stride, int mask, int bit, int di, int dj) {
+  REAL sum = 0;
+  if ((mask & bit) != 0)
+    for (int c = 0; c < 3; ++c) {
+      const REAL d = x[(di * 3 + c) * stride + dj] - x[c * stride];
+      sum += d * d;
+    }
+  return sum;
+}
+
+/// Reports the squares of the longest whole springs, and whether a number of x or v is not finite. Work-items as those
+/// of `tear`. NaN counts as longer than every number.
+kernel void look(global const REAL* x, global const REAL* v, global const uchar* masks, global uint* report, int slot,
+                 int stride, int mask_pitch, int rows, int columns) {
+  const int row = (int)get_global_id(1);
+  if (row >= rows) return;
+  report += slot * report_words;
+  uint straight2 = 0, diagonal2 = 0, bending2 = 0, bad = 0;
+  for (int column = (int)get_global_id(0); column < columns; column += (int)get_global_size(0)) {
+    const int at = place(row, column, 3 * stride), mask = masks[place(row, column, mask_pitch)];
+#define SQUARED(bit, di, dj) float_bits(whole_squared(x + at, stride, mask, bit, di, dj))
+    straight2 = max(straight2, max(SQUARED(bit_E, 0, 1), SQUARED(bit_S, 1, 0)));
+    diagonal2 = max(diagonal2, max(SQUARED(bit_SE, 1, 1), SQUARED(bit_SW, 1, -1)));
+    bending2 = max(bending2, max(SQUARED(bit_EE, 0, 2), SQUARED(bit_SS, 2, 0)));
+    for (int c = 0; c < 3; ++c) bad |= !isfinite(x[at + c * stride]) || !isfinite(v[at + c * stride]);
+  }
+  atomic_max(report + report_straight, straight2);
+  atomic_max(report + report_diagonal, diagonal2);
+  atomic_max(report + report_bending, bending2);
+  atomic_max(report + report_bad, bad);
 }

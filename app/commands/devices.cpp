@@ -12,11 +12,13 @@
 #include "app/viewport/graphics_error.h"
 #include "app/viewport/headless_context.h"
 #include "app/viewport/mapped_buffer.h"
+#include "app/viewport/written_vertices.h"
 #include "core/engines/engine.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
+#include "core/simulation.h"
 
 namespace tyglab {
 namespace {
@@ -48,16 +50,40 @@ bool opengl_lends_memory() {
   }
 }
 
+/// Has a device write a small cloth into OpenGL's buffer, here without a window. Why that does not work, a part of a
+/// sentence; empty: it does.
+std::string shared_buffer_problem(int number) {
+  try {
+    const HeadlessContext context;
+    if (const std::string problem = opencl_gl_problem(number); !problem.empty()) return problem;
+    Preset preset;
+    preset.rows = preset.columns = 8;
+    preset.engine = EngineKind::opencl, preset.device = number;
+    Simulation simulation(preset);
+    WrittenVertices vertices;
+    std::size_t looked_at = 0;
+    vertices.write(simulation.engine(), {{simulation.lattice(), 1}, true}, looked_at);
+    return {};
+  } catch (const GraphicsError& error) {
+    return std::string("OpenGL is not there without a window: ") + error.what();
+  } catch (const EngineError& error) {
+    return error.what();
+  }
+}
+
 /// How positions come to where OpenGL draws them.
 std::string sharing(const OpenClDevice& device, int number) {
   static const bool lends = opengl_lends_memory();
   if (opencl_works_in_place(number))
-    return lends ? "kernels write into its vertex buffer (ARB_buffer_storage), and nothing is copied"
+    return lends ? "shared memory: kernels write into its vertex buffer (ARB_buffer_storage), and nothing is copied"
                  : "positions are copied once in every frame in which they moved, since OpenGL has no "
                    "ARB_buffer_storage here";
-  return std::string("positions are read back and copied in every frame in which they moved; ") +
-         (device.gl_sharing ? "the device offers cl_khr_gl_sharing, which Tyglab does not use yet"
-                            : "the device offers no cl_khr_gl_sharing");
+  const std::string problem =
+      device.gl_sharing ? shared_buffer_problem(number) : "the device offers no cl_khr_gl_sharing";
+  return problem.empty() ? std::string("a shared buffer: kernels write into its vertex buffer (cl_khr_gl_sharing, ") +
+                               (device.gl_event ? "ordered by cl_khr_gl_event" : "OpenGL finishes first") +
+                               "), and nothing is copied"
+                         : "positions are read back and copied in every frame in which they moved: " + problem;
 }
 
 void print_device(const OpenClDevice& device, int number) {

@@ -43,8 +43,8 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   const double seconds = options.frames > 0 ? options.frames / frames_a_second : default_seconds;
   const std::int64_t steps = Length{seconds, {}}.in_steps(options.preset.dt, seconds);
   const PictureSize size;
-  Simulation simulation(options.preset, options.threads);
   Film film(options.preset, 0, size);
+  Simulation simulation(options.preset, options.threads);
   const fs::path folder = new_folder();
   std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
             << options.preset_label << "' into the new folder " << folder.string() << ".\n";

@@ -73,8 +73,8 @@ int render(const RenderOptions& options) {
     check_outputs(options.outputs(), scene.source.file);
   }
 
-  Simulation simulation(scene.preset, scene.threads);
   Film film(scene.preset, options.view, size, field_called(options.color));
+  Simulation simulation(scene.preset, scene.threads);  // whose device may share buffers with the film's OpenGL
   const InterruptGuard guard;
   Stepper stepper(simulation, steps, label, scene.auto_dt);
   std::int64_t frame = 0;

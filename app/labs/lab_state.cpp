@@ -179,6 +179,7 @@ void begin_lab(App& app, std::string_view label) {
   const std::vector<Lab>& list = find_labs(app);
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return app.messages.error("There is no lab " + std::string(label) + ".");
+  if (put_away_copies(app)) app.messages.note("The copies have been put away: a lab begins with one cloth.");
   LabRun& run = app.labs.run.emplace();
   run.lab = *lab;
   run.records.resize(lab->steps.size());

@@ -9,13 +9,14 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 #include "core/integrators/amplification.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* stability_heading = "Stability";
-constexpr const char* accuracy_heading = "Accuracy";
+constexpr const char* stability_heading = card_name::stability;
+constexpr const char* accuracy_heading = card_name::accuracy;
 // Pixels at scale 1.
 constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
 
@@ -23,9 +24,12 @@ constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_w
 void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
                      float room_at_1 = words_at_1) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = card_width(app), line = app.theme.px(room_at_1);
+  const float width = card_width(app);
   const ImFont& font = *app.fonts.small;
-  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, in_lines(font, words, width));
+  const std::string lines = in_lines(font, words, width);
+  const float tall = font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.c_str()).y + app.theme.px(6);
+  const float line = std::max(app.theme.px(room_at_1), tall);
+  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, lines);
   ImGui::Dummy({width, line});
   const float rest = height - app.theme.px(card::head + card::foot) - line;
   if (chart == nullptr || rest < app.theme.px(100)) return;

@@ -7,11 +7,12 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* energy_heading = "Energy";
+constexpr const char* energy_heading = card_name::energy;
 constexpr std::string_view height_row = "height";
 constexpr float gap_at_1 = 7;  // pixels at scale 1
 

@@ -21,7 +21,7 @@ void spring_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   const std::vector<SpringForce>& springs = trace->stages.front().springs;
   double strongest = 0;
   for (const SpringForce& spring : springs) strongest = std::max(strongest, glm::length(spring.F));
-  const glm::dvec3 x = app.simulation->positions().at(trace->i, trace->j);
+  const glm::dvec3 x = app.simulation->position(trace->i, trace->j);
   const double metres = app.camera.metres_per_pixel(x, app.viewport.size().y) * app.theme.px(80);
   for (const SpringForce& spring : springs) {
     if (!(glm::length(spring.F) > 0.02 * strongest)) continue;

@@ -18,7 +18,7 @@ std::optional<ImVec2> on_screen(const App& app, int tile, glm::dvec3 world) {
 }
 
 std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site) {
-  return on_screen(app, tile, cloth_in_tile(app, tile).positions().at(site.i, site.j));
+  return on_screen(app, tile, cloth_in_tile(app, tile).position(site.i, site.j));
 }
 
 namespace {

@@ -8,11 +8,12 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* performance_heading = "Performance";
+constexpr const char* performance_heading = card_name::performance;
 
 bool cloth(const App& app) {
   return app.preset().kind == Kind::cloth;
@@ -66,7 +67,7 @@ constexpr Feature features[] = {
      Part::normals},
     {"upload",
      "Positions (and normals) are copied for drawing when something moved; where the device writes them into "
-     "OpenGL's memory, nothing is.",
+     "OpenGL's buffer or memory, nothing is.",
      [](const App& a) { return cloth(a); }, Spent::frame, Part::upload},
     {"shadow", "Drawn anew when something moved.", [](const App& a) { return a.view.shadows; }, Spent::frame,
      Part::shadow},
@@ -80,6 +81,19 @@ std::string text(const char* format, double value) {
 
 std::string megabytes(double bytes) {
   return bytes < 1e6 ? text("%.0f kB", bytes / 1e3) : text("%.1f MB", bytes / 1e6);
+}
+
+/// Which way they come there.
+std::string drawn_from(VertexWay way) {
+  switch (way) {
+    case VertexWay::shared_buffer:
+      return "a shared buffer";
+    case VertexWay::shared_memory:
+      return "shared memory";
+    case VertexWay::copied:
+      break;
+  }
+  return "a copy";
 }
 
 ImU32 color_of(const Tokens& c, Activity activity) {
@@ -177,8 +191,10 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
   const std::string without = app.effects.words();
   facts.push_back({"left out of the picture", without.empty() ? "nothing" : without});
+  facts.push_back({"positions are drawn from", drawn_from(app.costs.way())});
   const std::size_t copied = app.costs.last_copied();
-  facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B, shared memory"});
+  facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B"});
+  if (engine.copied() > 0) facts.push_back({"read by others", megabytes(app.costs.recent_read()) + " a frame"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
   facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});

@@ -124,6 +124,7 @@ void viewport_panel(App& app, const Region& region) {
                    region.size.y >= app.theme.px(least_picture + buttons_above);
   const bool above = app.copies.tiles() > 1 || low;
   if (above) app.viewport.box.lo.y += app.theme.px(buttons_above);
+  app.viewport.buttons = above || app.wished().kind != Kind::cloth ? 0 : app.theme.px(buttons_above);
   app.ui.notes_from = app.viewport.box.lo.y + app.theme.px(above ? 12 : 52);
   app.viewport.divide(app.copies.tiles());
   app.viewport.covers.clear();

@@ -57,7 +57,7 @@ Figure::Heights Figure::follow(Simulation& weight, std::int64_t steps) {
   for (std::size_t n = 0; n < companions_.size(); ++n) {
     Simulation& companion = *companions_[n];
     companion.advance(int(steps));
-    if (!companion.divergence()) y[n] = companion.positions().at(0, 0).y;
+    if (!companion.divergence()) y[n] = companion.position(0, 0).y;
   }
   steps_ = weight.steps(), t_ = weight.time();
   y.back() = exact_weight(exact_, t_ - exact_t_).y;

@@ -34,6 +34,12 @@ void FrameCosts::started(StartPart part) {
   started_s_[std::size_t(part)] = program_age_s();
 }
 
+void FrameCosts::add_copied(VertexWay way, std::size_t bytes, std::size_t read) {
+  way_ = way;
+  copied_now_ = copied_now_.value_or(0) + bytes;
+  read_now_ += read;
+}
+
 void FrameCosts::end_frame() {
   ++frames_;
   for (std::size_t k = 0; k < part_names.size(); ++k) {
@@ -44,8 +50,11 @@ void FrameCosts::end_frame() {
     sum_[k].wall_s += now_[k].wall_s, sum_[k].cpu_s += now_[k].cpu_s;
   }
   now_ = {};
-  if (copied_now_) last_copied_ = *copied_now_, copied_ += *copied_now_, ++moved_;
-  copied_now_.reset();
+  if (copied_now_) {
+    last_copied_ = *copied_now_, copied_ += *copied_now_, read_ += read_now_, ++moved_;
+    recent_read_ += smoothing * (double(read_now_) - recent_read_);
+  }
+  copied_now_.reset(), read_now_ = 0;
 }
 
 std::string FrameCosts::json(int width, int height, const std::string& engine, const std::string& preset) const {
@@ -72,7 +81,10 @@ std::string FrameCosts::json(int width, int height, const std::string& engine, c
   report["own_cpu_ms_per_frame"] =
       of(Part::frame) - of(Part::simulate) - of(Part::draw_cloth) - of(Part::ui_draw) - of(Part::swap);
   report["times_run"] = counts;
-  report["copied_bytes_per_frame"] = moved_ > 0 ? double(copied_) / double(moved_) : 0;
+  const double per_moved = moved_ > 0 ? 1 / double(moved_) : 0;
+  report["positions_come_by"] = std::string(name_of(way_));
+  report["copied_bytes_per_frame"] = per_moved * double(copied_);
+  report["read_bytes_per_frame"] = per_moved * double(read_);
   nlohmann::ordered_json start;
   double before = 0;
   for (std::size_t k = 0; k < start_names.size(); ++k) {

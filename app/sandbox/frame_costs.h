@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/stopwatch.h"
+#include "app/viewport/vertex_way.h"
 
 namespace tyglab {
 
@@ -41,16 +42,21 @@ class FrameCosts {
   /// That part of the start is over.
   void started(StartPart part);
   void add_steps(std::int64_t steps) { steps_ += steps; }
-  /// Bytes that were copied to draw a cloth that had moved.
-  void add_copied(std::size_t bytes) { copied_now_ = copied_now_.value_or(0) + bytes; }
+  /// How a cloth that had moved came to be drawn, bytes that were copied for it, and bytes that others read of a
+  /// device's arrays since the last time.
+  void add_copied(VertexWay way, std::size_t bytes, std::size_t read);
   /// Of the last such frame.
+  VertexWay way() const { return way_; }
   std::size_t last_copied() const { return last_copied_; }
+  /// Bytes that others read, a frame, over about the last second.
+  double recent_read() const { return recent_read_; }
   /// Closes the frame: what its parts took joins the means.
   void end_frame();
   /// Milliseconds a frame, over about the last second; 0 once a part has not run for a while.
   double recent_ms(Part part) const { return recent_ms_[std::size_t(part)]; }
-  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, bytes
-  /// copied in a frame in which the cloth had moved, what the start took by part, frames, steps, size of the window.
+  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, how
+  /// positions come to be drawn, bytes copied and read in a frame in which the cloth had moved, what the start took by
+  /// part, frames, steps, size of the window.
   std::string json(int width, int height, const std::string& engine, const std::string& preset) const;
 
  private:
@@ -59,8 +65,11 @@ class FrameCosts {
   std::array<double, part_names.size()> recent_ms_{};
   std::array<std::int64_t, part_names.size()> counts_{};
   std::int64_t frames_ = 0, steps_ = 0;
+  VertexWay way_ = VertexWay::copied;
   std::optional<std::size_t> copied_now_;  ///< of this frame; none: nothing had moved
-  std::size_t last_copied_ = 0, copied_ = 0;
+  std::size_t read_now_ = 0;
+  std::size_t last_copied_ = 0, copied_ = 0, read_ = 0;
+  double recent_read_ = 0;
   std::int64_t moved_ = 0;                              ///< frames in which the cloth had moved
   std::array<double, start_names.size()> started_s_{};  ///< since the program began
 };

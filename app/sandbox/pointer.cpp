@@ -29,25 +29,46 @@ std::optional<Pins::Site> nearest_site(App& app, int tile, glm::vec2 at, bool fr
   return Pins::Site{hit->i, hit->j};
 }
 
-/// The body that a press means: one that no cloth hangs in front of. Cloth that rests on it does not hide it.
-std::optional<int> body_pressed(App& app, int tile, glm::vec2 at) {
+std::optional<Pins::Site> nearest_of_all(App& app, int tile, glm::vec2 at) {
+  return nearest_site(app, tile, at, false);
+}
+
+/// The same for a pointer that has pressed nothing. Where that would copy the whole cloth from a
+/// graphics card it is not looked for in every frame: what was found counts while it stays near enough, and nothing
+/// until the pointer moves.
+std::optional<Pins::Site> site_under(App& app, int tile, glm::vec2 at) {
+  Simulation& simulation = cloth_in_tile(app, tile);
+  if (!simulation.engine().remote()) return nearest_of_all(app, tile, at);
+  Tool::Rest& rest = app.tool.rest;
+  if (rest.at != at || rest.tile != tile || !(rest.camera == app.camera))
+    rest = {at, tile, app.camera, nearest_of_all(app, tile, at)};
+  if (!rest.site || !simulation.lattice().contains(rest.site->i, rest.site->j)) return std::nullopt;
+  const auto pixel = app.camera.project(simulation.position(rest.site->i, rest.site->j), app.viewport.size());
+  if (!pixel || !(glm::distance(*pixel, at) <= pointer_reach(app))) rest.site.reset();
+  return rest.site;
+}
+
+/// The body that a press means, where `nearest` finds a particle: one that no cloth hangs in front of. Cloth that
+/// rests on it does not hide it.
+std::optional<int> body_pressed(App& app, int tile, glm::vec2 at,
+                                std::optional<Pins::Site> (*nearest)(App&, int, glm::vec2)) {
   const std::vector<Body>& bodies = app.preset().bodies;
   const auto body = body_under(bodies, app.camera, at, app.viewport.size());
   if (!body) return std::nullopt;
-  const auto site = nearest_site(app, tile, at, false);
+  const std::optional<Pins::Site> site = nearest(app, tile, at);
   if (!site) return body;
   const glm::dvec3 eye(app.camera.eye());
   const glm::dvec3 ray = app.camera.ray(at, app.viewport.size());
   const double r = bodies[*body].r;
   const auto surface = sphere_surface(eye, ray, bodies[*body].c, r);
-  const double particle = glm::dot(ray, cloth_in_tile(app, tile).positions().at(site->i, site->j) - eye);
+  const double particle = glm::dot(ray, cloth_in_tile(app, tile).position(site->i, site->j) - eye);
   const double resting = std::max(3 * app.preset().L, 0.15 * r);
   return surface && particle > *surface - resting ? body : std::nullopt;
 }
 
 void start_left(App& app, glm::vec2 at) {
   Tool& tool = app.tool;
-  if (const auto body = body_pressed(app, tool.tile, at)) {
+  if (const auto body = body_pressed(app, tool.tile, at, nearest_of_all)) {
     tool.kind = ToolKind::body;
     tool.body = *body;
     tool.body_plane = app.preset().bodies[*body].c;
@@ -85,7 +106,7 @@ void start(App& app, const PointerEvent& event) {
     tool.kind = ToolKind::right;
     tool.second_press = follows_click(app, event, at);
     // A swinging cloth has carried the particle away by now: the one that was clicked first is meant.
-    tool.site = tool.second_press ? tool.last_site : nearest_site(app, tool.tile, at, false);
+    tool.site = tool.second_press ? tool.last_site : nearest_of_all(app, tool.tile, at);
   }
 }
 
@@ -127,6 +148,7 @@ void drag(App& app, glm::vec2 at) {
   Tool& tool = app.tool;
   const glm::vec2 moved = at - tool.at;
   tool.at = at;
+  if (tool.kind == ToolKind::orbit || tool.kind == ToolKind::pan) app.camera_by_hand |= moved != glm::vec2(0);
   switch (tool.kind) {
     case ToolKind::orbit:
       app.camera.orbit(moved.x, moved.y);
@@ -151,6 +173,7 @@ void drag(App& app, glm::vec2 at) {
 
 void wheel(App& app, const PointerEvent& event) {
   if (!app.viewport.takes(event.at)) return;
+  app.camera_by_hand = true;
   if ((event.mods & GLFW_MOD_SHIFT) != 0) {
     app.camera.pan(event.wheel.x * app.theme.px(32), event.wheel.y * app.theme.px(32), app.viewport.size().y);
   } else {
@@ -184,7 +207,7 @@ void hold(App& app) {
     tool.kind = ToolKind::none;
     return;
   }
-  const glm::dvec3 through = cloth_in_tile(app, tool.tile).positions().at(held->i, held->j);
+  const glm::dvec3 through = cloth_in_tile(app, tool.tile).position(held->i, held->j);
   tool.hand = app.camera.unproject_in_camera_plane(tool.at, through, app.viewport.size());
 }
 
@@ -243,7 +266,7 @@ void handle_pointer(App& app) {
 std::optional<Pins::Site> particle_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return std::nullopt;
   const int tile = app.viewport.tile_at(app.input.at);
-  return nearest_site(app, tile, app.input.at - app.viewport.origin(tile), false);
+  return site_under(app, tile, app.input.at - app.viewport.origin(tile));
 }
 
 bool wind_under_pointer(const App& app) {
@@ -258,7 +281,7 @@ bool hand_in_cloth(const App& app) {
 bool body_under_pointer(App& app) {
   if (app.tool.kind != ToolKind::none || !app.viewport.takes(app.input.at)) return false;
   const int tile = app.viewport.tile_at(app.input.at);
-  return body_pressed(app, tile, app.input.at - app.viewport.origin(tile)).has_value();
+  return body_pressed(app, tile, app.input.at - app.viewport.origin(tile), site_under).has_value();
 }
 
 void move_hand(App& app, int steps) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/sandbox/input.h"
+#include "app/viewport/camera.h"
 #include "core/notation/preset.h"
 
 namespace tyglab {
@@ -23,6 +24,7 @@ struct Viewport {
   };
   Box box;
   int columns = 1, rows = 1;  ///< pictures of one camera side by side: the cloth's, then its copies', row by row
+  float buttons = 0;          ///< so much of each picture's height lies under the view's buttons, pixels
   std::vector<Box> covers;    ///< buttons and banners over it: presses there are theirs
   bool blocked = false;       ///< a menu or dialog is open: every press is its own
   glm::vec2 whole() const { return box.hi - box.lo; }
@@ -59,6 +61,14 @@ struct Tool {
     bool begins = false;
   };
   std::vector<StrokePoint> stroke;
+  /// Where the pointer rests over a picture, and the particle that was found there.
+  struct Rest {
+    glm::vec2 at{-1};
+    int tile = 0;
+    Camera camera;
+    std::optional<Pins::Site> site;
+  };
+  Rest rest;
   unsigned wind_gesture = 0;  ///< each drag of the wind's arrow is undone by itself
   glm::dvec3 wind{0};         ///< N, as its arrow was pressed
   int body = -1;

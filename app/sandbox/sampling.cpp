@@ -20,7 +20,7 @@ void sample(App& app) {
   }
   if (app.copies.shown) sample_copies(app);
   if (plots.height_shown) {
-    const double y = app.simulation->positions().at(0, 0).y;
+    const double y = app.simulation->position(0, 0).y;
     const bool fresh = plots.height.empty() || t <= plots.height.t().back();
     if (fresh) plots.height_methods.clear();
     if (fresh || plots.height_methods.back().second != app.preset().integrator)

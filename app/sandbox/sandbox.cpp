@@ -19,6 +19,7 @@
 #include "app/sandbox/start.h"
 #include "app/sandbox/window.h"
 #include "app/viewport/graphics_error.h"
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
 #include "core/output/destination.h"
@@ -40,6 +41,11 @@ struct First {
   FoundPicture picture;
 };
 
+/// Whether the preset's device can share buffers with OpenGL, and so is to be opened once there is a window.
+bool needs_window(const Preset& preset) {
+  return preset.engine == EngineKind::opencl && opencl_offers_gl_sharing(preset.device);
+}
+
 class Sandbox {
  public:
   explicit Sandbox(const SandboxOptions& options);
@@ -53,6 +59,7 @@ class Sandbox {
 
  private:
   bool restores() const { return !options_.explicit_preset && !app_.scripted && app_.settings.session.has_value(); }
+  const Preset& first_preset() const { return restores() ? app_.settings.session->preset : options_.preset; }
   void start_preset();
   Document first_document();
   void frame();
@@ -87,9 +94,10 @@ Sandbox::Sandbox(const SandboxOptions& options)
     : options_(options),
       app_(start_app(options)),
       first_(std::async(std::launch::async,
-                        [preset = restores() ? app_.settings.session->preset : options.preset, options] {
+                        [preset = first_preset(), options] {
                           First first;
-                          first.simulation = make_simulation(preset, options.threads, first.fallback);
+                          if (!needs_window(preset))
+                            first.simulation = make_simulation(preset, options.threads, first.fallback);
                           first.picture = find_picture(preset);
                           return first;
                         })),
@@ -106,6 +114,7 @@ Sandbox::Sandbox(const SandboxOptions& options)
 
 void Sandbox::start_preset() {
   First first = first_.get();
+  if (!first.simulation) first.simulation = make_simulation(first_preset(), options_.threads, first.fallback);
   if (!first.fallback.empty()) app_.messages.warning(first.fallback);
   app_.simulation = std::move(first.simulation);
   app_.building.prepare_programs = prepare_programs;

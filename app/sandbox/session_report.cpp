@@ -58,7 +58,7 @@ Json site(const std::optional<Pins::Site>& site) {
 }
 
 Json particle(const App& app, int i, int j) {
-  const glm::dvec3 x = app.simulation->positions().at(i, j);
+  const glm::dvec3 x = app.simulation->position(i, j);
   return {{"i", i}, {"j", j}, {"x", vector(x)}, {"at", on_screen(app, x)}, {"pinned", app.simulation->pinned(i, j)}};
 }
 
@@ -250,7 +250,7 @@ void add_simulation(Json& json, const App& app) {
   json["torn_springs"] = simulation.tears().torn_count();
   json["pinned"] = pinned_count(app);
   json["picked"] = site(app.picked);
-  json["picked_x"] = app.picked ? vector(simulation.positions().at(app.picked->i, app.picked->j)) : Json(nullptr);
+  json["picked_x"] = app.picked ? vector(simulation.position(app.picked->i, app.picked->j)) : Json(nullptr);
   json["inside"] = inside(app);
   json["held"] = held(app);
   json["view"] = app.preset().mode;
@@ -266,6 +266,10 @@ void add_window(Json& json, const App& app) {
   json["pictures"] = {app.viewport.columns, app.viewport.rows};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
+  json["camera"] = {{"yaw", app.camera.yaw}, {"pitch", app.camera.pitch}, {"distance", app.camera.distance}};
+  json["view_buttons"] = app.viewport.buttons;
+  json["tabs"] = app.ui.plots.cards;
+  json["tab"] = app.ui.plots.tab;
   json["handling"] = handling(app);
   json["theme"] = app.settings.theme;
   const SliderState& slider = app.ui.slider;

@@ -17,6 +17,13 @@ bool may_sleep(const Simulation& simulation) {
   return p.kind == Kind::cloth && p.W == glm::dvec3(0) && !simulation.held() && !simulation.divergence();
 }
 
+/// Where particles are that tell that a cloth moves: its lower corner and, in case that is pinned, two others.
+std::array<glm::dvec3, 3> scouts(const Simulation& simulation) {
+  const Lattice& lattice = simulation.lattice();
+  return {simulation.position(lattice.rows - 1, lattice.columns - 1),
+          simulation.position(lattice.rows / 2, lattice.columns / 2), simulation.position(lattice.rows - 1, 0)};
+}
+
 }  // namespace
 
 RestTolerance rest_tolerance(const Preset& p) {
@@ -28,26 +35,38 @@ RestTolerance rest_tolerance(const Preset& p) {
 void Sleep::begin(const Simulation& simulation) {
   if (simulation.revision() == seen_) return;
   asleep_ = false;
-  anchor_.clear();
+  scouts_.reset();
 }
 
 void Sleep::look(Simulation& simulation, bool touched) {
   seen_ = simulation.revision();
   asleep_ = false;
-  if (touched || !may_sleep(simulation)) {
-    anchor_.clear();
-    return;
-  }
+  if (touched || !may_sleep(simulation)) return scouts_.reset();
+  if (!scouts_ || !scouts_stay(simulation)) return set_out(simulation);
   const RestTolerance tolerance = rest_tolerance(simulation.preset());
-  const double since = simulation.time() - anchored_;
+  const double rested = simulation.time() - since_;
+  // To look at the whole cloth takes time, and of a graphics card a copy: only once a few particles are still.
+  if (anchor_.empty() && rested < tolerance.window / 4) return;
   if (anchor_.empty()) return take_anchor(simulation);
-  if (!moving_) moving_ = !near_anchor(simulation, tolerance.radius);
-  // While it moves, places are noted seldom: that copies the whole cloth.
-  if (moving_ && since < tolerance.window / 4) return;
-  if (moving_) return take_anchor(simulation);
-  if (since < tolerance.window) return;
-  if (largest_speed(simulation) > tolerance.speed) return take_anchor(simulation);
+  if (!near_anchor(simulation, tolerance.radius)) return set_out(simulation);
+  if (rested < tolerance.window) return;
+  if (largest_speed(simulation) > tolerance.speed) return set_out(simulation);
   asleep_ = true;
+}
+
+/// Begins a new watch.
+void Sleep::set_out(const Simulation& simulation) {
+  anchor_.clear();
+  scouts_ = scouts(simulation);
+  since_ = simulation.time();
+}
+
+bool Sleep::scouts_stay(const Simulation& simulation) const {
+  const double radius = rest_tolerance(simulation.preset()).radius;
+  const auto now = scouts(simulation);
+  return std::equal(now.begin(), now.end(), scouts_->begin(), [radius](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::dot(a - b, a - b) <= radius * radius;
+  });
 }
 
 void Sleep::take_anchor(const Simulation& simulation) {
@@ -56,8 +75,7 @@ void Sleep::take_anchor(const Simulation& simulation) {
   anchor_.reserve(std::size_t(x.rows) * x.columns);
   for (int i = 0; i < x.rows; ++i)
     for (int j = 0; j < x.columns; ++j) anchor_.push_back(x.at(i, j));
-  anchored_ = simulation.time();
-  moving_ = false;
+  since_ = simulation.time();
 }
 
 bool Sleep::near_anchor(const Simulation& simulation, double radius) const {

@@ -2,8 +2,10 @@
 // that; runs, benchmarks and --frames compute every step.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
 #include "core/simulation.h"
@@ -32,15 +34,17 @@ class Sleep {
   std::size_t bytes() const { return anchor_.capacity() * sizeof(glm::dvec3); }
 
  private:
+  void set_out(const Simulation& simulation);
+  bool scouts_stay(const Simulation& simulation) const;
   void take_anchor(const Simulation& simulation);
   bool near_anchor(const Simulation& simulation, double radius) const;
   static double largest_speed(Simulation& simulation);
 
   bool asleep_ = false;
-  bool moving_ = true;  ///< a particle has left its place since the anchor was taken
   std::uint64_t seen_ = 0;
-  double anchored_ = 0;             ///< s, simulated time of the anchor
-  std::vector<glm::dvec3> anchor_;  ///< where the particles were; empty: nothing has been watched yet
+  double since_ = 0;                                 ///< s, simulated time of the anchor, or else of the scouts' places
+  std::optional<std::array<glm::dvec3, 3>> scouts_;  ///< where a few particles were; none: nothing is watched
+  std::vector<glm::dvec3> anchor_;  ///< where all were; empty until the few have been still for a while
 };
 
 }  // namespace tyglab

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/panels/imgui_compat.h"
+#include "app/viewport/current_gl_context.h"
 #include "app/viewport/graphics_error.h"
 #include "backends/imgui_impl_glfw.h"
 #include "backends/imgui_impl_opengl3.h"
@@ -147,6 +148,7 @@ Window::Window(int width, int height, const Settings& settings, InputQueue& queu
     glfwTerminate();
     throw GraphicsError("The functions of OpenGL 3.3 could not be loaded. Install a driver (libgl1-mesa-dri).");
   }
+  gl_in_use_.emplace(current_gl_context(glfwGetProcAddress));
   glfwSetWindowUserPointer(window_, &queue);
   install_callbacks();
   glfwShowWindow(window_);
@@ -154,6 +156,7 @@ Window::Window(int width, int height, const Settings& settings, InputQueue& queu
 }
 
 Window::~Window() {
+  gl_in_use_.reset();
   glfwDestroyWindow(window_);
   glfwTerminate();
 }

@@ -5,12 +5,14 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/sandbox/input.h"
 #include "app/sandbox/settings.h"
 #include "app/viewport/image.h"
+#include "core/engines/opencl/gl_context.h"
 
 namespace tyglab {
 
@@ -53,6 +55,7 @@ class Window {
   void install_callbacks();
 
   GLFWwindow* window_ = nullptr;
+  std::optional<GlContextInUse> gl_in_use_;  ///< OpenCL devices that are opened share buffers with it, if they can
   Place windowed_;
   std::string title_;
 };

@@ -1,8 +1,6 @@
 #include "app/viewport/cloth_mesh.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace tyglab {
 namespace {
@@ -33,31 +31,6 @@ bool needs(const ViewOptions& options, List list) {
   return false;
 }
 
-/// The box of all finite positions. Rows are looked at in eight lanes, so that the compiler can use SIMD.
-Bounds finite_bounds(const FloatRows& p) {
-  constexpr int lanes = 8;
-  constexpr float most = std::numeric_limits<float>::max();
-  Bounds box;
-  for (int c = 0; c < 3; ++c) {
-    float lo[lanes], hi[lanes];
-    std::fill_n(lo, lanes, box.lo[c]), std::fill_n(hi, lanes, box.hi[c]);
-    const auto take = [&](float value, int lane) {
-      const bool finite = std::abs(value) <= most;  // false for NaN too
-      lo[lane] = finite && value < lo[lane] ? value : lo[lane];
-      hi[lane] = finite && value > hi[lane] ? value : hi[lane];
-    };
-    for (int i = 0; i < p.rows; ++i) {
-      const float* row = p.row(i, c);
-      int j = 0;
-      for (; j + lanes <= p.columns; j += lanes)
-        for (int lane = 0; lane < lanes; ++lane) take(row[j + lane], lane);
-      for (; j < p.columns; ++j) take(row[j], 0);
-    }
-    box.lo[c] = *std::min_element(lo, lo + lanes), box.hi[c] = *std::max_element(hi, hi + lanes);
-  }
-  return box;
-}
-
 }  // namespace
 
 void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed,
@@ -76,14 +49,13 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   }
   glBindVertexArray(array_.id());
   const bool needs_normals = options.lit() && (moved || !normals_ready_);
-  take_positions(view, moved, work);
-  if (moved) {
-    const auto lent = lent_.show(floats_.data);
-    in_place_ = lent.has_value();
-    set_attributes(0, lent ? *lent : copied(position_buffer_, floats_.data, work));
-    work.moved = true;
-  }
-  if (needs_normals) set_attributes(3, make_normals(scene, work));
+  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0]};
+  if (scene.writer)
+    have_written(scene, moved, needs_normals, work);
+  else
+    take(scene, moved, needs_normals, work);
+  work.moved |= moved;
+  work.way = way_;
   normals_ready_ = needs_normals || (normals_ready_ && !moved);
   const Stopwatch watch(work.upload);
   for (int list = 0; list < int(List::count); ++list) {
@@ -92,8 +64,19 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   glBindVertexArray(0);
 }
 
+/// Positions from the engine's memory, where they lie or by a copy.
+void ClothMesh::take(const ClothScene& scene, bool moved, bool normals, RenderWork& work) {
+  take_positions(scene.positions, moved, work);
+  if (moved) {
+    written_.free();
+    const auto lent = lent_.show(floats_.data);
+    way_ = lent ? VertexWay::shared_memory : VertexWay::copied;
+    set_attributes(0, lent ? *lent : copied(position_buffer_, floats_.data, work));
+  }
+  if (normals) set_attributes(3, make_normals(scene, work));
+}
+
 void ClothMesh::take_positions(const PositionView& view, bool moved, RenderWork& work) {
-  floats_ = {view.rows, view.columns, view.stride / 3, view.f[0]};
   if (view.f[0] == nullptr) {
     converted_.resize(floats_.size());
     if (moved) {
@@ -105,9 +88,31 @@ void ClothMesh::take_positions(const PositionView& view, bool moved, RenderWork&
   if (moved) bounds_ = finite_bounds(floats_);
 }
 
+/// Positions, and normals if asked for, as the engine's device writes them into buffers of their own.
+void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, RenderWork& work) {
+  if (!moved && !normals) return;
+  if (way_ != VertexWay::shared_buffer) beside_tears_.reset();  // the device has not been told of them
+  if (normals && !beside_tears_) {
+    beside_tears_ = particles_beside_tears(lattice_, stride_, scene.tears);
+    std::vector<TornSite> torn;
+    for (const std::uint32_t index : *beside_tears_) {
+      const int i = int(index) / stride_, j = int(index) % stride_;
+      torn.push_back({std::uint32_t(i * lattice_.columns + j), whole_triangles(lattice_, scene.tears, i, j)});
+    }
+    written_.take_tears(std::move(torn));
+  }
+  const Stopwatch watch(work.upload);
+  bounds_ = written_.write(*scene.writer->engine, {scene.writer->sites, normals}, work.copied);
+  lent_.show(nullptr);
+  mapped_normals_.free();
+  way_ = VertexWay::shared_buffer;
+  set_attributes(0, written_.positions());
+  if (normals) set_attributes(3, written_.normals());
+}
+
 /// Computes them where they are drawn, or else copies them there.
 VertexSource ClothMesh::make_normals(const ClothScene& scene, RenderWork& work) {
-  float* in_place = in_place_ ? mapped_normals_.next(floats_.size() * sizeof(float)) : nullptr;
+  float* in_place = way_ == VertexWay::shared_memory ? mapped_normals_.next(floats_.size() * sizeof(float)) : nullptr;
   if (in_place == nullptr) mapped_normals_.free(), normals_.resize(floats_.size());
   {
     const Stopwatch watch(work.normals);
@@ -125,7 +130,7 @@ std::size_t ClothMesh::bytes() const {
   std::size_t total = (converted_.capacity() + normals_.capacity()) * sizeof(float);
   for (const gl::Buffer* buffer : {&position_buffer_, &normal_buffer_}) total += std::size_t(buffer->bytes());
   for (const IndexList& list : lists_) total += std::size_t(list.buffer.bytes());
-  return total + mapped_normals_.bytes();
+  return total + mapped_normals_.bytes() + written_.bytes();
 }
 
 /// Copies a vector of every particle.

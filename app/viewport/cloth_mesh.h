@@ -1,5 +1,5 @@
-// The cloth's buffers: positions where the engine writes them or copied from its arrays, normals where a view is lit,
-// and index lists.
+// The cloth's buffers: positions as the engine's device writes them, where the engine keeps them, or copied from its
+// arrays; normals where a view is lit; and index lists.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "app/viewport/gl_objects.h"
 #include "app/viewport/vertex_memory.h"
 #include "app/viewport/vertex_normals.h"
+#include "app/viewport/written_vertices.h"
 
 namespace tyglab {
 
@@ -25,6 +26,10 @@ class ClothMesh {
 
   /// Lends an engine memory to keep its positions in, so that they need not be copied.
   void lend(Engine& engine) { lent_.lend(engine); }
+  /// Whether the engine's device can write the buffers itself: scenes may then have it as their writer.
+  bool can_be_written(const Engine& engine) const { return written_.can(engine); }
+  /// It could not after all; nothing is written any more.
+  void copy_from_now_on() { written_.fail(); }
   /// Uploads positions if `moved` and whatever else this view lacks.
   void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed, RenderWork& work);
   /// Draws a list that update() was asked for: GL_TRIANGLES, GL_LINES or GL_POINTS.
@@ -46,7 +51,9 @@ class ClothMesh {
     GLsizei count = 0;
     bool ready = false;
   };
+  void take(const ClothScene& scene, bool moved, bool normals, RenderWork& work);
   void take_positions(const PositionView& positions, bool moved, RenderWork& work);
+  void have_written(const ClothScene& scene, bool moved, bool normals, RenderWork& work);
   VertexSource make_normals(const ClothScene& scene, RenderWork& work);
   void prepare(List list, const ClothScene& scene);
   VertexSource copied(gl::Buffer& to, const float* data, RenderWork& work) const;
@@ -56,10 +63,11 @@ class ClothMesh {
   gl::Buffer position_buffer_, normal_buffer_;  ///< of what is copied
   LentPositions lent_;
   MappedNormals mapped_normals_;
-  bool in_place_ = false;  ///< positions are drawn from lent memory
+  WrittenVertices written_;
+  VertexWay way_ = VertexWay::copied;
   std::array<IndexList, int(List::count)> lists_;
   std::vector<float> converted_;  ///< of a solver in double
-  FloatRows floats_;              ///< valid during update() alone
+  FloatRows floats_;              ///< valid during update() alone; without data where they are written
   std::vector<float> normals_;
   std::optional<std::vector<std::uint32_t>> beside_tears_;
   bool normals_ready_ = false;

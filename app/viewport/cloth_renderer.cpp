@@ -32,6 +32,10 @@ struct FrameBlock {
   glm::vec4 eye, to_light, viewport, focus, background_top, background_bottom, grid;
 };
 
+std::function<bool(int, int)> pins_of(const Simulation& simulation) {
+  return [&simulation](int i, int j) { return simulation.pinned(i, j); };
+}
+
 }  // namespace
 
 /// What cloths of one window share.
@@ -84,8 +88,11 @@ struct ClothRenderer::Parts {
   const Simulation* simulation = nullptr;
   std::uint64_t revision = 0, tear_revision = 0;
   std::uint64_t engine_copied = 0;
+  bool written = false;  ///< the last time the device wrote what is drawn
 
   explicit Parts(std::shared_ptr<Shared> with) : shared(std::move(with)) {}
+  bool take_written(Simulation& simulation, const ViewOptions& options, bool moved, bool topology_changed);
+  void take_read(Simulation& simulation, const ViewOptions& options, bool moved, bool topology_changed);
   void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
   void take_preset(const Preset& next);
   void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
@@ -143,12 +150,14 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   p.simulation = &simulation;
   p.revision = simulation.revision();
   p.tear_revision = simulation.tear_revision();
-  const ClothScene scene{simulation.engine().shown(), simulation.lattice(), simulation.tears(), simulation.preset(),
-                         [&](int i, int j) { return simulation.pinned(i, j); }};
-  p.take(scene, options, moved, topology_changed);
-  const std::uint64_t copied = simulation.engine().copied();
-  p.work.copied += copied - std::min(copied, p.engine_copied);
-  p.engine_copied = copied;
+  const auto copied_since_last = [&] {  // another engine counts anew
+    const std::uint64_t before = std::exchange(p.engine_copied, simulation.engine().copied());
+    return std::size_t(p.engine_copied - std::min(p.engine_copied, before));
+  };
+  p.work.read += copied_since_last();
+  if (!p.take_written(simulation, options, moved, topology_changed))
+    p.take_read(simulation, options, moved, topology_changed);
+  p.work.copied += copied_since_last();
 }
 
 void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, bool topology_changed) {
@@ -156,12 +165,44 @@ void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, 
   parts_->take(scene, options, true, topology_changed);
 }
 
+/// Has the simulation's device write what is drawn; false where it cannot.
+bool ClothRenderer::Parts::take_written(Simulation& simulation, const ViewOptions& options, bool moved,
+                                        bool topology_changed) {
+  // Which edges are too long must be looked at here; a diverged cloth stands still, so its copy is made once.
+  if (options.longest_edge > 0 || !mesh.can_be_written(simulation.engine())) return false;
+  const DrawnSites sites{simulation.lattice(), options.every};
+  const PositionView sizes{sites.rows(), sites.columns(), 3 * sites.columns()};
+  try {
+    take({sizes, simulation.lattice(), simulation.tears(), simulation.preset(), pins_of(simulation),
+          VertexWriter{&simulation.engine(), sites}},
+         options, moved || !written, topology_changed);
+  } catch (const EngineError&) {
+    mesh.copy_from_now_on();
+    written = true;  // whatever has been written: all is to be copied now
+    return false;
+  }
+  return written = true;
+}
+
+/// Takes positions from the simulation's memory.
+void ClothRenderer::Parts::take_read(Simulation& simulation, const ViewOptions& options, bool moved,
+                                     bool topology_changed) {
+  take({simulation.engine().shown(),
+        simulation.lattice(),
+        simulation.tears(),
+        simulation.preset(),
+        pins_of(simulation),
+        {}},
+       options, moved || written, topology_changed);
+  written = false;
+}
+
 void ClothRenderer::Parts::take(const ClothScene& scene, const ViewOptions& options, bool moved,
                                 bool topology_changed) {
   every = options.every;
   if (every > 1) {
     drawn.take(scene, every, moved, topology_changed);
-    if (moved) work.copied += drawn.bytes();
+    if (moved && !scene.writer) work.copied += drawn.bytes();
     mesh.update(drawn.scene(scene), options, moved, topology_changed, work);
   } else {
     mesh.update(scene, options, moved, topology_changed, work);

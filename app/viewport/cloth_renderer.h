@@ -14,6 +14,8 @@
 #include "app/viewport/camera.h"
 #include "app/viewport/cloth_texture.h"
 #include "app/viewport/image.h"
+#include "app/viewport/vertex_way.h"
+#include "core/cloth/drawn_sites.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -73,13 +75,21 @@ struct ViewOptions {
   bool operator==(const ViewOptions&) const = default;
 };
 
+/// An engine whose device writes vertex buffers itself, and which particles it is to write.
+struct VertexWriter {
+  Engine* engine = nullptr;
+  DrawnSites sites;
+};
+
 /// What is drawn, apart from where it comes from (Simulation, or a test).
 struct ClothScene {
-  PositionView positions;
+  PositionView positions;  ///< with a writer only its sizes
+
   const Lattice& lattice;
   const Tears& tears;
   const Preset& preset;
   std::function<bool(int, int)> pinned;  ///< may be empty: none is
+  std::optional<VertexWriter> writer = {};
 };
 
 /// What updates and drawings took; 0: it was skipped.
@@ -87,8 +97,11 @@ struct RenderWork {
   Duration normals, upload;
   Duration shadow;     ///< a part of draw()
   bool moved = false;  ///< the cloth had moved
-  /// Bytes of positions and normals that the program copied: 0 where OpenGL draws them in place.
+  VertexWay way = VertexWay::copied;
+  /// Bytes of positions and normals that the program copied: 0 where OpenGL draws what the device wrote.
   std::size_t copied = 0;
+  /// Bytes that others read of a device's arrays meanwhile: plots, the sleep of a cloth at rest, rewinding …
+  std::size_t read = 0;
 };
 
 class ClothRenderer;
@@ -115,6 +128,7 @@ class ClothRenderer {
 
   /// Lends the simulation's engine memory of OpenGL's, if it can use it, so that its positions need not be copied. The
   /// engine steps no more once this renderer and its siblings are gone. Not while another thread reads the simulation.
+  /// Graphics cards need none: update() has them write buffers of OpenGL where they can.
   void lend_memory(Simulation& simulation);
   /// Uploads what changed since the last call and what this view needs: nothing where nothing moved, normals only in
   /// lit views, index lists only after tears or a change of view.

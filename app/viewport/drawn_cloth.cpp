@@ -19,7 +19,7 @@ void DrawnCloth::take(const ClothScene& scene, int every, bool moved, bool topol
   if (every != sites_.every || scene.lattice != sites_.whole) moved = topology_changed = true;
   sites_ = {scene.lattice, every};
   lattice_ = {sites_.rows(), sites_.columns()};
-  if (moved) take_positions(scene.positions);
+  if (moved && !scene.writer) take_positions(scene.positions);
   if (topology_changed) take_tears(scene.tears);
 }
 
@@ -58,7 +58,7 @@ ClothScene DrawnCloth::scene(const ClothScene& whole) const {
   for (int c = 0; c < 3; ++c) view.f[c] = positions_.data() + std::ptrdiff_t(c) * lattice_.columns;
   std::function<bool(int, int)> pinned;
   if (whole.pinned) pinned = [this, &whole](int i, int j) { return whole.pinned(sites_.row(i), sites_.column(j)); };
-  return {view, lattice_, tears_, whole.preset, pinned};
+  return {view, lattice_, tears_, whole.preset, pinned, whole.writer};
 }
 
 }  // namespace tyglab

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 
+#include "app/viewport/current_gl_context.h"
 #include "app/viewport/graphics_error.h"
 
 namespace tyglab {
@@ -55,9 +56,11 @@ HeadlessContext::HeadlessContext() {
     fail("The OpenGL context cannot be used without a window");
   }
   if (gladLoadGL(eglGetProcAddress) == 0) fail("The OpenGL functions could not be loaded");
+  in_use_.emplace(current_gl_context(eglGetProcAddress));
 }
 
 HeadlessContext::~HeadlessContext() {
+  in_use_.reset();
   // The display is shared by the process and is left initialised for the next context.
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);

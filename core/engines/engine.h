@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
+#include "core/engines/gl_vertices.h"
 #include "core/engines/position_memory.h"
 #include "core/integrators/step_control.h"
 #include "core/notation/preset.h"
@@ -119,6 +121,8 @@ class Engine {
   /// What state files show: as read(), but for Verlet the backward velocity d/dt.
   virtual void read_raw(State& state, const Tears& tears) = 0;
   virtual PositionView positions() const = 0;
+  /// Whether its arrays lie in a device's own memory, so that positions() copies them.
+  virtual bool remote() const { return false; }
   /// Bytes of each slot of the memory that it would keep its positions in, so that they can be drawn where they lie; 0:
   /// none, since it has such memory already or has no use for it.
   virtual std::size_t wants_memory() const { return 0; }
@@ -127,11 +131,21 @@ class Engine {
   virtual bool take_memory(std::shared_ptr<PositionMemory>) { return false; }
   /// The positions for who draws them: as positions(), but in float in the memory that was taken, if any was.
   virtual PositionView shown() { return positions(); }
+  /// Whether its device shares buffers with the OpenGL context in use, so that share() and write() can be called, in
+  /// the thread where that context is current.
+  virtual GlSharing gl_sharing() const { return GlSharing::none; }
+  /// OpenGL's buffers as its device's, for write(). Throws EngineError.
+  virtual std::unique_ptr<GlVertices> share(const GlBuffers&) const { return nullptr; }
+  /// Writes positions in float, and normals where they are asked for, which OpenGL may draw at once. None, and nothing
+  /// is written, where the buffers are shared with another device or for another precision. Throws EngineError.
+  virtual std::optional<VertexBox> write(GlVertices&, const VertexOrder&) { return std::nullopt; }
   /// Bytes of positions and velocities that have been copied from a device into main memory, for whoever looked.
   virtual std::uint64_t copied() const { return 0; }
   /// One particle as the method holds it. Nothing but the particles' own arrays is looked at, so it may be called
   /// while another thread reads.
   virtual StoredParticle stored(int i, int j) const = 0;
+  /// Where one particle is: what positions() says, but of a device no more is read than stands near it.
+  virtual glm::dvec3 position(int i, int j) const { return positions().at(i, j); }
   /// Bytes of all arrays that grow with the cloth.
   virtual std::size_t bytes() const = 0;
   /// Threads that it uses.

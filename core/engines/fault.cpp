@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/engines/cpu/row_distances.h"
 
@@ -95,6 +96,17 @@ double growth_of(double largest_way) {
 }
 
 template <class R>
+double growth_left(const Preset& preset, const LongestSquared& longest) {
+  double slack = std::numeric_limits<double>::infinity();
+  for (const auto& [direction, squared] : {std::pair(0, longest.straight), std::pair(2, longest.diagonal),
+                                           std::pair(int(stretch_directions), longest.bending)}) {
+    const double left = longest_factor * directions[direction].rest * preset.L - std::sqrt(squared) * (1 + rounding<R>);
+    if (!(left >= slack)) slack = left;
+  }
+  return slack;
+}
+
+template <class R>
 double distance2(const StateView<R>& state, int i, int j, const Direction& to) {
   double r2 = 0;
   for (int c = 0; c < 3; ++c) {
@@ -110,6 +122,8 @@ bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears
   return !finite(lattice, state, fault) || !within_bounds(preset, lattice, tears, state, fault, free_motion);
 }
 
+template double growth_left<float>(const Preset&, const LongestSquared&);
+template double growth_left<double>(const Preset&, const LongestSquared&);
 template double distance2(const StateView<float>&, int, int, const Direction&);
 template double distance2(const StateView<double>&, int, int, const Direction&);
 template bool find_fault(const Preset&, const Lattice&, const Tears&, const StateView<float>&, Fault&, double&);

@@ -37,6 +37,15 @@ double growth_of(double largest_way);
 template <class R>
 constexpr double rounding = sizeof(R) == 4 ? 16 * 0x1p-23 : 16 * 0x1p-52;
 
+/// Squares of the longest whole springs' lengths, m²: along rows and columns, diagonals, bending springs.
+struct LongestSquared {
+  double straight = 0, diagonal = 0, bending = 0;
+};
+/// By how much any spring of a cloth may still grow, m, where these were measured in R. If that is not more than 0, or
+/// not a number, find_fault() is to be asked.
+template <class R>
+double growth_left(const Preset& preset, const LongestSquared& longest);
+
 /// Square of the distance from particle (i, j) to its neighbour in that direction, m².
 template <class R>
 double distance2(const StateView<R>& state, int i, int j, const Direction& to);

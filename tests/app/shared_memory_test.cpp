@@ -1,17 +1,12 @@
 // Positions that a device writes into OpenGL's own memory: the picture is that of copied ones, and nothing is copied.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
-#include "app/viewport/cloth_renderer.h"
-#include "app/viewport/headless_context.h"
 #include "app/viewport/mapped_buffer.h"
+#include "tests/app/picture_pair.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::shared_memory_test {
-
-constexpr int width = 320, height = 240;
 
 Preset scene(EngineKind engine, Precision precision) {
   Preset preset = test::cloth(24, 31);
@@ -20,53 +15,18 @@ Preset scene(EngineKind engine, Precision precision) {
   return preset;
 }
 
-/// One renderer draws from memory that it lends, the other from copies.
-class Stage {
- public:
-  /// Both pictures are the same, and bytes were copied for the second alone; says how many for the first.
-  std::size_t copied_for(Simulation& simulation, int mode) {
-    options_.mode = mode;
-    sharing_.lend_memory(simulation);
-    const Image shared = draw(sharing_, simulation), copied = draw(copying_, simulation);
-    CHECK(shared.rgb == copied.rgb);
-    CHECK(copying_.take_work().copied > 0);
-    const RenderWork work = sharing_.take_work();
-    CHECK(work.moved);
-    return work.copied;
-  }
-  const Image& picture() const { return picture_; }
-  ClothRenderer& sharing() { return sharing_; }
-  /// Lends the simulation a sibling's memory, draws it, and lets the sibling go.
-  void draw_once_by_a_sibling(Simulation& simulation) {
-    ClothRenderer sibling(sharing_);
-    sibling.lend_memory(simulation);
-    draw(sibling, simulation);
-    CHECK(sibling.take_work().copied == 0);
-  }
-
- private:
-  const Image& draw(ClothRenderer& renderer, Simulation& simulation) {
-    renderer.update(simulation, options_);
-    renderer.draw(scene_camera(simulation.preset(), float(width) / height), options_, width, height);
-    return picture_ = renderer.pixels();
-  }
-  HeadlessContext context_;
-  ClothRenderer sharing_, copying_;
-  ViewOptions options_;
-  Image picture_;
-};
-
 TEST_CASE("the vertex buffer shows what kernels wrote, and no byte is copied") {
   if (!test::device_there()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
-    Stage stage;
+    test::PicturePair stage;
     REQUIRE(gl::MappedBuffer::available());
     Simulation simulation(scene(EngineKind::opencl, precision));
     Image last;
     for (const int steps : {1, 3, 60, 200}) {
       simulation.advance(steps);
       CHECK(stage.copied_for(simulation, 1) == 0);
+      CHECK(stage.way() == VertexWay::shared_memory);
       CHECK(stage.picture().rgb != last.rgb);
       last = stage.picture();
     }
@@ -77,7 +37,7 @@ TEST_CASE(
     "another lattice, a cut, another view, method, precision or engine: what is drawn is right, and what can be is "
     "shared") {
   if (!test::device_there()) return;
-  Stage stage;
+  test::PicturePair stage;
   Simulation simulation(scene(EngineKind::opencl, Precision::float_));
   const auto change = [&](auto what) {
     Preset next = simulation.preset();
@@ -104,9 +64,9 @@ TEST_CASE(
 
 TEST_CASE("an engine goes on in its memory where the renderer that drew it is gone") {
   if (!test::device_there()) return;
-  Stage stage;
+  test::PicturePair stage;
   Simulation plain(scene(EngineKind::opencl, Precision::float_)), lent(plain.preset());
-  stage.draw_once_by_a_sibling(lent);
+  CHECK(stage.copied_by_a_sibling(lent) == 0);
   plain.advance(50), lent.advance(50);
   CHECK(lent.read().x.y == plain.read().x.y);
   CHECK(stage.copied_for(lent, 1) == 0);
@@ -114,7 +74,7 @@ TEST_CASE("an engine goes on in its memory where the renderer that drew it is go
 
 TEST_CASE("the memory of engines that are gone is given back") {
   if (!test::device_there()) return;
-  Stage stage;
+  test::PicturePair stage;
   std::size_t bytes = 0;
   for (int n = 0; n < 5; ++n) {
     Simulation simulation(scene(EngineKind::opencl, Precision::float_));

@@ -2,10 +2,12 @@
 // memory and for work-items that race. Elsewhere the suite says nothing new, so it is left out.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cstdio>
 
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/opencl_engine.h"
+#include "core/engines/opencl/vertex_kernels.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 #include "tests/support/scenes.h"
@@ -70,6 +72,31 @@ TEST_SUITE("oclgrind") {
       run(preset, width, 3);
       preset.k_b = preset.k_d = preset.F_max = 0, preset.W = {0, 0, 0}, preset.bodies.clear();
       run(preset, width, 9);
+    }
+  }
+
+  TEST_CASE("kernels that write what is drawn, into buffers of just that size") {
+    if (!under_oclgrind()) return;
+    const std::shared_ptr<opencl::Device> device = opencl::open_device(-1);
+    opencl::VertexKernels kernels(device, false);
+    const Lattice lattice{9, 37};
+    constexpr int stride = 48;
+    std::vector<float> x((std::size_t(lattice.rows) + 5) * 3 * stride + 32);
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] = float(n % 89) - 44;
+    const opencl::Memory from = device->zeros(x.size() * sizeof(float));
+    opencl::check(clEnqueueWriteBuffer(device->queue(), from.get(), CL_TRUE, 0, x.size() * sizeof(float), x.data(), 0,
+                                       nullptr, nullptr),
+                  "writing to the device");
+    kernels.take_tears(std::array<TornSite, 3>{{{0, 64}, {38, 255}, {5, 0}}});
+    for (const int every : {1, 4}) {
+      const DrawnSites sites{lattice, every};
+      const std::size_t bytes = 3 * sizeof(float) * std::size_t(sites.rows()) * std::size_t(sites.columns());
+      const opencl::Memory positions = device->zeros(bytes), normals = device->zeros(bytes);
+      kernels.write_positions(from.get(), stride, sites, positions.get());
+      if (every == 1) kernels.write_normals(positions.get(), sites, normals.get());
+      const VertexBox box = kernels.box();
+      CHECK(box.lo.x == doctest::Approx(-44).epsilon(0.1));
+      CHECK(box.hi.x == doctest::Approx(44).epsilon(0.1));
     }
   }
 }

@@ -60,11 +60,11 @@ def programs(stage):
     del os.environ["POCL_CACHE_DIR"], os.environ["XDG_CACHE_HOME"]
 
 
-def costs(sandbox, engine):
+def costs(sandbox, engine, **environment):
     """What --time-report says of some frames on an engine; None where it is not there."""
     out = os.path.join(sandbox.own.name, f"{engine}.json")
     done = subprocess.run([sandbox.tyglab, "hanging", "--engine", engine, "--frames", "20", "--time-report", out],
-                          env=sandbox.environment, capture_output=True, text=True)
+                          env={**sandbox.environment, **environment}, capture_output=True, text=True)
     if done.returncode != 0:
         return None
     with open(out) as file:
@@ -83,6 +83,23 @@ def copied(stage):
     on_device = costs(sandbox, "opencl")
     if "OpenCL" in on_device["engine"]:
         check(on_device["copied_bytes_per_frame"] == 0, f"{on_device['copied_bytes_per_frame']} bytes a frame are copied")
+        check(on_device["positions_come_by"] == "shared_memory", "the report names the way")
+
+
+@case
+def shared_buffer(stage):
+    """on a device that shares buffers with OpenGL (a double of one) the window's buffer is written, and closed cleanly"""
+    double = os.path.join(os.path.dirname(stage.tyglab), "..", "tests", "libgl_sharing_double.so")
+    if not os.path.exists(double):
+        print("not tested: the double of a graphics card has not been built", flush=True)
+        return
+    sandbox = stage.start("hanging")
+    report = costs(sandbox, "opencl", OPENCL_LAYERS=double)
+    check(report is not None, "the window closed without a complaint of the double")
+    if "OpenCL" in report["engine"]:
+        check(report["positions_come_by"] == "shared_buffer", f"positions come by {report['positions_come_by']}")
+        once = 32 * 32 * 12 / 18
+        check(report["copied_bytes_per_frame"] < once, f"{report['copied_bytes_per_frame']} bytes a frame are copied")
 
 
 @case

@@ -44,13 +44,8 @@ T number_of(cl_device_id device, cl_device_info what) {
   return number;
 }
 
-struct Found {
-  cl_platform_id platform;
-  cl_device_id id;
-};
-
 /// All devices; `problem`: why there is none.
-std::vector<Found> ask_drivers(std::string& problem) {
+std::vector<DeviceId> ask_drivers(std::string& problem) {
   cl_uint count = 0;
   const cl_int code = clGetPlatformIDs(0, nullptr, &count);
   constexpr cl_int no_platform = -1001;  // CL_PLATFORM_NOT_FOUND_KHR
@@ -58,7 +53,7 @@ std::vector<Found> ask_drivers(std::string& problem) {
   if (code != CL_SUCCESS || count == 0) return {};
   std::vector<cl_platform_id> platforms(count);
   clGetPlatformIDs(count, platforms.data(), nullptr);
-  std::vector<Found> found;
+  std::vector<DeviceId> found;
   for (cl_platform_id platform : platforms) {
     cl_uint devices = 0;
     // A platform without devices says so by an error; the others still count.
@@ -70,7 +65,7 @@ std::vector<Found> ask_drivers(std::string& problem) {
   return found;
 }
 
-OpenClDevice facts_of(const Found& found) {
+OpenClDevice facts_of(const DeviceId& found) {
   OpenClDevice facts;
   facts.platform = text_of(found.platform, CL_PLATFORM_NAME);
   facts.name = text_of(found.id, CL_DEVICE_NAME);
@@ -81,6 +76,7 @@ OpenClDevice facts_of(const Found& found) {
   const std::string extensions = text_of(found.id, CL_DEVICE_EXTENSIONS);
   facts.fp64 = extensions.find("cl_khr_fp64") != std::string::npos;
   facts.gl_sharing = extensions.find("cl_khr_gl_sharing") != std::string::npos;
+  facts.gl_event = extensions.find("cl_khr_gl_event") != std::string::npos;
   facts.processor = (number_of<cl_device_type>(found.id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
   facts.shared_memory = facts.processor || number_of<cl_bool>(found.id, CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
   return facts;
@@ -96,7 +92,7 @@ bool drivers_crash() {
       ::dup2(nowhere, STDOUT_FILENO), ::dup2(nowhere, STDERR_FILENO);
       ::alarm(30);  // a driver that hangs is as bad
       std::string problem;
-      for (const Found& found : ask_drivers(problem)) facts_of(found);
+      for (const DeviceId& found : ask_drivers(problem)) facts_of(found);
       ::_exit(0);
     }
     int status = 0;
@@ -107,7 +103,7 @@ bool drivers_crash() {
   return crash;
 }
 
-std::vector<Found> find_devices(std::string& problem) {
+std::vector<DeviceId> find_devices(std::string& problem) {
   if (!drivers_crash()) return ask_drivers(problem);
   problem =
       "an OpenCL driver of this system crashes when it is asked for its devices, as pocl does where /sys is not "
@@ -154,12 +150,50 @@ Kernel Program::kernel(const char* name) const {
   return kernel;
 }
 
-Device::Device(OpenClDevice facts, cl_device_id id) : facts_(std::move(facts)), id_(id) {
+Device::Device(OpenClDevice facts, const DeviceId& which, const GlContext& gl)
+    : facts_(std::move(facts)), id_(which.id), gl_number_(gl.number) {
   cl_int code = CL_SUCCESS;
-  context_ = Context(clCreateContext(nullptr, 1, &id_, nullptr, nullptr, &code));
+  context_ = context_with(which.platform, gl);
+  if (!context_) context_ = Context(clCreateContext(nullptr, 1, &id_, nullptr, nullptr, &code));
   check(code, "opening the device");
   queue_ = Queue(clCreateCommandQueue(context_.get(), id_, 0, &code));
   check(code, "opening the device");
+}
+
+/// A context that shares buffers with OpenGL's; none where that cannot be, and gl_problem_ says why.
+Context Device::context_with(cl_platform_id platform, const GlContext& gl) {
+  const auto none = [this](const std::string& why) {
+    gl_problem_ = why;
+    return Context();
+  };
+  if (!facts_.gl_sharing) return none("the device offers no cl_khr_gl_sharing");
+  if (facts_.processor) return none("the device is a processor, which works in OpenGL's memory anyway");
+  if (gl.number == 0) return none("there was no OpenGL context when the device was opened");
+  const auto property = [](void* handle) { return reinterpret_cast<cl_context_properties>(handle); };
+  const std::array<cl_context_properties, 7> properties{CL_CONTEXT_PLATFORM,
+                                                        property(platform),
+                                                        CL_GL_CONTEXT_KHR,
+                                                        property(gl.context),
+                                                        gl.glx ? CL_GLX_DISPLAY_KHR : CL_EGL_DISPLAY_KHR,
+                                                        property(gl.display),
+                                                        0};
+  const auto ask = reinterpret_cast<clGetGLContextInfoKHR_fn>(
+      clGetExtensionFunctionAddressForPlatform(platform, "clGetGLContextInfoKHR"));
+  if (ask == nullptr) return none("its driver has no clGetGLContextInfoKHR");
+  std::array<cl_device_id, 64> sharing{};
+  std::size_t bytes = 0;
+  cl_int code = ask(properties.data(), CL_DEVICES_FOR_GL_CONTEXT_KHR, sizeof sharing, sharing.data(), &bytes);
+  const auto end = sharing.begin() + std::ptrdiff_t(std::min(bytes, sizeof sharing) / sizeof(cl_device_id));
+  if (code != CL_SUCCESS || std::find(sharing.begin(), end, id_) == end)
+    return none("OpenGL draws on another device than this one");
+  Context context(clCreateContext(properties.data(), 1, &id_, nullptr, nullptr, &code));
+  if (code != CL_SUCCESS) return none("its driver refuses a context together with OpenGL's, " + words_of(code));
+  return context;
+}
+
+GlSharing Device::gl_sharing() const {
+  if (!gl_problem_.empty() || gl_number_ != gl_context_in_use().number) return GlSharing::none;
+  return facts_.gl_event ? GlSharing::ordered : GlSharing::finished;
 }
 
 int Device::width(std::size_t bytes) const {
@@ -252,12 +286,19 @@ Memory Device::in_place(void* memory, std::size_t bytes) const {
   return facts_.processor && at == memory ? std::move(buffer) : Memory();
 }
 
+Memory Device::shared(unsigned gl_name) const {
+  cl_int code = CL_SUCCESS;
+  Memory memory(clCreateFromGLBuffer(context_.get(), CL_MEM_READ_WRITE, gl_name, &code));
+  check(code, "sharing a buffer with OpenGL");
+  return memory;
+}
+
 std::shared_ptr<Device> open_device(int number) {
   static std::mutex mutex;
   static std::map<int, std::weak_ptr<Device>> opened;
   std::string problem;
   const std::lock_guard lock(mutex);
-  const std::vector<Found> found = find_devices(problem);
+  const std::vector<DeviceId> found = find_devices(problem);
   if (found.empty())
     throw EngineError("No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
                       "; on Debian, apt-get install pocl-opencl-icd makes one of the processor. Or use --engine cpu");
@@ -265,14 +306,16 @@ std::shared_ptr<Device> open_device(int number) {
     throw EngineError("There is no OpenCL device " + std::to_string(number) + ": they are numbered from 0 to " +
                       std::to_string(found.size() - 1) + cure);
   if (number < 0) {
-    const auto card = std::find_if(found.begin(), found.end(), [](const Found& f) {
+    const auto card = std::find_if(found.begin(), found.end(), [](const DeviceId& f) {
       return (number_of<cl_device_type>(f.id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_GPU) != 0;
     });
     number = card == found.end() ? 0 : int(card - found.begin());
   }
   auto device = opened[number].lock();
-  if (!device) {
-    device = std::make_shared<Device>(facts_of(found[std::size_t(number)]), found[std::size_t(number)].id);
+  const GlContext gl = gl_context_in_use();
+  if (!device || !device->suits(gl)) {
+    const DeviceId& which = found[std::size_t(number)];
+    device = std::make_shared<Device>(facts_of(which), which, gl);
     opened[number] = device;
   }
   return device;

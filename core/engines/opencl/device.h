@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/engines/gl_vertices.h"
+#include "core/engines/opencl/gl_context.h"
 #include "core/engines/opencl/handles.h"
 #include "core/engines/opencl/opencl_devices.h"
 
@@ -24,12 +26,25 @@ class Program {
   ProgramHandle program_;
 };
 
+/// One that was found.
+struct DeviceId {
+  cl_platform_id platform;
+  cl_device_id id;
+};
+
 /// An opened device. All engines of one device share it; programs are built once for all of them.
 class Device {
  public:
-  explicit Device(OpenClDevice facts, cl_device_id id);
+  /// Shares buffers with that OpenGL context where both can, see gl_sharing().
+  Device(OpenClDevice facts, const DeviceId& which, const GlContext& gl);
 
   const OpenClDevice& facts() const { return facts_; }
+  /// How it shares buffers with the OpenGL context that is in use now.
+  GlSharing gl_sharing() const;
+  /// Why it does not share with the context that it was opened with; empty: it does.
+  const std::string& gl_problem() const { return gl_problem_; }
+  /// Whether it was opened with that context, or opening it so would change nothing.
+  bool suits(const GlContext& gl) const { return !could_share() || gl.number == gl_number_; }
   cl_context context() const { return context_.get(); }
   cl_command_queue queue() const { return queue_.get(); }
   /// How many numbers of that size a work-item should work on: what a processor's vectors hold; 1 on graphics cards.
@@ -44,14 +59,20 @@ class Device {
   Memory zeros(std::size_t bytes) const;
   /// A buffer that is the program's own memory, which must outlive it; none where the device would work on a copy.
   Memory in_place(void* memory, std::size_t bytes) const;
+  /// OpenGL's buffer of that name.
+  Memory shared(unsigned gl_name) const;
 
  private:
+  bool could_share() const { return facts_.gl_sharing && !facts_.processor; }
+  Context context_with(cl_platform_id platform, const GlContext& gl);
   ProgramHandle build(const std::string& text, const std::string& options, const std::string& key) const;
 
   OpenClDevice facts_;
   cl_device_id id_;
   Context context_;
   Queue queue_;
+  std::uint64_t gl_number_ = 0;  ///< of the OpenGL context that it was opened with
+  std::string gl_problem_;
   std::mutex mutex_;  ///< of what follows
   std::map<std::string, std::shared_ptr<const Program>> programs_;
   std::set<std::string> run_;

@@ -58,7 +58,8 @@ struct StepReport {
   std::uint32_t left_inside, contacts;
   std::uint32_t torn;        ///< 1: a spring was torn
   float straight, diagonal;  ///< squares of the longest springs that were left, m²
-  std::uint32_t unused[2];
+  float bending;
+  std::uint32_t bad;  ///< 1: a number of the state is not finite
 };
 
 }  // namespace tyglab::opencl

@@ -56,6 +56,7 @@ R* DeviceState<R>::map(cl_mem field, cl_map_flags how) const {
   void* at =
       clEnqueueMapBuffer(device_->queue(), field, CL_TRUE, how, 0, numbers_ * sizeof(R), 0, nullptr, nullptr, &code);
   check(code, "reading from the device");
+  if (!device_->facts().shared_memory) copied_ += numbers_ * sizeof(R);
   return static_cast<R*>(at) + lead();
 }
 
@@ -69,8 +70,41 @@ const R* DeviceState<R>::host(int n) const {
   const std::lock_guard lock(mutex_);
   Vector& vector = vectors_[std::size_t(n)];
   if (vector.host != nullptr) return vector.host;
-  if (!device_->facts().shared_memory) copied_ += numbers_ * sizeof(R);
   return vector.host = map(vector.now.memory.get(), CL_MAP_READ);
+}
+
+template <class R>
+glm::dvec3 DeviceState<R>::at(int n, int i, int j) const {
+  if (device_->facts().shared_memory) host(n);
+  const std::lock_guard lock(mutex_);
+  Vector& vector = vectors_[std::size_t(n)];
+  const auto point = [](const R* x, std::ptrdiff_t component) {
+    return glm::dvec3(double(x[0]), double(x[component]), double(x[2 * component]));
+  };
+  if (vector.host != nullptr) return point(vector.host + (3 * std::ptrdiff_t(i) * stride_ + j), stride_);
+  if (!vector.patch.holds(i, j)) read_patch(vector, i, j);
+  const Patch& patch = vector.patch;
+  return point(patch.numbers.data() + (3 * std::ptrdiff_t(i - patch.i) * patch.columns + j - patch.j), patch.columns);
+}
+
+/// With as much round it as a particle's neighbours, and theirs, need.
+template <class R>
+void DeviceState<R>::read_patch(Vector& vector, int i, int j) const {
+  constexpr int reach = 6;
+  Patch& patch = vector.patch;
+  patch.i = std::max(i - reach, 0), patch.j = std::max(j - reach, 0);
+  patch.rows = std::min(i + reach + 1, lattice_.rows) - patch.i;
+  patch.columns = std::min(j + reach + 1, lattice_.columns) - patch.j;
+  patch.numbers.resize(3 * std::size_t(patch.rows) * std::size_t(patch.columns));
+  // A component is a line of the rectangle, a row of the cloth a plane of it.
+  const std::size_t line = std::size_t(stride_) * sizeof(R), short_line = std::size_t(patch.columns) * sizeof(R);
+  const std::array<std::size_t, 3> from{(16 + std::size_t(patch.j)) * sizeof(R), 0, 2 + std::size_t(patch.i)},
+      to{0, 0, 0}, region{short_line, 3, std::size_t(patch.rows)};
+  check(
+      clEnqueueReadBufferRect(device_->queue(), vector.now.memory.get(), CL_TRUE, from.data(), to.data(), region.data(),
+                              line, 3 * line, short_line, 3 * short_line, patch.numbers.data(), 0, nullptr, nullptr),
+      "reading from the device");
+  copied_ += patch.numbers.size() * sizeof(R);
 }
 
 template <class R>
@@ -79,6 +113,7 @@ void DeviceState<R>::take_back() {
   for (Vector& vector : vectors_) {
     if (vector.host != nullptr) unmap(vector.now.memory.get(), const_cast<R*>(vector.host));
     vector.host = nullptr;
+    vector.patch.rows = 0;
   }
   if (floats_host_ != nullptr)
     clEnqueueUnmapMemObject(device_->queue(), floats_[std::size_t(floats_slot_)].get(), floats_host_, 0, nullptr,

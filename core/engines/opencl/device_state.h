@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -48,7 +50,10 @@ class DeviceState {
   /// The host's view of a vector, of its row 0: a mapping where memory is shared, a copy otherwise; good until
   /// take_back(). Several threads may ask.
   const R* host(int n) const;
-  /// The same of any such field, until unmap().
+  /// A vector at one particle: of the host's view where that is there, or costs nothing; otherwise read with what
+  /// stands round it, which is kept until take_back(). Several threads may ask.
+  glm::dvec3 at(int n, int i, int j) const;
+  /// The same as host() of any such field, until unmap().
   R* map(cl_mem field, cl_map_flags how) const;
   void unmap(cl_mem field, R* at) const;
   /// Ends all views: kernels may write again.
@@ -82,11 +87,19 @@ class DeviceState {
     Memory memory;
     int slot = -1;
   };
+  /// A few rows and columns of a vector, as the host read them: row after row, each as its x, its y and its z.
+  struct Patch {
+    int i = 0, j = 0, rows = 0, columns = 0;
+    std::vector<R> numbers;
+    bool holds(int row, int column) const { return row >= i && row < i + rows && column >= j && column < j + columns; }
+  };
   struct Vector {
     Place now, other;
     Memory backup;
     const R* host = nullptr;
+    Patch patch;
   };
+  void read_patch(Vector& vector, int i, int j) const;
   std::size_t lead() const { return 2 * 3 * std::size_t(stride_) + 16; }
 
   std::shared_ptr<Device> device_;
@@ -98,7 +111,7 @@ class DeviceState {
   std::array<Memory, 3> floats_;  ///< in double: its slots
   int floats_slot_ = -1;          ///< of them the one that holds the positions
   float* floats_host_ = nullptr;
-  mutable std::uint64_t copied_ = 0;
+  mutable std::atomic<std::uint64_t> copied_ = 0;
   mutable std::mutex mutex_;  ///< of the views
   mutable std::vector<Vector> vectors_;
   Memory masks_, springs_;

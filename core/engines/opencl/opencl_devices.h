@@ -17,6 +17,7 @@ struct OpenClDevice {
   bool processor = false;      ///< a CPU: its memory is the program's own
   bool shared_memory = false;  ///< buffers are read where they are, without a copy
   bool gl_sharing = false;     ///< cl_khr_gl_sharing: can use OpenGL's buffers
+  bool gl_event = false;       ///< cl_khr_gl_event: it and OpenGL wait for each other
 };
 
 /// The devices of all platforms, in the order of their numbers (--engine opencl:NUMBER). Never throws for what a driver
@@ -45,5 +46,11 @@ OpenClProbe probe_opencl_device(int number, bool in_double);
 /// Whether the device of that number works in memory that it is given, so that it can write into OpenGL's: processors
 /// do. Never throws.
 bool opencl_works_in_place(int number);
+
+/// Whether the device of that number, one of its own memory, says that it can share buffers with OpenGL. Such a device
+/// is opened once there is an OpenGL context (GlContextInUse). Never throws.
+bool opencl_offers_gl_sharing(int number);
+/// Why that device does not share buffers with the OpenGL context in use, a part of a sentence; empty: it does.
+std::string opencl_gl_problem(int number);
 
 }  // namespace tyglab

@@ -73,6 +73,7 @@ typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& pr
   kernels.combine = program->kernel("combine");
   kernels.tear = program->kernel("tear");
   kernels.derive_masks = program->kernel("derive_masks");
+  kernels.look = program->kernel("look");
   if constexpr (std::is_same_v<R, double>) kernels.to_float = program->kernel("to_float");
   return kernels;
 }

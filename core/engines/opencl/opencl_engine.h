@@ -34,11 +34,16 @@ class OpenClEngine final : public Engine {
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
+  bool remote() const override { return !device_->facts().shared_memory; }
   std::size_t wants_memory() const override;
   bool take_memory(std::shared_ptr<PositionMemory> memory) override;
   PositionView shown() override;
+  GlSharing gl_sharing() const override;
+  std::unique_ptr<GlVertices> share(const GlBuffers& buffers) const override;
+  std::optional<VertexBox> write(GlVertices& vertices, const VertexOrder& order) override;
   std::uint64_t copied() const override { return state_.copied(); }
   StoredParticle stored(int i, int j) const override;
+  glm::dvec3 position(int i, int j) const override { return state_.at(vector_x, i, j); }
   std::size_t bytes() const override;
   int threads() const override { return int(device_->facts().compute_units); }
   SolveCounts solves() const override { return solver_ ? solver_->counts() : SolveCounts{}; }
@@ -51,7 +56,7 @@ class OpenClEngine final : public Engine {
   /// The kernels of one set of features.
   struct Kernels {
     std::vector<Kernel> passes;  ///< none for a solution
-    Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, to_float;
+    Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, look, to_float;
     typename DeviceSolver<R>::Kernels solver;
   };
   /// A sweep with its constants worked out; of a solution those of its residual.
@@ -106,7 +111,13 @@ class OpenClEngine final : public Engine {
   void make_steps(int count, bool tear_each);
   /// Judges the steps made; returns those that count, and end_ says how they ended.
   int judge(int count, bool tear_each, Tears& tears, Fault& fault);
+  /// Looks at every particle and spring; if all is well, says so in free_motion_.
+  bool finds_fault(const Tears& tears, Fault& fault);
+  /// The same on the device, which leaves the whole state there; it only tells that something may be wrong.
+  bool well_on_device();
   bool releases(int step) const;
+  template <class Look>
+  StepReport look_at_springs(const Look& look);
   void tear_overloaded(Tears& tears);
   double tear_slack(const StepReport& report) const;
   void keep_backup(const Tears& tears);

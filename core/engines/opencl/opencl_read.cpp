@@ -1,5 +1,6 @@
 // What the host reads of an OpenCL engine.
 #include "core/engines/opencl/arguments.h"
+#include "core/engines/opencl/card_vertices.h"
 #include "core/engines/opencl/opencl_engine.h"
 
 namespace tyglab::opencl {
@@ -91,12 +92,26 @@ PositionView OpenClEngine<R>::shown() {
 }
 
 template <class R>
+GlSharing OpenClEngine<R>::gl_sharing() const {
+  // The one weight is drawn from no vertices of particles.
+  return preset_.kind == Kind::cloth ? device_->gl_sharing() : GlSharing::none;
+}
+
+template <class R>
+std::unique_ptr<GlVertices> OpenClEngine<R>::share(const GlBuffers& buffers) const {
+  return std::make_unique<CardVertices>(device_, buffers, sizeof(R) == sizeof(double));
+}
+
+template <class R>
+std::optional<VertexBox> OpenClEngine<R>::write(GlVertices& vertices, const VertexOrder& order) {
+  auto* const mine = dynamic_cast<CardVertices*>(&vertices);
+  if (mine == nullptr || !mine->fits(device_, sizeof(R) == sizeof(double))) return std::nullopt;
+  return mine->write(state_.vector(vector_x), state_.stride(), order);
+}
+
+template <class R>
 StoredParticle OpenClEngine<R>::stored(int i, int j) const {
-  const auto at = [&](int vector) {
-    const R* from = state_.host(vector);
-    const auto component = [&](int c) { return double(StateView<R>::row(from, state_.stride(), i, c)[j]); };
-    return glm::dvec3(component(0), component(1), component(2));
-  };
+  const auto at = [&](int vector) { return state_.at(vector, i, j); };
   const double scale = velocity_scale();
   return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lags ? preset_.dt / 2 : 0};
 }

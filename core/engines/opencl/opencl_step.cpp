@@ -86,19 +86,47 @@ double OpenClEngine<R>::tear_slack(const StepReport& report) const {
   return std::min(left(directions[0].rest, report.straight), left(directions[2].rest, report.diagonal));
 }
 
-/// Breaks what is overloaded now.
+/// What is reported into the first slot, which a batch has been read of.
 template <class R>
-void OpenClEngine<R>::tear_overloaded(Tears& tears) {
+template <class Look>
+StepReport OpenClEngine<R>::look_at_springs(const Look& look) {
   const StepReport nothing{};
   check(
       clEnqueueWriteBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, sizeof nothing, &nothing, 0, nullptr, nullptr),
       "writing to the device");
-  enqueue_tear(0);
+  look();
   StepReport report;
   check(clEnqueueReadBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, sizeof report, &report, 0, nullptr, nullptr),
         "looking at the springs");
+  return report;
+}
+
+/// Breaks what is overloaded now.
+template <class R>
+void OpenClEngine<R>::tear_overloaded(Tears& tears) {
+  const StepReport report = look_at_springs([&] { enqueue_tear(0); });
   tear_motion_ = tear_slack(report);
   if (report.torn != 0) state_.download(tears);
+}
+
+template <class R>
+bool OpenClEngine<R>::finds_fault(const Tears& tears, Fault& fault) {
+  if (remote() && preset_.kind == Kind::cloth && well_on_device()) return false;
+  const StateView<R> now{state_.host(vector_x), state_.host(vector_v), state_.stride()};
+  return find_fault(preset_, lattice_, tears, now, fault, free_motion_);
+}
+
+template <class R>
+bool OpenClEngine<R>::well_on_device() {
+  const StepReport report = look_at_springs([&] {
+    const cl_mem x = state_.vector(vector_x), v = state_.vector(vector_v), masks = state_.masks(),
+                 reports = reports_.get();
+    set_arguments(kernels_.look, 0, x, v, masks, reports, cl_int(0), cl_int(state_.stride()),
+                  cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns));
+    launch_rows(kernels_.look, 32);
+  });
+  free_motion_ = growth_left<R>(preset_, {report.straight, report.diagonal, report.bending});
+  return report.bad == 0 && free_motion_ > 0;
 }
 
 template <class R>
@@ -118,9 +146,8 @@ int OpenClEngine<R>::judge(int count, bool tear_each, Tears& tears, Fault& fault
       return n + 1;
     }
     if (tear) tear_overloaded(tears);
-    const StateView<R> now{state_.host(vector_x), state_.host(vector_v), state_.stride()};
     if (tear_each && torn) state_.download(tears), torn = false;  // what has been torn is no fault
-    if (look && find_fault(preset_, lattice_, tears, now, fault, free_motion_)) {
+    if (look && finds_fault(tears, fault)) {
       end_ = End::fault;
       return n;
     }

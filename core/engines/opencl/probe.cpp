@@ -1,4 +1,5 @@
 // Whether a device really computes: a small kernel is built, run and its result checked.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -49,6 +50,21 @@ bool opencl_works_in_place(int number) {
     return bool(opencl::open_device(number)->in_place(memory.get(), page));
   } catch (const EngineError&) {
     return false;
+  }
+}
+
+bool opencl_offers_gl_sharing(int number) {
+  const std::vector<OpenClDevice> all = opencl_devices().devices;
+  const auto offers = [](const OpenClDevice& device) { return device.gl_sharing && !device.processor; };
+  if (number < 0) return std::any_of(all.begin(), all.end(), offers);
+  return std::size_t(number) < all.size() && offers(all[std::size_t(number)]);
+}
+
+std::string opencl_gl_problem(int number) {
+  try {
+    return opencl::open_device(number)->gl_problem();
+  } catch (const EngineError& error) {
+    return error.what();
   }
 }
 

@@ -1,0 +1,12 @@
+// The OpenGL context that is current, as OpenCL wants to have it named.
+#pragma once
+
+#include "core/engines/opencl/gl_context.h"
+
+namespace tyglab {
+
+/// Of this thread. `address`: finds the window system's functions by their names. Without a context, or under another
+/// window system than EGL or GLX, its `context` is null.
+GlContext current_gl_context(void (*(*address)(const char* name))());
+
+}  // namespace tyglab

@@ -1,0 +1,32 @@
+// Vertex buffers of OpenGL that a device writes (cl_khr_gl_sharing). Only run against a double of such a device so far:
+// no graphics card was there to try it on.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "core/engines/opencl/vertex_kernels.h"
+
+namespace tyglab::opencl {
+
+class CardVertices final : public GlVertices {
+ public:
+  /// For positions in double or in float. Throws EngineError.
+  CardVertices(std::shared_ptr<Device> device, const GlBuffers& buffers, bool in_double);
+
+  bool fits(const std::shared_ptr<Device>& device, bool in_double) const {
+    return device == device_ && in_double == in_double_;
+  }
+  void take_tears(std::span<const TornSite> torn) override { kernels_.take_tears(torn); }
+  /// Writes what is asked for of a vector as in cloth.cl, and waits for it. Throws EngineError; the buffers are OpenGL's
+  /// again then.
+  VertexBox write(cl_mem x, int stride, const VertexOrder& order);
+
+ private:
+  std::shared_ptr<Device> device_;
+  bool in_double_;
+  VertexKernels kernels_;
+  Memory positions_, normals_;
+};
+
+}  // namespace tyglab::opencl

@@ -1,0 +1,66 @@
+// Two pictures of one cloth: as its engine and OpenGL share it, and from plain copies.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include "app/viewport/cloth_renderer.h"
+#include "app/viewport/headless_context.h"
+
+namespace tyglab::test {
+
+class PicturePair {
+ public:
+  /// Both pictures are the same, and bytes were copied for the second; says how many for the first.
+  std::size_t copied_for(Simulation& simulation, int mode) {
+    options_.mode = mode;
+    sharing_.lend_memory(simulation);
+    sharing_.update(simulation, options_);
+    const Image shared = draw(sharing_, simulation);
+    copying_.update({simulation.positions(),
+                     simulation.lattice(),
+                     simulation.tears(),
+                     simulation.preset(),
+                     [&](int i, int j) { return simulation.pinned(i, j); },
+                     {}},
+                    options_, true);
+    const Image copied = draw(copying_, simulation);
+    CHECK(shared.rgb == copied.rgb);
+    CHECK(copying_.take_work().copied > 0);
+    const RenderWork work = sharing_.take_work();
+    way_ = work.way;
+    return work.copied;
+  }
+  /// Draws the first alone; how many bytes that copied.
+  std::size_t copied_alone(Simulation& simulation, int mode) {
+    options_.mode = mode;
+    sharing_.update(simulation, options_);
+    draw(sharing_, simulation);
+    return sharing_.take_work().copied;
+  }
+  const Image& picture() const { return picture_; }
+  VertexWay way() const { return way_; }
+  ClothRenderer& sharing() { return sharing_; }
+  ViewOptions& options() { return options_; }
+  /// Lends the simulation a sibling's memory, draws it, and lets the sibling go. How many bytes that copied.
+  std::size_t copied_by_a_sibling(Simulation& simulation) {
+    ClothRenderer sibling(sharing_);
+    sibling.lend_memory(simulation);
+    sibling.update(simulation, options_);
+    draw(sibling, simulation);
+    return sibling.take_work().copied;
+  }
+
+ private:
+  const Image& draw(ClothRenderer& renderer, Simulation& simulation) {
+    constexpr int width = 320, height = 240;
+    renderer.draw(scene_camera(simulation.preset(), float(width) / height), options_, width, height);
+    return picture_ = renderer.pixels();
+  }
+  HeadlessContext context_;
+  ClothRenderer sharing_, copying_;
+  ViewOptions options_;
+  Image picture_;
+  VertexWay way_ = VertexWay::copied;
+};
+
+}  // namespace tyglab::test
