@@ -53,23 +53,29 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
                    value);
 }
 
+/// The symbol with its unit, or the name of what has none. Returns where it ends.
+float draw_name(const PlotPaint& paint, float x, float baseline, const FieldInfo& field) {
+  const Tokens& c = paint.theme.colors;
+  const ImFont& font = *paint.fonts.small;
+  std::string after(field.title);
+  if (!field.symbol.empty()) {
+    draw_symbol(paint.draw, paint.fonts, {x, baseline}, field.symbol, c.text);
+    x += symbol_width(paint.fonts, field.symbol) + paint.theme.px(2);
+    after = field.unit.empty() ? "" : ", " + std::string(field.unit);
+  }
+  after = fitted(font, after, paint.theme.px(line_name));
+  draw_on_baseline(paint.draw, font, {x, baseline}, field.symbol.empty() ? c.text : c.quiet, after);
+  return x + text_width(font, after);
+}
+
 /// Name, colours, and room for the number at their end.
 ImVec2 draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
   const float middle = std::round(at.y + size.y / 2), baseline = baseline_at(paint.fonts, middle);
-  const float pad = theme.px(10), half = theme.px(bar_height) / 2, from = at.x + pad + theme.px(line_name);
-  if (legend.field.symbol.empty()) {
-    const std::string title(legend.field.title);
-    draw_on_baseline(paint.draw, *paint.fonts.small, {at.x + pad, baseline}, c.text,
-                     fitted(*paint.fonts.small, title, theme.px(line_name - 6)));
-  } else {
-    const float wide = symbol_width(paint.fonts, legend.field.symbol) + theme.px(2);
-    draw_symbol(paint.draw, paint.fonts, {at.x + pad, baseline}, legend.field.symbol, c.text);
-    draw_on_baseline(paint.draw, *paint.fonts.small, {at.x + pad + wide, baseline}, c.quiet,
-                     fitted(*paint.fonts.small, ", " + std::string(legend.field.unit), theme.px(line_name - 6) - wide));
-  }
-  const ImVec2 lo{from, middle - half}, hi{at.x + size.x - theme.px(line_top), middle + half};
+  const float pad = theme.px(10), half = theme.px(bar_height) / 2;
+  const float from = std::round(draw_name(paint, at.x + pad, baseline, legend.field)) + pad;
+  const ImVec2 lo{from, middle - half}, hi{std::max(from, at.x + size.x - theme.px(line_top)), middle + half};
   draw_bar(paint, lo, hi, legend.map);
   if (legend.marked) {
     const PlotScale scale{legend.field.is_signed ? -legend.top : 0, legend.top};

@@ -73,10 +73,9 @@ float color_menu_width(const App& app) {
   return app.theme.px(124);
 }
 
-void color_menu(App& app) {
+void color_menu(App& app, float width) {
   const FieldColors* shown = shown_colors(app);
   const std::string title = shown != nullptr ? std::string(info(shown->field).title) : "Own colours";
-  const float width = color_menu_width(app);
   if (begin_combo(app, "##colour", fitted(*app.fonts.text, title, width - app.theme.px(34)).c_str(), width)) {
     choice(app, std::nullopt, "Own colours", "The cloth's texture in the scene's light.");
     for (const FieldInfo& field : particle_fields())

@@ -35,7 +35,8 @@ float particle_panel_height(const App& app);
 void plots_panel(App& app, const Region& region);
 void viewport_panel(App& app, const Region& region);
 /// The list of what can colour the cloth, at the cursor, and the legend of what does.
-void color_menu(App& app);
+void color_menu(App& app, float width);
+/// As wide as it should be.
 float color_menu_width(const App& app);
 void color_legend(App& app);
 void banner(App& app);

@@ -24,6 +24,10 @@ void Placing::begin(float gap) {
   gap_ = gap;
 }
 
+void Placing::back_to(std::string_view name) {
+  marks_.erase(std::find_if(marks_.begin(), marks_.end(), [&](const Mark& m) { return m.name == name; }), marks_.end());
+}
+
 void Placing::take(std::string name, const Box& box) {
   marks_.push_back({std::move(name), box});
 }

@@ -30,6 +30,8 @@ class Placing {
   };
   /// A new frame begins, in which nothing is taken yet. `gap`: what marks keep from each other, px.
   void begin(float gap);
+  /// The same frame once more from that mark on: what was taken before it stays.
+  void back_to(std::string_view name);
   /// The box belongs to that mark from now on, whether it was free or not.
   void take(std::string name, const Box& box);
   /// Whether no mark is nearer to the box than the gap.

@@ -63,8 +63,9 @@ void view_buttons(App& app, const Region& region) {
   tooltip(app, gui::item_id(), "How the cloth is drawn (2.4)", "Keys 1 to 5");
   ImVec2 hi = ImGui::GetItemRectMax();
   ImGui::SetCursorScreenPos({hi.x + gap, lo.y});
-  color_menu(app);
-  hi.x += beside;
+  const float menu = std::clamp(lo.x + room - hi.x - gap, app.theme.px(48), color_menu_width(app));
+  color_menu(app, menu);
+  hi.x += gap + menu;
   cover(app, "views", {{lo.x, lo.y}, {hi.x, hi.y}});
   if (mode == 2) bending_check(app, region, {{lo.x, lo.y}, {hi.x, hi.y}});
 }
@@ -91,7 +92,8 @@ void marks(App& app, ImDrawList& draw, const Region& region) {
   const bool bare = app.picture && !app.picture->whole_window, cloth = app.wished().kind == Kind::cloth;
   const float margin = app.theme.px(16), top = region.at.y + app.theme.px(12);
   const Box row{{region.at.x + margin, top}, {region.at.x + region.size.x - margin, top + app.theme.px(26)}};
-  app.ui.placing.begin(app.theme.px(6));
+  // In a picture that is saved the legend stands as it was shown.
+  bare ? app.ui.placing.back_to("legend") : app.ui.placing.begin(app.theme.px(6));
   draw.ChannelsSplit(count);
   draw.ChannelsSetCurrent(fixed);
   if (!bare && cloth) view_buttons(app, region);

@@ -25,6 +25,9 @@ TEST_CASE("a mark stands in its corner, or beside what has taken it, and nowhere
   CHECK_FALSE(placing.in_corner(area, {401, 20}, ScreenCorner::lower_left).has_value());
   CHECK(placing.find("first")->lo.y == 250);
   CHECK(placing.find("second") == nullptr);
+  placing.take("second", *second);
+  placing.back_to("second");
+  CHECK(placing.marks().size() == 1);
   placing.begin(4);
   CHECK(placing.marks().empty());
 }
