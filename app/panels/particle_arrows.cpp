@@ -82,7 +82,8 @@ void follow(App& app, double& scale, double longest) {
   if (std::abs(longest - scale) > 0.01 * scale) app.ui.draw_by = app.ui.now;
 }
 
-/// A bar in the picture's corner, as long as an arrow of the value beside it. Returns where the next one begins.
+/// A bar in the picture's corner, as long as an arrow of the value beside it, where there is room. Returns where the
+/// next one begins.
 float scale_bar(App& app, ImDrawList& draw, ImVec2 at, double scale, std::string_view unit) {
   const Tokens& c = app.theme.colors;
   const ImFont& font = *app.fonts.small;
@@ -92,6 +93,7 @@ float scale_bar(App& app, ImDrawList& draw, ImVec2 at, double scale, std::string
   const std::string text = short_number(value) + " " + std::string(unit);
   const float end = at.x + length + pad + text_width(font, text);
   const Box box{{at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2}};
+  if (!app.ui.placing.free(box)) return at.x;
   app.ui.placing.take("scale " + std::string(unit), box);
   draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), app.theme.px(6));
   const float width = std::max(1.f, app.theme.px(1.5f));
