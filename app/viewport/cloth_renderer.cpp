@@ -154,6 +154,7 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
     const std::uint64_t before = std::exchange(p.engine_copied, simulation.engine().copied());
     return std::size_t(p.engine_copied - std::min(p.engine_copied, before));
   };
+  if (other) p.engine_copied = simulation.engine().copied();  // what it was made from is nobody's read-out
   p.work.read += copied_since_last();
   if (!p.take_written(simulation, options, moved, topology_changed))
     p.take_read(simulation, options, moved, topology_changed);
