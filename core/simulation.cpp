@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/cloth/start.h"
 #include "core/integrators/remedy.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -17,12 +17,6 @@ struct Overloaded : F... {
 };
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
-
-std::string printed(const char* format, double a) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, a);
-  return text;
-}
 
 /// Whether two presets of one lattice differ, but begin with the same state: what differs is seen, named or met later.
 bool begin_alike(const Preset& a, const Preset& b) {
@@ -70,6 +64,7 @@ Simulation::Simulation(const Simulation& from)
       steps_(from.steps_),
       steps_at_dt_(from.steps_at_dt_),
       time_at_dt_(from.time_at_dt_),
+      begun_with_(from.begun_with_),
       divergence_(from.divergence_),
       revision_(from.revision_),
       tear_revision_(from.tear_revision_),
@@ -92,6 +87,7 @@ void Simulation::build(const Preset& next) {
   left_inside_ = 0;
   steps_ = steps_at_dt_ = 0;
   time_at_dt_ = 0;
+  begun_with_ = starting_velocity(next);
   divergence_.reset();
   ++revision_, ++tear_revision_;
   if (watch_) keep_ledger(true);
@@ -233,6 +229,7 @@ void Simulation::restart_untouched(const Preset& next) {
   const Fixed fixed{particles_in(pinned_mask), held};
   engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
   preset_ = next, gusty_ = in_gusts(next, time());
+  begun_with_ = starting_velocity(next);
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
@@ -252,6 +249,7 @@ void Simulation::move_hand(const edit::MoveHand& e) {
   const auto site = *held();
   held_.velocity = (e.to - position(site.i, site.j)) / (e.steps * preset_.dt);
   hand_steps_left_ = e.steps;
+  begun_with_.reset();  // what the hand lets go keeps its velocity
   update_fixed();
 }
 
@@ -282,6 +280,7 @@ void Simulation::pin(const edit::Pin& e) {
   if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
   const int p = e.i * lattice_.columns + e.j;
   if (held_.particle == p) release();
+  if (begun_with_ != glm::dvec3(0)) begun_with_.reset();  // what is let go begins at rest
   pinned_mask_[p] = e.pinned;
   // The preset says what is pinned, so that it can be saved: by a list from now on.
   preset_.pins.mode = Pins::Mode::list;
@@ -323,6 +322,7 @@ Advance Simulation::advance_part(int steps) {
   if (watch_) watch_->before_step(preset_, tears_);
   Advance part = engine_->advance(steps, tears_);
   steps_ += part.steps;
+  if (part.steps > 0) begun_with_.reset();
   left_inside_ = part.left_inside;
   if (part.torn > 0) ++tear_revision_;
   if (held_.particle >= 0) hand_force_ = part.hand_force;
@@ -349,7 +349,7 @@ void Simulation::diverge(const Advance& part) {
             : part.quantity == "distance from x_0"
                 ? "the weight is more than 1000 times L, or its offset if that is more, away from x_0"
                 : "a " + part.quantity + " is no longer a finite number";
-  const std::string dt = "at dt = " + printed("%g s", preset_.dt);
+  const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
   if (outer_forces_win(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": weight and wind are more than the springs can hold; "
                                            : ": m·g is more than the spring can hold; ";
@@ -364,7 +364,7 @@ void Simulation::diverge(const Advance& part) {
 }
 
 Snapshot Simulation::snapshot() {
-  return {lattice_, preset_.kind, read(), tears_, time(), steps_};
+  return {lattice_, preset_.kind, read(), tears_, time(), steps_, begun_with_};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -377,10 +377,17 @@ void Simulation::restore(const Snapshot& then) {
   update_fixed();
   steps_ = steps_at_dt_ = then.steps;
   time_at_dt_ = then.t;
+  begun_with_ = then.begun_with;
   if (gusts(preset_)) take_constants(preset_);
   engine_->load(then.state, tears_);
   ++revision_, ++tear_revision_;
   if (watch_) keep_ledger(true);
+}
+
+void Simulation::load(const State& state) {
+  engine_->load(state, tears_);
+  begun_with_.reset();
+  ++revision_;
 }
 
 std::size_t Simulation::bytes() const {

@@ -38,6 +38,7 @@ struct Snapshot {
   Tears tears;
   double t = 0;  ///< s
   std::int64_t steps = 0;
+  std::optional<glm::dvec3> begun_with{};  ///< m/s, of every free particle, while no step has been made
   std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes(); }
   /// At least so much will it be.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
@@ -100,6 +101,9 @@ class Simulation {
   /// forgotten.
   void restore(const Snapshot& then);
 
+  /// Puts positions and full-step velocities in place of the present ones; time, tears and constants stay.
+  void load(const State& state);
+
   /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.
   std::size_t bytes() const;
 
@@ -131,6 +135,7 @@ class Simulation {
   bool converts(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins(const Preset& old);
+  bool fixed(int i, int j) const { return pinned(i, j) || held_.particle == i * lattice_.columns + j; }
   glm::dvec3 velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const;
   void change(const Preset& preset);
   void restart_untouched(const Preset& preset);
@@ -163,6 +168,9 @@ class Simulation {
   std::int64_t steps_ = 0;
   std::int64_t steps_at_dt_ = 0;  ///< step at which the present dt was set
   double time_at_dt_ = 0;         ///< and the time then
+  /// The velocity of every free particle, while no step has been made since the start. What a method holds then need
+  /// not give it back: Verlet's start sees damping by v_0, its read-out by the velocity of half a step ago.
+  std::optional<glm::dvec3> begun_with_;
   std::optional<Divergence> divergence_;
   Preset diverged_preset_;
   State state_;

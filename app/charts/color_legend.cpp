@@ -12,6 +12,8 @@ namespace {
 // Lengths at scale 1.
 constexpr float width = 248, height = 74, padding = 14, bar_top = 32, bar_height = 12, ticks_middle = 59;
 
+constexpr float line_width = 228, line_height = 28, line_name = 58, line_top = 66;  // of one on a single line
+
 /// The leading digit of a round number.
 int lead(double value) {
   const double power = std::pow(10, std::floor(std::log10(value) + 1e-9));
@@ -36,17 +38,45 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
     draw_on_baseline(paint.draw, with, {x, baseline}, color, text);
     x += text_width(with, text);
   };
-  say(font, c.text, legend.field.title);
+  const std::string value = legend.marked ? steady_number(*legend.marked) : "";
+  const std::string unit = legend.field.unit.empty() ? "" : ", " + std::string(legend.field.unit);
+  const float others = symbol_width(paint.fonts, legend.field.symbol) + text_width(font, unit) +
+                       text_width(*paint.fonts.mono, value) + paint.theme.px(value.empty() ? 8 : 16);
+  say(font, c.text, fitted(font, std::string(legend.field.title), right - lo.x - others));
   if (!legend.field.symbol.empty()) {
     x += paint.theme.px(6);
     draw_symbol(paint.draw, paint.fonts, {x, baseline}, legend.field.symbol, c.text);
-    x += symbol_width(paint.fonts, legend.field.symbol);
+    x += symbol_width(paint.fonts, legend.field.symbol) + paint.theme.px(2);
   }
-  if (!legend.field.unit.empty()) say(font, c.quiet, ", " + std::string(legend.field.unit));
-  if (!legend.marked) return;
-  const std::string value = steady_number(*legend.marked);
+  say(font, c.quiet, unit);
   draw_on_baseline(paint.draw, *paint.fonts.mono, {right - text_width(*paint.fonts.mono, value), baseline}, c.text,
                    value);
+}
+
+/// Name, colours, and room for the number at their end.
+ImVec2 draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
+  const Theme& theme = paint.theme;
+  const Tokens& c = theme.colors;
+  const float middle = std::round(at.y + size.y / 2), baseline = baseline_at(paint.fonts, middle);
+  const float pad = theme.px(10), half = theme.px(bar_height) / 2, from = at.x + pad + theme.px(line_name);
+  if (legend.field.symbol.empty()) {
+    const std::string title(legend.field.title);
+    draw_on_baseline(paint.draw, *paint.fonts.small, {at.x + pad, baseline}, c.text,
+                     fitted(*paint.fonts.small, title, theme.px(line_name - 6)));
+  } else {
+    const float wide = symbol_width(paint.fonts, legend.field.symbol) + theme.px(2);
+    draw_symbol(paint.draw, paint.fonts, {at.x + pad, baseline}, legend.field.symbol, c.text);
+    draw_on_baseline(paint.draw, *paint.fonts.small, {at.x + pad + wide, baseline}, c.quiet,
+                     fitted(*paint.fonts.small, ", " + std::string(legend.field.unit), theme.px(line_name - 6) - wide));
+  }
+  const ImVec2 lo{from, middle - half}, hi{at.x + size.x - theme.px(line_top), middle + half};
+  draw_bar(paint, lo, hi, legend.map);
+  if (legend.marked) {
+    const PlotScale scale{legend.field.is_signed ? -legend.top : 0, legend.top};
+    const float x = lo.x + float(std::clamp(scale.at(*legend.marked), 0.0, 1.0)) * (hi.x - lo.x), r = theme.px(5);
+    paint.draw.AddTriangleFilled({x - r, lo.y - r}, {x + r, lo.y - r}, {x, lo.y + r / 2}, c.text);
+  }
+  return {at.x + size.x - pad, middle};
 }
 
 }  // namespace
@@ -73,10 +103,15 @@ ImVec2 legend_size(const Theme& theme, float room) {
   return {std::min(theme.px(width), room), theme.px(height)};
 }
 
+ImVec2 legend_line_size(const Theme& theme, float room) {
+  return {std::min(theme.px(line_width), room), theme.px(line_height)};
+}
+
 ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
-  paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.75f), theme.px(6));
+  paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.85f), theme.px(6));
+  if (size.y < theme.px(height)) return draw_line(paint, at, size, legend);
   const float pad = theme.px(padding);
   const ImVec2 lo{at.x + pad, at.y + theme.px(bar_top)}, hi{at.x + size.x - pad, lo.y + theme.px(bar_height)};
   draw_heading(paint, {lo.x, at.y}, hi.x, legend);

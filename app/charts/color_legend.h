@@ -27,7 +27,9 @@ std::string legend_words(const FieldInfo& field);
 
 /// Its size, px, where there is so much room for its width.
 ImVec2 legend_size(const Theme& theme, float room);
-/// Draws it of that size with its upper left corner there, on a ground of its own. Returns where the number at the
+/// The same of one on a single line, for a picture in which it would cover too much.
+ImVec2 legend_line_size(const Theme& theme, float room);
+/// Draws it of either size with its upper left corner there, on a ground of its own. Returns where the number at the
 /// scale's end belongs: the middle of its right end.
 ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend);
 

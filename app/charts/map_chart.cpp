@@ -1,9 +1,7 @@
 #include "app/charts/map_chart.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/charts/color_map.h"
 #include "app/panels/numbers.h"
@@ -60,13 +58,11 @@ Chart map_page(const Tokens& c, const Preset& preset, const std::string& label, 
 }
 
 std::string cell_words(const Preset& preset, const MapCell& cell) {
-  std::string text = stiffness_key(preset) + " = " + short_number(rounded(cell.stiffness, 2)) +
-                     " N/m, dt = " + short_number(rounded(cell.dt, 2)) + " s: ";
-  if (cell.diverged) return text + "diverged after " + short_number(rounded(cell.t, 2)) + " s";
-  std::array<char, 80> share;
-  std::snprintf(share.data(), share.size(), "%s %.2g %% of the scene's energy in ", cell.share < 0 ? "ate" : "made",
-                100 * std::abs(cell.share));
-  return text + share.data() + short_number(rounded(cell.t, 2)) + " s";
+  std::string text = stiffness_key(preset) + " = " + short_number(cell.stiffness, 2) +
+                     " N/m, dt = " + short_number(cell.dt, 2) + " s: ";
+  if (cell.diverged) return text + "diverged after " + short_number(cell.t, 2) + " s";
+  return text + (cell.share < 0 ? "ate " : "made ") + short_number(100 * std::abs(cell.share), 2) +
+         " % of the scene's energy in " + short_number(cell.t, 2) + " s";
 }
 
 }  // namespace tyglab

@@ -12,6 +12,7 @@
 #include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 #include "core/output/destination.h"
 #include "core/output/text.h"
 
@@ -119,9 +120,10 @@ const OdeintCurve* odeint_curve(std::string_view name) {
 Chart chart_of(const AccuracyResult& result) {
   Chart chart;
   chart.title = "Error over run time: " + result.scene.title;
-  const std::string floor = result.reference.made_by.size() > 1
-                                ? printed("the references agree to %.1g m; ", result.reference.agreement_rms_m)
-                                : "against the closed form; ";
+  const std::string floor =
+      result.reference.made_by.size() > 1
+          ? "the references agree to " + short_number(result.reference.agreement_rms_m, 1) + " m; "
+          : "against the closed form; ";
   chart.note = printed("%g s; ", result.scene.seconds) + floor + machine_line();
   chart.x = {"run time (s of processor time, one thread)", true, false, {}};
   chart.y = {"rms error of all positions (m)", true, false, {}};
@@ -162,10 +164,10 @@ void print_scene(std::ostream& out, const AccuracyResult& result) {
   const Reference& reference = result.reference;
   std::string text = "\n" + result.scene.name + ": " + result.scene.title + printed(", %g s\n", result.scene.seconds);
   for (const std::string& by : reference.made_by) text += "  reference: " + by + "\n";
-  if (reference.made_by.size() > 1) text += printed("  they agree to %.2g m (rms)\n", reference.agreement_rms_m);
-  text += reference.predictable_longer
-              ? printed("  a perturbation of 1e-12 m stays below 1e-9 m for %.2g s at least\n", reference.predictable_s)
-              : printed("  a perturbation of 1e-12 m stays below 1e-9 m for %.2g s\n", reference.predictable_s);
+  if (reference.made_by.size() > 1)
+    text += "  they agree to " + short_number(reference.agreement_rms_m, 2) + " m (rms)\n";
+  text += "  a perturbation of 1e-12 m stays below 1e-9 m for " + short_number(reference.predictable_s, 2) +
+          (reference.predictable_longer ? " s at least\n" : " s\n");
   text += "  method                                          ";
   for (const double error : decades) text += printed("%10.0e", error);
   flush_line(out, text + "    least error\n");
@@ -192,13 +194,13 @@ void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows, const
 
 void print_winners(std::ostream& out, const std::vector<AccuracyWinner>& winners) {
   for (const AccuracyWinner& w : winners) {
-    std::string text = printed("  %.0e m: %s (%s), %.3g ms", w.error_rms_m, w.integrator.c_str(),
-                               std::string(name_of(w.precision)).c_str(), w.seconds * 1e3);
+    std::string text = "  " + short_number(w.error_rms_m, 1) + " m: " + w.integrator + " (" +
+                       std::string(name_of(w.precision)) + "), " + short_number(w.seconds * 1e3, 3) + " ms";
     if (w.at_largest_dt) text += ", as coarse as is stable";
     if (!w.odeint.empty())
-      text += printed("; %s (%s) %.3g ms, %.2g times as long", w.odeint.c_str(),
-                      std::string(name_of(w.odeint_precision)).c_str(), w.odeint_seconds * 1e3,
-                      w.odeint_seconds / w.seconds);
+      text += "; " + w.odeint + " (" + std::string(name_of(w.odeint_precision)) + ") " +
+              short_number(w.odeint_seconds * 1e3, 3) + " ms, " + short_number(w.odeint_seconds / w.seconds, 2) +
+              " times as long";
     flush_line(out, text + "\n");
   }
 }

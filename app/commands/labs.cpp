@@ -22,15 +22,15 @@ int list_labs() {
   return problems.empty() ? exit_done : exit_input;
 }
 
-int check_lab(const std::string& file) {
-  const Lab lab = load_lab(file);
+int check_lab(const std::string& name_or_file) {
+  const Lab lab = load_lab(find_lab_file(name_or_file));
   const auto checks = [&] {
     std::size_t count = 0;
     for (const LabStep& step : lab.steps) count += step.checks.size();
     return std::int64_t(count);
   };
-  std::cout << file << " is a valid lab: " << lab.title << ", " << counted(std::int64_t(lab.steps.size()), "step")
-            << ", " << counted(checks(), "check") << ".\n";
+  std::cout << name_or_file << " is a valid lab: " << lab.title << ", "
+            << counted(std::int64_t(lab.steps.size()), "step") << ", " << counted(checks(), "check") << ".\n";
   return exit_done;
 }
 
@@ -45,7 +45,7 @@ void add_labs_command(CLI::App& program, Action& action) {
     if (command->get_subcommands().empty()) action = list_labs;
   });
   CLI::App* check_one = command->add_subcommand("check", "Judge a lab's file: its steps, presets, answers and checks");
-  check_one->add_option("FILE", *file, "A lab's Markdown file")->required();
+  check_one->add_option("FILE", *file, "A lab's Markdown file, or a shipped lab's name")->required();
   check_one->footer("Example: tyglab labs check my_lab.md");
   check_one->callback([file, &action] { action = [file] { return check_lab(*file); }; });
 }

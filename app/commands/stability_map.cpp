@@ -15,6 +15,7 @@
 #include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
+#include "core/notation/readable.h"
 #include "core/output/destination.h"
 
 namespace tyglab {
@@ -64,13 +65,12 @@ void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, con
     }
     out << '\n';
   }
-  std::snprintf(line.data(), line.size(), "%s from %.3g to %.3g N/m; × diverged, · bounded in a short run\n",
-                stiffness_key(preset).c_str(), grid.stiffness(0.5), grid.stiffness(grid.columns - 0.5));
-  out << line.data();
+  out << stiffness_key(preset) << " from " << short_number(grid.stiffness(0.5), 3) << " to "
+      << short_number(grid.stiffness(grid.columns - 0.5), 3) << " N/m; × diverged, · bounded in a short run\n";
   const double here = map_limit(preset);
-  std::snprintf(line.data(), line.size(), "| theory's largest stable dt (any configuration): %.3g s at %s = %.4g N/m\n",
-                here, stiffness_key(preset).c_str(), stiffness_of(preset));
-  out << (here > 0 ? std::string(line.data()) : "By theory " + preset.integrator + " has no largest stable dt.\n");
+  out << (here > 0 ? "| theory's largest stable dt (any configuration): " + short_number(here, 3) + " s at " +
+                         stiffness_key(preset) + " = " + short_number(stiffness_of(preset)) + " N/m\n"
+                   : "By theory " + preset.integrator + " has no largest stable dt.\n");
 }
 
 int map(const MapOptions& options) {

@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <utility>
 
 #include "app/labs/lab.h"
 #include "app/labs/observables.h"
+#include "app/panels/text_lines.h"
 #include "app/preset_files.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
@@ -37,30 +40,6 @@ std::string_view trimmed(std::string_view text) {
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin, end - begin + 1);
 }
 
-/// A number is not parted from its unit.
-std::string with_whole_quantities(std::string text) {
-  constexpr std::array<std::string_view, 14> units{"N",  "m",  "s",   "kg",    "J",   "%",    "mm",
-                                                   "cm", "ms", "N/m", "N·s/m", "m/s", "m/s²", "1/s"};
-  for (std::size_t at = 1; (at = text.find(' ', at)) != std::string::npos; ++at) {
-    const bool number = text[at - 1] >= '0' && text[at - 1] <= '9';
-    std::string word = text.substr(at + 1, std::min(text.find(' ', at + 1), text.size()) - at - 1);
-    while (!word.empty() && std::string_view(".,;:?)").find(word.back()) != std::string_view::npos) word.pop_back();
-    if (number && std::find(units.begin(), units.end(), word) != units.end()) text.replace(at, 1, "\u00a0");
-  }
-  return text;
-}
-
-/// A formula is broken before its equals sign, and nowhere within its sums and products.
-std::string with_whole_terms(std::string text) {
-  constexpr std::string_view space = "\u00a0";
-  for (const std::string_view sign : {"−", "+", "·", "/", "×", "±"})
-    for (std::size_t at = 0; (at = text.find(" " + std::string(sign) + " ", at)) != std::string::npos; ++at)
-      text.replace(at, sign.size() + 2, std::string(space) + std::string(sign) + std::string(space));
-  for (std::size_t at = 0; (at = text.find(" = ", at)) != std::string::npos; ++at)
-    text.replace(at, 3, " =" + std::string(space));
-  return with_whole_quantities(std::move(text));
-}
-
 /// Without the signs of Markdown that the card does not set: `code` and **strong**.
 std::string without_marks(std::string_view text) {
   std::string plain;
@@ -72,7 +51,12 @@ std::string without_marks(std::string_view text) {
     }
     plain += text[k];
   }
-  return with_whole_terms(std::move(plain));
+  return plain;
+}
+
+/// As the card sets it: in one piece, whatever its lines are in the file.
+std::string set_text(std::string_view text) {
+  return with_whole_terms(without_marks(text));
 }
 
 std::vector<std::string> words_in(std::string_view text) {
@@ -82,10 +66,11 @@ std::vector<std::string> words_in(std::string_view text) {
   return words;
 }
 
+/// None where it is no number, or none that is finite ("nan").
 std::optional<double> plain_number(std::string_view text) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
+  if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
@@ -115,6 +100,7 @@ class Gathered {
   }
   Paragraphs take() {
     open_ = false;
+    for (std::string& paragraph : paragraphs_) paragraph = with_whole_terms(std::move(paragraph));
     return std::exchange(paragraphs_, {});
   }
   bool empty() const { return paragraphs_.empty(); }
@@ -136,6 +122,7 @@ class LabReader {
     throw LabError(source_ + ":" + std::to_string(line) + ": " + why);
   }
   void note(const LabError& error);
+  void noted(const std::function<void()>& read);
   void take_or_note(std::string_view line);
   void take_line(std::string_view line);
   void end_file();
@@ -146,6 +133,8 @@ class LabReader {
   void end_step();
   void end_prediction();
   void end_block();
+  void end_opening();
+  bool note_wrong_settings(Preset preset, const std::vector<std::string>& settings);
   LabStep& step() { return lab_.steps.back(); }
   Prediction& prediction(std::string_view key);
 
@@ -164,6 +153,7 @@ class LabReader {
   Gathered prose_;
   std::string problems_;  ///< a line each
   int line_ = 0, block_line_ = 0, step_line_ = 0, predict_line_ = 0, open_line_ = 0;
+  std::vector<int> set_lines_;  ///< of the block's settings
   bool in_block_ = false, had_block_ = false;
   int rights_ = 0;
   bool answered_ = false;
@@ -193,8 +183,12 @@ void LabReader::note(const LabError& error) {
 /// headings are wrong the reading ends.
 void LabReader::take_or_note(std::string_view line) {
   if (!in_block_) return take_line(line);
+  noted([&] { take_line(line); });
+}
+
+void LabReader::noted(const std::function<void()>& read) {
   try {
-    take_line(line);
+    read();
   } catch (const LabError& error) {
     note(error);
   }
@@ -217,7 +211,7 @@ void LabReader::take_line(std::string_view line) {
   if (line.starts_with("## ")) return begin_step(trimmed(line.substr(3)));
   if (line.starts_with("# ")) {
     if (!lab_.title.empty()) fail("a lab has one title; begin a step with ##");
-    lab_.title = without_marks(trimmed(line.substr(2)));
+    lab_.title = set_text(trimmed(line.substr(2)));
     return;
   }
   if (line.starts_with("#")) fail("a heading is # (the title) or ## (a step), with a space after it");
@@ -230,7 +224,7 @@ void LabReader::begin_step(std::string_view title) {
   if (lab_.title.empty()) fail("a lab begins with its title; write a line such as # Hooke's law before the steps");
   if (title.empty()) fail("a step needs a title after ##");
   end_step();
-  lab_.steps.emplace_back().title = without_marks(title);
+  lab_.steps.emplace_back().title = set_text(title);
   step_line_ = line_;
   had_block_ = false;
 }
@@ -242,6 +236,7 @@ void LabReader::begin_block() {
   in_block_ = had_block_ = true;
   block_line_ = line_;
   predict_line_ = open_line_ = rights_ = 0;
+  set_lines_.clear();
   answered_ = false;
 }
 
@@ -271,13 +266,38 @@ void LabReader::end_prediction() {
 
 void LabReader::end_block() {
   in_block_ = false;
-  if (step().prediction) end_prediction();
-  if (!step().open) return;
+  if (step().prediction) noted([&] { end_prediction(); });
+  if (step().open) noted([&] { end_opening(); });
+}
+
+/// The preset must be there, and its settings such as it takes.
+void LabReader::end_opening() {
+  const Opening& opening = *step().open;
   try {
-    with_settings(load_preset(find_preset(step().open->preset).file), step().open->settings);
+    const Preset preset = load_preset(find_preset(opening.preset).file);
+    try {
+      with_settings(preset, opening.settings);
+    } catch (const PresetError&) {
+      if (!note_wrong_settings(preset, opening.settings)) throw;
+    }
   } catch (const std::exception& error) {
     fail_at(open_line_, error.what());
   }
+}
+
+/// Notes each that cannot be made after those before it, with its own line. False where it is only all together that
+/// they are wrong.
+bool LabReader::note_wrong_settings(Preset preset, const std::vector<std::string>& settings) {
+  bool any = false;
+  for (std::size_t k = 0; k < settings.size(); ++k) try {
+      Setting setting = parse_setting(settings[k]);
+      setting.typed = "set";  // as the file says it, not as a command line would
+      preset = with_parsed_settings(preset, {setting});
+    } catch (const PresetError& error) {
+      any = true;
+      note(LabError(source_ + ":" + std::to_string(set_lines_[k]) + ": " + error.what()));
+    }
+  return any;
 }
 
 void LabReader::take_key(std::string_view line) {
@@ -311,18 +331,19 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
   } else if (key == "set") {
     if (!step().open) fail("set: changes the preset that the step opens; write a line open: before it");
     step().open->settings.emplace_back(value);
+    set_lines_.push_back(line_);
   } else if (key == "predict") {
     if (step().prediction) fail("a step asks for one prediction; remove this line, or begin another step with ##");
-    step().prediction.emplace().question = without_marks(value);
+    step().prediction.emplace().question = set_text(value);
     predict_line_ = line_;
   } else if (key == "choice" || key == "right") {
     Prediction& given = prediction(key);
     if (key == "right") given.right = given.choices.size(), ++rights_;
-    given.choices.push_back(without_marks(value));
+    given.choices.push_back(set_text(value));
   } else if (key == "answer") {
     take_answer(value);
   } else if (key == "do") {
-    step().todo.push_back(without_marks(value));
+    step().todo.push_back(set_text(value));
   } else if (key == "stop") {
     take_seconds(value);
   } else if (key == "check") {
@@ -350,6 +371,7 @@ void LabReader::take_seconds(std::string_view value) {
 /// "0.098 m within 10 %", "dt_crit within 0.0001".
 void LabReader::take_answer(std::string_view value) {
   Prediction& given = prediction("answer");
+  answered_ = true;  // if perhaps not well: that is told for itself
   std::vector<std::string> words = words_in(value);
   const auto within = std::find(words.begin(), words.end(), "within");
   const auto after = std::size_t(words.end() - within);
@@ -366,7 +388,9 @@ void LabReader::take_answer(std::string_view value) {
   }
   given.answer = operand(words, 0, "");
   if (!given.answer.name.empty()) given.unit = unit_of(given.answer.name);
-  answered_ = true;
+  if (given.relative && given.answer.name.empty() && given.answer.factor == 0)
+    fail("a part of 0 is 0, so nothing near it would be right; say how far off in its unit: answer: 0 " +
+         (given.unit.empty() ? "" : given.unit + " ") + "within 0.01");
 }
 
 std::string LabReader::known_name(const std::string& name) const {
@@ -409,7 +433,7 @@ Operand LabReader::word_operand(const std::string& name, const std::vector<std::
     std::string all;
     for (const std::string_view word : known) all += (all.empty() ? "" : ", ") + std::string(word);
     const auto meant = nearest(words[2], known);
-    fail(name + " is never \"" + words[2] + "\"" + (meant ? "; did you mean " + std::string(*meant) + "?" : "") +
+    fail(name + " is never \"" + words[2] + "\"" + (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
          " Known: " + all);
   }
   Operand given;

@@ -10,6 +10,7 @@
 #include "app/preset_files.h"
 #include "app/sandbox/app.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/notation/notation.h"
 
 namespace tyglab {
 namespace {
@@ -24,6 +25,14 @@ std::vector<fs::path> lab_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (entry.path().extension() == ".md" && entry.path().stem() != "README") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Those that come with the program, then the user's own.
+std::vector<fs::path> all_lab_files() {
+  std::vector<fs::path> files = lab_files(data_folder() / "labs");
+  if (const fs::path own = config_folder(); !own.empty())
+    for (const fs::path& file : lab_files(own / "labs")) files.push_back(file);
   return files;
 }
 
@@ -127,12 +136,23 @@ void complete(App& app, LabRun& run) {
 
 }  // namespace
 
-std::vector<Lab> read_labs(std::vector<std::string>& problems) {
-  std::vector<fs::path> files = lab_files(data_folder() / "labs");
-  if (const fs::path own = config_folder(); !own.empty())
-    for (const fs::path& file : lab_files(own / "labs")) files.push_back(file);
-  std::vector<Lab> labs;
+fs::path find_lab_file(const std::string& name_or_file) {
+  std::error_code ignored;
+  if (fs::exists(name_or_file, ignored)) return name_or_file;
+  const std::vector<fs::path> files = all_lab_files();
+  std::vector<std::string> names;
   for (const fs::path& file : files) {
+    names.push_back(file.stem().string());
+    if (names.back() == name_or_file) return file;
+  }
+  const auto meant = nearest(name_or_file, std::vector<std::string_view>(names.begin(), names.end()));
+  throw LabError("'" + name_or_file + "' is neither a lab's name nor a file." +
+                 (meant ? " Did you mean '" + std::string(*meant) + "'?" : "") + " `tyglab labs` lists the labs.");
+}
+
+std::vector<Lab> read_labs(std::vector<std::string>& problems) {
+  std::vector<Lab> labs;
+  for (const fs::path& file : all_lab_files()) {
     try {
       labs.push_back(load_lab(file));
     } catch (const LabError& error) {
@@ -159,6 +179,7 @@ void begin_lab(App& app, std::string_view label) {
   const std::vector<Lab>& list = find_labs(app);
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return app.messages.error("There is no lab " + std::string(label) + ".");
+  if (put_away_copies(app)) app.messages.note("The copies have been put away: a lab begins with one cloth.");
   LabRun& run = app.labs.run.emplace();
   run.lab = *lab;
   run.records.resize(lab->steps.size());

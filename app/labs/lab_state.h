@@ -1,6 +1,7 @@
 // The lab in work: which step, what was predicted, what holds; and the labs that there are.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,6 +54,9 @@ struct LabState {
   bool enter = false;          ///< Enter was pressed in the prediction's field
 };
 
+/// A file, or else the lab of that name: one that comes with the program or of the user's folder. Throws LabError; an
+/// unknown name is answered with the nearest.
+std::filesystem::path find_lab_file(const std::string& name_or_file);
 /// The labs that come with the program and those of the user's folder; `problems`: why files were refused.
 std::vector<Lab> read_labs(std::vector<std::string>& problems);
 

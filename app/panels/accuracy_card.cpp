@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/charts/convergence_chart.h"
 #include "app/panels/curves.h"
@@ -10,47 +9,32 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 #include "core/integrators/amplification.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* stability_heading = "Stability";
-constexpr const char* accuracy_heading = "Accuracy";
+constexpr const char* stability_heading = card_name::stability;
+constexpr const char* accuracy_heading = card_name::accuracy;
 // Pixels at scale 1.
 constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
-
-/// The text with its lines ended at spaces: Dear ImGui breaks lines at the points of numbers too.
-std::string in_lines(const ImFont& font, const std::string& text, float width) {
-  std::string lines, line;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string word = text.substr(at, end - at);
-    if (!line.empty() && text_width(font, line + ' ' + word) > width) lines += line + '\n', line.clear();
-    line += (line.empty() ? "" : " ") + word;
-    at = end + 1;
-  }
-  return lines + line;
-}
 
 /// Words over a chart, in what the card's height leaves.
 void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
                      float room_at_1 = words_at_1) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = card_width(app), line = app.theme.px(room_at_1);
+  const float width = card_width(app);
   const ImFont& font = *app.fonts.small;
-  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, in_lines(font, words, width));
+  const std::string lines = in_lines(font, words, width);
+  const float tall = font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.c_str()).y + app.theme.px(6);
+  const float line = std::max(app.theme.px(room_at_1), tall);
+  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, lines);
   ImGui::Dummy({width, line});
   const float rest = height - app.theme.px(card::head + card::foot) - line;
   if (chart == nullptr || rest < app.theme.px(100)) return;
   draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, {lo.x, lo.y + line}, {width, rest}, *chart);
   ImGui::Dummy({width, rest});
-}
-
-std::string words_of(const char* format, double a, double b) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, a, b);
-  return text;
 }
 
 /// A vertical line from the chart's foot to its head.
@@ -65,10 +49,11 @@ std::string stability_sentence(const StabilityLimits& limits) {
   const double h = limits.fastest.omega() * limits.of.dt;
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
   const double radius = spectral_radius(amplification(method, h, zeta));
-  const char* verdict = radius > 1 + 1e-9 ? "%.3g, where a swing grows %.4g-fold a step."
-                                          : "%.3g, where a swing keeps %.4g of its size a step.";
-  return std::string(limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ") +
-         words_of(verdict, h, radius);
+  const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
+  const std::string kept = short_number(radius);
+  return of + short_number(h, 3) +
+         (radius > 1 + 1e-9 ? ", where a swing grows " + kept + "-fold a step."
+                            : ", where a swing keeps " + kept + " of its size a step.");
 }
 
 }  // namespace

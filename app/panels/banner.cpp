@@ -10,6 +10,7 @@
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
+#include "app/panels/text_lines.h"
 #include "app/panels/widgets.h"
 #include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
@@ -19,13 +20,8 @@ namespace {
 
 constexpr float least_banner = 380;  // pixels at scale 1, of the width
 
-/// Height of text wrapped to a width.
-float wrapped_height(const ImFont& font, const std::string& text, float width) {
-  return font.CalcTextSizeA(font.FontSize, 1e9f, width, text.data(), text.data() + text.size()).y;
-}
-
-void draw_wrapped(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 color, const std::string& text, float width) {
-  draw.AddText(&font, font.FontSize, at, color, text.data(), text.data() + text.size(), width);
+float height_of(const ImFont& font, const std::string& lines) {
+  return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
 }
 
 /// What it was, and the constants that decided it: they may be others by now.
@@ -41,10 +37,8 @@ std::string what_happened(const Divergence& d, const Preset& then) {
                     " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
   const double limit = stable_dt(then, then.integrator);
-  if (limit > 0 && std::isfinite(limit)) {
-    std::snprintf(text, sizeof text, ", %.2g times the largest that is stable", then.dt / limit);
-    all += text;
-  }
+  if (limit > 0 && std::isfinite(limit))
+    all += ", " + short_number(then.dt / limit, 2) + " times the largest that is stable";
   return all + ".";
 }
 
@@ -53,12 +47,6 @@ std::string capitalised(std::string text) {
   const std::size_t space = text.find(' ');
   const bool word = space != std::string::npos && space > 2 && text.find('_') > space && text.find('/') > space;
   if (word && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
-  return text;
-}
-
-std::string sentence(std::string text) {
-  if (!text.empty() && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
-  if (!text.empty() && text.back() != '.') text += '.';
   return text;
 }
 
@@ -104,7 +92,7 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
 std::vector<Way> ways_out(App& app) {
   std::vector<Way> ways;
   if (app.history.can_undo())
-    ways.push_back({"Undo last change and restart", "Takes the last change of constants back", "Ctrl+Z, then R",
+    ways.push_back({"Undo and restart", "Takes the last change of constants back, and begins anew", "Ctrl+Z, then R",
                     [](App& a) { a.command(Command::undo_and_restart); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
                     [](App& a) { a.command(Command::restart); }};
@@ -146,6 +134,14 @@ void way_buttons(App& app, const std::vector<Way>& ways, const std::vector<ImVec
   }
 }
 
+/// In the middle of the lower end of a picture of that size, above the names of cloths where there is room.
+Box place_of_banner(const App& app, glm::vec2 picture, glm::vec2 size) {
+  const glm::vec2 lo = app.viewport.box.lo;
+  const float left = std::round(lo.x + (picture.x - size.x) / 2), foot = lo.y + picture.y - app.theme.px(20);
+  const auto free = app.ui.placing.in_corner({{left, lo.y}, {left + size.x, foot}}, size, ScreenCorner::lower_left);
+  return free.value_or(Box{{left, foot - size.y}, {left + size.x, foot}});
+}
+
 }  // namespace
 
 void banner(App& app) {
@@ -156,33 +152,36 @@ void banner(App& app) {
   const bool roomy = app.viewport.size().x >= app.theme.px(least_banner);
   const glm::vec2 size = roomy ? app.viewport.size() : app.viewport.whole();
   const float width = std::min(app.theme.px(600), size.x - app.theme.px(32)), padding = app.theme.px(16);
-  const float icon = app.theme.px(30), inner = width - 2 * padding - icon;
+  // In a narrow one the text begins under the icon.
+  const float icon = app.theme.px(30), indent = width < app.theme.px(least_banner) ? 0 : icon;
+  const float inner = width - 2 * padding - indent;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const std::string happened = what_happened(*divergence, app.simulation->diverged_preset()),
-                    why = why_and_what_now(app, *divergence);
+  const std::string happened = in_lines(
+                        text, with_whole_terms(what_happened(*divergence, app.simulation->diverged_preset())), inner),
+                    why = in_lines(text, with_whole_terms(why_and_what_now(app, *divergence)), inner);
   const std::vector<Way> ways = ways_out(app);
   const std::vector<ImVec2> places = flow(app, ways, inner);
   const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);
-  const float happened_height = wrapped_height(text, happened, inner), why_height = wrapped_height(text, why, inner);
+  const float happened_height = height_of(text, happened), why_height = height_of(text, why);
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
-  const ImVec2 lo{std::round(app.viewport.box.lo.x + (size.x - width) / 2),
-                  app.viewport.box.lo.y + size.y - height - app.theme.px(20)};
-  const ImVec2 hi{lo.x + width, lo.y + height};
+  const Box box = place_of_banner(app, size, {width, height});
+  const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(8));
   draw.AddRect(lo, hi, c.danger, app.theme.px(8), 0, std::max(1.f, app.theme.px(1.5f)));
   draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(app.fonts, icon::warning, "!"));
   float y = lo.y + padding;
-  const float x = lo.x + padding + icon;
-  draw_text(draw, title, {x, y}, c.text, "The simulation diverged");
+  const float x = lo.x + padding + indent;
+  draw_text(draw, title, {lo.x + padding + icon, y}, c.text, "The simulation diverged");
   y += title.FontSize + gap;
-  draw_wrapped(draw, text, {x, y}, c.text, happened, inner);
+  draw_text(draw, text, {x, y}, c.text, happened);
   y += happened_height + gap;
-  draw_wrapped(draw, text, {x, y}, c.quiet, why, inner);
+  draw_text(draw, text, {x, y}, c.quiet, why);
   y += why_height + app.theme.px(12);
   way_buttons(app, ways, places, {x, y});
   cover_viewport(app, lo, hi);
+  app.ui.placing.take("banner", box);
 }
 
 void message_list(App& app) {
@@ -192,22 +191,24 @@ void message_list(App& app) {
   const float padding = app.theme.px(12), icon_width = app.theme.px(24), close = app.theme.px(22);
   const float most = std::min(app.theme.px(460), app.viewport.whole().x - app.theme.px(32));
   float y = app.ui.notes_from;
+  const Box* paused = app.ui.placing.find("paused");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto& list = app.messages.list();
   std::size_t dismissed = list.size();
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Message& message = list[k];
-    const std::string text = capitalised(message.text);
     const bool note = message.severity == Message::Severity::note;
     const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
-    const float inner = most - 2 * padding - icon_width - close;
-    const float height = std::max(wrapped_height(font, text, inner) + 2 * app.theme.px(9), app.theme.px(36));
-    const ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
-    draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(6));
+    const std::string text = in_lines(font, capitalised(message.text), most - 2 * padding - icon_width - close);
+    const float height = std::max(height_of(font, text) + 2 * app.theme.px(9), app.theme.px(36));
+    ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
+    if (paused != nullptr && overlap(*paused, {{lo.x, lo.y}, {hi.x, hi.y}}))
+      lo.y = paused->hi.y + app.theme.px(8), hi.y = lo.y + height;
+    draw.AddRectFilled(lo, hi, c.panel, app.theme.px(6));
     draw.AddRectFilled(lo, {lo.x + app.theme.px(3), hi.y}, color, app.theme.px(6), ImDrawFlags_RoundCornersLeft);
     draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
               icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
-    draw_wrapped(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text, inner);
+    draw_text(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text);
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(int(k));
     if (ImGui::InvisibleButton("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;

@@ -1,9 +1,12 @@
 // What colours the cloth: the list to choose from, and the legend in the viewport's corner.
 #include <algorithm>
+#include <array>
+#include <vector>
 
 #include "app/charts/color_legend.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
+#include "app/panels/overlay.h"
 #include "app/panels/panels.h"
 #include "app/panels/slider.h"
 #include "app/panels/symbol.h"
@@ -39,6 +42,31 @@ void top_cell(App& app, FieldColors& colors, ImVec2 right_end) {
   if (typed.value > 0) colors.fixed = typed.value;
 }
 
+/// Where the legend can stand, the best first: where the viewport has room for one more picture, or in a corner; whole,
+/// or else on a single line.
+std::array<std::optional<Box>, 10> legend_places(const App& app) {
+  const Viewport& viewport = app.viewport;
+  const float margin = app.theme.px(16);
+  const auto in = [&](glm::vec2 lo, auto size_in, ScreenCorner corner) {
+    const Box area{lo + margin, viewport.box.hi - margin};
+    const ImVec2 size = size_in(app.theme, area.hi.x - area.lo.x);
+    return app.ui.placing.in_corner(area, {size.x, size.y}, corner);
+  };
+  const int pictures = app.copies.tiles();
+  const bool room = pictures < viewport.columns * viewport.rows;
+  const glm::vec2 lo = viewport.box.lo, empty = viewport.origin(pictures);
+  return {room ? in(empty, legend_size, ScreenCorner::lower_right) : std::nullopt,
+          room ? in(empty, legend_line_size, ScreenCorner::lower_right) : std::nullopt,
+          in(lo, legend_size, ScreenCorner::lower_right),
+          in(lo, legend_size, ScreenCorner::lower_left),
+          in(lo, legend_size, ScreenCorner::upper_right),
+          in(lo, legend_size, ScreenCorner::upper_left),
+          in(lo, legend_line_size, ScreenCorner::lower_right),
+          in(lo, legend_line_size, ScreenCorner::lower_left),
+          in(lo, legend_line_size, ScreenCorner::upper_right),
+          in(lo, legend_line_size, ScreenCorner::upper_left)};
+}
+
 }  // namespace
 
 float color_menu_width(const App& app) {
@@ -62,20 +90,20 @@ void color_menu(App& app) {
 void color_legend(App& app) {
   const FieldColors* shown = shown_colors(app);
   if (shown == nullptr) return;
-  const float margin = app.theme.px(16);
-  const ImVec2 size = legend_size(app.theme, app.viewport.whole().x - 2 * margin);
-  // Above the names that copies have at the foot of their pictures, where both have no room beside each other.
-  const bool beside = app.copies.lockstep.empty() || app.viewport.size().x > 2 * size.x + 3 * margin;
-  const float names = beside ? 0 : app.fonts.text->FontSize + app.theme.px(16);
-  const glm::vec2 corner = app.viewport.box.hi;
-  const ImVec2 at{corner.x - margin - size.x, corner.y - margin - names - size.y};
-  if (at.y < app.viewport.box.lo.y) return;
+  const auto places = legend_places(app);
+  // While the cloth swings the legend stays, whatever comes under it.
+  const bool still = !app.pacing.playing || !app.ui.legend_place;
+  app.ui.legend_place = choose_place(places, still ? drawn_parts(app) : std::vector<Box>(), app.ui.legend_place);
+  if (!app.ui.legend_place) return;
+  const Box& box = *places[*app.ui.legend_place];
+  const ImVec2 at{box.lo.x, box.lo.y}, size{box.hi.x - box.lo.x, box.hi.y - box.lo.y};
   const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
   const ColorLegend legend{info(shown->field), shown->map(light_ground(app)),
                            shown->top(),       app.colors.under_pointer,
                            shown->beyond(),    false};
   top_cell(app, *app.colors.chosen, draw_color_legend(paint, at, size, legend));
-  cover_viewport(app, at, {at.x + size.x, at.y + size.y});
+  app.ui.placing.take("legend", box);
+  cover_viewport(app, {box.lo.x, box.lo.y}, {box.hi.x, box.hi.y});
 }
 
 }  // namespace tyglab

@@ -194,7 +194,7 @@ bool applies(const PresetRow& row, const Preset& preset) {
 }
 
 void show_constant(App& app, std::string_view key) {
-  app.ui.panels = app.settings.layout.left = true, app.ui.side_plots = false;
+  app.ui.panels = app.settings.layout.left = true, app.ui.side_plots = app.ui.side_cloth = false;
   app.ui.slider.wanted_key = key;
   for (const Section& wanted : sections()) {
     const auto list = rows_of(wanted);

@@ -1,23 +1,49 @@
 #include "app/panels/copies_card.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
 #include "app/panels/plot.h"
+#include "app/panels/plot_card.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* heading = "Copies";
-constexpr float line_at_1 = 24, buttons_at_1 = 34, words_at_1 = 62;  // pixels at scale 1
-constexpr float cost_at_1 = 72, apart_at_1 = 84, remove_at_1 = 26;   // columns
+constexpr const char* heading = card_name::copies;
+constexpr float line_at_1 = 24, buttons_at_1 = 34, under_words_at_1 = 12;  // pixels at scale 1
+constexpr float cost_at_1 = 72, apart_at_1 = 84, remove_at_1 = 26;         // columns
+constexpr float costs_from_at_1 = 250;                                     // a narrower card leaves the costs out
+constexpr const char* copies_explanation =
+    "Copies move beside this cloth with the same start, hand and wind, each with another method, dt or constant: see "
+    "where they part.";
+constexpr const char* add_label = "Add a copy with…";
+constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
+
+/// Width of what stands in the card, before it has begun.
+float copies_inner_width(const App& app) {
+  return plot_card_inner_width(app, app.ui.plots.width);
+}
+
+bool costs_shown(const App& app) {
+  return copies_inner_width(app) >= app.theme.px(costs_from_at_1);
+}
+
+/// Whether the two buttons have no room in one row.
+bool buttons_wrap(const App& app) {
+  const float add = text_width(*app.fonts.text, add_label) + 2 * ImGui::GetStyle().FramePadding.x;
+  return add + app.theme.px(10) + segments_size(app, copies_ways.data(), 2).x > copies_inner_width(app);
+}
+
+float explanation_height(const App& app) {
+  const ImFont& font = *app.fonts.text;
+  return font.CalcTextSizeA(font.FontSize, 1e9f, copies_inner_width(app), copies_explanation).y;
+}
 
 void item(App& app, const std::string& label, std::vector<std::string> differences, bool reference = false) {
   if (ImGui::MenuItem(label.c_str())) app.request(request::AddCopy{std::move(differences), reference});
@@ -25,9 +51,7 @@ void item(App& app, const std::string& label, std::vector<std::string> differenc
 }
 
 std::string dt_setting(double dt) {
-  char text[40];
-  std::snprintf(text, sizeof text, "dt=%.6g", rounded(dt, 6));
-  return text;
+  return "dt=" + short_number(dt, 6);
 }
 
 /// What a copy may be made with; constants offer the same in their own menus.
@@ -71,15 +95,13 @@ void head(App& app) {
   const Columns at = columns_of(app);
   const float middle = lo.y + app.theme.px(card::line) / 2;
   const Tokens& c = app.theme.colors;
-  right_aligned(app, *app.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
+  if (costs_shown(app)) right_aligned(app, *app.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
   right_aligned(app, *app.fonts.small, lo.x + at.apart, middle, c.quiet, "apart, m");
   ImGui::Dummy({at.whole, app.theme.px(card::line)});
 }
 
 std::string number_or_dash(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return std::isfinite(value) ? text : "–";
+  return std::isfinite(value) ? short_number(value, 2) : "–";
 }
 
 /// A cloth: its line, its name, what a simulated second costs, how far it is from the reference. A click makes it the
@@ -103,12 +125,14 @@ void cloth_line(App& app, int n) {
   const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
   draw_styled_line(draw, ends, 2, style_of_cloth(app, n), app.theme.scale);
   const bool diverged = cloth_of(app, n).divergence().has_value();
-  const float left = lo.x + sample + app.theme.px(6), room = lo.x + at.cost - app.theme.px(cost_at_1) - left;
+  const float left = lo.x + sample + app.theme.px(6),
+              room = lo.x + at.cost - (costs_shown(app) ? app.theme.px(cost_at_1) : 0) - left;
   draw_on_baseline(draw, *app.fonts.small, {left, baseline_at(app.fonts, middle)}, diverged ? c.danger : c.text,
                    fitted(*app.fonts.small, name_of_cloth(app, n), room));
   const Lockstep::Cost& cost = n == Copies::original ? copies.cost : copies.lockstep[std::size_t(n)].cost;
-  right_aligned(app, *app.fonts.mono, lo.x + at.cost, middle, c.text,
-                cost.per_second() > 0 && !diverged ? number_or_dash(cost.per_second()) : "–");
+  if (costs_shown(app))
+    right_aligned(app, *app.fonts.mono, lo.x + at.cost, middle, c.text,
+                  cost.per_second() > 0 && !diverged ? number_or_dash(cost.per_second()) : "–");
   const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
   right_aligned(app, *app.fonts.mono, lo.x + at.apart, middle, diverged ? c.danger : c.text,
                 diverged                ? "diverged"
@@ -127,20 +151,21 @@ void cloth_line(App& app, int n) {
 void buttons(App& app, bool any) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(3)});
-  if (text_button(app, "Add a copy with…", !any)) ImGui::OpenPopup("copy menu");
+  if (text_button(app, add_label, !any)) ImGui::OpenPopup("copy menu");
   report_control(app, "add");
   copy_menu(app);
   if (any) {
-    static constexpr const char* ways[] = {"Beside", "Overlaid"};
-    ImGui::SameLine(0, app.theme.px(10));
-    ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, lo.y + app.theme.px(4)});
-    if (const int k = segments(app, "ways", ways, 2, app.copies.overlaid); k >= 0 && (k == 1) != app.copies.overlaid) {
+    const float right = ImGui::GetItemRectMax().x + app.theme.px(10);
+    ImGui::SetCursorScreenPos(buttons_wrap(app) ? ImVec2(lo.x, lo.y + app.theme.px(buttons_at_1 + 3))
+                                                : ImVec2(right, lo.y + app.theme.px(4)));
+    if (const int k = segments(app, "ways", copies_ways.data(), 2, app.copies.overlaid);
+        k >= 0 && (k == 1) != app.copies.overlaid) {
       app.copies.overlaid = k == 1;
-      app.wants_framing = app.redraw_cloth = true;
+      app.redraw_cloth = true;
     }
     report_control(app, "ways");
   }
-  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(buttons_at_1)});
+  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(any && buttons_wrap(app) ? 2 * buttons_at_1 : buttons_at_1)});
 }
 
 }  // namespace
@@ -171,8 +196,10 @@ void copies_plot(App& app, ImVec2 size) {
 
 float copies_card_height(const App& app) {
   const std::size_t copies = app.copies.lockstep.size();
-  const float lines = copies == 0 ? words_at_1 : card::line + line_at_1 * float(copies + 1);
-  return card_height(app, heading, lines + buttons_at_1);
+  if (copies == 0)
+    return card_height(app, heading, explanation_height(app) / app.theme.scale + under_words_at_1 + buttons_at_1);
+  const float buttons = buttons_wrap(app) ? 2 * buttons_at_1 : buttons_at_1;
+  return card_height(app, heading, card::line + line_at_1 * float(copies + 1) + buttons);
 }
 
 void copies_card(App& app, float height) {
@@ -185,10 +212,7 @@ void copies_card(App& app, float height) {
       for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) cloth_line(app, n);
     } else {
       ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + card_width(app));
-      wrapped(app,
-              "Copies move beside this cloth with the same start, hand and wind, each with another method, dt or "
-              "constant: see where they part.",
-              app.theme.colors.text);
+      wrapped(app, copies_explanation, app.theme.colors.text);
       ImGui::PopTextWrapPos();
       ImGui::Dummy({0, app.theme.px(6)});
     }

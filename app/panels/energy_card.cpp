@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* energy_heading = "Energy";
+constexpr const char* energy_heading = card_name::energy;
 constexpr std::string_view height_row = "height";
 constexpr float gap_at_1 = 7;  // pixels at scale 1
 
@@ -50,8 +50,7 @@ void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, d
   if (row.name != height_row && left + app.theme.px(24) < lo.x + width - value)
     draw_bar(app, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
              faded(color, 0.8f));
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g J", row.joule == 0 ? 0.0 : row.joule);
+  const std::string text = short_number(row.joule, 3) + " J";
   const ImFont& mono = *app.fonts.mono;
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, judged ? color : ink, text);
 }
@@ -76,9 +75,8 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
 }
 
 std::string share_text(const LedgerReading& reading) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%.2g %% of what the scene can hold, %.3g J", 100 * reading.share(), reading.scale);
-  return text;
+  return short_number(100 * reading.share(), 2) + " % of what the scene can hold, " + short_number(reading.scale, 3) +
+         " J";
 }
 
 float energy_card_height(const App& app) {

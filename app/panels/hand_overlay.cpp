@@ -1,6 +1,7 @@
 // The hand's tools over the cloth: the wind's arrow, the knife's stroke and what it would cut.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -15,8 +16,22 @@ namespace {
 
 constexpr double stroke_seen = 0.7;  // s
 
+/// Where a label of that size can stand: under the foot of the arrow, over it, or beside it.
+std::optional<Box> place_of_label(const App& app, glm::vec2 foot, glm::vec2 size) {
+  const float away = app.theme.px(22), margin = app.theme.px(8);
+  const glm::vec2 lo = app.viewport.origin(0) + margin, hi = app.viewport.origin(0) + app.viewport.size() - margin;
+  std::vector<Box> places;
+  for (const glm::vec2 at : {foot + glm::vec2(-size.x / 2, away), foot + glm::vec2(-size.x / 2, -away - size.y),
+                             foot + glm::vec2(away, -size.y / 2), foot + glm::vec2(-away - size.x, -size.y / 2),
+                             foot + glm::vec2(-size.x / 2, -2 * away - 2 * size.y)}) {
+    const glm::vec2 inside = glm::round(glm::max(lo, glm::min(at, hi - size)));
+    places.push_back({inside, inside + size});
+  }
+  return app.ui.placing.first_free(places);
+}
+
 /// "W  4.02e-3 N", and in gusts what blows now.
-void wind_label(App& app, ImDrawList& draw, ImVec2 at, const glm::dvec3& W) {
+void wind_label(App& app, ImDrawList& draw, glm::vec2 foot, const glm::dvec3& W) {
   const Tokens& c = app.theme.colors;
   const ImFont &mono = *app.fonts.mono, &small = *app.fonts.small;
   const float pad = app.theme.px(8), gap = app.theme.px(8), line = app.theme.px(20);
@@ -25,15 +40,15 @@ void wind_label(App& app, ImDrawList& draw, ImVec2 at, const glm::dvec3& W) {
   const std::string now = "now " + steady_number(glm::length(app.simulation->wind())) + " N";
   const float symbol = symbol_width(app.fonts, "W");
   const float width = std::max(symbol + gap + text_width(mono, strength), gusty ? text_width(small, now) : 0.f);
-  const float height = line * (gusty ? 2.f : 1.f);
-  const float right = app.viewport.origin(0).x + app.viewport.size().x - app.theme.px(16);
-  const ImVec2 lo{std::round(std::min(at.x - width / 2, right - width - pad)), at.y};
-  draw.AddRectFilled({lo.x - pad, lo.y}, {lo.x + width + pad, lo.y + height + pad / 2}, faded(c.ground, 0.8f),
-                     app.theme.px(6));
-  const float baseline = baseline_at(app.fonts, lo.y + line / 2 + pad / 4);
-  draw_symbol(draw, app.fonts, {lo.x, baseline}, "W", c.text);
-  draw_on_baseline(draw, mono, {lo.x + symbol + gap, baseline}, c.text, strength);
-  if (gusty) draw_on_baseline(draw, small, {lo.x, baseline + line}, c.quiet, now);
+  const glm::vec2 size = glm::ceil(glm::vec2(width + 2 * pad, line * (gusty ? 2.f : 1.f) + pad / 2));
+  const auto box = place_of_label(app, foot, size);
+  if (!box) return;
+  app.ui.placing.take("wind", *box);
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(c.ground, 0.85f), app.theme.px(6));
+  const float x = box->lo.x + pad, baseline = baseline_at(app.fonts, box->lo.y + line / 2 + pad / 4);
+  draw_symbol(draw, app.fonts, {x, baseline}, "W", c.text);
+  draw_on_baseline(draw, mono, {x + symbol + gap, baseline}, c.text, strength);
+  if (gusty) draw_on_baseline(draw, small, {x, baseline + line}, c.quiet, now);
 }
 
 void stroke_part(App& app, ImDrawList& draw, const Tool::StrokePoint& a, const Tool::StrokePoint& b) {
@@ -63,7 +78,7 @@ void wind_overlay(App& app, ImDrawList& draw) {
   draw_arrow(app, draw, *base, end, {c.sky, LineStyle::solid, 2}, shortened);
   draw.AddCircleFilled(*base, app.theme.px(3), c.sky, 16);
   ring(app, draw, end, 8, taken || near ? c.accent : faded(c.sky, 0.7f), taken || near ? 2.5f : 1.5f);
-  wind_label(app, draw, {base->x, base->y + app.theme.px(22)}, W);
+  wind_label(app, draw, {base->x, base->y}, W);
 }
 
 void knife_stroke(App& app, ImDrawList& draw) {

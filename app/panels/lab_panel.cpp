@@ -1,5 +1,5 @@
-// The lab in work, in a strip below the viewport: what to read and predict at the left, what to do, what is checked and
-// why at the right.
+// The lab in work, in a strip below the viewport: what to read at the left; at the right what to predict, then what
+// to do, what is checked and why.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
+#include "app/panels/text_lines.h"
 #include "app/panels/widgets.h"
 
 namespace tyglab {
@@ -26,23 +27,9 @@ void small_head(App& app, const char* text, ImU32 color) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - app.theme.px(3));
 }
 
-/// Text broken at its spaces alone, where Dear ImGui would also break within 0.001.
+/// Text in the column's width.
 void set_text(App& app, std::string_view text, ImU32 color) {
-  const ImFont& font = *app.fonts.text;
-  const float width = ImGui::GetContentRegionAvail().x;
-  std::string lines, line;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    const std::string longer = (line.empty() ? "" : line + " ") + std::string(text.substr(at, end - at));
-    if (!line.empty() && text_width(font, longer) > width) {
-      lines += line + "\n";
-      line = text.substr(at, end - at);
-    } else {
-      line = longer;
-    }
-    at = end + 1;
-  }
-  wrapped(app, lines + line, color);
+  wrapped(app, in_lines(*app.fonts.text, text, ImGui::GetContentRegionAvail().x), color);
 }
 
 void paragraphs_of(App& app, const Paragraphs& text, ImU32 color) {
@@ -102,8 +89,8 @@ void choice_list(App& app, const Prediction& asked, StepRecord& record) {
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, indent = app.theme.px(24), pad = app.theme.px(5);
     const ImFont& font = *app.fonts.text;
-    const std::string& words = asked.choices[std::size_t(k)];
-    const float height = font.CalcTextSizeA(font.FontSize, 1e9f, width - indent - pad, words.c_str()).y + 2 * pad;
+    const std::string words = in_lines(font, asked.choices[std::size_t(k)], width - indent - pad);
+    const float height = font.CalcTextSizeA(font.FontSize, 1e9f, 0, words.c_str()).y + 2 * pad;
     if (ImGui::InvisibleButton("choice", {width, height})) record.chosen = k, clicked = true;
     report_control(app, "choice." + std::to_string(k + 1));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -113,8 +100,7 @@ void choice_list(App& app, const Prediction& asked, StepRecord& record) {
     const ImVec2 middle{lo.x + app.theme.px(12), lo.y + pad + std::round(font.FontSize / 2)};
     draw.AddCircle(middle, app.theme.px(5.5f), chosen ? c.accent : c.quiet, 20, std::max(1.f, app.theme.px(1.5f)));
     if (chosen) draw.AddCircleFilled(middle, app.theme.px(3), c.accent, 16);
-    draw.AddText(&font, font.FontSize, {lo.x + indent, lo.y + pad}, c.text, words.c_str(), nullptr,
-                 width - indent - pad);
+    draw_text(draw, font, {lo.x + indent, lo.y + pad}, c.text, words);
     ImGui::PopID();
   }
   if (text_button(app, "Predict", true, record.chosen >= 0)) predict(app);
@@ -130,18 +116,22 @@ void prediction_part(App& app, const LabStep& step, StepRecord& record) {
                                    : choice_list(app, *step.prediction, record);
 }
 
+bool to_be_predicted(const LabStep& step, const StepRecord& record) {
+  return step.prediction && !record.predicted && !record.done;
+}
+
 /// "now 50 N/m", or what makes it known.
 std::string present_value(App& app, const Condition& check, CheckState state) {
   if (is_word(check.name)) return "now " + std::string(observe_word(app, check.name));
   const Observable* row = find_observable(check.name);
   const auto value = observe(app, check.name);
-  if (value) return "now " + with_unit(*value, unit_of(check.name));
+  if (value) return with_whole_terms("now " + with_unit(*value, unit_of(check.name)));
   return row != nullptr && state == CheckState::unknown ? std::string(row->cure) : std::string();
 }
 
 void check_line(App& app, const Condition& check, CheckState state, bool done) {
   const Tokens& c = app.theme.colors;
-  const std::string words = words_of(check);
+  const std::string words = with_whole_terms(words_of(check));
   if (done) return marked_line(app, icon::check, "+", c.good, words + ": seen", c.text);
   const std::string now = present_value(app, check, state);
   const std::string all = words + (now.empty() ? "" : " · " + now);
@@ -163,9 +153,8 @@ void waiting_part(App& app) {
 
 void doing_part(App& app, const LabStep& step, const StepRecord& record) {
   const Tokens& c = app.theme.colors;
-  const bool waits = step.prediction && !record.predicted && !record.done;
   if (lab_waits(app)) return waiting_part(app);
-  if (waits) return wrapped(app, "Predict first: then it says here what to do.", c.quiet);
+  if (to_be_predicted(step, record)) return set_text(app, "Predict first: then it says here what to do.", c.quiet);
   if (cannot_be_done(app))
     return marked_line(app, icon::warning, "!", c.warning,
                        "This machine has no OpenCL device, so there is nothing to do here; read on.", c.text);
@@ -196,8 +185,22 @@ void begin_lab_column(App& app, const char* id, float left, float top, ImVec2 si
   ImGui::PushTextWrapPos(0);
 }
 
+/// What goes on below its edge is seen to: the last line fades, and an arrow points down.
+void more_below(App& app) {
+  if (ImGui::GetScrollMaxY() - ImGui::GetScrollY() < app.theme.px(6)) return;
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float high = app.theme.px(16), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
+  const float x = std::round((lo.x + right) / 2), y = bottom - app.theme.px(7), r = app.theme.px(5);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 clear = faded(c.panel, 0);
+  draw.AddRectFilledMultiColor({lo.x, bottom - high}, {right, bottom}, clear, clear, c.panel, c.panel);
+  draw.AddTriangleFilled({x - r, y}, {x + r, y}, {x, y + r}, c.text);
+}
+
 void end_lab_column(App& app) {
   ImGui::Dummy({0, app.theme.px(4)});
+  more_below(app);
   ImGui::PopTextWrapPos();
   ImGui::PopStyleVar();
   ImGui::EndChild();
@@ -268,8 +271,11 @@ void lab_panel(App& app, const Region& region) {
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
   begin_lab_column(app, ("read" + id).c_str(), left, top, {column, height});
   reading_part(app, run);
-  prediction_part(app, run.now(), run.record());
+  // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
+  const bool beside = two && to_be_predicted(run.now(), run.record());
+  if (!beside) prediction_part(app, run.now(), run.record());
   if (two) end_lab_column(app), begin_lab_column(app, ("do" + id).c_str(), left + column + gap, top, {column, height});
+  if (beside) prediction_part(app, run.now(), run.record());
   doing_part(app, run.now(), run.record());
   explanation_part(app, run);
   end_lab_column(app);

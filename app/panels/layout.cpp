@@ -38,13 +38,16 @@ void splitter(App& app, const char* id, float x, float top, float bottom, float&
   app.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
 }
 
-/// Chooses which of the two columns stands in the place that they share. Returns its height.
-float side_tabs(App& app, const Region& region) {
-  static constexpr const char* names[] = {"Constants", "Plots"};
+/// Chooses which of the two columns stands in the place that they share; or, where the cloth has none beside it
+/// (`all`), which of the three. Returns its height.
+float side_tabs(App& app, const Region& region, bool all) {
+  static constexpr const char* names[] = {"Constants", "Plots", "Cloth"};
   if (begin_region("side", region, app.theme.colors.panel, {app.theme.px(16), app.theme.px(8)})) {
-    const int k = segments(app, "columns", names, 2, app.ui.side_plots ? 1 : 0);
-    if (k >= 0) app.ui.side_plots = k == 1;
-    tooltip(app, gui::item_id(), "The window is too narrow for both columns; Ctrl+- makes text and panels smaller.");
+    const int now = all && app.ui.side_cloth ? 2 : app.ui.side_plots ? 1 : 0;
+    const int k = segments(app, "columns", names, all ? 3 : 2, now);
+    if (k == 0 || k == 1) app.ui.side_plots = k == 1;
+    if (k >= 0) app.ui.side_cloth = k == 2;
+    tooltip(app, gui::item_id(), "The window is too narrow for all at once; Ctrl+- makes text and panels smaller.");
   }
   end_region();
   return region.size.y;
@@ -80,7 +83,9 @@ void draw_layout(App& app, ImVec2 window) {
   const bool shared = left > 0 && left + right > spare;
   if (left + right > spare) right = 0;
   if (shared) left = std::round(std::min(layout.left_width * app.theme.scale, std::max(spare, left)));
-  if (left + app.theme.px(140) > window.x) left = 0;
+  // Where not even one has room beside the cloth, all three do.
+  const bool in_turn = left + app.theme.px(140) > window.x;
+  if (in_turn) left = app.ui.side_cloth ? 0 : window.x;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;
   app.ui.accuracy_shown = app.ui.map_shown = app.ui.inside_shown = app.copies.shown = false;
@@ -89,15 +94,21 @@ void draw_layout(App& app, ImVec2 window) {
   // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll.
   const bool below = lab > 0 && left > 0 && middle < app.theme.px(lab_two_columns);
   const float low = below ? 0 : left, column = window.y - top - (below ? lab + bottom : 0);
-  viewport_panel(app, {{left, top}, {middle, height - lab}});
+  const float strip = app.theme.px(42), over_cloth = in_turn ? strip : 0;
+  if (middle > 0) {
+    viewport_panel(app, {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}});
+  } else {
+    app.viewport.box = {};
+    app.viewport.covers.clear();
+  }
   if (lab > 0) lab_panel(app, {{low, top + height - lab}, {left + middle - low, lab}});
   if (panels) top_bar(app, {{0, 0}, {window.x, top}});
-  const float tabs = shared && left > 0 ? side_tabs(app, {{0, top}, {left, app.theme.px(42)}}) : 0;
+  const float tabs = shared || in_turn ? side_tabs(app, {{0, top}, {in_turn ? window.x : left, strip}}, in_turn) : 0;
   const Region side{{0, top + tabs}, {left, column - tabs}};
   if (left > 0) shared&& app.ui.side_plots ? plots_panel(app, side) : constants_panel(app, side);
   if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});
   if (bottom > 0) status_bar(app, {{low, window.y - bottom}, {left + middle - low, bottom}});
-  if (left > 0) splitter(app, "left border", left, top, top + column, layout.left_width, 1);
+  if (left > 0 && !in_turn) splitter(app, "left border", left, top, top + column, layout.left_width, 1);
   if (right > 0) splitter(app, "right border", window.x - right, top, window.y, layout.right_width, -1);
   tour_card(app);
   help_overlay(app);

@@ -9,41 +9,13 @@
 namespace tyglab {
 namespace {
 
-/// "1.20e-04" as "1.20e-4".
-std::string short_exponent(std::string text) {
-  const std::size_t e = text.find('e');
-  if (e == std::string::npos) return text;
-  std::size_t digit = e + 2;
-  while (digit + 1 < text.size() && text[digit] == '0') text.erase(digit, 1);
-  if (text[e + 1] == '+') text.erase(e + 1, 1);
-  return text;
-}
-
 std::string print(const char* format, int precision, double value) {
   char text[48];
   std::snprintf(text, sizeof text, format, precision, value);
   return short_exponent(text);
 }
 
-/// "1.200e-4" as "1.2e-4".
-std::string without_idle_zeros(std::string text) {
-  const std::size_t e = std::min(text.find('e'), text.size());
-  if (text.find('.') == std::string::npos) return text;
-  std::size_t end = e;
-  while (text[end - 1] == '0') --end;
-  if (text[end - 1] == '.') --end;
-  return text.erase(end, e - end);
-}
-
 }  // namespace
-
-std::string short_number(double value) {
-  if (!std::isfinite(value)) return std::isnan(value) ? "NaN" : value < 0 ? "-∞" : "∞";
-  const double size = std::abs(value);
-  if (size == 0) return "0";
-  if (size >= 1e-3 && size < 1e5) return print("%.*g", size >= 1e4 ? 5 : 4, value);
-  return without_idle_zeros(print("%.*e", 3, value));
-}
 
 std::string steady_number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "NaN" : value < 0 ? "-∞" : "∞";
@@ -111,15 +83,6 @@ std::optional<double> typed_number(std::string_view text, std::string_view unit)
   const auto factor = factor_of({rest, std::size_t(end - rest)}, unit);
   if (!factor) return std::nullopt;
   return value * *factor;
-}
-
-double rounded(double value, int digits) {
-  if (value == 0 || !std::isfinite(value)) return value;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
-  double out = value;
-  std::from_chars(text, text + std::char_traits<char>::length(text), out);
-  return out;
 }
 
 }  // namespace tyglab

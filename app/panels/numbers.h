@@ -1,4 +1,4 @@
-// Numbers as a panel shows and reads them.
+// Numbers as a panel shows and reads them; constants are shown by short_number of readable.h.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "core/notation/readable.h"
+
 namespace tyglab {
 
-/// A constant: up to four significant digits, "310", "0.002", "1.2e-4".
-std::string short_number(double value);
 /// A read-out that does not dance: always three significant digits, "3.41e-3", "12.0".
 std::string steady_number(double value);
 /// "(1.00, -2.50e-3, 0)": each as steady_number.
@@ -20,7 +20,5 @@ std::string time_number(double t, double dt);
 /// an SI prefix ("2 ms" where s are meant, "9,8 cm"), which is converted. None if it is not a number or has another
 /// unit.
 std::optional<double> typed_number(std::string_view text, std::string_view unit = {});
-/// Rounded to that many significant digits.
-double rounded(double value, int digits);
 
 }  // namespace tyglab

@@ -1,4 +1,4 @@
-// What is drawn over the cloth: what would be grabbed or cut, the picked particle with its forces, PAUSED.
+// What is drawn over the cloth: what would be grabbed or cut, the picked particle with its forces.
 #include "app/panels/overlay.h"
 
 #include <algorithm>
@@ -34,7 +34,9 @@ void spring_arrows(App& app, ImDrawList& draw, ImVec2 from) {
   }
 }
 
-void picked(App& app, ImDrawList& draw) {
+}  // namespace
+
+void picked_overlay(App& app, ImDrawList& draw) {
   if (!app.picked || app.preset().kind != Kind::cloth) return;
   for (int tile = 0; tile < app.copies.tiles(); ++tile) {
     const auto at = particle_on_screen(app, tile, *app.picked);
@@ -48,8 +50,8 @@ void picked(App& app, ImDrawList& draw) {
   }
 }
 
-/// The pointer with its tool, and the particle that it would take.
-void pointer(App& app, ImDrawList& draw) {
+void pointer_overlay(App& app, ImDrawList& draw) {
+  app.colors.under_pointer.reset();
   const Tokens& c = app.theme.colors;
   const ImVec2 mouse = vec(app.input.at);
   const float r = app.theme.px(8);
@@ -94,44 +96,6 @@ void pointer(App& app, ImDrawList& draw) {
       ring(app, draw, *at, 5, pinned ? c.warning : c.accent, 2);
     }
   }
-}
-
-/// How to go on from a pause: the keys that reach the transport now.
-const char* ways_on(const App& app) {
-  if (app.ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter takes what is typed · Esc leaves it";
-  if (app.ui.slider.focused != 0) return "Space runs · O makes one step · → is the slider's until Esc";
-  return "Space runs · → makes one step";
-}
-
-/// One line on a ground of its own under the view buttons, where a
-/// hanging cloth sags: what is paused should be seen.
-void paused(App& app, ImDrawList& draw) {
-  if (app.pacing.playing || app.simulation->divergence()) return;
-  const Tokens& c = app.theme.colors;
-  const ImFont &bold = *app.fonts.brand, &text = *app.fonts.text;
-  const char *word = "PAUSED", *how = ways_on(app);
-  const glm::vec2 lo = app.viewport.box.lo, hi = app.viewport.box.hi;
-  const float pad = app.theme.px(12), height = app.theme.px(32), word_width = text_width(bold, word);
-  const float with_how = word_width + text_width(text, how) + 3 * pad;
-  const bool wide = with_how <= hi.x - lo.x - app.theme.px(32);
-  const float width = wide ? with_how : word_width + 2 * pad;
-  const ImVec2 at{std::round((lo.x + hi.x - width) / 2), std::round(app.ui.notes_from)};
-  const float baseline = baseline_at(app.fonts, at.y + height / 2);
-  draw.AddRectFilled(at, {at.x + width, at.y + height}, faded(c.ground, 0.8f), app.theme.px(6));
-  draw_on_baseline(draw, bold, {at.x + pad, baseline}, c.text, word);
-  if (wide) draw_on_baseline(draw, text, {at.x + word_width + 2 * pad, baseline}, c.quiet, how);
-}
-
-}  // namespace
-
-void viewport_overlay(App& app) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  picked(app, draw);
-  app.colors.under_pointer.reset();
-  wind_overlay(app, draw);
-  knife_stroke(app, draw);
-  pointer(app, draw);
-  paused(app, draw);
 }
 
 }  // namespace tyglab

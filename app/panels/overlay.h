@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "app/panels/theme.h"
 #include "app/sandbox/app.h"
@@ -23,11 +24,23 @@ bool draw_arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, const CurveS
 /// As much of the way from `from`, which lies in a picture, as stays in it. Whether something was cut off.
 bool keep_in_picture(const App& app, int tile, ImVec2 from, ImVec2& to);
 
-/// The variables that are ticked in the read-out, at the picked particle: forces, velocity and acceleration each to one
-/// scale, which stands in the corner.
+/// The scales of the arrows at the picked particle, one each for forces, velocity and acceleration, in the corner of
+/// the original's picture.
+void arrow_scales(App& app, ImDrawList& draw);
+/// To those scales: the variables that are ticked in the read-out, each with its symbol where there is room.
 void particle_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from);
 /// The wind's arrow with its strength.
 void wind_overlay(App& app, ImDrawList& draw);
+/// The picked particle in every picture, with its arrows.
+void picked_overlay(App& app, ImDrawList& draw);
+/// The pointer with its tool, and the particle that it would take.
+void pointer_overlay(App& app, ImDrawList& draw);
+/// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
+void pause_mark(App& app, ImDrawList& draw, const Box& row);
+/// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged.
+void cloth_names(App& app, ImDrawList& draw);
+/// Where cloth, weight and the wind's arrow are drawn: boxes of their parts.
+std::vector<Box> drawn_parts(App& app);
 /// Where a knife has just gone along its path, fading.
 void knife_stroke(App& app, ImDrawList& draw);
 /// What a nick at the pointer would cut.

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/panels/overlay.h"
+#include "app/sandbox/wind_arrow.h"
+#include "app/viewport/weight_model.h"
 
 namespace tyglab {
 
@@ -17,6 +19,58 @@ std::optional<ImVec2> on_screen(const App& app, int tile, glm::dvec3 world) {
 
 std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site) {
   return on_screen(app, tile, cloth_in_tile(app, tile).position(site.i, site.j));
+}
+
+namespace {
+
+Box box_round(ImVec2 a, ImVec2 b) {
+  return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+}
+
+/// The box of what of these places is seen.
+void add_box(const App& app, int tile, std::initializer_list<glm::dvec3> places, std::vector<Box>& to) {
+  std::optional<Box> all;
+  for (const glm::dvec3& place : places)
+    if (const auto at = on_screen(app, tile, place)) {
+      const Box box = all ? *all : box_round(*at, *at);
+      all = Box{{std::min(box.lo.x, at->x), std::min(box.lo.y, at->y)},
+                {std::max(box.hi.x, at->x), std::max(box.hi.y, at->y)}};
+    }
+  if (all) to.push_back({all->lo - 1.f, all->hi + 1.f});
+}
+
+void add_weight(const App& app, const Simulation& cloth, int tile, std::vector<Box>& to) {
+  const WeightModel model = weight_model(cloth.preset(), cloth.positions().at(0, 0));
+  const glm::dvec3 weight(model.weight), side(1.2 * model.radius, 0, 0), down(0, 1.2 * model.radius, 0);
+  const glm::dvec3 top(weight.x, 3.1 * model.radius / 0.19 + cloth.preset().x_0.y, weight.z);
+  add_box(app, tile, {top - side, top + side, weight - down - side, weight - down + side}, to);
+}
+
+/// Patches of the lattice, at most so many along each side.
+void add_patches(const App& app, const Simulation& cloth, int tile, std::vector<Box>& to) {
+  constexpr int most = 12;
+  const PositionView x = cloth.positions();
+  const int down = std::max(1, std::min(x.rows - 1, most)), across = std::max(1, std::min(x.columns - 1, most));
+  const auto place = [&](int k, int l) { return x.at(k * (x.rows - 1) / down, l * (x.columns - 1) / across); };
+  for (int k = 0; k < down; ++k)
+    for (int l = 0; l < across; ++l)
+      add_box(app, tile, {place(k, l), place(k + 1, l), place(k, l + 1), place(k + 1, l + 1)}, to);
+}
+
+}  // namespace
+
+std::vector<Box> drawn_parts(App& app) {
+  std::vector<Box> parts;
+  for (int tile = 0; tile < app.copies.tiles(); ++tile) {
+    const Simulation& cloth = cloth_in_tile(app, tile);
+    cloth.preset().kind == Kind::one_weight ? add_weight(app, cloth, tile, parts)
+                                            : add_patches(app, cloth, tile, parts);
+  }
+  if (wind_arrow_shown(app)) {
+    const WindArrow arrow = wind_arrow(app, app.wished().W);
+    add_box(app, 0, {arrow.base, arrow.tip}, parts);
+  }
+  return parts;
 }
 
 void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {

@@ -33,11 +33,13 @@ bool of_use(const App& app, Command command) {
     case Command::redo:
       return app.history.can_redo();
     case Command::export_height:
+    case Command::show_height:
       return app.preset().kind == Kind::one_weight;
     case Command::next_color:
     case Command::export_values:
       return app.preset().kind == Kind::cloth;
     case Command::export_copies:
+    case Command::show_distances:
       return !app.copies.lockstep.empty();
     case Command::export_convergence:
       return app.convergence.study().has_value();

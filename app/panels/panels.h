@@ -38,8 +38,6 @@ void viewport_panel(App& app, const Region& region);
 void color_menu(App& app);
 float color_menu_width(const App& app);
 void color_legend(App& app);
-/// What is drawn over the cloth: markers, arrows, PAUSED.
-void viewport_overlay(App& app);
 void banner(App& app);
 void message_list(App& app);
 void status_bar(App& app, const Region& region);

@@ -43,27 +43,34 @@ double round_below(double value) {
   return power;
 }
 
-/// The symbol beside an arrow's head. `labels`: the middles of those drawn before.
-void arrow_label(App& app, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std::string_view symbol,
-                 std::vector<ImVec2>& labels) {
-  const float length = std::hypot(to.x - from.x, to.y - from.y);
-  if (length < app.theme.px(24)) return;
-  const float ux = (to.x - from.x) / length, uy = (to.y - from.y) / length;
-  const float width = symbol_width(app.fonts, symbol), away = app.theme.px(18), high = app.theme.px(12),
-              pad = app.theme.px(7);
-  ImVec2 middle{std::round(to.x + ux * away), std::round(to.y + uy * away)};
-  // Labels of arrows that point the same way make room for each other, farther out.
-  const auto covered = [&](ImVec2 other) {
-    return std::abs(other.x - middle.x) < width + 2 * pad && std::abs(other.y - middle.y) < 2 * high + 1;
-  };
-  while (std::any_of(labels.begin(), labels.end(), covered)) middle.x += ux, middle.y += uy;
+/// Places for a label of that size at an arrow's head, the best first: farther out along it, then to its sides.
+std::vector<Box> label_places(const App& app, int tile, glm::vec2 head, glm::vec2 along, glm::vec2 size) {
   const glm::vec2 lo = app.viewport.origin(tile), hi = lo + app.viewport.size();
-  middle = {std::round(std::clamp(middle.x, lo.x + width / 2 + pad, std::max(lo.x, hi.x - width / 2 - pad))),
-            std::round(std::clamp(middle.y, lo.y + high, std::max(lo.y, hi.y - high)))};
-  labels.push_back(middle);
-  draw.AddRectFilled({middle.x - width / 2 - pad, middle.y - high}, {middle.x + width / 2 + pad, middle.y + high},
-                     faded(app.theme.colors.ground, 0.88f), app.theme.px(6));
-  draw_symbol(draw, app.fonts, {middle.x - width / 2, middle.y + app.theme.px(4)}, symbol, app.theme.colors.text);
+  std::vector<Box> places;
+  const auto add = [&](glm::vec2 middle) {
+    const Box box{glm::round(middle - size / 2.f), glm::round(middle + size / 2.f)};
+    if (box.lo.x >= lo.x && box.lo.y >= lo.y && box.hi.x <= hi.x && box.hi.y <= hi.y) places.push_back(box);
+  };
+  for (float away = 18; away <= 54; away += 4) add(head + along * app.theme.px(away));
+  const glm::vec2 across(-along.y, along.x);
+  for (const float back : {0.f, 12.f, 24.f})
+    for (const float side : {1.f, -1.f})
+      add(head - along * app.theme.px(back) + across * side * (glm::length(size * across) / 2 + app.theme.px(12)));
+  return places;
+}
+
+/// The symbol beside an arrow's head, where there is room for it.
+void arrow_label(App& app, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std::string_view symbol) {
+  const glm::vec2 head(to.x, to.y), way = head - glm::vec2(from.x, from.y);
+  if (glm::length(way) < app.theme.px(24)) return;
+  const float pad = app.theme.px(7), height = app.theme.px(24);
+  const glm::vec2 size(std::ceil(symbol_width(app.fonts, symbol)) + 2 * pad, height);
+  const auto box = app.ui.placing.first_free(label_places(app, tile, head, glm::normalize(way), size));
+  if (!box) return;
+  app.ui.placing.take("label " + std::to_string(tile) + " " + std::string(symbol), *box);
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(app.theme.colors.ground, 0.88f), app.theme.px(6));
+  draw_symbol(draw, app.fonts, {box->lo.x + pad, box->lo.y + height / 2 + app.theme.px(4)}, symbol,
+              app.theme.colors.text);
 }
 
 /// The scale, in units for the longest arrow, follows within half a second, so that growth is seen; and at once where
@@ -84,8 +91,9 @@ float scale_bar(App& app, ImDrawList& draw, ImVec2 at, double scale, std::string
               pad = app.theme.px(6);
   const std::string text = short_number(value) + " " + std::string(unit);
   const float end = at.x + length + pad + text_width(font, text);
-  draw.AddRectFilled({at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2},
-                     faded(c.ground, 0.75f), app.theme.px(6));
+  const Box box{{at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2}};
+  app.ui.placing.take("scale " + std::string(unit), box);
+  draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), app.theme.px(6));
   const float width = std::max(1.f, app.theme.px(1.5f));
   draw.AddLine(at, {at.x + length, at.y}, c.text, width);
   for (const float x : {at.x, at.x + length}) draw.AddLine({x, at.y - tick}, {x, at.y + tick + 1}, c.text, width);
@@ -103,10 +111,13 @@ std::optional<double> longest_of(const Group& group, const std::set<std::string>
 
 /// Where the scales stand: in the first picture's lower left corner, above the names of copies.
 ImVec2 place_of_bars(const App& app) {
-  const glm::vec2 corner = app.viewport.origin(0) + glm::vec2(0, app.viewport.size().y);
-  const std::size_t copies = app.copies.lockstep.size();
-  const float names = copies == 0 ? 0.f : app.copies.overlaid ? float(copies + 1) : 1.f;
-  return {corner.x + app.theme.px(22), std::round(corner.y - app.theme.px(22) - app.theme.px(30) * names)};
+  const glm::vec2 lo = app.viewport.origin(0), hi = lo + app.viewport.size();
+  float foot = hi.y - app.theme.px(12);
+  for (const Placing::Mark& mark : app.ui.placing.marks())
+    if (mark.name.starts_with("name ") && mark.box.lo.x < lo.x + app.theme.px(32) && mark.box.hi.y > lo.y &&
+        mark.box.lo.y < hi.y)
+      foot = std::min(foot, mark.box.lo.y - app.theme.px(8));
+  return {lo.x + app.theme.px(22), std::round(foot - app.theme.px(10))};
 }
 
 struct DrawnArrow {
@@ -130,26 +141,36 @@ std::optional<DrawnArrow> variable_arrow(App& app, ImDrawList& draw, int tile, I
 
 }  // namespace
 
+void arrow_scales(App& app, ImDrawList& draw) {
+  if (!app.picked || !app.ui.arrows || app.preset().kind != Kind::cloth || app.simulation->divergence()) return;
+  const ParticleReadout r = app.simulation->particle(app.picked->i, app.picked->j);
+  ImVec2 at = place_of_bars(app);
+  for (std::size_t k = 0; k < groups().size(); ++k) {
+    const Group& group = groups()[k];
+    const auto longest = longest_of(group, app.settings.handling.arrows, r);
+    if (!longest || !std::isfinite(*longest)) continue;
+    // The original leads; its copies' arrows are to the same scale.
+    follow(app, app.ui.arrow_scales[k], std::max(*longest, group.least(app.preset())));
+    at.x = scale_bar(app, draw, at, app.ui.arrow_scales[k], group.unit);
+  }
+}
+
 void particle_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from) {
   const ParticleReadout r = cloth_in_tile(app, tile).particle(app.picked->i, app.picked->j);
   const std::set<std::string>& ticked = app.settings.handling.arrows;
   std::vector<DrawnArrow> arrows;
-  ImVec2 bar = place_of_bars(app);
   for (std::size_t k = 0; k < groups().size(); ++k) {
     const Group& group = groups()[k];
     const auto longest = longest_of(group, ticked, r);
     if (!longest || !std::isfinite(*longest)) continue;
     double& scale = app.ui.arrow_scales[k];
-    // The original leads; its copies' arrows are to the same scale.
-    if (tile == 0 || scale <= 0) follow(app, scale, std::max(*longest, group.least(app.preset())));
-    if (tile == 0) bar.x = scale_bar(app, draw, bar, scale, group.unit);
+    if (scale <= 0) scale = std::max(*longest, group.least(app.preset()));  // the original has diverged
     for (const std::string_view key : group.keys)
       if (ticked.count(std::string(key)) > 0)
         if (const auto arrow = variable_arrow(app, draw, tile, from, r, key, scale)) arrows.push_back(*arrow);
   }
   // Last, so that no arrow runs over a symbol.
-  std::vector<ImVec2> labels;
-  for (const DrawnArrow& arrow : arrows) arrow_label(app, draw, tile, from, arrow.to, arrow.symbol, labels);
+  for (const DrawnArrow& arrow : arrows) arrow_label(app, draw, tile, from, arrow.to, arrow.symbol);
 }
 
 }  // namespace tyglab

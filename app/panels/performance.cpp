@@ -8,11 +8,12 @@
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 
 namespace tyglab {
 namespace {
 
-constexpr const char* performance_heading = "Performance";
+constexpr const char* performance_heading = card_name::performance;
 
 bool cloth(const App& app) {
   return app.preset().kind == Kind::cloth;
@@ -181,7 +182,7 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
     const auto steps = double(std::max<std::int64_t>(1, app.simulation->steps()));
     const auto share = [&](std::int64_t part) { return text("%.0f %%", 100 * double(part) / double(inner.accepted)); };
     facts.push_back(
-        {"inner steps, rejected", text("%.2g a dt, ", double(inner.accepted) / steps) + share(inner.rejected)});
+        {"inner steps, rejected", short_number(double(inner.accepted) / steps, 2) + " a dt, " + share(inner.rejected)});
     facts.push_back({"limited by stability", share(inner.by_stability)});
     facts.push_back({"by accuracy, by dt", share(inner.by_accuracy) + ", " + share(inner.by_dt)});
     facts.push_back({"tolerance missed", std::to_string(inner.too_short + inner.below_digits)});

@@ -137,7 +137,8 @@ float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve
   paint.draw.PopClipRect();
   if (!hovered) return 0;
   if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(app, paint.draw, axes, curves, frame.unit);
-  return ImGui::GetIO().MouseWheel;
+  const bool scrolls = app.ui.plots.scrolls && !ImGui::GetIO().KeyCtrl;
+  return scrolls ? 0 : ImGui::GetIO().MouseWheel;
 }
 
 const char* why_empty(const App& app) {

@@ -30,7 +30,7 @@ const char* why_empty(const App& app);
 void zoom_time(App& app, const PlotFrame& frame, float wheel);
 
 /// Draws it at the cursor, with axes, flags for what is off the scale, and a read-out under the pointer. The curves
-/// share their x. Returns how far the wheel was turned over it.
+/// share their x. Returns how far the wheel was turned over it, where it does not scroll the column.
 float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame);
 
 }  // namespace tyglab

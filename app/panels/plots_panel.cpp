@@ -1,238 +1,38 @@
-// The plots at the right, as cards: live forces, and y(t) of the one weight.
+// The column of cards at the right: plots, and below them cards of lines under headings. What has no room becomes a
+// tab, and where not even one card has, the column scrolls.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/panels/accuracy_card.h"
+#include "app/panels/card_tabs.h"
 #include "app/panels/copies_card.h"
-#include "app/panels/curves.h"
 #include "app/panels/energy_card.h"
+#include "app/panels/force_card.h"
+#include "app/panels/height_card.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/inside_card.h"
 #include "app/panels/map_card.h"
 #include "app/panels/panels.h"
 #include "app/panels/performance.h"
-#include "app/panels/plot.h"
-#include "app/panels/symbol.h"
+#include "app/panels/plot_card.h"
 #include "app/panels/widgets.h"
+#include "app/sandbox/cards.h"
 
 namespace tyglab {
 namespace {
 
-/// A card's ground, with its title; the cursor goes inside it.
-class Card {
- public:
-  /// `buttons`: how many head_buttons follow; the note stands to their left.
-  Card(App& app, const char* id, std::string_view title, std::string_view note, float height, int buttons = 0) {
-    const Tokens& c = app.theme.colors;
-    const float padding = app.theme.px(12);
-    const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x;
-    gui::begin_child(id, {width, height}, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, app.theme.px(8));
-    const float top = lo.y + padding;
-    draw_text(draw, *app.fonts.title, {lo.x + padding, top}, c.text, title);
-    const ImFont& small = *app.fonts.small;
-    const float note_x = lo.x + width - padding - float(buttons) * head_pitch(app) - text_width(small, note);
-    if (note_x > lo.x + 2 * padding + text_width(*app.fonts.title, title))
-      draw_text(draw, small, {note_x, top + app.fonts.title->Ascent - small.Ascent}, c.quiet, note);
-    inner_ = {{lo.x + padding, top + app.theme.px(24)}, {width - 2 * padding, height - 2 * padding - app.theme.px(24)}};
-    ImGui::SetCursorScreenPos(inner_.at);
-  }
-  ~Card() { ImGui::EndChild(); }
-  Card(const Card&) = delete;
-  Card& operator=(const Card&) = delete;
-  const Region& inner() const { return inner_; }
-
-  /// A button on the title's line, the n-th from the right; the cursor stays.
-  bool head_button(App& app, int n, const char* id, const char* glyph, const char* word, const char* tip) const {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::SetCursorScreenPos({inner_.at.x + inner_.size.x - float(n + 1) * head_pitch(app) + app.theme.px(4),
-                               inner_.at.y - app.theme.px(28)});
-    const bool clicked = quiet_button(app, id, glyph, word, tip);
-    report_control(app, id);
-    ImGui::SetCursorScreenPos(at);
-    return clicked;
-  }
-
- private:
-  static float head_pitch(const App& app) { return app.theme.px(26); }
-
-  Region inner_;
-};
-
-/// Clickable names of the curves; the rows that they take are `measure`d first.
-float legend(App& app, const Region& place, bool measure) {
-  Plots& plots = app.ui.plots;
-  const float line = app.theme.px(22), gap = app.theme.px(14), sample = app.theme.px(22);
-  float x = place.at.x, y = place.at.y;
-  for (std::size_t k = 0; k < force_keys.size(); ++k) {
-    const float width = sample + app.theme.px(6) + symbol_width(app.fonts, force_keys[k]);
-    if (x > place.at.x && x + width > place.at.x + place.size.x) x = place.at.x, y += line;
-    if (!measure) {
-      ImGui::SetCursorScreenPos({x, y});
-      ImGui::PushID(int(k));
-      if (ImGui::InvisibleButton("curve", {width, line})) plots.hidden[k] = !plots.hidden[k];
-      const float opacity = plots.hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
-      CurveStyle style = curve_style(app.theme.colors, force_keys[k]);
-      style.color = faded(style.color, opacity);
-      const float middle = std::round(y + line / 2);
-      const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
-      ImDrawList& draw = *ImGui::GetWindowDrawList();
-      draw_styled_line(draw, ends, 2, style, app.theme.scale);
-      draw_symbol(draw, app.fonts, {x + sample + app.theme.px(6), baseline_at(app.fonts, middle)}, force_keys[k],
-                  faded(app.theme.colors.text, opacity));
-      tooltip(app, gui::item_id(),
-              std::string(variable(force_keys[k]).quantity) + " · " + std::string(variable(force_keys[k]).storhet),
-              plots.hidden[k] ? "Click to show" : "Click to hide");
-      ImGui::PopID();
-    }
-    x += width + gap;
-  }
-  return y + line - place.at.y;
-}
-
-void force_controls(App& app, const Region& inner) {
-  Plots& plots = app.ui.plots;
-  static constexpr const char* sources[] = {"Particle", "Sum", "Max"};
-  if (app.preset().kind == Kind::one_weight) {
-    plots.source = Source::particle;  // there is but one
-    ImGui::Dummy({0, app.theme.px(26)});
-  } else if (const int k = segments(app, "source", sources, 3, int(plots.source)); k >= 0 && k != int(plots.source)) {
-    plots.source = Source(k);
-    plots.forces.clear();
-  }
-  const float side = app.theme.px(22), gap = app.theme.px(4);
-  static constexpr const char* scales[] = {"log"};
-  const float log_width = text_width(*app.fonts.text, scales[0]) + 2 * app.theme.px(11);
-  const float right = inner.at.x + inner.size.x - 2 * (side + gap) - log_width;
-  ImGui::SameLine();
-  ImGui::SetCursorScreenPos({std::max(right, ImGui::GetCursorScreenPos().x), inner.at.y});
-  if (segments(app, "scale", scales, 1, plots.log ? 0 : -1) == 0) plots.log = !plots.log;
-  tooltip(app, gui::item_id(), plots.log ? "Back to a linear axis" : "A logarithmic axis");
-  ImGui::SameLine(0, gap);
-  const float y = inner.at.y + app.theme.px(2);
-  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, y});
-  if (quiet_button(app, "pause", plots.paused ? icon::play : icon::pause, plots.paused ? "run" : "hold",
-                   plots.paused ? "Let the plot run again" : "Hold the plot; the simulation goes on"))
-    plots.paused = !plots.paused;
-  ImGui::SameLine(0, gap);
-  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, y});
-  if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
-    app.command(Command::export_forces);
-}
-
-const char* force_title(const App& app) {
-  if (app.preset().kind == Kind::one_weight) return "Forces on the weight";
-  switch (app.ui.plots.source) {
-    case Source::sum:
-      return "Forces, summed over the cloth";
-    case Source::maximum:
-      return "Forces, largest on the cloth";
-    case Source::particle:
-      break;
-  }
-  return "Forces on the picked particle";
-}
-
-void force_card(App& app, float height) {
-  Plots& plots = app.ui.plots;
-  const Card card(app, "forces", force_title(app), plots.paused ? "held" : plots.log ? "N, log" : "N", height);
-  const Region& inner = card.inner();
-  force_controls(app, inner);
-  std::vector<PlotCurve> curves;
-  for (std::size_t k = 0; k < force_keys.size(); ++k)
-    if (!plots.hidden[k])
-      curves.push_back(
-          {force_keys[k], curve_style(app.theme.colors, force_keys[k]), plots.forces.t(), plots.forces.column(k)});
-  const float head = app.theme.px(34), legend_height = legend(app, inner, true);
-  const float plot_height = inner.size.y - head - legend_height - app.theme.px(6);
-  ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  const bool no_particle = plots.source == Source::particle && !app.picked;
-  const PlotFrame frame =
-      time_frame(app, plots.forces, plots.log, "N", no_particle ? "Right-click a particle to pick it" : why_empty(app));
-  if (plot_height > app.theme.px(24))
-    zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, plot_height}, curves, frame));
-  legend(app, {{inner.at.x, inner.at.y + inner.size.y - legend_height}, inner.size}, false);
-}
-
-/// The report's curves beside the weight's own, which is drawn thicker; a click hides one.
-void figure_legend(App& app, const Region& place) {
-  Plots& plots = app.ui.plots;
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.small;
-  const float sample = app.theme.px(14), gap = app.theme.px(10);
-  float x = place.at.x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (std::size_t k = 0; k < Figure::curves.size(); ++k) {
-    const float width = sample + app.theme.px(4) + text_width(font, Figure::titles[k]);
-    if (x + width > place.at.x + place.size.x) break;
-    ImGui::SetCursorScreenPos({x, place.at.y});
-    ImGui::PushID(int(k));
-    if (ImGui::InvisibleButton("figure", {width, place.size.y})) plots.figure_hidden[k] = !plots.figure_hidden[k];
-    report_control(app, Figure::titles[k]);
-    const float opacity = plots.figure_hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
-    CurveStyle style = integrator_style(c, Figure::curves[k]);
-    style.color = faded(style.color, opacity);
-    const float middle = std::round(place.at.y + place.size.y / 2);
-    const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
-    draw_styled_line(draw, ends, 2, style, app.theme.scale);
-    draw_on_baseline(draw, font, {x + sample + app.theme.px(4), baseline_at(app.fonts, middle)}, faded(c.text, opacity),
-                     Figure::titles[k]);
-    tooltip(app, gui::item_id(), "As in figure 3.2: the same start, constants and dt by this method",
-            plots.figure_hidden[k] ? "Click to show" : "Click to hide");
-    ImGui::PopID();
-    x += width + gap;
-  }
-}
-
-void height_card(App& app, float height) {
-  Plots& plots = app.ui.plots;
-  const Card card(app, "height", "Height of the weight, y(t)", "m", height);
-  const Region& inner = card.inner();
-  const float side = app.theme.px(22);
-  ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});
-  if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
-    app.command(Command::export_height);
-  figure_legend(app, {inner.at, {inner.size.x - side, side}});
-  const std::span<const double> t = plots.height.t();
-  std::vector<PlotCurve> curves;
-  for (std::size_t k = 0; k < Figure::curves.size(); ++k)
-    if (!plots.figure_hidden[k]) {
-      CurveStyle style = integrator_style(app.theme.colors, Figure::curves[k]);
-      style.width = 1.2f;
-      curves.push_back({Figure::titles[k], style, t, plots.height.column(k + 1)});
-    }
-  const std::size_t companions = curves.size();
-  for (const auto& [since, method] : plots.height_methods) {
-    const auto from = std::size_t(std::lower_bound(t.begin(), t.end(), since) - t.begin());
-    if (curves.size() > companions) curves.back().to = from + 1;  // up to where the next one begins
-    curves.push_back({"y", integrator_style(app.theme.colors, method), t, plots.height.column(0)});
-    curves.back().from = from;
-    curves.back().style.width = 2.4f;
-  }
-  const float head = side + app.theme.px(6);
-  ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  PlotFrame frame = time_frame(app, plots.height, false, "m", why_empty(app));
-  frame.from_zero = false;
-  zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, curves, frame));
-}
-
-/// A plot of the column: as a card where all have room, otherwise behind a tab.
-struct PlotCard {
-  const char* tab;
-  void (*draw)(App&, float height);
-  bool shown_when_new = true;  ///< its tab is chosen when it comes
-};
+constexpr float margin_at_1 = 12, under_tabs_at_1 = 8, tabs_at_1 = 26;  // pixels at scale 1
+constexpr float tabs_stay_at_1 = 150, stacked_at_1 = 240;               // in a lower column they scroll with their card
 
 void copies_plot_card(App& app, float height) {
   const bool energy = app.copies.plotted == Copies::Quantity::energy;
-  const Card card(app, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
-                  energy ? "J" : "m, log", height, 1);
+  const PlotCard card(app, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
+                      energy ? "J" : "m, log", height, 1);
   if (card.head_button(app, 0, "csv_copies", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
     app.command(Command::export_copies);
   copies_plot(app, card.inner().size);
@@ -240,8 +40,8 @@ void copies_plot_card(App& app, float height) {
 
 void map_plot_card(App& app, float height) {
   const bool weight = app.preset().kind == Kind::one_weight;
-  const Card card(app, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
-                  app.map.busy() ? "measuring" : "", height, 3);
+  const PlotCard card(app, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
+                      app.map.busy() ? "measuring" : "", height, 3);
   if (card.head_button(app, 0, "close_map", icon::close, "×", "Close the map")) app.command(Command::toggle_map);
   if (card.head_button(app, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
     app.command(Command::export_map);
@@ -251,48 +51,70 @@ void map_plot_card(App& app, float height) {
 }
 
 void inside_card(App& app, float height) {
-  const Card card(app, "inside", "Inside a step", "", height, 1);
+  const PlotCard card(app, "inside", "Inside a step", "", height, 1);
   if (card.head_button(app, 0, "close_inside", icon::close, "×", "Close")) app.command(Command::toggle_inside);
   inside_step(app, card.inner().size);
 }
 
-std::vector<PlotCard> plot_cards(const App& app) {
-  std::vector<PlotCard> cards;
-  if (app.preset().kind == Kind::one_weight) cards.push_back({"Height", height_card});
-  cards.push_back({"Forces", force_card});
-  if (!app.copies.lockstep.empty()) cards.push_back({"Copies", copies_plot_card});
-  if (app.settings.layout.map) cards.push_back({"Map", map_plot_card});
-  if (app.settings.layout.inside) cards.push_back({"Step", inside_card});
+/// Height of a card of which so much (at scale 1) is the least that says something.
+template <int content_at_1>
+float least_of(const App& app, float) {
+  return plot_card_height(app, app.theme.px(content_at_1));
+}
+
+/// A card that stands among the plots.
+struct ColumnCard {
+  const char* name;
+  void (*draw)(App&, float height);
+  float (*least)(const App&, float width);  ///< px; lower it could not be read
+};
+
+std::vector<ColumnCard> plot_cards(const App& app) {
+  std::vector<ColumnCard> cards;
+  if (app.preset().kind == Kind::one_weight) cards.push_back({card_name::height, height_card, height_card_least});
+  cards.push_back({card_name::forces, force_card, force_card_least});
+  if (!app.copies.lockstep.empty()) cards.push_back({card_name::distances, copies_plot_card, least_of<160>});
+  if (app.settings.layout.map) cards.push_back({card_name::map, map_plot_card, least_of<270>});
+  if (app.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<70>});
   return cards;
 }
 
 /// A card at the foot: its heading, and under it what it holds unless it is folded.
 struct FootCard {
-  const char* tab;  ///< its name where it joins the plots; nullptr: it never does
+  ColumnCard card;
   float (*wanted)(const App&);
-  void (*draw)(App&, float height);
-  float height = 0;
+  float height = 0;  ///< px; 0 once it has become a tab
 };
 
-/// Heights of the cards at the foot, the lowest first, where the plots can spare so much room (px). What has no room, a
-/// heading or an open card, joins the plots. Returns the height of those that stay, with their gaps.
-float place_at_foot(App& app, std::span<FootCard> foot, float room, std::vector<PlotCard>& plots) {
-  const float gap = app.theme.px(12), head = app.theme.px(card::head);
+/// The least of one that is not to be cut.
+template <float (*wanted)(const App&)>
+float whole(const App& app, float) {
+  return wanted(app);
+}
+
+/// The lowest first.
+std::array<FootCard, 5> foot_cards() {
+  return {FootCard{{card_name::performance, performance_card, whole<performance_card_height>}, performance_card_height},
+          FootCard{{card_name::energy, energy_card, whole<energy_card_height>}, energy_card_height},
+          FootCard{{card_name::accuracy, accuracy_card, whole<accuracy_card_height>}, accuracy_card_height},
+          FootCard{{card_name::stability, stability_card, whole<stability_card_height>}, stability_card_height},
+          FootCard{{card_name::copies, copies_card, whole<copies_card_height>}, copies_card_height}};
+}
+
+/// Heights of the cards at the foot, where the plots can spare so much room (px). What has no room, a heading or an
+/// open card, joins the plots. Returns the height of those that stay, with their gaps.
+float place_at_foot(App& app, std::span<FootCard> foot, float room, std::vector<ColumnCard>& plots) {
+  const float gap = app.theme.px(margin_at_1), head = app.theme.px(card::head);
   room -= float(foot.size()) * (head + gap);
   float all = 0;
-  // Those that cannot join take what there is before the others do.
-  for (FootCard& card : foot)
-    if (card.tab == nullptr) {
-      card.height = head + std::floor(std::clamp(card.wanted(app) - head, 0.f, std::max(room, 0.f)));
-      room -= card.height - head;
-      all += card.height + gap;
-    }
-  for (FootCard& card : foot) {
-    if (card.tab == nullptr) continue;
+  std::size_t joined = 0;  // of the lowest, where not even all headings have room
+  for (; joined < foot.size() && room < 0; ++joined) room += head + gap;
+  for (std::size_t k = foot.size(); k-- > 0;) {
+    FootCard& card = foot[k];
     const float more = std::ceil(card.wanted(app) - head);
-    if (room < 0 || more > room) {
-      plots.push_back({card.tab, card.draw, more > 0});
-      room += head + gap;
+    if (k < joined || more > room) {
+      plots.push_back(card.card);
+      if (k >= joined) room += head + gap;
     } else {
       card.height = head + more;
       room -= more;
@@ -302,76 +124,111 @@ float place_at_foot(App& app, std::span<FootCard> foot, float room, std::vector<
   return all;
 }
 
-/// The tab of a card that was not there in the last frame is chosen.
-void choose_new_card(Plots& plots, std::span<const PlotCard> cards) {
-  const auto known = [&](const PlotCard& card) {
-    return std::find(plots.cards.begin(), plots.cards.end(), card.tab) != plots.cards.end();
-  };
-  for (const PlotCard& card : cards)
-    if (card.shown_when_new && !plots.cards.empty() && !known(card)) plots.tab = card.tab;
-  plots.cards.clear();
-  for (const PlotCard& card : cards) plots.cards.emplace_back(card.tab);
+/// Height of a card that shares the column with others, px.
+float stacked_height(const App& app, const ColumnCard& card) {
+  return std::max(card.least(app, app.ui.plots.width), app.theme.px(stacked_at_1));
 }
 
-/// Tabs for the cards; what is chosen alone remains.
-void choose_tab(App& app, std::vector<PlotCard>& cards) {
-  Plots& plots = app.ui.plots;
-  constexpr float roomy = 11, narrow = 4;  // pixels at scale 1 to both sides of a name
-  std::vector<const char*> names;
-  float width = 0;
-  for (const PlotCard& card : cards) {
-    names.push_back(card.tab);
-    width += text_width(*app.fonts.text, card.tab) + 2 * app.theme.px(roomy) + 1;
+/// Cards above each other: what is left over is shared out alike. One alone does not need the whole column: a plot much
+/// taller than wide is hard to read.
+std::vector<float> heights_of(const App& app, std::span<const ColumnCard> cards, float available, float spare) {
+  if (cards.size() == 1)
+    return {std::floor(std::max(cards[0].least(app, app.ui.plots.width),
+                                std::max(0.6f * available, std::min(available, app.theme.px(420)))))};
+  std::vector<float> heights;
+  for (const ColumnCard& card : cards)
+    heights.push_back(std::floor(stacked_height(app, card) + spare / float(cards.size())));
+  return heights;
+}
+
+void draw_stacked(App& app, std::span<const ColumnCard> cards, std::span<const float> heights) {
+  const float left = ImGui::GetCursorScreenPos().x;
+  float top = ImGui::GetCursorScreenPos().y;
+  for (std::size_t k = 0; k < cards.size(); ++k) {
+    ImGui::SetCursorScreenPos({left, top});
+    cards[k].draw(app, heights[k]);
+    top += heights[k] + app.theme.px(margin_at_1);
   }
-  const auto found =
-      std::find_if(cards.begin(), cards.end(), [&](const PlotCard& card) { return card.tab == plots.tab; });
-  int chosen = found == cards.end() ? 0 : int(found - cards.begin());
-  const float padding = width <= ImGui::GetContentRegionAvail().x ? roomy : narrow;
-  if (const int k = segments(app, "cards", names.data(), int(names.size()), chosen, padding); k >= 0) chosen = k;
-  report_control(app, "cards");
-  plots.tab = names[std::size_t(chosen)];
-  cards = {cards[std::size_t(chosen)]};
 }
 
-/// Which of the plots are shown in a column of that height, and how high each is.
-float choose_plots(App& app, std::vector<PlotCard>& cards, float available, float gap) {
-  const auto count = float(cards.size());
-  const float each = (available - gap * (count - 1)) / count;
-  choose_new_card(app.ui.plots, cards);
-  if (cards.size() == 1)  // does not need the whole column: a plot much taller than wide is hard to read
-    return std::max(0.6f * available, std::min(available, app.theme.px(420)));
-  if (each >= app.theme.px(240)) return each;
-  choose_tab(app, cards);
-  return available - app.theme.px(26) - ImGui::GetStyle().ItemSpacing.y;
+/// A card that its heading has opened comes to the front where it becomes a tab; one that was folded makes room.
+void draw_foldable(App& app, const ColumnCard& card, float height) {
+  const std::set<std::string>& folded = app.settings.layout.folded;
+  const bool before = folded.count(card.name) != 0;
+  card.draw(app, height);
+  const bool after = folded.count(card.name) != 0;
+  if (before && !after) app.ui.plots.wanted = card.name;
+  if (!before && after && app.ui.plots.tab == card.name) app.ui.plots.tab.clear();
+}
+
+/// What is seen of the column over the foot, which scrolls where that is too low for it.
+void begin_scrolling(App& app, const char* id, ImVec2 size, float content) {
+  app.ui.plots.scrolls = content > size.y;
+  gui::begin_child(id, size);
+}
+
+/// One card, and tabs for all.
+void draw_tabbed(App& app, std::span<const ColumnCard> cards, ImVec2 size) {
+  Plots& plots = app.ui.plots;
+  for (const ColumnCard& card : cards) plots.cards.emplace_back(card.name);
+  std::vector<const char*> names;
+  for (const ColumnCard& card : cards) names.push_back(card.name);
+  if (std::find(plots.cards.begin(), plots.cards.end(), plots.wanted) != plots.cards.end()) plots.tab = plots.wanted;
+  const auto found = std::find(plots.cards.begin(), plots.cards.end(), plots.tab);
+  const int chosen = found == plots.cards.end() ? 0 : int(found - plots.cards.begin());
+  const ColumnCard& card = cards[std::size_t(chosen)];
+  app.settings.layout.folded.erase(card.name);  // who chooses a tab wants to see what it holds
+  const CardTabs tabs(app, names, size);
+  const float above = tabs.height() + app.theme.px(under_tabs_at_1), least = card.least(app, plots.width);
+  const bool stay = size.y >= app.theme.px(tabs_stay_at_1);
+  const float height = std::floor(std::max(size.y - above, least));
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  if (!stay) begin_scrolling(app, card.name, size, above + height);
+  const ImVec2 top = ImGui::GetCursorScreenPos();
+  const int clicked = tabs.draw(app, chosen);
+  ImGui::SetCursorScreenPos({top.x, top.y + above});
+  if (stay)
+    ImGui::SetCursorScreenPos({corner.x, corner.y + above}),
+        begin_scrolling(app, card.name, {size.x, size.y - above}, height);
+  draw_foldable(app, card, height);
+  ImGui::EndChild();
+  if (clicked >= 0) plots.tab = names[std::size_t(clicked)];
 }
 
 }  // namespace
 
 void plots_panel(App& app, const Region& region) {
   Plots& plots = app.ui.plots;
-  const float margin = app.theme.px(12), gap = app.theme.px(12);
+  const float margin = app.theme.px(margin_at_1), gap = margin;
   if (!begin_region("plots", region, app.theme.colors.ground, {margin, margin})) return end_region();
-  const float column = ImGui::GetContentRegionAvail().y,
-              least_plots = app.theme.px(app.settings.layout.map || app.settings.layout.inside ? 340.f : 260.f);
-  std::array foot_cards{
-      FootCard{"Performance", performance_card_height, performance_card},
-      FootCard{"Energy", energy_card_height, energy_card}, FootCard{"Accuracy", accuracy_card_height, accuracy_card},
-      FootCard{"Stability", stability_card_height, stability_card}, FootCard{nullptr, copies_card_height, copies_card}};
-  std::vector<PlotCard> cards = plot_cards(app);
-  const float foot = place_at_foot(app, foot_cards, column - least_plots, cards);
-  const float height = choose_plots(app, cards, column - foot, gap);
-  for (const PlotCard& card : cards) {
-    plots.height_shown |= card.draw == height_card;
-    plots.forces_shown |= card.draw == force_card;
-    if (&card != cards.data()) ImGui::Dummy({0, gap - 2 * ImGui::GetStyle().ItemSpacing.y});
-    card.draw(app, std::floor(height));
+  const ImVec2 column = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorScreenPos();
+  plots.width = column.x;
+  plots.cards.clear();
+  std::vector<ColumnCard> cards = plot_cards(app);
+  const std::size_t alone = cards.size();
+  float stacked = 0, tallest = 0;
+  for (const ColumnCard& card : cards) {
+    stacked += stacked_height(app, card) + gap;
+    tallest = std::max(tallest, card.least(app, column.x));
   }
-  const float left = ImGui::GetCursorScreenPos().x;
-  float lowest = region.at.y + region.size.y - margin;
-  for (const FootCard& card : foot_cards) {
+  std::array<FootCard, 5> foot = foot_cards();
+  const float tabs = app.theme.px(tabs_at_1) + app.theme.px(under_tabs_at_1);
+  const float available = column.y - place_at_foot(app, foot, column.y - tallest - tabs - gap, cards);
+  const float spare = available - stacked + gap;
+  if (cards.size() > alone || (cards.size() > 1 && spare < 0)) {
+    draw_tabbed(app, cards, {column.x, available});
+  } else {
+    const std::vector<float> heights = heights_of(app, cards, available, spare);
+    begin_scrolling(app, "column", {column.x, available}, heights.size() == 1 ? heights[0] : available);
+    draw_stacked(app, cards, heights);
+    ImGui::EndChild();
+  }
+  plots.wanted.clear();
+  float lowest = corner.y + column.y;
+  for (const FootCard& card : foot) {
     if (card.height <= 0) continue;
-    ImGui::SetCursorScreenPos({left, lowest - card.height});
-    card.draw(app, card.height);
+    ImGui::SetCursorScreenPos({corner.x, lowest - card.height});
+    draw_foldable(app, card.card, card.height);
     lowest -= card.height + gap;
   }
   end_region();

@@ -1,7 +1,10 @@
 // The strip below the viewport: what the mouse does here, and what the cloth is.
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <string>
+#include <vector>
 
+#include "app/panels/imgui_compat.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
@@ -27,39 +30,57 @@ void hints(App& app, ImDrawList& draw, ImVec2 at, float end, std::initializer_li
   }
 }
 
+/// What is in work, or what the cloth is: the most important first.
+std::vector<std::string> facts_of(const App& app) {
+  if (app.engine_search.in_work()) return {"Measuring the engines …"};
+  if (app.building.programs()) return {"Building the device's program …"};
+  const auto size = [](const Lattice& l) { return std::to_string(l.rows) + " × " + std::to_string(l.columns); };
+  if (const auto next = app.building.lattice()) return {"Building " + size(*next) + " …"};
+  if (app.preset().kind != Kind::cloth) return {"one weight"};
+  std::vector<std::string> facts{size(app.simulation->lattice()) + " particles"};
+  const std::string every = std::to_string(app.view.every);
+  if (app.view.every > 1) facts.front() += ", one in " + every + " × " + every + " drawn";
+  if (const int torn = app.simulation->tears().torn_count(); torn > 0)
+    facts.push_back(std::to_string(torn) + (torn == 1 ? " spring torn" : " springs torn"));
+  if (app.asleep()) facts.emplace_back("at rest: asleep until touched");
+  if (const std::string without = app.effects.words(); !without.empty()) facts.push_back("without " + without);
+  return facts;
+}
+
+/// The first ones in a line.
+std::string first_of(const std::vector<std::string>& facts, std::size_t count) {
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k) text += (k > 0 ? " · " : "") + facts[k];
+  return text;
+}
+
+/// As many of the facts as have room, at the right; the pointer asks for all. Returns where they begin.
+float draw_facts(App& app, ImDrawList& draw, ImVec2 right, float room) {
+  const ImFont& font = *app.fonts.small;
+  const std::vector<std::string> facts = facts_of(app);
+  const std::string all = first_of(facts, facts.size());
+  std::string shown = all;
+  for (std::size_t count = facts.size() - 1; count > 0 && text_width(font, shown) > room; --count)
+    shown = first_of(facts, count) + " · …";
+  shown = fitted(font, shown, room);
+  const float x = right.x - text_width(font, shown);
+  draw_text(draw, font, {x, right.y}, app.theme.colors.quiet, shown);
+  ImGui::SetCursorScreenPos({x, right.y});
+  ImGui::InvisibleButton("facts", {std::max(right.x - x, 1.f), font.FontSize});
+  report_control(app, "facts");
+  if (shown != all) tooltip(app, gui::item_id(), all);
+  return x;
+}
+
 }  // namespace
 
 void status_bar(App& app, const Region& region) {
   const Tokens& c = app.theme.colors;
   if (!begin_region("status", region, c.panel, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImFont& font = *app.fonts.small;
-  const float y = std::round(region.at.y + (region.size.y - font.FontSize) / 2), margin = app.theme.px(16);
-  char facts[256] = "";
-  const Lattice& lattice = app.simulation->lattice();
-  if (app.engine_search.in_work()) {
-    std::snprintf(facts, sizeof facts, "Measuring the engines …");
-  } else if (app.building.programs()) {
-    std::snprintf(facts, sizeof facts, "Building the device's program …");
-  } else if (const auto next = app.building.lattice()) {
-    std::snprintf(facts, sizeof facts, "Building %d × %d …", next->rows, next->columns);
-  } else if (app.preset().kind == Kind::cloth) {
-    const int torn = app.simulation->tears().torn_count();
-    int n = std::snprintf(facts, sizeof facts, "%d × %d particles", lattice.rows, lattice.columns);
-    if (app.view.every > 1)
-      n += std::snprintf(facts + n, sizeof facts - std::size_t(n), ", one in %d × %d drawn", app.view.every,
-                         app.view.every);
-    if (torn > 0)
-      n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · %d spring%s torn", torn, torn == 1 ? "" : "s");
-    if (const std::string without = app.effects.words(); !without.empty())
-      n += std::snprintf(facts + n, sizeof facts - std::size_t(n), " · drawn without %s", without.c_str());
-    if (app.asleep()) std::snprintf(facts + n, sizeof facts - std::size_t(n), " · at rest: asleep until touched");
-  } else {
-    std::snprintf(facts, sizeof facts, "one weight");
-  }
-  const std::string shown = fitted(font, facts, region.size.x - 2 * margin);
-  const float facts_x = region.at.x + region.size.x - margin - text_width(font, shown);
-  draw_text(draw, font, {facts_x, y}, c.quiet, shown);
+  const float margin = app.theme.px(16);
+  const float y = std::round(region.at.y + (region.size.y - app.fonts.small->FontSize) / 2);
+  const float facts_x = draw_facts(app, draw, {region.at.x + region.size.x - margin, y}, region.size.x - 2 * margin);
   const ImVec2 at{region.at.x + margin, y};
   const float end = facts_x - app.theme.px(16);
   if (app.preset().kind == Kind::cloth) {

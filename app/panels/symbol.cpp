@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/panels/text_lines.h"
+
 namespace tyglab {
 namespace {
 
@@ -62,13 +64,11 @@ void draw_symbol(ImDrawList& draw, const Fonts& fonts, ImVec2 at, std::string_vi
 }
 
 std::string fitted(const ImFont& font, const std::string& text, float width) {
-  if (text_width(font, text) <= width) return text;
-  std::string part = text;
-  while (!part.empty() && text_width(font, part + "…") > width) {
-    while (part.size() > 1 && (part.back() & 0xC0) == 0x80) part.pop_back();  // a character is taken away whole
-    part.pop_back();
-  }
-  return part + "…";
+  return shortened(text, width, [&font](std::string_view piece) { return text_width(font, piece); });
+}
+
+std::string in_lines(const ImFont& font, std::string_view text, float width) {
+  return broken_into_lines(text, width, [&font](std::string_view piece) { return text_width(font, piece); });
 }
 
 }  // namespace tyglab

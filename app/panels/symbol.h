@@ -33,5 +33,7 @@ void draw_on_baseline(ImDrawList& draw, const ImFont& font, ImVec2 at, ImU32 col
 float text_width(const ImFont& font, std::string_view text);
 /// The text, or as much of its beginning as fits into the width with … after it.
 std::string fitted(const ImFont& font, const std::string& text, float width);
+/// The text in lines of that width, broken as broken_into_lines does; Dear ImGui would also break within 0.001.
+std::string in_lines(const ImFont& font, std::string_view text, float width);
 
 }  // namespace tyglab

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/placing.h"
 #include "app/sandbox/input.h"
 #include "app/sandbox/requests.h"
 #include "app/sandbox/series.h"
@@ -45,8 +46,11 @@ struct Plots {
   bool paused = false;
   bool log = false;
   std::optional<double> window_s;  ///< simulated time shown, once the wheel has set it; until then it grows
-  std::string tab;                 ///< name of the card shown where only one has room
-  std::vector<std::string> cards;  ///< names of those of the last frame
+  std::string tab;                 ///< name of the card shown where only one has room; another: the first
+  std::string wanted;              ///< of a card that is to come to the front where it is a tab
+  std::vector<std::string> cards;  ///< names on the tabs of the last frame; none where all cards have room
+  float width = 0;                 ///< of a card, pixels
+  bool scrolls = false;            ///< the wheel scrolls their column, and zooms a plot only with Ctrl
   std::array<bool, forces_count> hidden{true, false, false, false, false, true, true};
   Series forces{forces_count};
   Series height{5};  ///< of the weight, then by the curves of Figure
@@ -130,7 +134,9 @@ struct Ui {
   Dialog dialog;
   Advice advice;
   bool help = false;
-  bool panels = true;                    ///< Tab hides them all
+  bool panels = true;                                    ///< Tab hides them all
+  Placing placing;                                       ///< what stands where over the cloth in this frame
+  std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
   std::optional<bool> wind_arrow;        ///< shown or not; none: while there is wind
@@ -151,6 +157,7 @@ struct Ui {
   bool constants_to_top = false;  ///< another preset was taken: its constants are shown from the first one on
   float viewport_left = 0;        ///< pixels
   bool side_plots = false;        ///< where both columns have no room, the plots stand in the constants' place
+  bool side_cloth = true;         ///< where not even one has room beside the cloth: the cloth is shown, and neither
   float row_width = 0;            ///< of the constants, pixels
 };
 

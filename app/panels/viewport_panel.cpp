@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/panels/imgui_compat.h"
-#include "app/panels/numbers.h"
+#include "app/panels/overlay.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
@@ -17,6 +17,29 @@ void set_mode(App& app, int mode) {
   Preset next = app.wished();
   next.mode = mode;
   app.propose(std::move(next));
+}
+
+/// What the panel has there belongs to no press on the cloth, and to no other mark.
+void cover(App& app, const char* name, const Box& box) {
+  cover_viewport(app, {box.lo.x, box.lo.y}, {box.hi.x, box.hi.y});
+  app.ui.placing.take(name, box);
+}
+
+/// Beside the view buttons, or under them, on a ground of its own: it may stand over the cloth.
+void bending_check(App& app, const Region& region, const Box& buttons) {
+  const char* label = "Bending springs";
+  const float gap = app.theme.px(12), pad = app.theme.px(8), height = app.theme.px(26);
+  const float width = text_width(*app.fonts.text, label) + app.theme.px(24) + 2 * pad;
+  const bool fits = buttons.hi.x + gap + width < region.at.x + region.size.x - app.theme.px(16);
+  const glm::vec2 at = fits ? glm::vec2(buttons.hi.x + gap, buttons.lo.y)
+                            : glm::vec2(buttons.lo.x, buttons.lo.y + height + app.theme.px(6));
+  const Box box{at, at + glm::vec2(width, height)};
+  ImGui::GetWindowDrawList()->AddRectFilled({box.lo.x, box.lo.y}, {box.hi.x, box.hi.y},
+                                            faded(app.theme.colors.ground, 0.85f), app.theme.px(5));
+  ImGui::SetCursorScreenPos({at.x + pad, at.y});
+  if (check(app, label, app.view.bending)) app.view.bending = !app.view.bending;
+  tooltip(app, gui::item_id(), "Draws the bending springs too, in the colour of F_b.");
+  cover(app, "bending", box);
 }
 
 /// "1 Triangles" … or, where the viewport is narrow, the numbers alone.
@@ -42,45 +65,8 @@ void view_buttons(App& app, const Region& region) {
   ImGui::SetCursorScreenPos({hi.x + gap, lo.y});
   color_menu(app);
   hi.x += beside;
-  cover_viewport(app, lo, hi);
-  if (mode != 2) return;
-  const char* label = "Bending springs";
-  const float box = text_width(*app.fonts.text, label) + app.theme.px(24);
-  const bool fits = hi.x + gap + box < region.at.x + region.size.x - margin;
-  const ImVec2 at = fits ? ImVec2(hi.x + gap, lo.y) : ImVec2(lo.x, hi.y + app.theme.px(6));
-  ImGui::SetCursorScreenPos(at);
-  if (check(app, label, app.view.bending)) app.view.bending = !app.view.bending;
-  tooltip(app, gui::item_id(), "Draws the bending springs too, in the colour of F_b.");
-  cover_viewport(app, at, ImGui::GetItemRectMax());
-}
-
-/// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged.
-void cloth_names(App& app, ImDrawList& draw) {
-  const Copies& copies = app.copies;
-  if (copies.lockstep.empty()) return;
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.text;
-  const float pad = app.theme.px(8), sample = app.theme.px(24), height = font.FontSize + pad;
-  const glm::vec2 size = app.viewport.size();
-  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) {
-    const auto& divergence = cloth_of(app, n).divergence();
-    std::string name = name_of_cloth(app, n);
-    if (n == copies.reference) name += " · reference";
-    if (divergence) name += " · diverged at t = " + time_number(divergence->t, cloth_of(app, n).preset().dt) + " s";
-    name = fitted(font, name, size.x - sample - 5 * pad);
-    const float line = copies.overlaid ? height * float(int(copies.lockstep.size()) - 1 - n) : 0;
-    const glm::vec2 at = app.viewport.origin(copies.overlaid ? 0 : n + 1) + glm::vec2(2 * pad, size.y - 2 * pad);
-    const ImVec2 lo{std::round(at.x), std::round(at.y - line - height)};
-    const float middle = std::round(lo.y + height / 2);
-    draw.AddRectFilled(lo, {lo.x + sample + 3 * pad + text_width(font, name), lo.y + height}, faded(c.ground, 0.75f),
-                       app.theme.px(6));
-    const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
-    CurveStyle style = style_of_cloth(app, n);
-    if (copies.overlaid) style.line = LineStyle::solid;  // as the nets are drawn
-    draw_styled_line(draw, ends, 2, style, app.theme.scale);
-    draw_text(draw, font, {lo.x + 2 * pad + sample, std::round(middle - font.FontSize / 2)},
-              divergence ? c.danger : c.text, name);
-  }
+  cover(app, "views", {{lo.x, lo.y}, {hi.x, hi.y}});
+  if (mode == 2) bending_check(app, region, {{lo.x, lo.y}, {hi.x, hi.y}});
 }
 
 /// The cloth's picture, and those of its copies beside it.
@@ -98,6 +84,36 @@ void pictures(App& app, ImDrawList& draw) {
   }
 }
 
+/// What stands over the pictures. Who comes first has its place, and who comes later makes room; drawn the other way
+/// round, so that no arrow runs over a number.
+void marks(App& app, ImDrawList& draw, const Region& region) {
+  enum Layer : int { arrows, pointer, fixed, notes, count };
+  const bool bare = app.picture && !app.picture->whole_window, cloth = app.wished().kind == Kind::cloth;
+  const float margin = app.theme.px(16), top = region.at.y + app.theme.px(12);
+  const Box row{{region.at.x + margin, top}, {region.at.x + region.size.x - margin, top + app.theme.px(26)}};
+  app.ui.placing.begin(app.theme.px(6));
+  draw.ChannelsSplit(count);
+  draw.ChannelsSetCurrent(fixed);
+  if (!bare && cloth) view_buttons(app, region);
+  cloth_names(app, draw);
+  if (!bare) {
+    arrow_scales(app, draw);
+    pause_mark(app, draw, row);
+    draw.ChannelsSetCurrent(notes);
+    message_list(app);
+    draw.ChannelsSetCurrent(fixed);
+    banner(app);
+    draw.ChannelsSetCurrent(pointer);
+    knife_stroke(app, draw);
+    pointer_overlay(app, draw);
+    draw.ChannelsSetCurrent(fixed);
+  }
+  color_legend(app);
+  draw.ChannelsSetCurrent(arrows);
+  if (!bare) wind_overlay(app, draw), picked_overlay(app, draw);
+  draw.ChannelsMerge();
+}
+
 }  // namespace
 
 void viewport_panel(App& app, const Region& region) {
@@ -108,20 +124,14 @@ void viewport_panel(App& app, const Region& region) {
                    region.size.y >= app.theme.px(least_picture + buttons_above);
   const bool above = app.copies.tiles() > 1 || low;
   if (above) app.viewport.box.lo.y += app.theme.px(buttons_above);
+  app.viewport.buttons = above || app.wished().kind != Kind::cloth ? 0 : app.theme.px(buttons_above);
   app.ui.notes_from = app.viewport.box.lo.y + app.theme.px(above ? 12 : 52);
   app.viewport.divide(app.copies.tiles());
   app.viewport.covers.clear();
   if (!begin_region("viewport", region, app.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   pictures(app, draw);
-  const bool bare = app.picture && !app.picture->whole_window;
-  if (!bare) viewport_overlay(app);
-  cloth_names(app, draw);
-  color_legend(app);
-  if (bare) return end_region();
-  if (app.wished().kind == Kind::cloth) view_buttons(app, region);
-  message_list(app);
-  banner(app);
+  marks(app, draw, region);
   end_region();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string>
+#include <vector>
 
 #include "app/panels/imgui_compat.h"
 #include "app/panels/symbol.h"
@@ -44,6 +46,33 @@ void place_tooltip(const App& app) {
   }
   const auto inside = [gap](float x, float most) { return std::max(std::min(x, most - gap), std::min(gap, x)); };
   ImGui::SetNextWindowPos({inside(at.x, window.x - size.x), inside(at.y, window.y - size.y)});
+}
+
+/// Where choices in rows stand, px from the first one's corner.
+struct SegmentPlaces {
+  struct Segment {
+    ImVec2 at;
+    float width;
+    bool begins_row, ends_row;
+  };
+  std::vector<Segment> segments;
+  float height = 0;  ///< of each
+  ImVec2 size{0, 0};
+};
+
+SegmentPlaces segment_places(const App& app, const char* const* labels, int count, float room_at_1, float width) {
+  SegmentPlaces places;
+  places.height = app.theme.px(26);
+  ImVec2 at{0, 0};
+  for (int k = 0; k < count; ++k) {
+    const float own = text_width(*app.fonts.text, labels[k]) + 2 * app.theme.px(room_at_1);
+    const bool begins = k == 0 || at.x + own > width;
+    if (begins && k > 0) at = {0, at.y + places.height + app.theme.px(4)}, places.segments.back().ends_row = true;
+    places.segments.push_back({at, own, begins, k + 1 == count});
+    places.size = {std::max(places.size.x, at.x + own), at.y + places.height};
+    at.x += own + 1;
+  }
+  return places;
 }
 
 }  // namespace
@@ -152,32 +181,35 @@ bool text_button(App& app, const char* label, bool strong, bool enabled) {
   return pressed;
 }
 
-int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float padding_at_1) {
+int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float room_at_1, float width) {
   const Tokens& c = app.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float height = app.theme.px(26), padding = app.theme.px(padding_at_1), round = app.theme.px(5);
+  const SegmentPlaces places = segment_places(app, labels, count, room_at_1, width);
+  const float round = app.theme.px(5);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
   int clicked = -1;
   ImGui::PushID(id);
-  const ImVec2 spacing = ImGui::GetStyle().ItemSpacing;
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(1, spacing.y));
   for (int k = 0; k < count; ++k) {
-    if (k > 0) ImGui::SameLine();
-    const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const ImVec2 hi{lo.x + text_width(*app.fonts.text, labels[k]) + 2 * padding, lo.y + height};
+    const SegmentPlaces::Segment& segment = places.segments[std::size_t(k)];
+    const ImVec2 lo{at.x + segment.at.x, at.y + segment.at.y}, hi{lo.x + segment.width, lo.y + places.height};
+    ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(k);
-    if (ImGui::InvisibleButton("segment", {hi.x - lo.x, height})) clicked = k;
+    if (ImGui::InvisibleButton("segment", {hi.x - lo.x, hi.y - lo.y})) clicked = k;
     if (app.report) report_control(app, std::string(id) + "." + std::to_string(k + 1));
     const bool on = k == chosen;
     const ImU32 ground = on ? c.accent : ImGui::IsItemHovered() ? c.field_hover : c.field;
-    const ImDrawFlags corners =
-        (k == 0 ? ImDrawFlags_RoundCornersLeft : 0) | (k + 1 == count ? ImDrawFlags_RoundCornersRight : 0);
+    const ImDrawFlags corners = (segment.begins_row ? ImDrawFlags_RoundCornersLeft : 0) |
+                                (segment.ends_row ? ImDrawFlags_RoundCornersRight : 0);
     draw.AddRectFilled(lo, hi, ground, round, corners != 0 ? corners : ImDrawFlags_RoundCornersNone);
     centred_text(app, *app.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
     ImGui::PopID();
   }
-  ImGui::PopStyleVar();
   ImGui::PopID();
   return clicked;
+}
+
+ImVec2 segments_size(const App& app, const char* const* labels, int count, float room_at_1, float width) {
+  return segment_places(app, labels, count, room_at_1, width).size;
 }
 
 bool check(App& app, const char* label, bool value) {

@@ -30,9 +30,12 @@ bool text_button(App& app, const char* label, bool strong = false, bool enabled 
 /// A quiet button without a ground: an icon that shows itself under the pointer.
 bool quiet_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip);
 
-/// Choices in a row of which one is taken, with so much room (at scale 1) on either side of each. Returns the index
-/// clicked, or -1.
-int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float padding = 11);
+/// Choices in a row of which one is taken, with so much room (at scale 1) on either side of each; they go on in another
+/// row where they would be wider than `width` (px). Returns the index clicked, or -1.
+int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float padding = 11,
+             float width = 1e9f);
+/// What they take, px.
+ImVec2 segments_size(const App& app, const char* const* labels, int count, float padding = 11, float width = 1e9f);
 /// A check box of the house's look. Returns whether it was clicked.
 bool check(App& app, const char* label, bool value);
 

@@ -75,8 +75,9 @@ struct App {
   Viewport viewport;
   Tool tool;
   std::optional<Pins::Site> picked;
-  bool redraw_cloth = true;   ///< something that the renderer's revision does not tell changed (a texture)
-  bool wants_framing = true;  ///< the camera is to frame the scene once the viewport's size is known
+  bool redraw_cloth = true;     ///< something that the renderer's revision does not tell changed (a texture)
+  bool wants_framing = true;    ///< the camera is to frame the scene once the viewport's size is known
+  bool camera_by_hand = false;  ///< it was turned, moved or zoomed since: a picture of another size frames nothing
 
   Theme theme;
   Fonts fonts;

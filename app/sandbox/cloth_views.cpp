@@ -9,9 +9,10 @@
 namespace tyglab {
 namespace {
 
-constexpr double calm_stretch = 5;  // rest lengths; what is longer is not drawn of a diverged cloth
-constexpr int outlines = 4;         // the view that ghosts are drawn in
-constexpr int ghost_lines = 10;     // along a side: a coarse net lets the cloth be seen through it
+constexpr double calm_stretch = 5;    // rest lengths; what is longer is not drawn of a diverged cloth
+constexpr float most_covered = 0.3f;  // of a picture's height by buttons, as far as framing makes room for them
+constexpr int outlines = 4;           // the view that ghosts are drawn in
+constexpr int ghost_lines = 10;       // along a side: a coarse net lets the cloth be seen through it
 
 glm::vec3 rgb(ImU32 color) {
   const ImVec4 c = ImGui::ColorConvertU32ToFloat4(color);
@@ -95,14 +96,20 @@ double ClothViews::draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts
   return std::max(1e3 * took.wall_s, its.drawn_ms());
 }
 
+void ClothViews::frame_scene(App& app, glm::vec2 shown) {
+  const glm::vec3 now(shown, app.viewport.buttons);
+  const bool due = app.wants_framing || (!app.camera_by_hand && now != framed_);
+  if (!due || shown.x <= 1 || shown.y <= 1) return;
+  app.camera = scene_camera(app.preset(), shown.x / shown.y, std::min(now.z / shown.y, most_covered));
+  app.wants_framing = app.camera_by_hand = false;
+  framed_ = now;
+}
+
 void ClothViews::draw(App& app, glm::vec2 magnified) {
   const glm::vec2 shown = app.viewport.size();
   if (shown.x < 1) return;  // the layout has not been made yet
   const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
-  if (app.wants_framing && shown.x > 1) {
-    app.camera = scene_camera(app.preset(), shown.x / shown.y);
-    app.wants_framing = false;
-  }
+  frame_scene(app, shown);
   const int tiles = app.copies.tiles();
   drawn_.resize(std::size_t(tiles));
   copies_.resize(std::min(copies_.size(), app.copies.lockstep.size()));

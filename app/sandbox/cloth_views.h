@@ -31,6 +31,8 @@ class ClothViews {
     std::uint64_t values = 0;  ///< ClothColors::version
     bool operator==(const Drawn&) const = default;
   };
+  /// Frames the scene where that is asked for, and, until the camera is taken in hand, for each new size of a picture.
+  void frame_scene(App& app, glm::vec2 shown);
   bool take_ghosts(App& app, glm::ivec2 size);
   /// Returns what it took, ms; 0 where the last picture stays.
   double draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved);
@@ -40,7 +42,8 @@ class ClothViews {
   std::vector<Drawn> drawn_;                            ///< by picture
   std::vector<Ghost> ghosts_;
   std::vector<std::uint64_t> ghost_revisions_;
-  glm::ivec2 size_{0};  ///< of a picture
+  glm::ivec2 size_{0};   ///< of a picture
+  glm::vec3 framed_{0};  ///< width, height of a picture and what the buttons cover of it, as it was framed last, pixels
 };
 
 }  // namespace tyglab

@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 44> rows{{
+  static const std::array<CommandRow, 52> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -52,6 +52,14 @@ std::span<const CommandRow> command_rows() {
        {{GLFW_KEY_I, 0}},
        "looks inside a step of the picked particle",
        "formula springs particle"},
+      {Command::show_forces, "Forces card", "", {}, "", "plot curves particle"},
+      {Command::show_height, "Height card", "", {}, "", "plot curve weight figure"},
+      {Command::show_copies, "Copies card", "", {}, "", "compare lockstep beside add a copy"},
+      {Command::show_distances, "Distances of the copies", "", {}, "", "plot card compare lockstep apart"},
+      {Command::show_stability, "Stability card", "", {}, "", "growth spectral radius limit dt"},
+      {Command::show_accuracy, "Accuracy card", "", {}, "", "error reference cost"},
+      {Command::show_energy, "Energy card", "", {}, "", "ledger work kinetic potential"},
+      {Command::show_performance, "Performance card", "", {}, "", "speed memory frame cost features"},
       {Command::next_color,
        "Next colouring of the cloth",
        "K",

@@ -7,9 +7,11 @@
 #include <set>
 
 #include "app/sandbox/app.h"
+#include "app/sandbox/cards.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -38,12 +40,8 @@ std::string present(const Preset& preset, const std::string& key) {
   if (key == "precision") return key + "=" + std::string(name_of(preset.precision));
   const PresetRow* row = find_row(key);
   if (row == nullptr) return {};
-  if (const auto* number = std::get_if<double Preset::*>(&row->field)) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.4g", preset.**number);
-    return key + "=" + text;
-  }
-  return {};
+  const auto* number = std::get_if<double Preset::*>(&row->field);
+  return number != nullptr ? key + "=" + short_number(preset.**number) : "";
 }
 
 }  // namespace
@@ -98,9 +96,8 @@ void add_copy(App& app, const std::vector<std::string>& differences, bool as_ref
   copies.t = app.simulation->time();
   copies.forget();
   app.tool.kind = Tool::Kind::none;  // all have been loaded anew, and the hand has let go
-  app.settings.layout.folded.erase("Copies");
-  app.ui.plots.tab = "Copies";
-  app.wants_framing |= !copies.overlaid;
+  app.settings.layout.folded.erase(card_name::copies);
+  if (!in_front(app, card_name::copies)) app.ui.plots.wanted = card_name::distances;
   app.redraw_cloth = true;
 }
 
@@ -113,8 +110,18 @@ void remove_copy(App& app, std::size_t n) {
   if (copies.reference > int(n)) --copies.reference;
   copies.forget();
   app.tool.kind = Tool::Kind::none;
-  app.wants_framing |= !copies.overlaid;
   app.redraw_cloth = true;
+}
+
+bool put_away_copies(App& app) {
+  Copies& copies = app.copies;
+  if (copies.lockstep.empty()) return false;
+  copies.lockstep.clear();
+  app.views.forget_copies();
+  copies.reference = Copies::original;
+  copies.forget();
+  app.tool.kind = Tool::Kind::none;
+  return app.redraw_cloth = true;
 }
 
 void copies_apply(App& app, const Edit& edit) {

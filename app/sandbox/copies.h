@@ -44,6 +44,8 @@ CurveStyle style_of_cloth(const App& app, int n);
 /// Adds a copy with these settings ("k_s=80"), or says why not.
 void add_copy(App& app, const std::vector<std::string>& differences, bool as_reference);
 void remove_copy(App& app, std::size_t n);
+/// Removes all of them; returns whether there were any.
+bool put_away_copies(App& app);
 /// What the original has been given or become, the copies are given or become.
 void copies_apply(App& app, const Edit& edit);
 void copies_resume(App& app);

@@ -4,6 +4,7 @@
 #include "app/panels/dialogs.h"
 #include "app/sandbox/app.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -54,7 +55,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
     return std::make_unique<Simulation>(preset, threads);
   } catch (const EngineError& error) {
     if (preset.engine == EngineKind::cpu) throw;
-    fallback = std::string(error.what()) + " The CPU runs it instead.";
+    fallback = sentence(error.what()) + " The CPU runs it instead.";
     return std::make_unique<Simulation>(on_cpu(preset), threads);
   }
 }

@@ -148,6 +148,7 @@ void drag(App& app, glm::vec2 at) {
   Tool& tool = app.tool;
   const glm::vec2 moved = at - tool.at;
   tool.at = at;
+  if (tool.kind == ToolKind::orbit || tool.kind == ToolKind::pan) app.camera_by_hand |= moved != glm::vec2(0);
   switch (tool.kind) {
     case ToolKind::orbit:
       app.camera.orbit(moved.x, moved.y);
@@ -172,6 +173,7 @@ void drag(App& app, glm::vec2 at) {
 
 void wheel(App& app, const PointerEvent& event) {
   if (!app.viewport.takes(event.at)) return;
+  app.camera_by_hand = true;
   if ((event.mods & GLFW_MOD_SHIFT) != 0) {
     app.camera.pan(event.wheel.x * app.theme.px(32), event.wheel.y * app.theme.px(32), app.viewport.size().y);
   } else {

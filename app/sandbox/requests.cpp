@@ -1,13 +1,13 @@
 #include "app/sandbox/requests.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/panels/dialogs.h"
 #include "app/panels/numbers.h"
 #include "app/panels/palette.h"
 #include "app/panels/tour.h"
 #include "app/sandbox/app.h"
+#include "app/sandbox/cards.h"
 #include "app/sandbox/document.h"
 #include "app/sandbox/exports.h"
 #include "app/sandbox/wind_arrow.h"
@@ -89,13 +89,6 @@ void follow_constants(App& app, Preset& next) {
   if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
 }
 
-/// Shows or hides one of the plots' cards that are not always there.
-void toggle_plot(App& app, bool Layout::*card) {
-  Layout& layout = app.settings.layout;
-  layout.*card = !(layout.*card);
-  if (layout.*card) layout.right = app.ui.panels = app.ui.side_plots = true;
-}
-
 void toggle_cut_path(App& app) {
   bool& along = app.settings.handling.cut_along_path;
   along = !along;
@@ -141,17 +134,13 @@ void next_theme(App& app) {
   const auto all = looks();
   const auto now = std::size_t(&look(app.settings.theme) - all.data());
   const Look& next = all[(now + 1) % all.size()];
-  app.wants_framing |= next.magnified != all[now].magnified;  // the viewport gets another size
   app.settings.theme = next.name;
   app.scale_changed = app.redraw_cloth = true;
 }
 
 /// Opens the card that shows it, where it is measured from the present moment on.
 void show_convergence(App& app) {
-  Layout& layout = app.settings.layout;
-  layout.right = app.ui.panels = app.ui.side_plots = true;
-  layout.folded.erase("Accuracy");
-  app.ui.plots.tab = "Accuracy";
+  show_card(app, card_name::accuracy);
   app.convergence.drop();
   app.convergence.shown = true;
 }
@@ -227,9 +216,25 @@ void apply(App& app, const request::Do& what) {
       app.ui.panels = !app.ui.panels;
       return;
     case Command::toggle_map:
-      return toggle_plot(app, &Layout::map);
+      return toggle_card(app, card_name::map, &Layout::map, app.ui.map_shown);
     case Command::toggle_inside:
-      return toggle_plot(app, &Layout::inside);
+      return toggle_card(app, card_name::step, &Layout::inside, app.ui.inside_shown);
+    case Command::show_forces:
+      return show_card(app, card_name::forces);
+    case Command::show_height:
+      return show_card(app, card_name::height);
+    case Command::show_distances:
+      return show_card(app, card_name::distances);
+    case Command::show_copies:
+      return show_card(app, card_name::copies);
+    case Command::show_stability:
+      return show_card(app, card_name::stability);
+    case Command::show_accuracy:
+      return show_card(app, card_name::accuracy);
+    case Command::show_energy:
+      return show_card(app, card_name::energy);
+    case Command::show_performance:
+      return show_card(app, card_name::performance);
     case Command::toggle_cut_path:
       return toggle_cut_path(app);
     case Command::toggle_wind_arrow:
@@ -278,11 +283,11 @@ void apply(App& app, const request::Apply& what) {
     if (count > large_cloth && count > 1.001 * now) {
       request::Apply agreed = what;
       agreed.confirmed = true;
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "%d × %d is %.3g million particles. A frame may then take seconds. Build it all the same?",
-                    change->preset.rows, change->preset.columns, count / 1e6);
-      ask(app, Dialog::Kind::large_cloth, text, std::move(agreed));
+      const std::string size = std::to_string(change->preset.rows) + " × " + std::to_string(change->preset.columns);
+      ask(app, Dialog::Kind::large_cloth,
+          size + " is " + short_number(count / 1e6, 3) +
+              " million particles. A frame may then take seconds. Build it all the same?",
+          std::move(agreed));
       return;
     }
   }

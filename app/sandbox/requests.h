@@ -38,8 +38,16 @@ enum class Command {
   leave_lab,
   start_tour,
   toggle_panels,
-  toggle_map,
+  toggle_map,  ///< its card comes to the front, or closes where it stands there
   toggle_inside,
+  show_forces,  ///< cards of the plots' column
+  show_height,
+  show_distances,
+  show_copies,
+  show_stability,
+  show_accuracy,
+  show_energy,
+  show_performance,
   toggle_cut_path,    ///< cuts run along the pointer's path, or upwards
   toggle_wind_arrow,  ///< shown, or not
   toggle_slow_hand,   ///< slow motion while the hand is in the cloth, or not

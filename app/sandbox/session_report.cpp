@@ -266,6 +266,10 @@ void add_window(Json& json, const App& app) {
   json["pictures"] = {app.viewport.columns, app.viewport.rows};
   json["pointer"] = {app.input.at.x, app.input.at.y};
   json["tool"] = name_of(app.tool.kind);
+  json["camera"] = {{"yaw", app.camera.yaw}, {"pitch", app.camera.pitch}, {"distance", app.camera.distance}};
+  json["view_buttons"] = app.viewport.buttons;
+  json["tabs"] = app.ui.plots.cards;
+  json["tab"] = app.ui.plots.tab;
   json["handling"] = handling(app);
   json["theme"] = app.settings.theme;
   const SliderState& slider = app.ui.slider;
@@ -279,6 +283,12 @@ void add_window(Json& json, const App& app) {
   Json messages = Json::array();
   for (const Message& message : app.messages.list()) messages.push_back(message.text);
   json["messages"] = messages;
+  Json marks = Json::object();
+  for (const Placing::Mark& mark : app.ui.placing.marks()) {
+    const glm::vec2 lo = mark.box.lo, extent = mark.box.hi - lo;
+    marks[mark.name] = {lo.x, lo.y, extent.x, extent.y};
+  }
+  json["marks"] = marks;
 }
 
 }  // namespace

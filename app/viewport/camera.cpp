@@ -85,27 +85,33 @@ float centred(std::span<const glm::vec2> points, float slope, float ahead) {
 
 }  // namespace
 
-void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part) {
+void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered) {
+  // The middle of what is free is a line from the eye that leans down: heights are taken from it.
+  const float tan_y = std::tan(fov_y / 2), lean = -covered * tan_y;
   std::vector<glm::vec2> across, upright;
   float nearest = 1e30f, farthest = -1e30f;
   for (const glm::vec3& p : points) {
     const float depth = glm::dot(p, forward());
     across.emplace_back(glm::dot(p, right()), depth);
-    upright.emplace_back(glm::dot(p, up()), depth);
+    upright.emplace_back(glm::dot(p, up()) - lean * depth, depth);
     nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
   }
-  const float tan_y = std::tan(fov_y / 2), middle = (nearest + farthest) / 2;
-  const glm::vec2 slope = part * glm::vec2(tan_y * aspect, tan_y);
+  const float middle = (nearest + farthest) / 2;
+  const glm::vec2 slope = part * glm::vec2(tan_y * aspect, tan_y * (1 - covered));
   distance = std::clamp(middle - std::min(fit(across, slope.x).ahead, fit(upright, slope.y).ahead), 1e-3f, 1e6f);
-  target = centred(across, slope.x, middle - distance) * right() + centred(upright, slope.y, middle - distance) * up() +
+  const float ahead = middle - distance;
+  target = centred(across, slope.x, ahead) * right() + (centred(upright, slope.y, ahead) + lean * ahead) * up() +
            middle * forward();
 }
 
-void Camera::make_room(std::span<const glm::vec3> points, float aspect, float part) {
+void Camera::make_room(std::span<const glm::vec3> points, float aspect, float part, float covered) {
   const float tan_y = part * std::tan(fov_y / 2), tan_x = tan_y * aspect;
+  const float half = tan_y * (1 - covered), lean = covered * std::tan(fov_y / 2);
   for (const glm::vec3& p : points) {
     const glm::vec3 offset = p - target;
-    const float side = std::max(std::abs(glm::dot(offset, right())) / tan_x, std::abs(glm::dot(offset, up())) / tan_y);
+    const float height = glm::dot(offset, up());
+    const float side = std::max(std::abs(glm::dot(offset, right())) / tan_x,
+                                height > 0 ? height / (half - lean) : -height / (half + lean));
     distance = std::min(std::max(distance, side - glm::dot(offset, forward())), 1e6f);
   }
 }

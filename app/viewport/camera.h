@@ -34,10 +34,11 @@ struct Camera {
   /// Positive steps come nearer, an eighth of the distance a step.
   void zoom(float wheel_steps);
   /// Comes as near as it can while the points keep within that part of the picture's width and height; keeps the
-  /// direction. The points then stand in the middle of the picture.
-  void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part);
+  /// direction. The points then stand in the middle of the picture. Something covers so much of its height along the
+  /// upper edge (`covered`, 0 to 0.3): only what is left counts as the picture.
+  void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered = 0);
   /// Goes back along its direction until the points keep within that part of the picture.
-  void make_room(std::span<const glm::vec3> points, float aspect, float part);
+  void make_room(std::span<const glm::vec3> points, float aspect, float part, float covered = 0);
   /// Puts the box (corners lo, hi) into view; keeps the direction.
   void frame(glm::vec3 lo, glm::vec3 hi, float aspect);
 
@@ -79,8 +80,9 @@ struct Bounds {
 Bounds bounds(const PositionView& positions);
 /// The box of a preset's start and of where it will hang, with its spheres: what a first look should see.
 Bounds scene_bounds(const Preset& preset);
-/// A camera in the house's favourite direction that frames scene_bounds.
-Camera scene_camera(const Preset& preset, float aspect);
+/// A camera in the house's favourite direction that frames scene_bounds, below what covers so much of the picture's
+/// height along its upper edge.
+Camera scene_camera(const Preset& preset, float aspect, float covered = 0);
 /// Height of the drawn ground: that of the highest plane below the start if there is one, else a little below all that
 /// scene_bounds holds.
 double ground_height(const Preset& preset);

@@ -176,7 +176,7 @@ Bounds scene_bounds(const Preset& p) {
   return b;
 }
 
-Camera scene_camera(const Preset& p, float aspect) {
+Camera scene_camera(const Preset& p, float aspect, float covered) {
   Camera camera;
   if (p.kind == Kind::one_weight) {
     camera.yaw = 0, camera.pitch = 0.06f;
@@ -191,8 +191,8 @@ Camera scene_camera(const Preset& p, float aspect) {
   std::vector<glm::vec3> seen = start_points(p);
   const std::vector<glm::vec3> lasting = lasting_points(p);
   seen.insert(seen.end(), lasting.begin(), lasting.end());
-  camera.frame(seen, aspect, {0.98f, 0.92f});  // buttons stand along the upper edge
-  camera.make_room(lasting, aspect, 0.84f);
+  camera.frame(seen, aspect, {0.98f, 0.92f}, covered);
+  camera.make_room(lasting, aspect, 0.84f, covered);
   return camera;
 }
 

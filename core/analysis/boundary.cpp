@@ -58,7 +58,7 @@ class Perturbed {
     for (std::size_t p = 0; p < a.size(); ++p) sum += (a[p] - b[p]) * (a[p] - b[p]);
     return sum;
   }
-  void load(const State& state) { simulation_.engine().load(state, simulation_.tears()); }
+  void load(const State& state) { simulation_.load(state); }
   double size() const {
     const PositionView x = simulation_.positions();
     double sum = 0;

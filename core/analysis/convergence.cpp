@@ -7,6 +7,7 @@
 #include "core/analysis/study_run.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 #include "core/output/text.h"
 
 namespace tyglab {
@@ -62,7 +63,7 @@ std::string diverged_words(const Convergence& study) {
   for (const ConvergencePoint& point : study.points)
     if (!std::isfinite(point.error_rms_m)) finest = point.dt, ++count;
   if (count == 0) return {};
-  return printed("With dt = %.3g s%s it diverges. ", finest, count > 1 ? " and more" : "");
+  return "With dt = " + short_number(finest, 3) + " s" + (count > 1 ? " and more" : "") + " it diverges. ";
 }
 
 }  // namespace
@@ -115,8 +116,8 @@ std::string convergence_words(const Convergence& study) {
   const auto hidden =
       std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.told; });
   if (!order->by_differences && hidden != study.points.end())
-    words += printed("From dt = %.3g s on the error cannot be told from the reference's own, %.2g m. ", hidden->dt,
-                     study.reference.agreement_rms_m);
+    words += "From dt = " + short_number(hidden->dt, 3) + " s on the error cannot be told from the reference's own, " +
+             short_number(study.reference.agreement_rms_m, 2) + " m. ";
   words.pop_back();
   return words;
 }

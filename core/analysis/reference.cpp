@@ -9,7 +9,7 @@
 
 #include "core/analysis/one_weight.h"
 #include "core/analysis/plain_forces.h"
-#include "core/output/text.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -64,7 +64,7 @@ void measure_predictability(const AccuracyScene& scene, double dt, const Stop& s
       const double way = perturbation * (2 * (double(random()) / 4294967295.0) - 1);
       if (pinned[p] == 0) (*x)[p] += way;
     }
-  moved.engine().load(state, moved.tears());
+  moved.load(state);
   for (int n = 1; n <= looks; ++n) {
     advance_in_pieces(plain, steps, stop), advance_in_pieces(moved, steps, stop);
     if (!(rms_distance({positions_of(plain)}, {positions_of(moved)}) < bound)) return;
@@ -93,10 +93,9 @@ Reference refined(const AccuracyScene& scene, double dt, const Stop& stop) {
   const Track coarser = own_track(scene, method, steps, stop);
   reference.agreement_rms_m = rms_distance(reference.track, coarser);
   const double used = sample_time(scene, 1) / steps;
-  reference.made_by = {printed("this project's %s in double with dt = %.3g s", method.c_str(), used / 2),
-                       printed("the same %s with dt = %.3g s: not independent, since no other library has these "
-                               "bodies",
-                               method.c_str(), used)};
+  reference.made_by = {"this project's " + method + " in double with dt = " + short_number(used / 2, 3) + " s",
+                       "the same " + method + " with dt = " + short_number(used, 3) +
+                           " s: not independent, since no other library has these bodies"};
   return reference;
 }
 
@@ -168,9 +167,9 @@ Reference make_reference(const AccuracyScene& scene, bool quick, const Stop& sto
     reference.track = odeint_track(scene, tolerance, stop);
     reference.agreement_rms_m = rms_distance(reference.track, own_track(scene, method, steps, stop));
     reference.made_by = {
-        printed("Boost.Odeint's %s with error control to %.0e, on forces written apart from the engine",
-                "runge_kutta_fehlberg78", tolerance),
-        printed("this project's %s in double with dt = %.3g s", method.c_str(), sample_time(scene, 1) / steps)};
+        "Boost.Odeint's runge_kutta_fehlberg78 with error control to " + short_number(tolerance, 1) +
+            ", on forces written apart from the engine",
+        "this project's " + method + " in double with dt = " + short_number(sample_time(scene, 1) / steps, 3) + " s"};
   } else {
     reference = refined(scene, dt / 2, stop);
   }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "core/energy/auto_step.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -22,9 +22,7 @@ constexpr double longest = 1;     // s of motion in a trial
 constexpr int shorter_tries = 5;  // halvings of it, where it cannot be judged so long
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
+  return short_number(value, 2);
 }
 
 /// The reference over as much of the motion as can be told apart from a tenth of the tolerance.

@@ -25,8 +25,8 @@ Angle angle(double degrees) {
 }
 
 StateRows weight_row(const Preset& p) {
-  return [x = p.x_0 + glm::dvec3(0, p.offset, 0), v = p.v_0.y](int, const StateRow& row) {
-    for (int c = 0; c < 3; ++c) row.x[c][0] = x[c], row.v[c][0] = c == 1 ? v : 0;
+  return [x = p.x_0 + glm::dvec3(0, p.offset, 0), v = starting_velocity(p)](int, const StateRow& row) {
+    for (int c = 0; c < 3; ++c) row.x[c][0] = x[c], row.v[c][0] = v[c];
   };
 }
 
@@ -34,6 +34,10 @@ StateRows weight_row(const Preset& p) {
 
 Lattice lattice_of(const Preset& preset) {
   return preset.kind == Kind::one_weight ? Lattice{1, 1} : Lattice{preset.rows, preset.columns};
+}
+
+glm::dvec3 starting_velocity(const Preset& preset) {
+  return preset.kind == Kind::one_weight ? glm::dvec3(0, preset.v_0.y, 0) : preset.v_0;
 }
 
 StateRows start_rows(const Preset& p) {

@@ -15,6 +15,8 @@ Lattice lattice_of(const Preset& preset);
 /// Positions and velocities at the start; pinned particles have v = 0.
 StateRows start_rows(const Preset& preset);
 State start_state(const Preset& preset);
+/// That of every free particle, m/s; the one weight moves along y alone.
+glm::dvec3 starting_velocity(const Preset& preset);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);
 /// Whether both pin the same particles of the same lattice, by a name or by a list.

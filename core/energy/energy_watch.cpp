@@ -1,9 +1,9 @@
 #include "core/energy/energy_watch.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include "core/integrators/remedy.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -57,11 +57,9 @@ std::optional<Divergence> EnergyWatch::divergence(const Preset& preset, const St
     if (speed > fastest) fastest = speed, d.i = int(n) / columns, d.j = int(n) % columns;
   }
   d.quantity = "unexplained energy", d.value = reading.unexplained();
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%s has made %.3g J that nothing explains, %.0f times what the scene can hold, at dt = %g s",
-                preset.integrator.c_str(), reading.unexplained(), reading.share(), preset.dt);
-  d.cause = text;
+  d.cause = preset.integrator + " has made " + short_number(reading.unexplained(), 3) + " J that nothing explains, " +
+            short_number(reading.share(), 2) + " times what the scene can hold, at dt = " + short_number(preset.dt) +
+            " s";
   d.remedy = remedy(preset);
   return d;
 }

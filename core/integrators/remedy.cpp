@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include <glm/geometric.hpp>
 
 #include "core/integrators/modes.h"
-#include "core/notation/words.h"
+#include "core/notation/readable.h"
 
 namespace tyglab {
 namespace {
@@ -17,9 +15,7 @@ namespace {
 constexpr double margin = 0.9;
 
 std::string seconds(double dt) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", dt);
-  return shortest_number(std::strtod(text, nullptr)) + " s";
+  return short_number(dt, 2) + " s";
 }
 
 }  // namespace
@@ -30,12 +26,12 @@ double stable_dt(const Preset& p, const std::string& integrator) {
 }
 
 double advised_dt(const Preset& p, const std::string& integrator) {
-  return std::strtod(seconds(margin * stable_dt(p, integrator)).c_str(), nullptr);
+  return rounded(margin * stable_dt(p, integrator), 2);
 }
 
 std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
   if (inner.below_digits == 0 && inner.too_short == 0) return "";
-  const std::string tolerance = "The tolerance " + shortest_number(p.tolerance) + " m is ";
+  const std::string tolerance = "The tolerance " + short_number(p.tolerance) + " m is ";
   const std::string precision = p.precision == Precision::float_ ? "float" : "double";
   if (inner.below_digits > 0)
     return tolerance + "below what " + precision +

@@ -58,7 +58,7 @@ TEST_CASE("a mode of the taut lattice swings at ω² = (2/m) κ [(2 − cos α �
                               : integrator == "implicit_midpoint" ? 2 * std::atan(h * w / 2)
                                                                   : h * w;
       Simulation simulation(preset);
-      simulation.engine().load(in_mode(preset, alpha, beta, amplitude), simulation.tears());
+      simulation.load(in_mode(preset, alpha, beta, amplitude));
       for (int n = 0; n < 400; n += 80) {
         const State wanted = in_mode(preset, alpha, beta, amplitude * std::cos(n * per_step));
         double worst = 0;
@@ -81,7 +81,7 @@ TEST_CASE("damping slows a mode of the taut lattice by k_d/m of the same sum") {
   const double sum = 2 / preset.m * mode_sum(alpha, beta), kappa = preset.k_s * (1 - 1 / preset.initial_stretch);
   const double decay = preset.k_d * sum / 2, w = std::sqrt(kappa * sum - decay * decay);
   Simulation simulation(preset);
-  simulation.engine().load(in_mode(preset, alpha, beta, amplitude), simulation.tears());
+  simulation.load(in_mode(preset, alpha, beta, amplitude));
   simulation.advance(300);
   const double t = 300 * preset.dt;
   const double left = std::exp(-decay * t) * (std::cos(w * t) + decay / w * std::sin(w * t));
@@ -132,7 +132,7 @@ TEST_CASE("a hanging chain of N beads swings at ω² = λ g/L, λ the roots of L
       state.x.z[i] = amplitude * shape[std::size_t(beads - i)];
     }
     Simulation simulation(preset);
-    simulation.engine().load(state, simulation.tears());
+    simulation.load(state);
     const int steps = int(2.1 * 2 * pi / w / preset.dt);
     simulation.advance(steps);
     const double turned = std::cos(w * steps * preset.dt);
@@ -164,7 +164,7 @@ TEST_CASE("a weight bounces between slack and taut as its pieces say") {
     State state = start_state(preset);
     state.x.y[1] = state.x.y[0] - preset.L + slack;
     Simulation simulation(preset);
-    simulation.engine().load(state, simulation.tears());
+    simulation.load(state);
     double worst = 0, least = preset.L, most = 0;
     for (int n = 1; n <= 10000; ++n) {
       simulation.advance(1);

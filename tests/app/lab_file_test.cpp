@@ -26,6 +26,11 @@ std::string problem_of(const std::string& text) {
 std::string problem_in(const std::string& lines) {
   return problem_of(head + lines + "\n```\n");
 }
+/// No-break spaces as they can be read here.
+std::string without_bonds(std::string text) {
+  for (std::size_t at = 0; (at = text.find("\u00a0", at)) != std::string::npos;) text.replace(at, 2, "~");
+  return text;
+}
 bool says(const std::string& text, const char* what) {
   return text.find(what) != std::string::npos;
 }
@@ -40,11 +45,12 @@ TEST_CASE("all wrong lines of blocks are told at once, each with its number") {
   CHECK(says(unclosed, "never closed"));
 }
 
-TEST_CASE("formulas and quantities are broken in no place within them") {
-  const Lab lab =
-      parse_lab("# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m).\n", "my.md");
-  CHECK(lab.steps[0].text[0] ==
-        "With k =\u00a02\u00a0·\u00a03\u00a0/\u00a04\u00a0×\u00a05 it weighs 0.115\u00a0N, in 2\u00a0s (of 5\u00a0m).");
+TEST_CASE("formulas and quantities are one piece, also where the file's lines end within them") {
+  const Lab lab = parse_lab(
+      "# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m), so Δ\n= m·g/k < 0.1\nm.\n",
+      "my.md");
+  CHECK(without_bonds(lab.steps[0].text[0]) ==
+        "With k~=~2~·~3~/~4~×~5 it weighs 0.115~N, in 2~s (of 5~m), so Δ~=~m·g/k~<~0.1~m.");
 }
 
 TEST_CASE("a lab is read whole") {
@@ -105,8 +111,33 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK(says(problem_in("open: hangin"), "Did you mean 'hanging'?"));
   CHECK(says(problem_in("open: hanging\nset: k_ss=3"), "did you mean k_s?"));
   CHECK(says(problem_in("open: hanging\nset: k_s=-3"), "allowed: 0 to"));
+  const std::string settings = problem_in("open: hanging\nset: k_s=-4\nset: rows=8\nset: m=heavy");
+  CHECK(says(settings, "my.md:9: set: k_s: -4 is not allowed; allowed: 0 to"));
+  CHECK(says(settings, "my.md:11: set: m: "));
+  CHECK_FALSE(says(settings, "my.md:8: "));
+  CHECK_FALSE(says(settings, "--set"));
+  const std::string both = problem_in("open: hanging\nset: k_s=-4\npredict: How?\nanswer: 0 m within 5 %");
+  CHECK(says(both, "my.md:9: set: "));
+  CHECK(says(both, "my.md:11: a part of 0"));
+  CHECK_FALSE(says(both, "no answer"));
+  CHECK(problem_in("open: hanging\nset: pins=[[39, 39]]\nset: rows=40\nset: columns=40") == "none");
+  for (const char* wrong : {"nan within 5 %", "inf m within 1 m", "3 m within nan %", "3 m within inf"})
+    CHECK(says(problem_in("predict: How?\nanswer: " + std::string(wrong)), "my.md:9: "));
+  CHECK(says(problem_in("check: t < inf"), "my.md:8: "));
+  CHECK(says(problem_in("predict: How?\nanswer: 0 m within 5 %"), "answer: 0 m within 0.01"));
+  CHECK(problem_in("predict: How?\nanswer: 0 m within 0.01") == "none");
+  CHECK(says(problem_in("check: integrator = foo"), "integrator is never \"foo\". Known: euler"));
   CHECK(says(problem_in("stop: -1 s"), "above 0"));
   CHECK(says(problem_in("needs: luck"), "opencl"));
+}
+
+TEST_CASE("a lab is found by its name or its file") {
+  CHECK(find_lab_file("01_hooke").filename() == "01_hooke.md");
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "mine.md", head + "```\n");
+  CHECK(find_lab_file((folder / "mine.md").string()) == folder / "mine.md");
+  const auto unknown = [] { find_lab_file("01_hoke"); };
+  CHECK_THROWS_WITH_AS(unknown(), doctest::Contains("Did you mean '01_hooke'?"), LabError);
 }
 
 TEST_CASE("labs are found in the user's folder too, beside their own presets, and a wrong one is told") {

@@ -39,6 +39,8 @@ TEST_CASE("what is typed finds commands, presets, methods, labs, constants and v
   CHECK(first_for(app, "outlines") == "View: Outlines");
   CHECK(first_for(app, "text larger") == "Command: Larger text");
   CHECK(first_for(app, "no such thing").empty());
+  for (const char* card : {"Forces", "Copies", "Stability", "Accuracy", "Energy", "Performance"})
+    CHECK(first_for(app, card) == "Command: " + std::string(card) + " card");
   CHECK(first_for(app, "stiff") == "Lab: k_s and the critical time step");
   const std::vector<PaletteEntry> entries = palette_entries(app);
   const std::vector<int> found = matching(entries, "stiffness against stretching");

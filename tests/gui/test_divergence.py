@@ -50,7 +50,7 @@ def own_doing(stage):
     sandbox.type_value("k_s", "200000")
     sandbox.wait(lambda r: r["divergence"] is not None, "the cloth to diverge")
     stage.keep("banner", still=True)
-    sandbox.click_control("viewport.Undo_last_change_and_restart")
+    sandbox.click_control("viewport.Undo_and_restart")
     report = sandbox.wait(lambda r: r["divergence"] is None, "the button to heal the cloth")
     check(k_s(report) == 50, "the change is undone")
     sandbox.wait(lambda r: r["t"] > 1 and r["divergence"] is None, "the cloth to move on for a second")

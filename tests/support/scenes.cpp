@@ -62,7 +62,7 @@ State crumpled(const Preset& preset, std::uint64_t seed, double amount, double s
 }
 
 void load(Simulation& simulation, const State& state) {
-  simulation.engine().load(state, simulation.tears());
+  simulation.load(state);
 }
 
 void load(oracle::Cloth& cloth, const State& state) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/cloth/start.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
@@ -143,6 +145,31 @@ TEST_CASE("what counts at the start waits for the restart") {
     waiting.apply(edit::Change{other});
     CHECK(furthest(waiting.read(), start_state(other)) == 0);
   }
+}
+
+TEST_CASE("before the first step the read-out shows the velocity that the scene begins with") {
+  Preset weight = test::one_weight(), cloth = test::cloth(6, 5);
+  weight.k_d = 0.5;  // the damping in Verlet's own start is not that of half a step ago
+  cloth.k_d = 0.05, cloth.v_0 = {0.3, -0.2, 0.1}, cloth.pins.mode = Pins::Mode::top_row;
+  for (const Preset& preset : {weight, cloth})
+    for (const Scheme& scheme : schemes()) {
+      Preset of = preset;
+      of.integrator = scheme.name;
+      CAPTURE(of.integrator);
+      Simulation simulation(of);
+      const Snapshot start = simulation.snapshot();
+      const int last = simulation.lattice().rows - 1;
+      const auto as_begun = [&] {
+        CHECK(simulation.particle(last, 0).v == starting_velocity(of));
+        CHECK(simulation.particle(last, 0).F_d == glm::dvec3(0));
+        CHECK(test::velocity(simulation.read(), last * simulation.lattice().columns) == starting_velocity(of));
+      };
+      as_begun();
+      simulation.advance(1);
+      CHECK(simulation.particle(last, 0).v != starting_velocity(of));
+      simulation.restore(start);
+      as_begun();
+    }
 }
 
 TEST_CASE("before the first step a change is a fresh start that keeps cuts and the hand") {

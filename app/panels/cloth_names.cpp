@@ -1,0 +1,56 @@
+// Which cloth a picture shows, at its foot, while there are copies.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/panels/numbers.h"
+#include "app/panels/overlay.h"
+#include "app/panels/symbol.h"
+#include "app/panels/text_lines.h"
+
+namespace tyglab {
+namespace {
+
+constexpr std::size_t most_lines = 3;
+
+/// What there is to tell beside the name; empty: nothing.
+std::string state_of(const App& app, int n) {
+  if (const auto& divergence = cloth_of(app, n).divergence())
+    return "diverged at t = " + time_number(divergence->t, cloth_of(app, n).preset().dt) + " s";
+  return n == app.copies.reference ? "reference" : "";
+}
+
+}  // namespace
+
+void cloth_names(App& app, ImDrawList& draw) {
+  const Copies& copies = app.copies;
+  if (copies.lockstep.empty()) return;
+  const Tokens& c = app.theme.colors;
+  const ImFont& font = *app.fonts.text;
+  const float pad = app.theme.px(8), sample = app.theme.px(24), line = font.FontSize + pad / 2;
+  const int count = int(copies.lockstep.size());
+  float foot = app.viewport.origin(0).y + app.viewport.size().y - 2 * pad;
+  for (int n = count - 1; n >= Copies::original; --n) {
+    const glm::vec2 origin = app.viewport.origin(copies.overlaid ? 0 : n + 1);
+    if (!copies.overlaid) foot = origin.y + app.viewport.size().y - 2 * pad;
+    const auto words = name_lines(name_of_cloth(app, n), state_of(app, n), app.viewport.size().x - sample - 7 * pad,
+                                  most_lines, [&font](std::string_view piece) { return text_width(font, piece); });
+    float width = 0;
+    for (const std::string& text : words) width = std::max(width, text_width(font, text));
+    const glm::vec2 size = glm::ceil(glm::vec2(sample + 3 * pad + width, line * float(words.size()) + pad / 2));
+    const glm::vec2 lo = glm::round(glm::vec2(origin.x + 2 * pad, foot - size.y));
+    draw.AddRectFilled(vec(lo), vec(lo + size), faded(c.ground, 0.85f), app.theme.px(6));
+    app.ui.placing.take("name " + std::to_string(n + 1), {lo, lo + size});
+    const float middle = std::round(lo.y + pad / 2 + font.FontSize / 2);
+    const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
+    CurveStyle style = style_of_cloth(app, n);
+    if (copies.overlaid) style.line = LineStyle::solid;  // as the nets are drawn
+    draw_styled_line(draw, ends, 2, style, app.theme.scale);
+    for (std::size_t k = 0; k < words.size(); ++k)
+      draw_text(draw, font, {lo.x + 2 * pad + sample, lo.y + pad / 2 + line * float(k)},
+                cloth_of(app, n).divergence() ? c.danger : c.text, words[k]);
+    foot = lo.y;
+  }
+}
+
+}  // namespace tyglab
