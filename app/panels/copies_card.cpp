@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
@@ -45,33 +46,15 @@ float explanation_height(const App& app) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, copies_inner_width(app), copies_explanation).y;
 }
 
-void item(App& app, const std::string& label, std::vector<std::string> differences, bool reference = false) {
-  if (ImGui::MenuItem(label.c_str())) app.request(request::AddCopy{std::move(differences), reference});
-  report_control(app, label);
-}
-
-std::string dt_setting(double dt) {
-  return "dt=" + short_number(dt, 6);
-}
-
 /// What a copy may be made with; constants offer the same in their own menus.
 void copy_menu(App& app) {
   if (!begin_menu(app, "copy menu")) return;
-  const Preset& preset = app.preset();
-  item(app, "Reference: Dormand-Prince, error 1e-9 m a step",
-       {"integrator=dopri5", "tolerance=1e-9", "precision=double"}, true);
-  item(app, "Equal copy", {});
-  ImGui::Separator();
-  for (const Scheme& method : schemes())
-    if (method.name != preset.integrator)
-      item(app, std::string(method.title), {"integrator=" + std::string(method.name)});
-  ImGui::Separator();
-  item(app, "dt / 2 = " + short_number(preset.dt / 2) + " s", {dt_setting(preset.dt / 2)});
-  item(app, "dt · 2 = " + short_number(preset.dt * 2) + " s", {dt_setting(preset.dt * 2)});
-  const bool single = preset.precision == Precision::float_;
-  item(app, single ? "double" : "float", {single ? "precision=double" : "precision=float"});
-  const bool cpu = preset.engine == EngineKind::cpu;
-  item(app, cpu ? "OpenCL" : "CPU", {cpu ? "engine=opencl" : "engine=cpu"});
+  int group = 0;
+  for (const CopyChoice& choice : copy_choices(app.preset())) {
+    if (std::exchange(group, choice.group) != choice.group) ImGui::Separator();
+    if (ImGui::MenuItem(choice.label.c_str())) app.request(request::AddCopy{choice.differences, choice.reference});
+    report_control(app, choice.label);
+  }
   end_menu();
 }
 

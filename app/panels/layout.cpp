@@ -16,6 +16,8 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
 
+constexpr float least_plots = 180;  // height of their column beside a lab's strip, pixels at scale 1
+
 /// A border that drags: changes `width` (at scale 1) of the region on its left (sign 1) or right (sign -1).
 void splitter(App& app, const char* id, float x, float top, float bottom, float& width, float sign) {
   const float grip = app.theme.px(8);
@@ -39,9 +41,9 @@ void splitter(App& app, const char* id, float x, float top, float bottom, float&
 }
 
 /// Chooses which of the two columns stands in the place that they share; or, where the cloth has none beside it
-/// (`all`), which of the three. Returns its height.
-float side_tabs(App& app, const Region& region, bool all) {
-  static constexpr const char* names[] = {"Constants", "Plots", "Cloth"};
+/// (`all`), which of the three. `lab`: it is seen with the constants, not with the plots. Returns its height.
+float side_tabs(App& app, const Region& region, bool all, bool lab) {
+  const char* const names[] = {lab ? "Constants, lab" : "Constants", "Plots", "Cloth"};
   if (begin_region("side", region, app.theme.colors.panel, {app.theme.px(16), app.theme.px(8)})) {
     const int now = all && app.ui.side_cloth ? 2 : app.ui.side_plots ? 1 : 0;
     const int k = segments(app, "columns", names, all ? 3 : 2, now);
@@ -84,17 +86,22 @@ void draw_layout(App& app, ImVec2 window) {
   if (left + right > spare) right = 0;
   if (shared) left = std::round(std::min(layout.left_width * app.theme.scale, std::max(spare, left)));
   // Where not even one has room beside the cloth, all three do.
-  const bool in_turn = left + app.theme.px(140) > window.x;
+  const bool in_turn = left > 0 && left + app.theme.px(140) > window.x;
   if (in_turn) left = app.ui.side_cloth ? 0 : window.x;
   app.ui.viewport_left = left;
   app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;
   app.ui.accuracy_shown = app.ui.map_shown = app.ui.inside_shown = app.copies.shown = false;
 
-  const float lab = panels ? lab_panel_height(app, height) : 0, middle = window.x - left - right;
-  // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll.
-  const bool below = lab > 0 && left > 0 && middle < app.theme.px(lab_two_columns);
+  float lab = panels ? lab_panel_height(app, height) : 0;
+  const float middle = window.x - left - right, strip = app.theme.px(42);
+  // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll;
+  // plots that would be too low above it take its place.
+  const bool narrow = middle < app.theme.px(lab_two_columns);
+  const bool apart = lab > 0 && narrow && (shared || in_turn) && height - lab - strip < app.theme.px(least_plots);
+  if (apart && left > 0 && app.ui.side_plots) lab = 0;
+  const bool below = lab > 0 && left > 0 && narrow;
   const float low = below ? 0 : left, column = window.y - top - (below ? lab + bottom : 0);
-  const float strip = app.theme.px(42), over_cloth = in_turn ? strip : 0;
+  const float over_cloth = in_turn ? strip : 0;
   if (middle > 0) {
     viewport_panel(app, {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}});
   } else {
@@ -103,7 +110,8 @@ void draw_layout(App& app, ImVec2 window) {
   }
   if (lab > 0) lab_panel(app, {{low, top + height - lab}, {left + middle - low, lab}});
   if (panels) top_bar(app, {{0, 0}, {window.x, top}});
-  const float tabs = shared || in_turn ? side_tabs(app, {{0, top}, {in_turn ? window.x : left, strip}}, in_turn) : 0;
+  const Region over_side{{0, top}, {in_turn ? window.x : left, strip}};
+  const float tabs = shared || in_turn ? side_tabs(app, over_side, in_turn, apart) : 0;
   const Region side{{0, top + tabs}, {left, column - tabs}};
   if (left > 0) shared&& app.ui.side_plots ? plots_panel(app, side) : constants_panel(app, side);
   if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});

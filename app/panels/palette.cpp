@@ -116,6 +116,13 @@ void add_constants(const App& app, std::vector<PaletteEntry>& list) {
                       [key = row.key](App& a) { show_constant(a, key); }});
 }
 
+void add_copies(const App& app, std::vector<PaletteEntry>& list) {
+  for (const CopyChoice& choice : copy_choices(app.wished()))
+    list.push_back({"Copy", "Add a copy: " + choice.label, "", "with beside compare", "", [choice](App& a) {
+                      a.request(request::AddCopy{choice.differences, choice.reference});
+                    }});
+}
+
 void add_views(std::vector<PaletteEntry>& list) {
   for (int k = 0; k < int(view_names.size()); ++k)
     list.push_back({"View", view_names[std::size_t(k)] + 2, std::to_string(k + 1), "", "",
@@ -216,6 +223,7 @@ std::vector<PaletteEntry> palette_entries(App& app) {
   add_all_presets(list);
   add_integrators(list);
   add_constants(app, list);
+  add_copies(app, list);
   add_views(list);
   add_colors(app, list);
   return list;

@@ -84,6 +84,24 @@ CurveStyle style_of_cloth(const App& app, int n) {
   return {c.*colors[seat], lines[seat], 2};
 }
 
+std::vector<CopyChoice> copy_choices(const Preset& preset) {
+  std::vector<CopyChoice> choices{{.label = "Reference: Dormand-Prince, error 1e-9 m a step",
+                                   .differences = {"integrator=dopri5", "tolerance=1e-9", "precision=double"},
+                                   .reference = true},
+                                  {.label = "Equal copy", .differences = {}}};
+  for (const Scheme& method : schemes())
+    if (method.name != preset.integrator)
+      choices.push_back({std::string(method.title), {"integrator=" + std::string(method.name)}, 1});
+  const auto with_dt = [&](const char* label, double dt) {
+    choices.push_back({label + short_number(dt) + " s", {"dt=" + short_number(dt, 6)}, 2});
+  };
+  with_dt("dt / 2 = ", preset.dt / 2), with_dt("dt · 2 = ", preset.dt * 2);
+  const bool single = preset.precision == Precision::float_, cpu = preset.engine == EngineKind::cpu;
+  choices.push_back({single ? "double" : "float", {single ? "precision=double" : "precision=float"}, 2});
+  choices.push_back({cpu ? "OpenCL" : "CPU", {cpu ? "engine=opencl" : "engine=cpu"}, 2});
+  return choices;
+}
+
 void add_copy(App& app, const std::vector<std::string>& differences, bool as_reference) {
   Copies& copies = app.copies;
   if (app.building.in_work()) return app.messages.note("Another cloth is being built; add a copy when it is there.");

@@ -102,7 +102,7 @@ void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, 
     written_.take_tears(std::move(torn));
   }
   const Stopwatch watch(work.upload);
-  bounds_ = written_.write(*scene.writer->engine, {scene.writer->sites, normals}, work.copied);
+  bounds_ = written_.write(*scene.writer->engine, {scene.writer->sites, normals}, work.read);
   lent_.show(nullptr);
   mapped_normals_.free();
   way_ = VertexWay::shared_buffer;

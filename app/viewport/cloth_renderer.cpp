@@ -91,8 +91,8 @@ struct ClothRenderer::Parts {
   bool written = false;  ///< the last time the device wrote what is drawn
 
   explicit Parts(std::shared_ptr<Shared> with) : shared(std::move(with)) {}
-  bool take_written(Simulation& simulation, const ViewOptions& options, bool moved, bool topology_changed);
-  void take_read(Simulation& simulation, const ViewOptions& options, bool moved, bool topology_changed);
+  bool take_written(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed);
+  void take_read(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed);
   void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
   void take_preset(const Preset& next);
   void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
@@ -154,6 +154,7 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
     const std::uint64_t before = std::exchange(p.engine_copied, simulation.engine().copied());
     return std::size_t(p.engine_copied - std::min(p.engine_copied, before));
   };
+  if (other) p.engine_copied = simulation.engine().copied();  // what it was made from is nobody's read-out
   p.work.read += copied_since_last();
   if (!p.take_written(simulation, options, moved, topology_changed))
     p.take_read(simulation, options, moved, topology_changed);
@@ -166,15 +167,14 @@ void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, 
 }
 
 /// Has the simulation's device write what is drawn; false where it cannot.
-bool ClothRenderer::Parts::take_written(Simulation& simulation, const ViewOptions& options, bool moved,
+bool ClothRenderer::Parts::take_written(Simulation& cloth, const ViewOptions& options, bool moved,
                                         bool topology_changed) {
   // Which edges are too long must be looked at here; a diverged cloth stands still, so its copy is made once.
-  if (options.longest_edge > 0 || !mesh.can_be_written(simulation.engine())) return false;
-  const DrawnSites sites{simulation.lattice(), options.every};
+  if (options.longest_edge > 0 || !mesh.can_be_written(cloth.engine())) return false;
+  const DrawnSites sites{cloth.lattice(), options.every};
   const PositionView sizes{sites.rows(), sites.columns(), 3 * sites.columns()};
   try {
-    take({sizes, simulation.lattice(), simulation.tears(), simulation.preset(), pins_of(simulation),
-          VertexWriter{&simulation.engine(), sites}},
+    take({sizes, cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), VertexWriter{&cloth.engine(), sites}},
          options, moved || !written, topology_changed);
   } catch (const EngineError&) {
     mesh.copy_from_now_on();
@@ -185,15 +185,9 @@ bool ClothRenderer::Parts::take_written(Simulation& simulation, const ViewOption
 }
 
 /// Takes positions from the simulation's memory.
-void ClothRenderer::Parts::take_read(Simulation& simulation, const ViewOptions& options, bool moved,
-                                     bool topology_changed) {
-  take({simulation.engine().shown(),
-        simulation.lattice(),
-        simulation.tears(),
-        simulation.preset(),
-        pins_of(simulation),
-        {}},
-       options, moved || written, topology_changed);
+void ClothRenderer::Parts::take_read(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed) {
+  take({cloth.engine().shown(), cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), {}}, options,
+       moved || written, topology_changed);
   written = false;
 }
 

@@ -11,14 +11,14 @@ void WrittenVertices::take_tears(std::vector<TornSite> torn) {
   if (vertices_) vertices_->take_tears(torn_);
 }
 
-Bounds WrittenVertices::write(Engine& engine, const VertexOrder& order, std::size_t& copied) {
+Bounds WrittenVertices::write(Engine& engine, const VertexOrder& order, std::size_t& read) {
   const std::size_t bytes = 3 * sizeof(float) * std::size_t(order.sites.rows()) * std::size_t(order.sites.columns());
   // By the letter, glFinish is what tells a device without cl_khr_gl_event that OpenGL has drawn.
   if (engine.gl_sharing() == GlSharing::finished) glFinish();
   std::optional<VertexBox> box;
   if (vertices_ && bytes == bytes_) box = engine.write(*vertices_, order);
   if (!box) box = write_new(engine, order, bytes);
-  if (!std::exchange(looked_, true)) look_at(*box, order.sites), copied += bytes;
+  if (!std::exchange(looked_, true)) look_at(*box, order.sites), read += bytes;
   return {box->lo, box->hi};
 }
 

@@ -20,8 +20,8 @@ class WrittenVertices {
   /// Particles beside tears have such normals from now on.
   void take_tears(std::vector<TornSite> torn);
   /// Has the engine write, and says between what the positions lie. What the very first buffer holds is read back and
-  /// compared with that, since a driver may share in name only; `copied` counts its bytes. Throws EngineError.
-  Bounds write(Engine& engine, const VertexOrder& order, std::size_t& copied);
+  /// compared with that, since a driver may share in name only; `read` counts its bytes. Throws EngineError.
+  Bounds write(Engine& engine, const VertexOrder& order, std::size_t& read);
   /// It does not work here: can() is false from now on.
   void fail() { free(), failed_ = true; }
   /// The cloth comes another way now.

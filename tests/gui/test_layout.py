@@ -231,6 +231,23 @@ def in_turn(stage):
 
 
 @case
+def lab(stage):
+    """where a lab's strip would leave the plots too low, they take its place, and it is seen with the constants"""
+    for scale, size in ((2, (1280, 720)), (2.6, (1280, 720)), (2.6, (900, 600))):
+        sandbox = start(stage, "hanging", scale, size=size)
+        find(sandbox, "what kinks")
+        sandbox.wait(lambda r: r["lab"] is not None and "lab.leave" in r["controls"], "the lab")
+        find(sandbox, "accuracy card")
+        report = sandbox.wait(lambda r: r["tab"] == "Accuracy" and "plots.cards" in r["controls"], "the card")
+        check("lab.leave" not in report["controls"] and report["lab"] is not None, "it has the lab's place")
+        stage.keep(f"plots-{scale}-{size[0]}")
+        sandbox.click_control("side.columns.1")
+        sandbox.wait(lambda r: "lab.leave" in r["controls"], "the lab, with the constants")
+        stage.keep(f"constants-{scale}-{size[0]}")
+        sandbox.close()
+
+
+@case
 def clean_lab(stage):
     """a lab begins without the copies that were there, and says so"""
     sandbox = start(stage, "hanging")
