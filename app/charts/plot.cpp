@@ -1,5 +1,7 @@
 #include "app/charts/plot.h"
 
+#include <algorithm>
+
 #include "app/panels/numbers.h"
 #include "app/panels/symbol.h"
 
@@ -15,7 +17,11 @@ class CurveDrawer {
     // Dashes stay with the data while the window moves over it.
     if (first < last && axes_.x.drawable(curve_.x[first]) && !axes_.x.log)
       phase_ = std::max(0.f, float(std::fmod(axes_.px(curve_.x[first]) - axes_.px(0), 1e4)));
-    for (std::size_t n = first; n < last; ++n) point(curve_.x[n], curve_.y[n]);
+    auto gap = std::lower_bound(curve_.gaps.begin(), curve_.gaps.end(), first);
+    for (std::size_t n = first; n < last; ++n) {
+      if (gap != curve_.gaps.end() && *gap == n) flush(), ++gap;
+      point(curve_.x[n], curve_.y[n]);
+    }
     flush();
   }
 

@@ -51,6 +51,7 @@ struct PlotCurve {
   bool line = true;
   float marks = 0;                             ///< radius of a disc at each point, at scale 1; 0: none
   std::size_t from = 0, to = std::size_t(-1);  ///< only the samples [from, to) are drawn
+  std::span<const std::size_t> gaps = {};      ///< samples that no line leads to, ascending
 };
 
 struct PlotTick {

@@ -169,6 +169,7 @@ void copies_plot(App& app, ImVec2 size) {
     if (energy || n != copies.reference)
       curves.push_back(
           {names[std::size_t(n + 1)], style_of_cloth(app, n), series.t(), series.column(std::size_t(n + 1))});
+  for (PlotCurve& curve : curves) curve.gaps = series.gaps();
   PlotFrame frame = time_frame(app, series, !energy, energy ? "J" : "m", why_empty(app));
   frame.from_zero = false;
   const float used = app.theme.px(34);

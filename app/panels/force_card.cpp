@@ -155,6 +155,7 @@ void force_card(App& app, float height) {
     if (!plots.hidden[k])
       curves.push_back(
           {force_keys[k], curve_style(app.theme.colors, force_keys[k]), plots.forces.t(), plots.forces.column(k)});
+  for (PlotCurve& curve : curves) curve.gaps = plots.forces.gaps();
   const LegendPlaces places = legend_places(app, inner.size.x);
   const float head = controls_height(app, inner.size.x);
   const float plot_height = inner.size.y - head - places.height - app.theme.px(force_over_legend_at_1);

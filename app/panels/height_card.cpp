@@ -80,6 +80,7 @@ void height_card(App& app, float height) {
     curves.back().from = from;
     curves.back().style.width = 2.4f;
   }
+  for (PlotCurve& curve : curves) curve.gaps = plots.height.gaps();
   const float head = side + app.theme.px(height_under_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   PlotFrame frame = time_frame(app, plots.height, false, "m", why_empty(app));

@@ -9,7 +9,11 @@ namespace tyglab {
 
 void sample(App& app) {
   Plots& plots = app.ui.plots;
-  if (app.steps_made == 0 || plots.paused) return;
+  if (app.steps_made == 0) return;
+  if (plots.paused || !plots.forces_shown) plots.forces.interrupt();
+  if (plots.paused || !plots.height_shown) plots.height.interrupt();
+  if (plots.paused || !app.copies.shown) app.copies.distance.interrupt(), app.copies.energy.interrupt();
+  if (plots.paused) return;
   const FrameCosts::Timer timer(app.costs, Part::sample);
   const double t = app.simulation->time();
   if (plots.forces_shown && plots.source == Source::particle && app.picked) {

@@ -1,5 +1,7 @@
 #include "app/sandbox/series.h"
 
+#include <utility>
+
 #include "core/output/text.h"
 
 namespace tyglab {
@@ -14,13 +16,17 @@ void Series::add(double t, std::span<const double> values) {
     const auto half = std::ptrdiff_t(most / 2);
     t_.erase(t_.begin(), t_.begin() + half);
     for (auto& column : columns_) column.erase(column.begin(), column.begin() + half);
+    std::erase_if(gaps_, [](std::size_t gap) { return gap <= most / 2; });
+    for (std::size_t& gap : gaps_) gap -= most / 2;
   }
+  if (std::exchange(interrupted_, false)) gaps_.push_back(t_.size());
   t_.push_back(t);
   for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(values[k]);
 }
 
 void Series::clear() {
-  t_.clear();
+  t_.clear(), gaps_.clear();
+  interrupted_ = false;
   for (auto& column : columns_) column.clear();
 }
 

@@ -17,6 +17,10 @@ class Series {
   std::span<const double> column(std::size_t k) const { return columns_[k]; }
   /// One value a column. Samples that do not come after the last one start a new series.
   void add(double t, std::span<const double> values);
+  /// Steps pass of which there are no samples: a curve has a gap before the next one.
+  void interrupt() { interrupted_ = !t_.empty(); }
+  /// Samples before which there is a gap, ascending.
+  std::span<const std::size_t> gaps() const { return gaps_; }
   void clear();
   std::size_t bytes() const { return t_.capacity() * sizeof(double) * (1 + columns_.size()); }
   /// Text of a CSV file like those of `tyglab run --series`: a comment, a header with t and these names ("F_s [N]"),
@@ -27,6 +31,8 @@ class Series {
   static constexpr std::size_t most = 20000;
   std::vector<double> t_;
   std::vector<std::vector<double>> columns_;
+  std::vector<std::size_t> gaps_;
+  bool interrupted_ = false;
 };
 
 }  // namespace tyglab

@@ -1,0 +1,45 @@
+// Samples over time, as plots and their files show them.
+#include "app/sandbox/series.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <vector>
+
+namespace tyglab::series_test {
+
+void add(Series& series, double from, int samples) {
+  for (int n = 0; n < samples; ++n) series.add(from + n, std::array{1.0});
+}
+
+std::vector<std::size_t> gaps(const Series& series) {
+  return {series.gaps().begin(), series.gaps().end()};
+}
+
+TEST_CASE("where steps passed without samples, the curve has a gap, and only there") {
+  Series series(1);
+  series.interrupt();
+  add(series, 0, 3);
+  CHECK(gaps(series).empty());  // before the first sample there is nothing to leave out
+  series.interrupt(), series.interrupt();
+  add(series, 10, 2);
+  CHECK(gaps(series) == std::vector<std::size_t>{3});
+  add(series, 5, 1);  // time went back: a new series
+  CHECK(gaps(series).empty());
+}
+
+TEST_CASE("gaps stay with their samples when the oldest are dropped") {
+  Series series(1);
+  add(series, 0, 5);
+  series.interrupt();
+  add(series, 100, 14995);
+  series.interrupt();
+  add(series, 20000, 5000);
+  REQUIRE(series.size() == 20000);
+  const double behind = series.t()[15000];
+  add(series, 30000, 1);
+  REQUIRE(gaps(series).size() == 1);
+  CHECK(series.t()[gaps(series)[0]] == behind);
+}
+
+}  // namespace tyglab::series_test
