@@ -188,7 +188,7 @@ class Sandbox:
         self.key("ctrl+a")
         self.type(file)
         self.key("Return")
-        self.wait(lambda r: r["dialog"] == "none", "the dialog to close")
+        self.wait(lambda r: r["dialog"] == "none" and os.path.exists(file), "the file to be written")
         return file
 
     def rest(self):

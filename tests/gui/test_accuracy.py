@@ -25,6 +25,8 @@ def error(stage):
 def convergence(stage):
     """the other side of the accuracy card measures the order beside the frames, and writes it as CSV"""
     sandbox = stage.start("taut_sheet", "--integrator", "rk4", "--set", "rows=9", "--set", "columns=9")
+    sandbox.key("space")  # while nothing moves the frames leave the processors to what is measured
+    sandbox.wait(lambda r: r["paused"], "the pause")
     sandbox.key("ctrl+p")
     sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
     sandbox.type("order of conv")

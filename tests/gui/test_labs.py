@@ -30,6 +30,8 @@ def predict(sandbox, text):
     sandbox.later(3)
     sandbox.key("Return")
     lab(sandbox, lambda l: l["predicted"], "the prediction to be taken")
+    sandbox.wait(lambda r: not r["typing"], "the field to close")
+    sandbox.later(2)
 
 
 def choose(sandbox, number):
@@ -96,6 +98,7 @@ def stiffness(stage):
     begin(sandbox, "critical", "03_stiffness")
     predict(sandbox, "200")
     sandbox.key("space")
+    sandbox.wait(lambda r: not r["paused"], "the sheet to move")
     sandbox.type_value("k_s", "300")
     report = sandbox.wait(lambda r: r["divergence"] is not None, "an explosion")
     check(not report["lab"]["done"], "far above the limit does not count")

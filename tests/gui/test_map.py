@@ -33,6 +33,8 @@ def click(stage):
 def csv(stage):
     """the map is written as CSV"""
     sandbox = stage.start("one_weight")
+    sandbox.key("space")  # while nothing moves the frames leave the processors to the map
+    sandbox.wait(lambda r: r["paused"], "the pause")
     sandbox.key("m")
     sandbox.wait(lambda r: r["map_cells"] == 28 * 20, "the map of one weight")
     stage.keep("weight")
