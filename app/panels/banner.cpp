@@ -137,7 +137,9 @@ void way_buttons(App& app, const std::vector<Way>& ways, const std::vector<ImVec
 /// In the middle of the lower end of a picture of that size, above the names of cloths where there is room.
 Box place_of_banner(const App& app, glm::vec2 picture, glm::vec2 size) {
   const glm::vec2 lo = app.viewport.box.lo;
-  const float left = std::round(lo.x + (picture.x - size.x) / 2), foot = lo.y + picture.y - app.theme.px(20);
+  const float left = std::round(lo.x + (picture.x - size.x) / 2),
+              under = std::clamp((picture.y - size.y) / 2, 0.f, app.theme.px(20)),
+              foot = std::round(lo.y + picture.y - under);
   const auto free = app.ui.placing.in_corner({{left, lo.y}, {left + size.x, foot}}, size, ScreenCorner::lower_left);
   return free.value_or(Box{{left, foot - size.y}, {left + size.x, foot}});
 }
@@ -168,7 +170,7 @@ void banner(App& app) {
   const Box box = place_of_banner(app, size, {width, height});
   const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(lo, hi, faded(c.panel, 0.96f), app.theme.px(8));
+  draw.AddRectFilled(lo, hi, c.panel, app.theme.px(8));
   draw.AddRect(lo, hi, c.danger, app.theme.px(8), 0, std::max(1.f, app.theme.px(1.5f)));
   draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(app.fonts, icon::warning, "!"));
   float y = lo.y + padding;

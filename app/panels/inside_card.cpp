@@ -83,8 +83,8 @@ void springs(App& app, const TracedStage& stage) {
   const Tokens& c = app.theme.colors;
   for (const SpringForce& spring : stage.springs) {
     std::array<char, 120> text;
-    const double strain = spring.length / spring.rest - 1;
-    std::snprintf(text.data(), text.size(), "%+6.2f %%  %s N", 100 * strain,
+    const double percent = 100 * (spring.length / spring.rest - 1);
+    std::snprintf(text.data(), text.size(), "%+6.2f %%  %s N", std::abs(percent) < 0.005 ? 0 : percent,
                   steady_number(glm::length(spring.F)).c_str());
     const bool acts = glm::length(spring.F) > 0;
     const ImU32 color = acts ? curve_style(c, spring.bending ? "F_b" : "F_s").color : c.quiet;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -214,6 +215,24 @@ void palette_contents(App& app, float height) {
   palette.opening = enter && found.empty();  // Enter has taken the keys from the field
 }
 
+/// How well an entry answers to the words, the best 0; none: not at all.
+std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::string> words) {
+  const std::string title = lower(entry.title),
+                    all = " " + title + " " + lower(entry.also) + " " + lower(entry.group) + " ";
+  const auto holds = [&](const std::string& text, const std::string& before) {
+    return std::all_of(words.begin(), words.end(),
+                       [&](const std::string& word) { return text.find(before + word) != std::string::npos; });
+  };
+  if (!holds(all + lower(entry.help), "")) return std::nullopt;
+  const std::string first = words.empty() ? "" : words.front();
+  const bool key = entry.group == "Constant" && all.find(" " + first + " ") != std::string::npos;
+  const int rank = !holds(all, "")                              ? 3
+                   : title.starts_with(first) || key            ? 0
+                   : all.find(" " + first) != std::string::npos ? 1
+                                                                : 2;
+  return 2 * rank + !holds(all, " ");  // "implicit euler" is rather a method of that name than the semi-implicit one
+}
+
 }  // namespace
 
 std::vector<PaletteEntry> palette_entries(App& app) {
@@ -234,23 +253,8 @@ std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_vie
   std::vector<std::string> words;
   for (std::string word; in >> word;) words.push_back(word);
   std::vector<std::pair<int, int>> ranked;  // rank, index
-  for (int k = 0; k < int(entries.size()); ++k) {
-    const PaletteEntry& entry = entries[std::size_t(k)];
-    const std::string title = lower(entry.title), all = title + " " + lower(entry.also) + " " + lower(entry.group),
-                      with_help = all + " " + lower(entry.help);
-    const auto holds = [&](const std::string& text) {
-      return std::all_of(words.begin(), words.end(),
-                         [&](const std::string& word) { return text.find(word) != std::string::npos; });
-    };
-    if (!holds(with_help)) continue;
-    const std::string first = words.empty() ? "" : words.front(), spaced = " " + all + " ";
-    const bool key = entry.group == "Constant" && spaced.find(" " + first + " ") != std::string::npos;
-    const int rank = !holds(all)                                     ? 3
-                     : title.starts_with(first) || key               ? 0
-                     : spaced.find(" " + first) != std::string::npos ? 1
-                                                                     : 2;
-    ranked.emplace_back(rank, k);
-  }
+  for (int k = 0; k < int(entries.size()); ++k)
+    if (const auto rank = rank_of(entries[std::size_t(k)], words)) ranked.emplace_back(*rank, k);
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<int> found;
   for (const auto& [rank, index] : ranked) found.push_back(index);

@@ -37,6 +37,7 @@ TEST_CASE("what is typed finds commands, presets, methods, labs, constants and v
   CHECK(first_for(app, "k_d") == "Constant: k_d  Damping constant");
   CHECK(first_for(app, "dämpning") == "Constant: k_d  Damping constant");
   CHECK(first_for(app, "copy improved") == "Copy: Add a copy: Improved Euler");
+  CHECK(first_for(app, "copy implicit euler") == "Copy: Add a copy: Implicit Euler");  // and not the semi-implicit one
   CHECK(first_for(app, "outlines") == "View: Outlines");
   CHECK(first_for(app, "text larger") == "Command: Larger text");
   CHECK(first_for(app, "no such thing").empty());
