@@ -123,13 +123,17 @@ void fact_line(App& app, const PerformanceFact& fact, float width) {
   const Tokens& c = app.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = app.theme.px(card::line), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
-  ImGui::Dummy({width, height});
+  ImGui::PushID(fact.name.data(), fact.name.data() + fact.name.size());
+  ImGui::InvisibleButton("fact", {width, height});
+  ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
   const ImFont& mono = *app.fonts.mono;
   const float room = width - text_width(*app.fonts.small, fact.name) - app.theme.px(16);
   const std::string value = fitted(mono, fact.value, room);  // devices have long names
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, value), baseline}, c.text, value);
+  const std::string cut = value == fact.value ? "" : fact.value;
+  if (const std::string& said = fact.help.empty() ? cut : fact.help; !said.empty()) tooltip(app, gui::item_id(), said);
 }
 
 }  // namespace
@@ -191,7 +195,8 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
   const std::string without = app.effects.words();
   facts.push_back({"left out of the picture", without.empty() ? "nothing" : without});
-  facts.push_back({"positions are drawn from", drawn_from(app.costs.way())});
+  const std::string& why = app.costs.why_copied();
+  facts.push_back({"positions are drawn from", drawn_from(app.costs.way()), why.empty() ? "" : "Copied, since " + why});
   const std::size_t copied = app.costs.last_copied();
   facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B"});
   if (engine.copied() > 0) facts.push_back({"read by others", megabytes(app.costs.recent_read()) + " a frame"});

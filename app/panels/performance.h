@@ -20,10 +20,10 @@ struct FeatureRow {
 };
 std::vector<FeatureRow> feature_rows(const App& app);
 
-/// A number of the whole: name and value with its unit.
+/// A number of the whole: name and value with its unit, and what is to be said of it, which may be nothing.
 struct PerformanceFact {
   std::string_view name;
-  std::string value;
+  std::string value, help = {};
 };
 std::vector<PerformanceFact> performance_facts(const App& app);
 

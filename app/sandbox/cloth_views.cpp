@@ -35,7 +35,7 @@ void count(FrameCosts& costs, const RenderWork& work) {
   costs.add(Part::normals, work.normals);
   costs.add(Part::upload, work.upload);
   costs.add(Part::shadow, work.shadow);
-  if (work.moved) costs.add_copied(work.way, work.copied, work.read);
+  if (work.moved) costs.add_copied(work.way, work.copied, work.why_copied, work.read);
 }
 
 }  // namespace

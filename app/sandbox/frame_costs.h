@@ -42,11 +42,12 @@ class FrameCosts {
   /// That part of the start is over.
   void started(StartPart part);
   void add_steps(std::int64_t steps) { steps_ += steps; }
-  /// How a cloth that had moved came to be drawn, bytes that were copied for it, and bytes that others read of a
-  /// device's arrays since the last time.
-  void add_copied(VertexWay way, std::size_t bytes, std::size_t read);
+  /// How a cloth that had moved came to be drawn, bytes that were copied for it and why, and bytes that others read of
+  /// a device's arrays since the last time.
+  void add_copied(VertexWay way, std::size_t bytes, const std::string& why, std::size_t read);
   /// Of the last such frame.
   VertexWay way() const { return way_; }
+  const std::string& why_copied() const { return why_copied_; }
   std::size_t last_copied() const { return last_copied_; }
   /// Bytes that others read, a frame, over about the last second.
   double recent_read() const { return recent_read_; }
@@ -66,6 +67,7 @@ class FrameCosts {
   std::array<std::int64_t, part_names.size()> counts_{};
   std::int64_t frames_ = 0, steps_ = 0;
   VertexWay way_ = VertexWay::copied;
+  std::string why_copied_;
   std::optional<std::size_t> copied_now_;  ///< of this frame; none: nothing had moved
   std::size_t read_now_ = 0;
   std::size_t last_copied_ = 0, copied_ = 0, read_ = 0;

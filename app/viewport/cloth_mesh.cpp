@@ -122,6 +122,12 @@ VertexSource ClothMesh::make_normals(const ClothScene& scene, RenderWork& work) 
   return in_place != nullptr ? mapped_normals_.source() : copied(normal_buffer_, normals_.data(), work);
 }
 
+std::string ClothMesh::problem() const {
+  for (const std::string* problem : {&written_.problem(), &lent_.problem(), &mapped_normals_.problem()})
+    if (!problem->empty()) return *problem;
+  return {};
+}
+
 void ClothMesh::drawn() {
   lent_.drawn(), mapped_normals_.drawn();
 }

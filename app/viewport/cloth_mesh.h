@@ -28,8 +28,10 @@ class ClothMesh {
   void lend(Engine& engine) { lent_.lend(engine); }
   /// Whether the engine's device can write the buffers itself: scenes may then have it as their writer.
   bool can_be_written(const Engine& engine) const { return written_.can(engine); }
-  /// It could not after all; nothing is written any more.
-  void copy_from_now_on() { written_.fail(); }
+  /// It could not after all, for that reason; nothing is written any more.
+  void copy_from_now_on(const std::string& why) { written_.fail(why); }
+  /// Why OpenGL must be given copies here, a part of a sentence; empty: for no reason of its own.
+  std::string problem() const;
   /// Uploads positions if `moved` and whatever else this view lacks.
   void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed, RenderWork& work);
   /// Draws a list that update() was asked for: GL_TRIANGLES, GL_LINES or GL_POINTS.

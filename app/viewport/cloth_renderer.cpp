@@ -36,6 +36,15 @@ std::function<bool(int, int)> pins_of(const Simulation& simulation) {
   return [&simulation](int i, int j) { return simulation.pinned(i, j); };
 }
 
+/// Why something had to be copied to be drawn: a part of a sentence.
+std::string why_copied(const Engine& engine, const ClothMesh& mesh, const ViewOptions& options) {
+  if (std::string why = engine.why_copied(); !why.empty()) return why;
+  if (std::string why = mesh.problem(); !why.empty()) return why;
+  if (options.every > 1) return "the cloth is finer than the picture, so that not all of it is drawn";
+  if (options.longest_edge > 0) return "the edges of a diverged cloth are measured before they are drawn";
+  return "it was drawn before it came to the engine's device";
+}
+
 }  // namespace
 
 /// What cloths of one window share.
@@ -159,6 +168,7 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   if (!p.take_written(simulation, options, moved, topology_changed))
     p.take_read(simulation, options, moved, topology_changed);
   p.work.copied += copied_since_last();
+  p.work.why_copied = p.work.copied > 0 ? why_copied(simulation.engine(), p.mesh, options) : "";
 }
 
 void ClothRenderer::update(const ClothScene& scene, const ViewOptions& options, bool topology_changed) {
@@ -176,8 +186,8 @@ bool ClothRenderer::Parts::take_written(Simulation& cloth, const ViewOptions& op
   try {
     take({sizes, cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), VertexWriter{&cloth.engine(), sites}},
          options, moved || !written, topology_changed);
-  } catch (const EngineError&) {
-    mesh.copy_from_now_on();
+  } catch (const EngineError& error) {
+    mesh.copy_from_now_on(std::string("no buffer could be shared: ") + error.what());
     written = true;  // whatever has been written: all is to be copied now
     return false;
   }

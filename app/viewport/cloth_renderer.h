@@ -100,6 +100,7 @@ struct RenderWork {
   VertexWay way = VertexWay::copied;
   /// Bytes of positions and normals that the program copied: 0 where OpenGL draws what the device wrote.
   std::size_t copied = 0;
+  std::string why_copied;  ///< a part of a sentence; empty: they were not
   /// Bytes that others read of a device's arrays meanwhile (plots, rewinding, the sleep of a cloth at rest …), and the
   /// first look at what it has written.
   std::size_t read = 0;

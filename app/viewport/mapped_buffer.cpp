@@ -12,6 +12,7 @@ bool MappedBuffer::available() {
 }
 
 MappedBuffer::MappedBuffer(int slots, std::size_t bytes) {
+  if (!available()) throw GraphicsError("OpenGL has no ARB_buffer_storage here");
   constexpr std::size_t page = PositionMemory::page;
   slot_bytes_ = (bytes + page - 1) / page * page;
   whole_ = std::size_t(slots) * slot_bytes_ + page;  // OpenGL may begin it anywhere in a page

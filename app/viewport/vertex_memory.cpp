@@ -6,14 +6,14 @@ namespace tyglab {
 
 void PositionLoans::lend(Engine& engine) {
   const std::size_t wanted = engine.wants_memory();
-  if (wanted == 0 || no_room_ || !gl::MappedBuffer::available()) return;
+  if (wanted == 0 || !problem_.empty()) return;
   try {
     auto loan = std::shared_ptr<Loan>(new Loan{{PositionMemory::count, wanted}, std::make_shared<PositionMemory>()});
     for (int n = 0; n < PositionMemory::count; ++n) loan->memory->slots[std::size_t(n)] = loan->buffer.slot(n);
     loan->memory->bytes = loan->buffer.slot_bytes();
     if (engine.take_memory(loan->memory)) loans_.push_back(std::move(loan));
-  } catch (const GraphicsError&) {
-    no_room_ = true;  // positions are copied, as ever
+  } catch (const GraphicsError& error) {
+    problem_ = error.what();  // positions are copied, as ever
   }
 }
 
@@ -53,11 +53,11 @@ void LentPositions::drawn() {
 }
 
 float* MappedNormals::next(std::size_t bytes) {
-  if (no_room_) return nullptr;
+  if (!problem_.empty()) return nullptr;
   try {
     if (!buffer_ || buffer_->slot_bytes() < bytes) buffer_ = std::make_unique<gl::MappedBuffer>(2, bytes);
-  } catch (const GraphicsError&) {
-    no_room_ = true;  // they are copied, as ever
+  } catch (const GraphicsError& error) {
+    problem_ = error.what();  // they are copied, as ever
     return nullptr;
   }
   slot_ = 1 - slot_;

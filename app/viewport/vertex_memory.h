@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/viewport/mapped_buffer.h"
@@ -31,10 +32,12 @@ class PositionLoans {
   /// Frees the memory of engines that are gone, unless it is drawn.
   void take_back();
   std::size_t bytes() const;
+  /// Why OpenGL has nothing to lend, a part of a sentence; empty: it has, or nobody has asked.
+  const std::string& problem() const { return problem_; }
 
  private:
   std::vector<std::shared_ptr<Loan>> loans_;
-  bool no_room_ = false;
+  std::string problem_;
 };
 
 /// A cloth's positions in lent memory: sees that its engine does not write what is being drawn.
@@ -47,6 +50,7 @@ class LentPositions {
   std::optional<VertexSource> show(const float* positions);
   /// What is shown has been drawn.
   void drawn();
+  const std::string& problem() const { return loans_->problem(); }
 
  private:
   std::shared_ptr<PositionLoans> loans_;
@@ -63,11 +67,13 @@ class MappedNormals {
   /// They are somewhere else now.
   void free() { buffer_.reset(); }
   std::size_t bytes() const { return buffer_ ? buffer_->bytes() : 0; }
+  /// Why there is no room, a part of a sentence; empty: there is.
+  const std::string& problem() const { return problem_; }
 
  private:
   std::unique_ptr<gl::MappedBuffer> buffer_;
   int slot_ = 0;
-  bool no_room_ = false;
+  std::string problem_;
 };
 
 }  // namespace tyglab

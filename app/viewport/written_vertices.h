@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "app/viewport/camera.h"
@@ -16,14 +17,16 @@ namespace tyglab {
 class WrittenVertices {
  public:
   /// Whether the engine's device can write buffers of the present context. False for good once it has failed.
-  bool can(const Engine& engine) const { return !failed_ && engine.gl_sharing() != GlSharing::none; }
+  bool can(const Engine& engine) const { return problem_.empty() && engine.gl_sharing() != GlSharing::none; }
   /// Particles beside tears have such normals from now on.
   void take_tears(std::vector<TornSite> torn);
   /// Has the engine write, and says between what the positions lie. What the very first buffer holds is read back and
   /// compared with that, since a driver may share in name only; `read` counts its bytes. Throws EngineError.
   Bounds write(Engine& engine, const VertexOrder& order, std::size_t& read);
-  /// It does not work here: can() is false from now on.
-  void fail() { free(), failed_ = true; }
+  /// It does not work here, for that reason: can() is false from now on.
+  void fail(const std::string& why) { free(), problem_ = why; }
+  /// Why it failed; empty: it did not.
+  const std::string& problem() const { return problem_; }
   /// The cloth comes another way now.
   void free() { vertices_.reset(), buffers_.reset(), bytes_ = 0; }
   VertexSource positions() const { return {buffers_->positions.id(), 0}; }
@@ -41,7 +44,8 @@ class WrittenVertices {
   std::unique_ptr<GlVertices> vertices_;  ///< of the buffers, so it goes first
   std::size_t bytes_ = 0;                 ///< of each
   std::vector<TornSite> torn_;
-  bool looked_ = false, failed_ = false;
+  bool looked_ = false;
+  std::string problem_;
 };
 
 }  // namespace tyglab

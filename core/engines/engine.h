@@ -139,6 +139,9 @@ class Engine {
   /// Writes positions in float, and normals where they are asked for, which OpenGL may draw at once. None, and nothing
   /// is written, where the buffers are shared with another device or for another precision. Throws EngineError.
   virtual std::optional<VertexBox> write(GlVertices&, const VertexOrder&) { return std::nullopt; }
+  /// Why OpenGL must be given a copy of its positions, a part of a sentence; empty: for all that the engine knows, they
+  /// can be drawn where it keeps or writes them.
+  virtual std::string why_copied() const { return "the CPU engine makes its steps in place"; }
   /// Bytes of positions and velocities that have been copied from a device into main memory, for whoever looked.
   virtual std::uint64_t copied() const { return 0; }
   /// One particle as the method holds it. Nothing but the particles' own arrays is looked at, so it may be called

@@ -1,6 +1,7 @@
 // Positions that a device writes into OpenGL's own memory: the picture is that of copied ones, and nothing is copied.
 #include <doctest/doctest.h>
 
+#include "app/viewport/graphics_error.h"
 #include "app/viewport/mapped_buffer.h"
 #include "tests/app/picture_pair.h"
 #include "tests/support/devices.h"
@@ -83,6 +84,14 @@ TEST_CASE("the memory of engines that are gone is given back") {
     if (n > 0) CHECK(stage.sharing().bytes() == bytes);
     bytes = stage.sharing().bytes();
   }
+}
+
+TEST_CASE("a buffer that OpenGL has no room for is refused with a sentence") {
+  const test::PicturePair stage;
+  constexpr std::size_t far_too_much = std::size_t(1) << 45;
+  CHECK_THROWS_WITH_AS(gl::MappedBuffer(3, far_too_much), "OpenGL has no room for a buffer that stays mapped",
+                       GraphicsError);
+  CHECK_NOTHROW(gl::MappedBuffer(3, 4096));
 }
 
 }  // namespace tyglab::shared_memory_test

@@ -79,9 +79,14 @@ def copied(stage):
     sandbox.click_control("plots.Performance")
     sandbox.later(5)
     stage.keep("performance")
-    check(costs(sandbox, "cpu")["copied_bytes_per_frame"] >= 32 * 32 * 24, "the CPU engine's positions and normals are")
+    on_cpu = costs(sandbox, "cpu")
+    check(on_cpu["copied_bytes_per_frame"] >= 32 * 32 * 24, "the CPU engine's positions and normals are")
+    check("in place" in on_cpu["copied_because"], "and the report says why")
     on_device = costs(sandbox, "opencl")
     if "OpenCL" in on_device["engine"]:
+        lacking = costs(sandbox, "opencl", MESA_EXTENSION_OVERRIDE="-GL_ARB_buffer_storage")
+        check("ARB_buffer_storage" in lacking["copied_because"], "so it does where OpenGL lacks something")
+        check("copied_because" not in on_device, "nothing is copied, and nothing is to be said")
         check(on_device["copied_bytes_per_frame"] == 0, f"{on_device['copied_bytes_per_frame']} bytes a frame are copied")
         check(on_device["positions_come_by"] == "shared_memory", "the report names the way")
 

@@ -34,6 +34,8 @@ class DeviceState {
   /// Where a sweep that reads the vector's neighbours writes it; swap() then makes it the vector.
   cl_mem other(int n);
   void swap(int n);
+  /// Whether it was given memory of OpenGL's (take_memory) and works there.
+  bool has_lent_memory() const { return lent_ != nullptr; }
   /// Whether the vector is in lent memory, where it must never be written in place: it may be shown.
   bool lent(int n) const { return vectors_[std::size_t(n)].now.slot >= 0; }
   /// The vector, to be overwritten as a whole.

@@ -41,6 +41,7 @@ class OpenClEngine final : public Engine {
   GlSharing gl_sharing() const override;
   std::unique_ptr<GlVertices> share(const GlBuffers& buffers) const override;
   std::optional<VertexBox> write(GlVertices& vertices, const VertexOrder& order) override;
+  std::string why_copied() const override;
   std::uint64_t copied() const override { return state_.copied(); }
   StoredParticle stored(int i, int j) const override;
   glm::dvec3 position(int i, int j) const override { return state_.at(vector_x, i, j); }

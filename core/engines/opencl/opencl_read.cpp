@@ -110,6 +110,14 @@ std::optional<VertexBox> OpenClEngine<R>::write(GlVertices& vertices, const Vert
 }
 
 template <class R>
+std::string OpenClEngine<R>::why_copied() const {
+  if (device_->facts().processor)
+    return asked_for_memory_ && !state_.has_lent_memory() ? "the device cannot work in OpenGL's memory" : "";
+  if (!device_->gl_problem().empty()) return device_->gl_problem();
+  return device_->gl_sharing() == GlSharing::none ? "the device was opened for another OpenGL context" : "";
+}
+
+template <class R>
 StoredParticle OpenClEngine<R>::stored(int i, int j) const {
   const auto at = [&](int vector) { return state_.at(vector, i, j); };
   const double scale = velocity_scale();
