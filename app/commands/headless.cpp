@@ -42,7 +42,7 @@ void write_state(Simulation& simulation, const fs::path& file) {
 int run_headless(const SandboxOptions& options, std::ostream& out) {
   const double seconds = options.frames > 0 ? options.frames / frames_a_second : default_seconds;
   const std::int64_t steps = Length{seconds, {}}.in_steps(options.preset.dt, seconds);
-  const PictureSize size;
+  const PictureSize size = options.width > 0 ? PictureSize{options.width, options.height} : PictureSize();
   Film film(options.preset, 0, size);
   Simulation simulation(options.preset, options.threads);
   const fs::path folder = new_folder();

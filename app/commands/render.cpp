@@ -1,6 +1,5 @@
 #include "app/commands/render.h"
 
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
+#include "app/commands/size_option.h"
 #include "app/commands/stepping.h"
 #include "core/output/destination.h"
 #include "core/output/obj.h"
@@ -18,7 +18,7 @@ namespace tyglab {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int smallest_side = 16, largest_side = 8192;
+constexpr PictureSize smallest_picture{16, 16};
 
 struct RenderOptions {
   PresetArgument preset;
@@ -31,20 +31,6 @@ struct RenderOptions {
   /// Where it names one picture.
   std::vector<Output> outputs() const { return {{"--png", png, true}}; }
 };
-
-/// "1280x720". Throws UsageError.
-PictureSize parse_size(const std::string& text) {
-  PictureSize size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width);
-  const bool cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
-  const auto height = std::from_chars(cross ? width.ptr + 1 : end, end, size.height);
-  const auto fits = [](int side) { return side >= smallest_side && side <= largest_side; };
-  if (!cross || height.ec != std::errc{} || height.ptr != end || !fits(size.width) || !fits(size.height))
-    throw UsageError("--size " + text + ": must be WIDTHxHEIGHT in pixels, each " + std::to_string(smallest_side) +
-                     " to " + std::to_string(largest_side) + ", as 1280x720");
-  return size;
-}
 
 /// Whether --png names a folder for a sequence, rather than one picture.
 bool wants_sequence(const RenderOptions& options) {
@@ -64,7 +50,7 @@ int render(const RenderOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds);
   const std::string& label = scene.source.label;
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
-  const PictureSize size = parse_size(options.size);
+  const PictureSize size = parse_size(options.size, smallest_picture);
   const bool sequence = wants_sequence(options);
   FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);
   if (sequence) {

@@ -8,6 +8,7 @@
 #include "app/commands/headless.h"
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
+#include "app/commands/size_option.h"
 #include "app/sandbox/sandbox.h"
 #include "app/sandbox/window.h"
 #include "core/output/destination.h"
@@ -16,11 +17,12 @@ namespace tyglab {
 namespace {
 
 constexpr auto default_preset = "hanging";
+constexpr PictureSize smallest_window{480, 320};
 
 struct Options {
   PresetArgument preset;
   int frames = 0;
-  std::string screenshot, time_report, session_report, color, effects;
+  std::string screenshot, time_report, session_report, color, effects, size;
 
   std::vector<Output> outputs() const {
     return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
@@ -38,6 +40,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
     throw UsageError("--screenshot: writes the last frame; say with --frames N which one that is");
   if (is_standard_output(options.session_report))
     throw UsageError("--session-report -: the report is rewritten all the time; name a file");
+  const PictureSize size = options.size.empty() ? PictureSize{0, 0} : parse_size(options.size, smallest_window);
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
   const std::vector<Output> outputs = options.outputs();
   check_outputs(outputs, scene.source.file);
@@ -50,6 +53,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.threads = scene.threads;
   sandbox.auto_dt = scene.auto_dt;
   sandbox.frames = options.frames;
+  sandbox.width = size.width, sandbox.height = size.height;
   sandbox.screenshot = options.screenshot;
   sandbox.time_report = options.time_report;
   sandbox.session_report = options.session_report;
@@ -71,6 +75,10 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   program.add_option("--frames", options->frames, "End after N frames")
       ->type_name("N")
       ->transform(whole_number_between(1, 1'000'000'000));
+  program
+      .add_option("--size", options->size,
+                  "Of the window, in pixels; with --frames otherwise as large as the screen, up to 2560x1440")
+      ->type_name("WxH");
   add_output(program, "--screenshot", options->screenshot, "Write the last of --frames as a picture")
       ->type_name("F.png");
   add_output(program, "--time-report", options->time_report, "Write what a frame costs, by part, as JSON")

@@ -24,8 +24,16 @@ float height_of(const ImFont& font, const std::string& lines) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
 }
 
+const Advice& advice_for(const Preset& then, App& app) {
+  Advice& advice = app.ui.advice;
+  const Preset& now = app.preset();
+  if (advice.then != then || advice.now != now)
+    advice = {then, now, stable_dt(then, then.integrator), outer_forces_win(now), cure(now), with_advised_dt(now)};
+  return advice;
+}
+
 /// What it was, and the constants that decided it: they may be others by now.
-std::string what_happened(const Divergence& d, const Preset& then) {
+std::string what_happened(const Divergence& d, const Preset& then, double limit) {
   const char* unit = d.quantity == "velocity" ? "m/s" : d.quantity == "unexplained energy" ? "J" : "m";
   char text[256];
   std::snprintf(text, sizeof text, "At t = %s s (step %lld), %s: %s = %s %s.", time_number(d.t, then.dt).c_str(),
@@ -36,7 +44,6 @@ std::string what_happened(const Divergence& d, const Preset& then) {
                     (cloth ? "k_s = " + short_number(then.k_s) : "k = " + short_number(then.k)) +
                     " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
-  const double limit = stable_dt(then, then.integrator);
   if (limit > 0 && std::isfinite(limit))
     all += ", " + short_number(then.dt / limit, 2) + " times the largest that is stable";
   return all + ".";
@@ -78,8 +85,8 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
   };
   if (advice.cure && advice.cure->integrator != now.integrator)
     retry(cure_label(now, *advice.cure), *advice.cure, "what the linear theory advises");
-  if (const auto slower = with_advised_dt(now))
-    retry("dt = " + short_number(slower->dt) + " s", *slower, "0.9 of dt_crit for this method");
+  if (advice.slower)
+    retry("dt = " + short_number(advice.slower->dt) + " s", *advice.slower, "0.9 of dt_crit for this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";
@@ -89,7 +96,7 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
 
 /// What is offered, the most helpful first: to take back what the user did, to go back and do what the linear theory
 /// advises. Once constants have changed, to try them.
-std::vector<Way> ways_out(App& app) {
+std::vector<Way> ways_out(const App& app, const Advice& advice) {
   std::vector<Way> ways;
   if (app.history.can_undo())
     ways.push_back({"Undo and restart", "Takes the last change of constants back, and begins anew", "Ctrl+Z, then R",
@@ -104,9 +111,7 @@ std::vector<Way> ways_out(App& app) {
     if (past) ways.push_back(rewind);
     return ways;
   }
-  Advice& advice = app.ui.advice;
-  if (advice.of != app.preset()) advice = {app.preset(), cure(app.preset())};
-  if (!outer_forces_win(app.preset())) add_retries(app, advice, past, ways);
+  if (!advice.outer_forces_win) add_retries(app, advice, past, ways);
   if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;
@@ -158,10 +163,12 @@ void banner(App& app) {
   const float icon = app.theme.px(30), indent = width < app.theme.px(least_banner) ? 0 : icon;
   const float inner = width - 2 * padding - indent;
   const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const std::string happened = in_lines(
-                        text, with_whole_terms(what_happened(*divergence, app.simulation->diverged_preset())), inner),
+  const Preset& then = app.simulation->diverged_preset();
+  const Advice& advice = advice_for(then, app);
+  const std::string happened =
+                        in_lines(text, with_whole_terms(what_happened(*divergence, then, advice.largest_dt)), inner),
                     why = in_lines(text, with_whole_terms(why_and_what_now(app, *divergence)), inner);
-  const std::vector<Way> ways = ways_out(app);
+  const std::vector<Way> ways = ways_out(app, advice);
   const std::vector<ImVec2> places = flow(app, ways, inner);
   const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);
   const float happened_height = height_of(text, happened), why_height = height_of(text, why);

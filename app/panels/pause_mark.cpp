@@ -18,20 +18,30 @@ const char* ways_on(const App& app) {
   return "Space runs · → makes one step";
 }
 
-/// Where it can stand, the best first: beside the view buttons, where no cloth is, or in a corner; with its keys, or,
-/// where that is too wide, without.
-std::array<std::optional<Box>, 10> pause_places(const App& app, const Box& row, glm::vec2 full, glm::vec2 brief) {
+/// Where it can stand, the best first: beside the view buttons, where the viewport has room for one more picture, or in
+/// a corner; with its keys, or, where that is too wide, without.
+std::array<std::optional<Box>, 12> pause_places(const App& app, const Box& row, glm::vec2 full, glm::vec2 brief) {
   const Placing& placing = app.ui.placing;
   const float margin = app.theme.px(16);
   const Box below{{row.lo.x, app.ui.notes_from}, app.viewport.box.hi - margin};
+  const int pictures = app.copies.tiles();
+  const bool room = pictures < app.viewport.columns * app.viewport.rows;
+  const Box empty{app.viewport.origin(pictures) + margin, below.hi};
   const auto in = [&](const Box& area, glm::vec2 size, ScreenCorner corner) {
     return placing.in_corner(area, size, corner);
   };
-  return {in(row, full, ScreenCorner::upper_right),    in(row, brief, ScreenCorner::upper_right),
-          in(row, brief, ScreenCorner::upper_left),    in(below, full, ScreenCorner::upper_right),
-          in(below, brief, ScreenCorner::upper_right), in(below, brief, ScreenCorner::upper_left),
-          in(below, full, ScreenCorner::lower_right),  in(below, brief, ScreenCorner::lower_right),
-          in(below, full, ScreenCorner::lower_left),   in(below, brief, ScreenCorner::lower_left)};
+  return {in(row, full, ScreenCorner::upper_right),
+          in(row, brief, ScreenCorner::upper_right),
+          in(row, brief, ScreenCorner::upper_left),
+          room ? in(empty, full, ScreenCorner::upper_right) : std::nullopt,
+          room ? in(empty, brief, ScreenCorner::upper_right) : std::nullopt,
+          in(below, full, ScreenCorner::upper_right),
+          in(below, brief, ScreenCorner::upper_right),
+          in(below, brief, ScreenCorner::upper_left),
+          in(below, full, ScreenCorner::lower_right),
+          in(below, brief, ScreenCorner::lower_right),
+          in(below, full, ScreenCorner::lower_left),
+          in(below, brief, ScreenCorner::lower_left)};
 }
 
 }  // namespace

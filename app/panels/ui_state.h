@@ -86,11 +86,13 @@ struct Dialog {
   int selected = -1;
 };
 
-/// The cure for constants that diverged (cure of remedy.h): kept, since it takes milliseconds and is asked for in every
-/// frame.
+/// What linear theory says of a divergence and of the ways out (remedy.h): kept, since it takes milliseconds and is
+/// asked for in every frame.
 struct Advice {
-  std::optional<Preset> of;  ///< none: nothing has been asked yet
-  std::optional<Preset> cure;
+  std::optional<Preset> then, now;  ///< what it is about: the constants that diverged, the present ones
+  double largest_dt = 0;            ///< s, that was stable then
+  bool outer_forces_win = false;    ///< now
+  std::optional<Preset> cure, slower;
 };
 
 /// A line of the palette: what it is called, and what it does.

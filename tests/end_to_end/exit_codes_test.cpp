@@ -75,6 +75,7 @@ TEST_CASE("2: the command line is wrong, --set included") {
        {{"render", "denim"}, 2, "png"},
        {{"render", "denim", "--png", "a.png", "--view", "6"}, 2, "view"},
        {{"render", "denim", "--png", "a.png", "--size", "wide"}, 2, "size"},
+       {{"--size", "320x240", "--frames", "1"}, 2, "at least 480x320"},
        {{"presets", "shwo", "denim"}, 2, "'shwo' is none of its commands: show, notation, check. Did you mean 'show'?"},
        {{"bench", "nonsense"},
         2,

@@ -85,6 +85,10 @@ def copies(stage):
         if "legend" in report["marks"] and across == 2 and down == 2 and wide_enough:
             at = report["marks"]["legend"]
             check(at[0] > x + width / 2 and at[1] > y + height / 2, f"{look}: the legend takes the cell that is empty")
+            row = report["marks"]["views"]
+            at = report["marks"]["paused"]
+            empty = at[0] > x + width / 2 and at[1] > y + height / 2
+            check(at[1] < row[1] + row[3] or empty, f"{look}: PAUSED stands on no picture")
         sandbox.close()
 
 

@@ -140,11 +140,13 @@ def threads(stage):
     sandbox = stage.start("hanging")
     out = os.path.join(sandbox.own.name, "costs.json")
     done = subprocess.run([sandbox.tyglab, "hanging", "--set", "rows=1500", "--set", "columns=1500", "--set", "L=6e-4",
-                           "--dt", "1e-6", "--threads", "2", "--frames", "2", "--time-report", out],
-                          env=sandbox.environment, capture_output=True, text=True)
+                           "--dt", "1e-6", "--threads", "2", "--size", "800x500", "--frames", "2", "--time-report",
+                           out], env=sandbox.environment, capture_output=True, text=True)
     check(done.returncode == 0, done.stderr)
     with open(out) as file:
-        check("2 threads" in json.load(file)["engine"], "the engine has two threads")
+        report = json.load(file)
+    check("2 threads" in report["engine"], "the engine has two threads")
+    check((report["width"], report["height"]) == (800, 500), "--size is the window's")
 
 
 @case
