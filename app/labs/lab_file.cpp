@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <functional>
@@ -9,12 +7,11 @@
 #include <utility>
 
 #include "app/labs/lab.h"
-#include "app/labs/observables.h"
-#include "app/panels/text_lines.h"
+#include "app/labs/lab_condition.h"
+#include "app/labs/lab_text.h"
 #include "app/preset_files.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
-#include "core/notation/words.h"
 
 namespace tyglab {
 namespace {
@@ -23,92 +20,6 @@ constexpr std::uintmax_t most_bytes = 1 << 20;
 
 constexpr std::array<std::string_view, 11> lab_keys{"open", "set",  "predict", "answer", "choice", "right",
                                                     "do",   "stop", "check",   "needs",  "within"};
-struct RelationSign {
-  std::string_view sign;
-  Relation relation;
-  std::string_view shown;
-};
-constexpr std::array<RelationSign, 6> relation_signs{{{"<", Relation::less, "<"},
-                                                      {"<=", Relation::at_most, "≤"},
-                                                      {"=", Relation::equal, "="},
-                                                      {"!=", Relation::unlike, "is not"},
-                                                      {">=", Relation::at_least, "≥"},
-                                                      {">", Relation::greater, ">"}}};
-
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r"), end = text.find_last_not_of(" \t\r");
-  return begin == std::string_view::npos ? std::string_view() : text.substr(begin, end - begin + 1);
-}
-
-/// Without the signs of Markdown that the card does not set: `code` and **strong**.
-std::string without_marks(std::string_view text) {
-  std::string plain;
-  for (std::size_t k = 0; k < text.size(); ++k) {
-    if (text[k] == '`') continue;
-    if (text.substr(k, 2) == "**") {
-      ++k;
-      continue;
-    }
-    plain += text[k];
-  }
-  return plain;
-}
-
-/// As the card sets it: in one piece, whatever its lines are in the file.
-std::string set_text(std::string_view text) {
-  return with_whole_terms(without_marks(text));
-}
-
-std::vector<std::string> words_in(std::string_view text) {
-  std::istringstream in{std::string(text)};
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
-}
-
-/// None where it is no number, or none that is finite ("nan").
-std::optional<double> plain_number(std::string_view text) {
-  double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-/// The words from that one on, as a unit such as "N s/m" is written.
-std::string joined(const std::vector<std::string>& words, std::size_t from) {
-  std::string text;
-  for (std::size_t k = from; k < words.size(); ++k) text += (k > from ? " " : "") + words[k];
-  return text;
-}
-
-/// Lines are gathered into paragraphs: an empty line or a "- " begins a new one.
-class Gathered {
- public:
-  void add(std::string_view line) {
-    if (line.empty()) {
-      open_ = false;
-      return;
-    }
-    const bool item = line.starts_with("- ");
-    std::string text = without_marks(item ? line.substr(2) : line);
-    if (item || !open_) {
-      paragraphs_.push_back(item ? "• " + text : std::move(text));
-    } else {
-      paragraphs_.back() += " " + text;
-    }
-    open_ = true;
-  }
-  Paragraphs take() {
-    open_ = false;
-    for (std::string& paragraph : paragraphs_) paragraph = with_whole_terms(std::move(paragraph));
-    return std::exchange(paragraphs_, {});
-  }
-  bool empty() const { return paragraphs_.empty(); }
-
- private:
-  Paragraphs paragraphs_;
-  bool open_ = false;
-};
 
 class LabReader {
  public:
@@ -120,6 +31,15 @@ class LabReader {
   [[noreturn]] void fail(const std::string& why) const { fail_at(line_, why); }
   [[noreturn]] void fail_at(int line, const std::string& why) const {
     throw LabError(source_ + ":" + std::to_string(line) + ": " + why);
+  }
+  /// What `read` returns; what it finds wrong is wrong in this line.
+  template <class Read>
+  auto placed(const Read& read) const {
+    try {
+      return read();
+    } catch (const LabError& error) {
+      fail(error.what());
+    }
   }
   void note(const LabError& error);
   void noted(const std::function<void()>& read);
@@ -136,15 +56,12 @@ class LabReader {
   void end_opening();
   bool note_wrong_settings(Preset preset, const std::vector<std::string>& settings);
   LabStep& step() { return lab_.steps.back(); }
+  bool first_step() const { return lab_.steps.size() == 1; }
   Prediction& prediction(std::string_view key);
 
   void take_answer(std::string_view value);
   void take_seconds(std::string_view value);
   void take_needs(std::string_view value);
-  std::string known_name(const std::string& name) const;
-  Condition condition(std::string_view value) const;
-  Operand operand(const std::vector<std::string>& words, std::size_t from, std::string_view unit) const;
-  Operand word_operand(const std::string& name, const std::vector<std::string>& words) const;
 
   std::string_view text_;
   std::string source_;
@@ -211,7 +128,7 @@ void LabReader::take_line(std::string_view line) {
   if (line.starts_with("## ")) return begin_step(trimmed(line.substr(3)));
   if (line.starts_with("# ")) {
     if (!lab_.title.empty()) fail("a lab has one title; begin a step with ##");
-    lab_.title = set_text(trimmed(line.substr(2)));
+    lab_.title = card_text(trimmed(line.substr(2)));
     return;
   }
   if (line.starts_with("#")) fail("a heading is # (the title) or ## (a step), with a space after it");
@@ -224,7 +141,7 @@ void LabReader::begin_step(std::string_view title) {
   if (lab_.title.empty()) fail("a lab begins with its title; write a line such as # Hooke's law before the steps");
   if (title.empty()) fail("a step needs a title after ##");
   end_step();
-  lab_.steps.emplace_back().title = set_text(title);
+  lab_.steps.emplace_back().title = card_text(title);
   step_line_ = line_;
   had_block_ = false;
 }
@@ -334,20 +251,20 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
     set_lines_.push_back(line_);
   } else if (key == "predict") {
     if (step().prediction) fail("a step asks for one prediction; remove this line, or begin another step with ##");
-    step().prediction.emplace().question = set_text(value);
+    step().prediction.emplace().question = card_text(value);
     predict_line_ = line_;
   } else if (key == "choice" || key == "right") {
     Prediction& given = prediction(key);
     if (key == "right") given.right = given.choices.size(), ++rights_;
-    given.choices.push_back(set_text(value));
+    given.choices.push_back(card_text(value));
   } else if (key == "answer") {
     take_answer(value);
   } else if (key == "do") {
-    step().todo.push_back(set_text(value));
+    step().todo.push_back(card_text(value));
   } else if (key == "stop") {
     take_seconds(value);
   } else if (key == "check") {
-    step().checks.push_back(condition(value));
+    step().checks.push_back(placed([&] { return parse_condition(value, first_step()); }));
   } else if (key == "needs") {
     take_needs(value);
   } else {
@@ -368,99 +285,10 @@ void LabReader::take_seconds(std::string_view value) {
   step().stop = seconds;
 }
 
-/// "0.098 m within 10 %", "dt_crit within 0.0001".
 void LabReader::take_answer(std::string_view value) {
   Prediction& given = prediction("answer");
   answered_ = true;  // if perhaps not well: that is told for itself
-  std::vector<std::string> words = words_in(value);
-  const auto within = std::find(words.begin(), words.end(), "within");
-  const auto after = std::size_t(words.end() - within);
-  const auto off = after > 1 ? plain_number(*(within + 1)) : std::nullopt;
-  if (!off || *off <= 0 || within == words.begin())
-    fail("an answer says how far a prediction may be off: answer: 0.098 m within 10 %");
-  given.relative = after == 3 && *(within + 2) == "%";
-  given.within = given.relative ? *off / 100 : *off;
-  words.erase(within, words.end());
-  // A number's unit is for people: any words.
-  if (plain_number(words[0]) && (words.size() == 1 || words[1] != "*")) {
-    given.unit = joined(words, 1);
-    words.resize(1);
-  }
-  given.answer = operand(words, 0, "");
-  if (!given.answer.name.empty()) given.unit = unit_of(given.answer.name);
-  if (given.relative && given.answer.name.empty() && given.answer.factor == 0)
-    fail("a part of 0 is 0, so nothing near it would be right; say how far off in its unit: answer: 0 " +
-         (given.unit.empty() ? "" : given.unit + " ") + "within 0.01");
-}
-
-std::string LabReader::known_name(const std::string& name) const {
-  if (is_observable(name)) return name;
-  const auto known = observable_names();
-  const auto meant = nearest(name, known);
-  fail("\"" + name + "\" is nothing that a check can ask for" +
-       (meant ? "; did you mean " + std::string(*meant) + "?" : "; docs/labs/README.md lists what it can"));
-}
-
-Operand LabReader::operand(const std::vector<std::string>& words, std::size_t from, std::string_view unit) const {
-  if (from >= words.size()) fail("a value is missing, such as check: k_s >= 180");
-  Operand given;
-  const auto number = plain_number(words[from]);
-  if (number) {
-    given.factor = *number, ++from;
-    const std::string after = joined(words, from);
-    if (after.empty() || after == unit) return given;
-    if (words[from] != "*")
-      fail("the unit is " + (unit.empty() ? "none" : std::string(unit)) + ", not " + after +
-           "; a number times a quantity is written 0.5 * F_g");
-    ++from;
-  }
-  if (from + 1 != words.size())
-    fail("a value is a number with its unit, a quantity such as F_g, or a number times one, such as 0.5 * F_g");
-  given.before = words[from].starts_with("before.");
-  given.name = known_name(given.before ? words[from].substr(7) : words[from]);
-  if (is_word(given.name)) fail(given.name + " is a word, which a number cannot be compared with");
-  if (given.before && lab_.steps.size() == 1)
-    fail("there is no step before the first, so it can have no before." + given.name);
-  if (given.before && given.name == "apart")
-    fail("apart is itself measured from the step before; compare another quantity");
-  return given;
-}
-
-Operand LabReader::word_operand(const std::string& name, const std::vector<std::string>& words) const {
-  if (words.size() != 3) fail(name + " is one word, such as check: integrator = euler");
-  const auto known = find_observable(name)->words();
-  if (std::find(known.begin(), known.end(), words[2]) == known.end()) {
-    std::string all;
-    for (const std::string_view word : known) all += (all.empty() ? "" : ", ") + std::string(word);
-    const auto meant = nearest(words[2], known);
-    fail(name + " is never \"" + words[2] + "\"" + (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
-         " Known: " + all);
-  }
-  Operand given;
-  given.word = words[2];
-  return given;
-}
-
-/// "k_s >= 180 N/m", "integrator = euler", "error < 0.3 before.error".
-Condition LabReader::condition(std::string_view value) const {
-  const std::vector<std::string> words = words_in(value);
-  Condition given;
-  given.name = known_name(words[0]);
-  if (given.name == "apart" && lab_.steps.size() == 1)
-    fail("apart is measured from the step before, and there is none before the first");
-  const auto sign = std::find_if(relation_signs.begin(), relation_signs.end(),
-                                 [&](const RelationSign& s) { return words.size() > 1 && s.sign == words[1]; });
-  if (sign == relation_signs.end())
-    fail("between " + words[0] + " and its value stands one of <, <=, =, !=, >= and >, with spaces round it");
-  given.relation = sign->relation;
-  if (!is_word(given.name)) {
-    given.right = operand(words, 2, unit_of(given.name));
-    return given;
-  }
-  if (given.relation != Relation::equal && given.relation != Relation::unlike)
-    fail(given.name + " is a word: compare it by = or !=");
-  given.right = word_operand(given.name, words);
-  return given;
+  placed([&] { parse_answer(value, first_step(), given); });
 }
 
 }  // namespace
@@ -482,21 +310,6 @@ Lab load_lab(const std::filesystem::path& file) {
   Lab lab = parse_lab(text.str(), file.string(), file.parent_path());
   lab.label = file.stem().string();
   return lab;
-}
-
-std::string words_of(const Condition& condition) {
-  const auto sign = std::find_if(relation_signs.begin(), relation_signs.end(),
-                                 [&](const RelationSign& s) { return s.relation == condition.relation; });
-  const Operand& right = condition.right;
-  if (!right.word.empty())
-    return condition.name + (condition.relation == Relation::equal ? " is " : " is not ") + right.word;
-  std::string text = condition.name + " " + std::string(sign->shown) + " ";
-  if (right.name.empty()) {
-    const std::string_view unit = unit_of(condition.name);
-    return text + shortest_number(right.factor) + (unit.empty() ? "" : " " + std::string(unit));
-  }
-  if (right.factor != 1) text += shortest_number(right.factor) + " × ";
-  return text + right.name + (right.before ? " before" : "");
 }
 
 }  // namespace tyglab

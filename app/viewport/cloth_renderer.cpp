@@ -6,25 +6,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/viewport/cloth_mesh.h"
-#include "app/viewport/cloth_texture.h"
-#include "app/viewport/draw_timer.h"
-#include "app/viewport/drawn_cloth.h"
-#include "app/viewport/gl_objects.h"
-#include "app/viewport/render_target.h"
-#include "app/viewport/shadow_map.h"
-#include "app/viewport/solid_mesh.h"
-#include "app/viewport/staging.h"
-#include "app/viewport/value_texture.h"
-#include "app/viewport/weight_model.h"
+#include "app/viewport/cloth_renderer_parts.h"
 
 namespace tyglab {
 namespace {
-
-const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
-constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3;
-constexpr float ghost_opacity = 0.9f;
-constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
 
 /// shaders/frame.glsl, in std140.
 struct FrameBlock {
@@ -46,84 +31,6 @@ std::string why_copied(const Engine& engine, const ClothMesh& mesh, const ViewOp
 }
 
 }  // namespace
-
-/// What cloths of one window share.
-struct ClothRenderer::Shared {
-  /// What only a cloth needs that is coloured by values.
-  struct Colored {
-    gl::Program cloth{{"cloth.vert", "cloth.frag", {}, "COLORED"}};
-    gl::Program lines{{"lines.vert", "lines.frag", "lines.geom", "COLORED"}};
-    gl::Program points{{"points.vert", "points.frag", {}, "COLORED"}};
-    ValueTexture map{GL_LINEAR};
-  };
-
-  gl::Program background{{"background.vert", "background.frag"}};
-  gl::Program ground{{"ground.vert", "ground.frag"}};
-  gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
-  gl::Program cloth{{"cloth.vert", "cloth.frag"}};
-  gl::Program solid{{"solid.vert", "solid.frag"}};
-  gl::Program lines{{"lines.vert", "lines.frag", "lines.geom"}};
-  gl::Program points{{"points.vert", "points.frag"}};
-  gl::Program cloth_depth{{"cloth_depth.vert", "depth.frag"}};
-  gl::Program solid_depth{{"solid_depth.vert", "depth.frag"}};
-  gl::Buffer frame;
-  gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
-  ClothTexture texture;
-  SolidMesh sphere{sphere_geometry(64, 40)};
-  std::optional<Colored> colored;  ///< made when they are first asked for
-  std::shared_ptr<PositionLoans> loans = std::make_shared<PositionLoans>();
-};
-
-struct ClothRenderer::Parts {
-  std::shared_ptr<Shared> shared;
-  ClothMesh mesh{shared->loans};
-  DrawnCloth drawn;  ///< where not every particle is
-  int every = 1;
-  SolidMesh spring, hanger, rest_line, equilibrium_line;
-  WeightModel weight_model;
-  ShadowMap shadow;
-  RenderTarget target;
-  ValueTexture values{GL_NEAREST};
-  DrawTimer timer;
-
-  Preset preset;
-  Bounds box;     ///< of all that casts shadows
-  Bounds framed;  ///< scene_bounds of the preset, kept as long as it
-  float ground_y = 0;
-  bool shadow_stale = true;
-  bool shadow_of_cloth = false;  ///< whether the cloth is in the shadow map: a net casts none
-  RenderWork work;
-  // What update() saw last.
-  const Simulation* simulation = nullptr;
-  std::uint64_t revision = 0, tear_revision = 0;
-  std::uint64_t engine_copied = 0;
-  bool written = false;  ///< the last time the device wrote what is drawn
-
-  explicit Parts(std::shared_ptr<Shared> with) : shared(std::move(with)) {}
-  bool take_written(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed);
-  void take_read(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed);
-  void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
-  void take_preset(const Preset& next);
-  void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
-  void draw_shadow(const ViewOptions& options);
-  void draw_background();
-  void draw_ground(const ViewOptions& options);
-  void draw_solid(const SolidMesh& mesh, glm::vec4 placed, glm::vec3 base, float gloss);
-  void draw_bodies(const ViewOptions& options);
-  void draw_weight(const ViewOptions& options);
-  void draw_triangles(const ViewOptions& options);
-  const gl::Program& use(const gl::Program& plain, const gl::Program* colored, const ViewOptions& options);
-  void draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width);
-  void draw_bending(const ViewOptions& options);
-  void draw_points(const ViewOptions& options);
-  void draw_marks(const ViewOptions& options);
-  void draw_ghost(const Parts& other, glm::vec3 colour, float width);
-  void draw_opaque(const ViewOptions& options);
-  void draw_blended(const ViewOptions& options);
-  float scene_radius() const { return std::max(glm::length(framed.hi - framed.lo) / 2, 1e-4f); }
-  float spacing() const { return float(preset.L * every); }
-  bool one_weight() const { return preset.kind == Kind::one_weight; }
-};
 
 ClothRenderer::ClothRenderer() : parts_(std::make_unique<Parts>(std::make_shared<Shared>())) {}
 ClothRenderer::ClothRenderer(const ClothRenderer& sibling) : parts_(std::make_unique<Parts>(sibling.parts_->shared)) {}
@@ -258,214 +165,6 @@ void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& o
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, shared->frame.id());
 }
 
-void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
-  if (!options.shadows || (!shadow_stale && shadow_of_cloth == options.lit())) return;
-  const Stopwatch watch(work.shadow);
-  shadow.begin();
-  if (!one_weight() && options.lit()) {
-    shared->cloth_depth.use();
-    mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
-  }
-  shared->solid_depth.use();
-  for (const Body& body : preset.bodies) {
-    if (body.shape != Body::Shape::sphere || one_weight()) continue;
-    shared->solid_depth.set("placed", glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)));
-    shared->sphere.draw();
-  }
-  if (one_weight()) {
-    shared->solid_depth.set("placed", glm::vec4(0, 0, 0, 1));
-    spring.draw();
-    hanger.draw();
-    shared->solid_depth.set("placed", glm::vec4(weight_model.weight, weight_model.radius));
-    shared->sphere.draw();
-  }
-  shadow.end();
-  shadow_stale = false;
-  shadow_of_cloth = options.lit();
-}
-
-void ClothRenderer::Parts::draw_background() {
-  shared->background.use();
-  glDepthMask(GL_FALSE);
-  glBindVertexArray(shared->nothing.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-  glDepthMask(GL_TRUE);
-}
-
-void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
-  const glm::vec3 centre = (framed.lo + framed.hi) / 2.0f;
-  // The lines have faded out before the square ends (ground.frag).
-  const float half = 8.6f * scene_radius();
-  glEnable(GL_BLEND);
-  glBindVertexArray(shared->nothing.id());
-  shared->ground.use();
-  shared->ground.set("area", glm::vec4(centre.x - half, centre.z - half, centre.x + half, centre.z + half));
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  if (options.shadows && !box.empty()) {
-    shared->ground_shadow.use();
-    shared->ground_shadow.set("shadow_map", shadow_unit);
-    shared->ground_shadow.set("area", shadow_area(box, to_light, ground_y));
-    // Upon the lines, not flickering through them.
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(-1, -4);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-  }
-  glDisable(GL_BLEND);
-}
-
-void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, glm::vec3 base, float gloss) {
-  shared->solid.use();
-  shared->solid.set("shadow_map", shadow_unit);
-  shared->solid.set("placed", placed);
-  shared->solid.set("base", base);
-  shared->solid.set("gloss", gloss);
-  what.draw();
-}
-
-void ClothRenderer::Parts::draw_bodies(const ViewOptions& options) {
-  for (const Body& body : preset.bodies) {
-    if (body.shape != Body::Shape::sphere) continue;
-    draw_solid(shared->sphere, glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)), options.palette.body, 0.12f);
-  }
-}
-
-void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
-  const glm::vec4 here(0, 0, 0, 1);
-  const Palette& colours = options.palette;
-  draw_solid(hanger, here, 0.6f * colours.body, 0.05f);
-  draw_solid(spring, here, colours.body, 0.5f);
-  draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colours.lines, 0.25f);
-  shared->solid.set("own_light", 1.0f);
-  draw_solid(rest_line, here, 0.8f * colours.points, 0);
-  draw_solid(equilibrium_line, here, colours.pins, 0);
-  shared->solid.set("own_light", 0.0f);
-}
-
-/// Uses a program: of a coloured cloth the second one, with what colours it.
-const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl::Program* colored,
-                                             const ViewOptions& options) {
-  const gl::Program& program = options.colored && colored != nullptr ? *colored : plain;
-  program.use();
-  if (&program == &plain) return plain;
-  const ValueRange& range = *options.colored;
-  program.set("stride", mesh.stride());
-  program.set("values", values_unit);
-  program.set("color_map", colors_unit);
-  program.set("value_range", glm::vec2(range.lo, 1 / std::max(range.hi - range.lo, 1e-30f)));
-  return program;
-}
-
-void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
-  const Lattice& lattice = mesh.lattice();
-  const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
-  const gl::Program& cloth = use(shared->cloth, shared->colored ? &shared->colored->cloth : nullptr, options);
-  cloth.set("cloth", texture_unit);
-  cloth.set("shadow_map", shadow_unit);
-  cloth.set("stride", mesh.stride());
-  cloth.set("texture_step", 1.0f / steps);
-  cloth.set("hem", options.palette.hem);
-  cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
-  mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
-}
-
-void ClothRenderer::Parts::draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width) {
-  const gl::Program& lines = use(shared->lines, shared->colored ? &shared->colored->lines : nullptr, options);
-  lines.set("spacing", spacing());
-  lines.set("max_width", width);
-  lines.set("ink", glm::vec4(options.palette.lines, opacity));
-  glEnable(GL_BLEND);
-  mesh.draw(list, GL_LINES);
-  glDisable(GL_BLEND);
-}
-
-/// In a colour of their own, whatever colours the cloth.
-void ClothRenderer::Parts::draw_bending(const ViewOptions& options) {
-  ViewOptions own = options;
-  own.colored.reset();
-  own.palette.lines = options.palette.bending;
-  draw_lines(ClothMesh::List::bending, own, 1, 0.6f * options.line_width);
-}
-
-void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
-  const gl::Program& points = use(shared->points, shared->colored ? &shared->colored->points : nullptr, options);
-  points.set("spacing", spacing());
-  points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
-  points.set("towards", 0.0f);
-  points.set("ink", glm::vec4(options.palette.points, 1));
-  points.set("rim", 0.0f);
-  points.set("ring", 0.0f);
-  glEnable(GL_BLEND);
-  mesh.draw(ClothMesh::List::particles, GL_POINTS);
-  glDisable(GL_BLEND);
-}
-
-void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
-  shared->points.use();
-  shared->points.set("spacing", spacing());
-  shared->points.set("towards", 0.03f);
-  glEnable(GL_BLEND);
-  shared->points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
-  shared->points.set("ink", glm::vec4(options.palette.pins, 1));
-  shared->points.set("rim", 1.2f);
-  shared->points.set("ring", 0.0f);
-  mesh.draw(ClothMesh::List::pins, GL_POINTS);
-  if (options.highlighted) {
-    const float size = 1.8f * options.point_size;
-    shared->points.set("diameter", glm::vec3(0, size, size));
-    shared->points.set("ink", glm::vec4(options.palette.highlight, 1));
-    shared->points.set("ring", 0.2f * options.point_size);
-    glDisable(GL_DEPTH_TEST);
-    mesh.draw_particle(options.highlighted->i / every, options.highlighted->j / every);
-    glEnable(GL_DEPTH_TEST);
-  }
-  glDisable(GL_BLEND);
-}
-
-/// Seen through whatever hangs before it, since it is there to be compared.
-void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 colour, float width) {
-  const WeightModel& weight = other.weight_model;
-  if (other.one_weight()) return draw_solid(shared->sphere, glm::vec4(weight.weight, weight.radius), colour, 0.25f);
-  shared->lines.use();
-  shared->lines.set("spacing", other.spacing());
-  shared->lines.set("max_width", width);
-  shared->lines.set("ink", glm::vec4(colour, ghost_opacity));
-  glEnable(GL_BLEND);
-  glDisable(GL_DEPTH_TEST);
-  other.mesh.draw(ClothMesh::List::outlines, GL_LINES);
-  glEnable(GL_DEPTH_TEST);
-  glDisable(GL_BLEND);
-}
-
-void ClothRenderer::Parts::draw_opaque(const ViewOptions& options) {
-  if (one_weight()) return draw_weight(options);
-  draw_bodies(options);
-  if (options.lit()) draw_triangles(options);
-}
-
-void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
-  const float width = options.line_width;
-  switch (options.mode) {
-    case 2:
-      draw_lines(ClothMesh::List::diagonal, options, options.colored ? 0.8f : 0.5f, 0.7f * width);
-      draw_lines(ClothMesh::List::straight, options, 1, width);
-      if (options.bending) draw_bending(options);
-      break;
-    case 3:
-      draw_lines(ClothMesh::List::connections, options, 1, width);
-      break;
-    case 4:
-      draw_lines(ClothMesh::List::outlines, options, 1, width);
-      break;
-    case 5:
-      draw_points(options);
-      break;
-    default:
-      break;
-  }
-  draw_marks(options);
-}
-
 void ClothRenderer::set_values(std::span<const float> values, int rows, int columns) {
   const Stopwatch watch(parts_->work.upload);
   parts_->values.take(values, rows, columns);
@@ -493,9 +192,10 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   p.draw_shadow(options);
   p.target.begin(width, height, options.samples);
   glClear(GL_DEPTH_BUFFER_BIT);
-  p.shared->texture.bind(texture_unit);
-  p.shadow.bind(shadow_unit);
-  if (options.colored && p.shared->colored) p.values.bind(values_unit), p.shared->colored->map.bind(colors_unit);
+  p.shared->texture.bind(Parts::texture_unit);
+  p.shadow.bind(Parts::shadow_unit);
+  if (options.colored && p.shared->colored)
+    p.values.bind(Parts::values_unit), p.shared->colored->map.bind(Parts::colors_unit);
   p.draw_opaque(options);
   p.draw_background();
   if (options.ground) p.draw_ground(options);

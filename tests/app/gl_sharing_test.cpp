@@ -119,29 +119,7 @@ TEST_SUITE("gl_sharing") {
     if (!double_there()) return;
     test::PicturePair stage;
     Simulation simulation(scene());
-    const auto change = [&](auto what) {
-      Preset next = simulation.preset();
-      what(next);
-      simulation.apply(edit::Change{next});
-      simulation.advance(20);
-    };
-    simulation.advance(20);
-    stage.copied_for(simulation, 1);
-    change([](Preset& p) { p.rows = 40, p.columns = 9; });
-    CHECK(stage.copied_for(simulation, 2) == 0);
-    CHECK(stage.copied_for(simulation, 1) == 0);  // another view of what has not moved
-    simulation.apply(edit::Cut{{{10, 4}, {10, 5}}});
-    simulation.advance(20);
-    CHECK(stage.copied_for(simulation, 3) == 0);
-    change([](Preset& p) { p.integrator = "velocity_verlet"; });
-    CHECK(stage.copied_for(simulation, 5) == 0);
-    change([](Preset& p) { p.precision = Precision::double_; });
-    CHECK(stage.copied_for(simulation, 1) == 0);
-    change([](Preset& p) { p.engine = EngineKind::cpu; });
-    CHECK(stage.copied_for(simulation, 1) > 0);
-    CHECK(stage.way() == VertexWay::copied);
-    change([](Preset& p) { p.engine = EngineKind::opencl; });
-    CHECK(stage.copied_for(simulation, 1) == 0);
+    test::check_pictures_of_changes(stage, simulation, VertexWay::shared_buffer);
     CHECK(stage.copied_by_a_sibling(simulation) == 0);
     CHECK(stage.copied_for(simulation, 4) == 0);
     CHECK(counts().buffers == 2);

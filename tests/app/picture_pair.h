@@ -63,4 +63,36 @@ class PicturePair {
   VertexWay way_ = VertexWay::copied;
 };
 
+/// Another lattice, a cut, another view, method, precision and engine, one after the other: what is drawn is right all
+/// along, and it comes by `way` without a copy, but of the CPU engine. Ends as it began, with an OpenCL engine.
+inline void check_pictures_of_changes(PicturePair& stage, Simulation& simulation, VertexWay way) {
+  const auto check_shared = [&](int mode) {
+    CHECK(stage.copied_for(simulation, mode) == 0);
+    CHECK(stage.way() == way);
+  };
+  const auto change = [&](auto what) {
+    Preset next = simulation.preset();
+    what(next);
+    simulation.apply(edit::Change{next});
+    simulation.advance(20);
+  };
+  simulation.advance(20);
+  check_shared(1);
+  change([](Preset& p) { p.rows = 40, p.columns = 9; });
+  check_shared(2);
+  CHECK(stage.copied_for(simulation, 1) == 0);  // another view of what has not moved
+  simulation.apply(edit::Cut{{{10, 4}, {10, 5}}});
+  simulation.advance(20);
+  check_shared(3);
+  change([](Preset& p) { p.integrator = "velocity_verlet"; });
+  check_shared(5);
+  change([](Preset& p) { p.precision = Precision::double_; });
+  check_shared(1);
+  change([](Preset& p) { p.engine = EngineKind::cpu; });
+  CHECK(stage.copied_for(simulation, 1) > 0);
+  CHECK(stage.way() == VertexWay::copied);
+  change([](Preset& p) { p.engine = EngineKind::opencl; });
+  check_shared(1);
+}
+
 }  // namespace tyglab::test

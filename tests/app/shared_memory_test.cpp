@@ -40,27 +40,7 @@ TEST_CASE(
   if (!test::device_there()) return;
   test::PicturePair stage;
   Simulation simulation(scene(EngineKind::opencl, Precision::float_));
-  const auto change = [&](auto what) {
-    Preset next = simulation.preset();
-    what(next);
-    simulation.apply(edit::Change{next});
-    simulation.advance(20);
-  };
-  simulation.advance(20);
-  CHECK(stage.copied_for(simulation, 1) == 0);
-  change([](Preset& p) { p.rows = 40, p.columns = 9; });
-  CHECK(stage.copied_for(simulation, 2) == 0);
-  simulation.apply(edit::Cut{{{10, 4}, {10, 5}}});
-  simulation.advance(20);
-  CHECK(stage.copied_for(simulation, 3) == 0);
-  change([](Preset& p) { p.integrator = "velocity_verlet"; });
-  CHECK(stage.copied_for(simulation, 5) == 0);
-  change([](Preset& p) { p.precision = Precision::double_; });
-  CHECK(stage.copied_for(simulation, 1) == 0);
-  change([](Preset& p) { p.engine = EngineKind::cpu; });
-  CHECK(stage.copied_for(simulation, 1) > 0);
-  change([](Preset& p) { p.engine = EngineKind::opencl; });
-  CHECK(stage.copied_for(simulation, 1) == 0);
+  test::check_pictures_of_changes(stage, simulation, VertexWay::shared_memory);
 }
 
 TEST_CASE("an engine goes on in its memory where the renderer that drew it is gone") {

@@ -1,9 +1,12 @@
 // Every kernel once on a small cloth, for oclgrind: ctest runs this suite under it, which looks at every access to
-// memory and for work-items that race. Elsewhere the suite says nothing new, so it is left out.
+// memory and for work-items that race. It does so twice: on oclgrind's device as it is, a processor, and with the layer
+// tests/support/gl_sharing_double.cpp, which makes a card of it, where `look` runs too. Elsewhere the suite says
+// nothing new, so it is left out.
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/opencl_engine.h"
@@ -19,6 +22,10 @@ bool under_oclgrind() {
   const bool there = !inventory.devices.empty() && inventory.devices.front().platform == "Oclgrind";
   if (!there) std::printf("NOT TESTED: oclgrind's device is not there.\n");
   return there;
+}
+
+bool by_the_layer() {
+  return std::getenv("OPENCL_LAYERS") != nullptr;
 }
 
 /// A cloth with wind, bodies that it meets, springs that tear, and a hand that moves a particle.
@@ -42,9 +49,12 @@ void run(const Preset& preset, int width, int steps) {
   engine->note_contacts(true);
   engine->set_fixed(pinned, {});
   engine->load(start_rows(preset), tears);
+  const std::uint64_t loaded = engine->copied();
   engine->advance(1, tears);
   engine->set_fixed(pinned, {preset.columns * 5 + 4, {0.1, 0.2, 0}});
   engine->advance(steps, tears);
+  CHECK(engine->remote() == by_the_layer());
+  CHECK(engine->copied() == loaded);  // a card has looked at its springs itself
   State state;
   engine->read(state, tears);
   CHECK(test::all_finite(state));
