@@ -32,11 +32,6 @@ fs::path new_folder() {
   return folder;
 }
 
-void write_state(Simulation& simulation, const fs::path& file) {
-  write_state_csv(file, simulation.lattice(), simulation.read_raw(),
-                  {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
-}
-
 }  // namespace
 
 int run_headless(const SandboxOptions& options, std::ostream& out) {
@@ -72,7 +67,7 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
     out << "Wrote " << file.string() << " (t = " << simulation.time() << " s)." << std::endl;
   }
   const fs::path state = folder / (options.preset_label + ".csv");
-  write_state(simulation, state);
+  write_output(state, state_csv(simulation));
   out << "Wrote " << state.string() << ", the last state." << std::endl;
   if (!options.screenshot.empty()) {
     film.shoot(simulation, options.screenshot);

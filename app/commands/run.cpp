@@ -99,8 +99,7 @@ class Outputs {
     Json files = Json::array();
     if (cache_) cache_->finish();
     if (!options_.state.empty()) {
-      write_state_csv(options_.state, simulation.lattice(), simulation.read_raw(),
-                      {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
+      write_output(options_.state, state_csv(simulation));
       files.push_back({{"kind", "state"}, {"path", options_.state}});
     }
     if (!options_.values.empty()) {

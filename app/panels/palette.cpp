@@ -38,6 +38,7 @@ bool of_use(const App& app, Command command) {
       return app.preset().kind == Kind::one_weight;
     case Command::next_color:
     case Command::export_values:
+    case Command::export_mesh:
       return app.preset().kind == Kind::cloth;
     case Command::export_copies:
     case Command::show_distances:

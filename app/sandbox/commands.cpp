@@ -14,7 +14,7 @@ constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 }  // namespace
 
 std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 52> rows{{
+  static const std::array<CommandRow, 54> rows{{
       {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
       {Command::step,
        "One step of dt",
@@ -137,6 +137,18 @@ std::span<const CommandRow> command_rows() {
        {},
        "",
        "export tension strain speed energy"},
+      {Command::export_mesh,
+       "Write the cloth as OBJ…",
+       "Ctrl+E",
+       {{GLFW_KEY_E, control}},
+       "writes the cloth as a mesh",
+       "export wavefront blender 3d geometry"},
+      {Command::export_state,
+       "Write the state as CSV…",
+       "",
+       {},
+       "",
+       "export every particle's position velocity coordinates"},
       {Command::export_convergence, "Write the convergence as CSV…", "", {}, "", "export accuracy order"},
       {Command::larger_text,
        "Larger text",

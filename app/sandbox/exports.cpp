@@ -7,6 +7,8 @@
 #include "app/sandbox/app.h"
 #include "core/analysis/machine.h"
 #include "core/notation/preset_io.h"
+#include "core/output/obj.h"
+#include "core/output/state_csv.h"
 #include "core/output/values_csv.h"
 
 namespace tyglab {
@@ -52,8 +54,18 @@ std::string values(App& app) {
   return values_csv(*app.simulation, reference);
 }
 
+std::string state(App& app) {
+  return state_csv(*app.simulation);
+}
+
+/// As other programs read it, without bodies.
+std::string mesh(App& app) {
+  Simulation& cloth = *app.simulation;
+  return obj_text(cloth.tears(), cloth.read().x, {.name = app.preset().name, .t = cloth.time(), .fps = 0});
+}
+
 template <std::string (*text)(App&)>
-void csv(App& app, const std::filesystem::path& file) {
+void text_file(App& app, const std::filesystem::path& file) {
   write_atomically(file, text(app));
 }
 
@@ -72,20 +84,25 @@ constexpr const char* rows_of_frames =
 }  // namespace
 
 const Export& export_of(ExportSource source) {
-  static constexpr std::array<Export, 7> exports{
-      {{"Write the forces as CSV", rows_of_frames, "forces.csv", csv<forces>},
-       {"Write the height of the weight as CSV", rows_of_frames, "height.csv", csv<height>},
+  static constexpr std::array<Export, 9> exports{
+      {{"Write the forces as CSV", rows_of_frames, "forces.csv", text_file<forces>},
+       {"Write the height of the weight as CSV", rows_of_frames, "height.csv", text_file<height>},
        {"Write the map of stiffness and dt as CSV",
         "One row for each cell that has been measured: stiffness, dt, what the short run came to, theory's dt.",
-        "map.csv", csv<map>},
-       {"Write what the copies' plot holds as CSV", rows_of_frames, "copies.csv", csv<copies>},
+        "map.csv", text_file<map>},
+       {"Write what the copies' plot holds as CSV", rows_of_frames, "copies.csv", text_file<copies>},
        {"Write every particle's values as CSV",
         "One row for each particle as it is now, one column for each quantity that can colour the cloth.", "values.csv",
-        csv<values>},
+        text_file<values>},
        {"Write the convergence as CSV", "One row for each dt, units in the header.", "convergence.csv",
-        csv<convergence>},
+        text_file<convergence>},
        {"Write the map of stiffness and dt as PNG", "A picture of the map as far as it has been measured.", "map.png",
-        map_picture}}};
+        map_picture},
+       {"Write the cloth as OBJ",
+        "A mesh for other programs: positions in m, texture coordinates, normals, and the triangles that are whole.",
+        "cloth.obj", text_file<mesh>},
+       {"Write the state as CSV", "One row for each particle as it is now: x and ẋ, with all digits that it has.",
+        "state.csv", text_file<state>}}};
   return exports[std::size_t(source)];
 }
 

@@ -250,6 +250,10 @@ void apply(App& app, const request::Do& what) {
       return open_export(app, ExportSource::copies);
     case Command::export_values:
       return open_export(app, ExportSource::values);
+    case Command::export_mesh:
+      return open_export(app, ExportSource::mesh);
+    case Command::export_state:
+      return open_export(app, ExportSource::state);
     case Command::export_convergence:
       return open_export(app, ExportSource::convergence);
     case Command::measure_convergence:

@@ -61,6 +61,8 @@ enum class Command {
   next_theme,
   next_color,
   export_values,
+  export_mesh,
+  export_state,
   measure_convergence,
   export_convergence,
   toggle_effects,
@@ -69,7 +71,7 @@ enum class Command {
 };
 
 /// What can be written to a file (exports.h), in its order.
-enum class ExportSource { forces, height, map, copies, values, convergence, map_picture };
+enum class ExportSource { forces, height, map, copies, values, convergence, map_picture, mesh, state };
 
 namespace request {
 /// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.

@@ -62,11 +62,18 @@ std::vector<glm::dvec3> vertex_normals(const Tears& tears, const VectorField<dou
 
 std::string obj_text(const Tears& tears, const VectorField<double>& x, const ObjFrame& frame) {
   const Lattice& lattice = tears.lattice();
-  std::string text = "# Tyglab: " + one_line(frame.name) + "\n# frame " + std::to_string(frame.frame) + ", t = ";
+  const bool in_sequence = frame.fps > 0;
+  std::string text = "# Tyglab: " + one_line(frame.name) + "\n# ";
+  if (in_sequence) text += "frame " + std::to_string(frame.frame) + ", ";
+  text += "t = ";
   append_number(text, frame.t, 9);
-  text += " s, frame rate ";
-  append_number(text, frame.fps, 9);
-  text += " frames per second\no cloth\n";
+  text += " s";
+  if (in_sequence) {
+    text += ", frame rate ";
+    append_number(text, frame.fps, 9);
+    text += " frames per second";
+  }
+  text += "\no cloth\n";
 
   for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) append_line(text, "v", {x.x[p], x.y[p], x.z[p]});
   for (int i = 0; i < lattice.rows; ++i)

@@ -19,7 +19,7 @@ struct ObjFrame {
   std::string name;  ///< of the preset
   int frame = 0;     ///< number of the frame, the first is 0
   double t = 0;      ///< s
-  double fps = 25;   ///< frames a second of simulated time
+  double fps = 25;   ///< frames a second of simulated time; 0: it is no frame of a sequence
 };
 
 /// Unit vertex normals over i·columns + j: the normals of a particle's whole triangles, weighted by their areas. A

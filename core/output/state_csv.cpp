@@ -1,6 +1,6 @@
 #include "core/output/state_csv.h"
 
-#include "core/output/destination.h"
+#include "core/notation/preset_io.h"
 #include "core/output/text.h"
 
 namespace tyglab {
@@ -26,9 +26,9 @@ std::string state_csv(const Lattice& lattice, const State& state, const StateSta
   return text;
 }
 
-void write_state_csv(const std::filesystem::path& file, const Lattice& lattice, const State& state,
-                     const StateStamp& stamp) {
-  write_output(file, state_csv(lattice, state, stamp));
+std::string state_csv(Simulation& simulation) {
+  return state_csv(simulation.lattice(), simulation.read_raw(),
+                   {simulation.time(), simulation.steps(), preset_hash(simulation.preset())});
 }
 
 }  // namespace tyglab

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
+#include "core/simulation.h"
 
 namespace tyglab {
 
@@ -21,8 +21,7 @@ struct StateStamp {
 /// digits, in m and m/s. `state` holds the velocities as the method holds them (Simulation::read_raw).
 std::string state_csv(const Lattice& lattice, const State& state, const StateStamp& stamp);
 
-/// Writes it, whole or not at all. Throws OutputError.
-void write_state_csv(const std::filesystem::path& file, const Lattice& lattice, const State& state,
-                     const StateStamp& stamp);
+/// The same of what a simulation holds now.
+std::string state_csv(Simulation& simulation);
 
 }  // namespace tyglab

@@ -108,5 +108,29 @@ def values(stage):
     check(float(rows[0]["tension [N]"]) > 0 and float(rows[0]["speed [m/s]"]) == 0, "the pinned corner holds and rests")
 
 
+@case
+def mesh(stage):
+    """Ctrl+E writes the cloth as OBJ, and the palette the state, as the cloth stands"""
+    sandbox = paused(stage)
+    sandbox.key("ctrl+e")
+    with open(sandbox.write_export("cloth.obj")) as written:
+        lines = [line.split() for line in written]
+    count = {word: sum(line[0] == word for line in lines) for word in ("v", "vt", "vn", "f")}
+    check(count == {"v": 1024, "vt": 1024, "vn": 1024, "f": 2 * 31 * 31}, f"the mesh has {count}")
+    sandbox.key("ctrl+p")
+    sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
+    sandbox.type("write the state")
+    sandbox.later(3)
+    sandbox.key("Return")
+    with open(sandbox.write_export("state.csv")) as written:
+        head = next(written)
+        rows = list(csv.DictReader(written))
+    at = float(head.split("t = ")[1].split(",")[0])
+    check(abs(at - sandbox.report()["t"]) < 1e-6, f"the state says when it was: {head}")
+    corner = [float(rows[-1][c]) for c in "xyz"]
+    meshed = [float(word) for word in lines[[line[0] for line in lines].index("v") + 1023][1:]]
+    check(all(abs(a - b) < 1e-6 for a, b in zip(corner, meshed)), f"{corner} in the state, {meshed} in the mesh")
+
+
 if __name__ == "__main__":
     main()

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "core/notation/preset_io.h"
+#include "core/output/destination.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"
 #include "core/output/text.h"
@@ -36,15 +37,13 @@ TEST_CASE("17 digits bring back every double") {
 }
 
 TEST_CASE("a state file holds the stamp, the header and every particle to the last bit") {
-  const test::TemporaryFolder folder;
   Simulation simulation(test::cloth(5, 4));
   simulation.advance(123);
   const State& state = simulation.read_raw();
-  write_state_csv(folder / "s.csv", simulation.lattice(), state, {simulation.time(), simulation.steps(), "abc123"});
-  const auto rows = test::lines(test::read_file(folder / "s.csv"));
+  const auto rows = test::lines(state_csv(simulation));
   REQUIRE(rows.size() == 2 + 20);
   CHECK(rows[0].starts_with("# tyglab state, t = 0.123"));
-  CHECK(rows[0].find(", steps = 123, preset hash abc123") != std::string::npos);
+  CHECK(rows[0].find(", steps = 123, preset hash " + preset_hash(simulation.preset())) != std::string::npos);
   CHECK(rows[1] == "i,j,x,y,z,vx,vy,vz");
   for (int p = 0; p < 20; ++p) {
     const auto cells = test::split(rows[std::size_t(p) + 2], ',');
@@ -98,7 +97,7 @@ TEST_CASE("outputs that cannot be written say so by name") {
   const test::TemporaryFolder folder;
   const auto missing = folder / "missing" / "file.csv";
   try {
-    write_state_csv(missing, {2, 1}, start_state(test::cloth(2, 1)), {});
+    write_output(missing, state_csv({2, 1}, start_state(test::cloth(2, 1)), {}));
     FAIL_CHECK("written");
   } catch (const OutputError& error) {
     CHECK(std::string(error.what()).find(missing.string()) != std::string::npos);

@@ -186,6 +186,8 @@ TEST_CASE("the comments tell frame, time and frame rate, whatever the preset is 
   for (const std::string& line : test::lines(text)) vertices += line.starts_with("v ") ? 1 : 0;
   CHECK(vertices == 9);
   for (const char* part : {"frame 12", "0.5 s", "30"}) CHECK(text.find(part) != text.npos);
+  const std::string alone = obj_text(simulation.tears(), simulation.read().x, {.name = "alone", .t = 0.5, .fps = 0});
+  CHECK(alone.starts_with("# Tyglab: alone\n# t = 0.5 s\no cloth\nv "));
 }
 
 TEST_CASE("the files of a sequence sort as its frames do") {
