@@ -34,6 +34,7 @@ ViewOptions view_of(const App& app, const Simulation& cloth, glm::ivec2 size) {
 void count(FrameCosts& costs, const RenderWork& work) {
   costs.add(Part::normals, work.normals);
   costs.add(Part::upload, work.upload);
+  costs.add(Part::index_lists, work.index_lists);
   costs.add(Part::shadow, work.shadow);
   if (work.moved) costs.add_copied(work.way, work.copied, work.why_copied, work.read);
 }

@@ -12,9 +12,23 @@
 
 namespace tyglab {
 
-enum class Part { simulate, sample, colors, normals, upload, shadow, draw_cloth, panels, ui_draw, swap, frame };
-inline constexpr std::array<std::string_view, 11> part_names{
-    "simulate", "sample", "colors", "normals", "upload", "shadow", "draw_cloth", "panels", "ui_draw", "swap", "frame"};
+enum class Part {
+  simulate,
+  sample,
+  colors,
+  normals,
+  upload,
+  index_lists,
+  shadow,
+  draw_cloth,
+  panels,
+  ui_draw,
+  swap,
+  frame
+};
+inline constexpr std::array<std::string_view, 12> part_names{"simulate", "sample",      "colors", "normals",
+                                                             "upload",   "index_lists", "shadow", "draw_cloth",
+                                                             "panels",   "ui_draw",     "swap",   "frame"};
 
 /// What lies between the start of the program and its first picture, in order.
 enum class StartPart { program, settings, window, shaders, cloth, first_frame };

@@ -57,7 +57,7 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   work.moved |= moved;
   work.way = way_;
   normals_ready_ = needs_normals || (normals_ready_ && !moved);
-  const Stopwatch watch(work.upload);
+  const Stopwatch watch(work.index_lists);
   for (int list = 0; list < int(List::count); ++list) {
     if (needs(options, List(list))) prepare(List(list), scene);
   }

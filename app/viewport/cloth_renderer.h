@@ -95,8 +95,9 @@ struct ClothScene {
 /// What updates and drawings took; 0: it was skipped.
 struct RenderWork {
   Duration normals, upload;
-  Duration shadow;     ///< a part of draw()
-  bool moved = false;  ///< the cloth had moved
+  Duration index_lists;  ///< what a view draws of them: made anew where it lacks some
+  Duration shadow;       ///< a part of draw()
+  bool moved = false;    ///< the cloth had moved
   VertexWay way = VertexWay::copied;
   /// Bytes of positions and normals that the program copied: 0 where OpenGL draws what the device wrote.
   std::size_t copied = 0;

@@ -165,6 +165,7 @@ TEST_CASE("nothing is uploaded where nothing moved, and normals are made for lit
   stage.draw(simulation, 4);
   RenderWork work = stage.renderer().take_work();
   CHECK(work.upload.wall_s > 0);
+  CHECK(work.index_lists.wall_s > 0);
   CHECK(work.normals.wall_s == 0);
   stage.draw(simulation, 1);  // the light is new, the places are not
   CHECK(stage.renderer().take_work().normals.wall_s > 0);
