@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "app/panels/engine_menu.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
@@ -108,6 +109,12 @@ void add_integrators(std::vector<PaletteEntry>& list) {
   for (const Scheme& method : schemes())
     list.push_back({"Integrator", std::string(method.title), std::string(method.equation), std::string(method.name),
                     std::string(method.note), proposing([&method](Preset& next) { next.integrator = method.name; })});
+}
+
+void add_engines(std::vector<PaletteEntry>& list) {
+  for (const EngineMode& mode : engine_modes())
+    list.push_back({"Engine", mode.title, "", "engine precision", "",
+                    proposing([&mode](Preset& next) { next.engine = mode.engine, next.precision = mode.precision; })});
 }
 
 void add_constants(const App& app, std::vector<PaletteEntry>& list) {
@@ -239,6 +246,7 @@ std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::strin
 std::vector<PaletteEntry> palette_entries(App& app) {
   std::vector<PaletteEntry> list;
   add_commands(app, list);
+  add_engines(list);
   add_labs(app, list);
   add_all_presets(list);
   add_integrators(list);

@@ -2,13 +2,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/panels/engine_menu.h"
 #include "app/panels/imgui_compat.h"
 #include "app/panels/numbers.h"
 #include "app/panels/panels.h"
 #include "app/panels/symbol.h"
 #include "app/panels/widgets.h"
 #include "app/sandbox/commands.h"
-#include "core/engines/opencl/opencl_devices.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -177,54 +177,6 @@ void readings(App& app, float x, float end) {
   reading(app, x, end, "dt", short_number(app.preset().dt) + " s", "1.234e-4 s", c.text, "Time step, set at the left");
 }
 
-/// The devices of this machine, once one of them is in use: to ask drivers for them takes a moment, and some fail.
-void device_choices(App& app) {
-  if (app.ui.devices.empty())
-    for (const OpenClDevice& device : opencl_devices().devices) app.ui.devices.push_back(device.name);
-  if (app.ui.devices.size() < 2) return;
-  ImGui::Separator();
-  for (int n = 0; n < int(app.ui.devices.size()); ++n) {
-    ImGui::PushID(n);
-    if (ImGui::Selectable(app.ui.devices[std::size_t(n)].c_str(), app.wished().device == n)) {
-      Preset next = app.wished();
-      next.device = n;
-      app.propose(std::move(next));
-    }
-    ImGui::PopID();
-  }
-}
-
-void engine_combo(App& app, float width) {
-  struct Choice {
-    const char* label;
-    EngineKind engine;
-    Precision precision;
-  };
-  static constexpr Choice choices[] = {{"CPU · float", EngineKind::cpu, Precision::float_},
-                                       {"CPU · double", EngineKind::cpu, Precision::double_},
-                                       {"OpenCL · float", EngineKind::opencl, Precision::float_},
-                                       {"OpenCL · double", EngineKind::opencl, Precision::double_}};
-  const Preset& preset = app.wished();
-  const char* shown = choices[0].label;
-  for (const Choice& choice : choices)
-    if (choice.engine == preset.engine && choice.precision == preset.precision) shown = choice.label;
-  if (!begin_combo(app, "##engine", shown, width)) {
-    tooltip(app, gui::item_id(), "Engine and precision. Now: " + app.simulation->engine().name());
-    return;
-  }
-  for (const Choice& choice : choices)
-    if (ImGui::Selectable(choice.label, choice.label == shown) && choice.label != shown) {
-      Preset next = preset;
-      next.engine = choice.engine, next.precision = choice.precision;
-      app.propose(std::move(next));
-    }
-  if (ImGui::Selectable("Automatic")) app.command(Command::choose_engine);
-  report_control(app, "automatic_engine");
-  tooltip(app, gui::item_id(), "Takes the engine that is quickest with this scene, in this precision: by short runs.");
-  if (preset.engine == EngineKind::opencl) device_choices(app);
-  end_combo();
-}
-
 void window_buttons(App& app, float x) {
   ImGui::SetCursorScreenPos({x, bar_middle(app, app.theme.px(32))});
   if (icon_button(app, "labs", icon::labs, "Labs", "Labs: predict, do, and let the program look", "Ctrl+L",
@@ -270,7 +222,7 @@ void top_bar(App& app, const Region& region) {
   readings(app, x, (room_for_engine ? engine : right) - app.theme.px(12));
   if (room_for_engine) {
     ImGui::SetCursorScreenPos({engine, bar_middle(app, app.theme.px(26))});
-    engine_combo(app, combo);
+    engine_menu(app, combo);
   }
   if (with_buttons) window_buttons(app, right);
   end_region();

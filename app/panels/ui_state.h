@@ -142,7 +142,6 @@ struct Ui {
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
   std::optional<bool> wind_arrow;        ///< shown or not; none: while there is wind
-  std::vector<std::string> devices;      ///< OpenCL's, by name, once one is in use
   bool energy_shown = false;             ///< the ledger's card is open
   bool accuracy_shown = false;           ///< the accuracy card is open
   bool inside_shown = false;             ///< a step written out is in sight

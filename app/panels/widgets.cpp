@@ -78,8 +78,9 @@ SegmentPlaces segment_places(const App& app, const char* const* labels, int coun
 }  // namespace
 
 bool tooltip_due(App& app, ImGuiID id) {
-  if (!ImGui::IsItemHovered() || ImGui::IsMouseDown(ImGuiMouseButton_Left) || app.ui.slider.typing != 0 || app.ui.help)
-    return false;
+  // What cannot be chosen says why.
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || app.ui.slider.typing != 0 || app.ui.help) return false;
   app.ui.hover_seen = true;
   if (app.ui.hovered != id) {
     app.ui.hovered = id;

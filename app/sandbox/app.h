@@ -18,6 +18,7 @@
 #include "app/sandbox/cloth_views.h"
 #include "app/sandbox/convergence_watch.h"
 #include "app/sandbox/copies.h"
+#include "app/sandbox/device_search.h"
 #include "app/sandbox/edits.h"
 #include "app/sandbox/effects.h"
 #include "app/sandbox/engine_search.h"
@@ -49,6 +50,7 @@ struct App {
   History history;
   Building building;
   EngineSearch engine_search;
+  DeviceSearch device_search;
   Pacing pacing;
   Sleep sleep;
   StabilityWatch stability;

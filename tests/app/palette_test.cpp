@@ -39,6 +39,13 @@ TEST_CASE("what is typed finds commands, presets, methods, labs, constants and v
   CHECK(first_for(app, "copy improved") == "Copy: Add a copy: Improved Euler");
   CHECK(first_for(app, "copy implicit euler") == "Copy: Add a copy: Implicit Euler");  // and not the semi-implicit one
   CHECK(first_for(app, "outlines") == "View: Outlines");
+  CHECK(first_for(app, "opencl") == "Engine: OpenCL, float");
+  CHECK(first_for(app, "cpu") == "Engine: CPU, float");
+  CHECK(first_for(app, "cpu double") == "Engine: CPU, double");
+  CHECK(first_for(app, "opencl double") == "Engine: OpenCL, double");
+  CHECK(first_for(app, "double").find("Engine: ") == 0);
+  CHECK(first_for(app, "precision").find("Engine: ") == 0);
+  CHECK(first_for(app, "engine float").find("Engine: ") == 0);
   CHECK(first_for(app, "text larger") == "Command: Larger text");
   CHECK(first_for(app, "no such thing").empty());
   for (const char* card : {"Forces", "Copies", "Stability", "Accuracy", "Energy", "Performance"})

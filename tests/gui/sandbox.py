@@ -22,9 +22,9 @@ class Sandbox:
     """The program in a window of `size`, with a folder of its own for settings and presets."""
 
     def __init__(self, tyglab, screen, arguments, size=(1280, 720), config=None, with_settings=True, reported=True,
-                 tour_seen=True, effects="few", settings=None):
+                 tour_seen=True, effects="few", settings=None, environment=None):
         """`effects`: few take half the time of all where a processor draws; they say nothing of what is tested.
-        `settings`: more of the settings' file."""
+        `settings`: more of the settings' file; `environment`: more variables."""
         self.screen = screen
         self.tyglab = tyglab
         self.own = tempfile.TemporaryDirectory(prefix="tyglab-gui-")
@@ -37,7 +37,7 @@ class Sandbox:
             with open(self.settings_file, "w") as file:
                 json.dump({"window": {"x": 0, "y": 0, "width": size[0], "height": size[1]}, "tour_seen": tour_seen,
                            **(settings or {})}, file)
-        self.environment = dict(os.environ, DISPLAY=screen.display, TYGLAB_CONFIG_DIR=self.config)
+        self.environment = dict(os.environ, DISPLAY=screen.display, TYGLAB_CONFIG_DIR=self.config, **(environment or {}))
         self.environment.pop("WAYLAND_DISPLAY", None)
         self.xdotool("mousemove", screen.width - 1, screen.height - 1)
         report = ["--session-report", self.report_file] if reported else []
