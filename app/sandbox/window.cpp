@@ -321,6 +321,37 @@ void Gui::show_typing(InputQueue& input) {
   io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) || (mods.value_or(0) & GLFW_MOD_SHIFT) != 0;
   io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) || (mods.value_or(0) & GLFW_MOD_ALT) != 0;
 }
+
+/// It looks at the buttons once a frame too, and at the pointer's last place: a click and the way on within one frame
+/// would choose nothing. So every frame is shown one press or release at most, with the pointer where it was then.
+void Gui::show_pointer(InputQueue& input) {
+  ImGuiIO& io = ImGui::GetIO();
+  const auto is_button = [](const PointerEvent& event) { return event.type != PointerEvent::Type::move; };
+  for (const PointerEvent& event : input.pointer)
+    if (event.type != PointerEvent::Type::wheel && event.button < int(down_.size())) pointer_.push_back(event);
+  const auto next = std::find_if(pointer_.begin(), pointer_.end(), is_button);
+  if (next == pointer_.end()) {  // what the backend has seen is all there is
+    pointer_.clear();
+    std::copy(std::begin(io.MouseDown), std::end(io.MouseDown), down_.begin());
+    return;
+  }
+  const bool dragging = std::find(down_.begin(), down_.end(), true) != down_.end();
+  if (dragging && next != pointer_.begin()) {  // where a drag leads counts before the release that ends it
+    std::copy(down_.begin(), down_.end(), io.MouseDown);
+    io.MousePos = {(next - 1)->at.x, (next - 1)->at.y};
+    pointer_.erase(pointer_.begin(), next);
+    input.unread = true;
+    return;
+  }
+  down_[std::size_t(next->button)] = next->type == PointerEvent::Type::press;
+  std::copy(down_.begin(), down_.end(), io.MouseDown);
+  io.MousePos = {next->at.x, next->at.y};
+  io.KeyCtrl |= (next->mods & GLFW_MOD_CONTROL) != 0;
+  io.KeyShift |= (next->mods & GLFW_MOD_SHIFT) != 0;
+  io.KeyAlt |= (next->mods & GLFW_MOD_ALT) != 0;
+  pointer_.erase(pointer_.begin(), next + 1);
+  input.unread |= !pointer_.empty();
+}
 #endif
 
 void Gui::begin_frame(InputQueue& input) {
@@ -328,6 +359,7 @@ void Gui::begin_frame(InputQueue& input) {
   ImGui_ImplGlfw_NewFrame();
 #if IMGUI_VERSION_NUM < 18700
   show_typing(input);
+  show_pointer(input);
   ImGui::NewFrame();
 #else
   // It spreads what one frame cannot hold over the next ones itself.

@@ -5,6 +5,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,7 +68,7 @@ class Gui {
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
-  /// Shows it also the keys that went down and up since the last frame.
+  /// Shows it also the keys and buttons that went down and up since the last frame.
   void begin_frame(InputQueue& input);
   /// Ends the frame and draws it.
   void draw();
@@ -76,6 +77,7 @@ class Gui {
 
  private:
   void show_typing(InputQueue& input);
+  void show_pointer(InputQueue& input);
 
   GLFWwindow* window_;
   /// A press that is to be shown, or a character (then key is GLFW_KEY_UNKNOWN).
@@ -84,7 +86,9 @@ class Gui {
     unsigned character;
   };
   std::vector<Waiting> waiting_;
-  std::vector<int> shown_;  ///< keys shown as pressed in the last frame
+  std::vector<int> shown_;             ///< keys shown as pressed in the last frame
+  std::vector<PointerEvent> pointer_;  ///< moves and buttons that are to be shown
+  std::array<bool, 5> down_{};         ///< buttons shown as pressed in the last frame
 };
 
 }  // namespace tyglab
