@@ -8,6 +8,7 @@
 
 #include "app/sandbox/app.h"
 #include "app/sandbox/cards.h"
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
@@ -42,6 +43,14 @@ std::string present(const Preset& preset, const std::string& key) {
   if (row == nullptr) return {};
   const auto* number = std::get_if<double Preset::*>(&row->field);
   return number != nullptr ? key + "=" + short_number(preset.**number) : "";
+}
+
+/// Whether a copy's method runs on the CPU engine alone.
+bool needs_cpu(const std::vector<std::string>& differences) {
+  return std::any_of(differences.begin(), differences.end(), [](const std::string& difference) {
+    const Setting setting = parse_setting(difference);
+    return setting.key == "integrator" && !runs_on_opencl(scheme(setting.value));
+  });
 }
 
 }  // namespace
@@ -85,6 +94,7 @@ CurveStyle style_of_cloth(const App& app, int n) {
 }
 
 std::vector<CopyChoice> copy_choices(const Preset& preset) {
+  const bool single = preset.precision == Precision::float_, cpu = preset.engine == EngineKind::cpu;
   std::vector<CopyChoice> choices{{.label = "Reference: Dormand-Prince, error 1e-9 m a step",
                                    .differences = {"integrator=dopri5", "tolerance=1e-9", "precision=double"},
                                    .reference = true},
@@ -96,9 +106,11 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
     choices.push_back({label + short_number(dt) + " s", {"dt=" + short_number(dt, 6)}, 2});
   };
   with_dt("dt / 2 = ", preset.dt / 2), with_dt("dt · 2 = ", preset.dt * 2);
-  const bool single = preset.precision == Precision::float_, cpu = preset.engine == EngineKind::cpu;
   choices.push_back({single ? "double" : "float", {single ? "precision=double" : "precision=float"}, 2});
-  choices.push_back({cpu ? "OpenCL" : "CPU", {cpu ? "engine=opencl" : "engine=cpu"}, 2});
+  if (!cpu) choices.push_back({"CPU", {"engine=cpu"}, 2});
+  if (cpu && runs_on_opencl(scheme(preset.integrator))) choices.push_back({"OpenCL", {"engine=opencl"}, 2});
+  for (CopyChoice& choice : choices)
+    if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back("engine=cpu");
   return choices;
 }
 

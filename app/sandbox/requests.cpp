@@ -12,6 +12,8 @@
 #include "app/sandbox/exports.h"
 #include "app/sandbox/wind_arrow.h"
 #include "core/cloth/start.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
 
 namespace tyglab {
@@ -87,6 +89,15 @@ void follow_constants(App& app, Preset& next) {
   Preset as = app.wished();
   as.mode = next.mode, as.texture = next.texture, as.name = next.name, as.description = next.description;
   if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
+}
+
+/// Another method that no OpenCL device runs brings the CPU engine with it. Returns what is to be said of that.
+std::string take_engine_along(const App& app, Preset& next) {
+  if (next.engine == EngineKind::cpu || next.integrator == app.wished().integrator) return {};
+  const Scheme& method = scheme(next.integrator);
+  if (runs_on_opencl(method)) return {};
+  next.engine = EngineKind::cpu;
+  return std::string(method.title) + " runs on the CPU engine alone, so that was taken.";
 }
 
 void toggle_cut_path(App& app) {
@@ -296,8 +307,12 @@ void apply(App& app, const request::Apply& what) {
     }
   }
   Edit edit = what.edit;
-  if (auto* change = std::get_if<edit::Change>(&edit)) follow_constants(app, change->preset);
-  apply_edit(app, edit, what.gesture);
+  std::string note;
+  if (auto* change = std::get_if<edit::Change>(&edit)) {
+    note = take_engine_along(app, change->preset);
+    follow_constants(app, change->preset);
+  }
+  if (apply_edit(app, edit, what.gesture) && !note.empty()) app.messages.note(std::move(note));
   app.ui.last_change = app.ui.now;
 }
 

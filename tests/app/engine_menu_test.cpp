@@ -1,0 +1,110 @@
+// Engines and precisions as they are offered, and what follows from a method that runs on one engine alone.
+#include "app/panels/engine_menu.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "core/integrators/scheme.h"
+#include "tests/support/devices.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab::engine_menu_test {
+
+constexpr int cpu_double = 1, opencl_float = 2, opencl_double = 3;
+
+OpenClDevice device_called(const char* name, bool processor, bool fp64) {
+  OpenClDevice device;
+  device.name = name, device.processor = processor, device.fp64 = fp64;
+  return device;
+}
+
+App app_with(const Preset& preset) {
+  App app;
+  app.simulation = std::make_unique<Simulation>(preset);
+  app.document.saved = preset;
+  return app;
+}
+
+/// Asks as panels do, and lets frames pass until it is there.
+void act(App& app) {
+  apply_requests(app);
+  for (int n = 0; n < 20000 && app.building.in_work(); ++n) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    app.building.poll(app);
+  }
+  REQUIRE_FALSE(app.building.in_work());
+}
+
+Preset on_opencl() {
+  Preset preset = test::cloth(8, 8);
+  preset.engine = EngineKind::opencl;
+  return preset;
+}
+
+TEST_CASE("what cannot run is not offered, and says why; until the devices are known all is offered") {
+  Preset preset = test::cloth(8, 8);
+  const auto modes = engine_modes();
+  for (const EngineMode& mode : modes) CHECK(why_not(mode, preset, nullptr).empty());
+  const OpenClInventory none{{}, "the loader found no platform"};
+  for (const int n : {opencl_float, opencl_double}) {
+    const std::string why = why_not(modes[std::size_t(n)], preset, &none);
+    CHECK(why.find("No OpenCL device was found (the loader found no platform). ") == 0);
+  }
+  CHECK(why_not(modes[cpu_double], preset, &none).empty());
+  const OpenClInventory two{{device_called("Processor", true, true), device_called("Card", false, false)}, ""};
+  CHECK(why_not(modes[opencl_float], preset, &two).empty());
+  CHECK(why_not(modes[opencl_double], preset, &two) == "Card does not compute in double.");  // the card goes first
+  CHECK(words_of(modes[opencl_float], preset, &two).find("By OpenCL on Card, in float") == 0);
+  preset.device = 0;
+  CHECK(why_not(modes[opencl_double], preset, &two).empty());
+  CHECK(words_of(modes[opencl_double], preset, &two).find("By OpenCL on Processor, in double") == 0);
+  preset.integrator = "xpbd";
+  CHECK(why_not(modes[opencl_float], preset, &two).find("XPBD runs on the CPU engine alone.") == 0);
+  CHECK(why_not(modes[cpu_double], preset, &two).empty());
+}
+
+TEST_CASE("copies of a cloth on OpenCL take the CPU engine along where their method needs it, and no other do") {
+  for (const CopyChoice& choice : copy_choices(on_opencl())) {
+    CAPTURE(choice.label);
+    Preset copy = copied_preset(on_opencl(), choice.differences);
+    const bool alone = !runs_on_opencl(scheme(copy.integrator)) || choice.label == "CPU";
+    CHECK((copy.engine == EngineKind::cpu) == alone);
+  }
+  Preset preset = test::cloth(8, 8);
+  for (const CopyChoice& choice : copy_choices(preset))
+    CHECK(std::count(choice.differences.begin(), choice.differences.end(), "engine=cpu") == 0);
+  preset.integrator = "xpbd";
+  for (const CopyChoice& choice : copy_choices(preset)) CHECK(choice.label != "OpenCL");
+}
+
+TEST_CASE("a method of the CPU engine alone brings it along: one change, one undo, and a note") {
+  if (!test::device_there()) return;
+  for (const char* method : {"xpbd", "dopri5"}) {
+    CAPTURE(std::string(method));
+    App app = app_with(on_opencl());
+    Preset next = app.preset();
+    next.integrator = method;
+    app.propose(next);
+    act(app);
+    CHECK(app.preset().integrator == method);
+    CHECK(app.preset().engine == EngineKind::cpu);
+    REQUIRE(app.messages.list().size() == 1);
+    CHECK(app.messages.list().front().text ==
+          std::string(scheme(method).title) + " runs on the CPU engine alone, so that was taken.");
+    app.command(Command::undo);
+    act(app);
+    CHECK(app.preset() == on_opencl());
+    CHECK_FALSE(app.history.can_undo());
+    for (const CopyChoice& choice : copy_choices(app.preset()))
+      if (!choice.differences.empty() && choice.differences.front() == "integrator=" + std::string(method)) {
+        add_copy(app, choice.differences, choice.reference);
+        CHECK_FALSE(app.copies.lockstep.empty());
+        app.copies.lockstep.clear();
+      }
+  }
+}
+
+}  // namespace tyglab::engine_menu_test
