@@ -16,7 +16,8 @@ struct Message {
   double born;  ///< s, the window's clock; negative until first shown
 };
 
-/// At most three, so that they leave the cloth in sight: a further one takes the oldest's place.
+/// At most three, so that they leave the cloth in sight: a further one takes the oldest's place. One that is said again
+/// while it is shown is renewed, and goes to the log once.
 class Messages {
  public:
   static constexpr std::size_t most = 3;
@@ -43,8 +44,8 @@ class Messages {
  private:
   static double lifetime(Message::Severity severity) { return severity == Message::Severity::note ? 4 : 8; }
   void add(Message::Severity severity, std::string text) {
-    if (severity != Message::Severity::note) std::fprintf(stderr, "tyglab: %s\n", text.c_str());
-    std::erase_if(list_, [&](const Message& m) { return m.text == text; });
+    const bool shown = std::erase_if(list_, [&](const Message& m) { return m.text == text; }) > 0;
+    if (severity != Message::Severity::note && !shown) std::fprintf(stderr, "tyglab: %s\n", text.c_str());
     list_.push_back({severity, std::move(text), -1});
     if (list_.size() > most) list_.erase(list_.begin());
   }

@@ -194,6 +194,21 @@ TEST_CASE("three messages at most are kept, the latest") {
   CHECK(messages.list()[2].text == "third");
 }
 
+TEST_CASE("a message that is already shown is renewed, and stands there once") {
+  Messages messages;
+  messages.note("the same");
+  messages.age(0);
+  messages.note("another");
+  messages.age(3);
+  for (int n = 0; n < 3; ++n) messages.note("the same");
+  REQUIRE(messages.list().size() == 2);
+  messages.age(3);
+  messages.age(6.9);  // 4 s after it was first said, and before 4 s after it was said again
+  CHECK(messages.list().size() == 2);
+  messages.age(7.1);
+  CHECK(messages.list().empty());
+}
+
 /// Red, green and blue, linear, as seen by a person who lacks the long-wave or the middle-wave cones (Viénot, Brettel
 /// and Mollon 1999), or by one who lacks none; then as lightness and two opponent colours (Oklab, Ottosson 2020).
 glm::dvec3 seen(ImU32 color, int lacking) {
