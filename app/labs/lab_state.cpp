@@ -180,6 +180,7 @@ void begin_lab(App& app, std::string_view label) {
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return app.messages.error("There is no lab " + std::string(label) + ".");
   if (put_away_copies(app)) app.messages.note("The copies have been put away: a lab begins with one cloth.");
+  app.colors.choose(std::nullopt);  // of this session alone: the next one has the user's choice again
   LabRun& run = app.labs.run.emplace();
   run.lab = *lab;
   run.records.resize(lab->steps.size());

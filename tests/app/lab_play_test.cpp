@@ -259,6 +259,17 @@ TEST_CASE("lab: tearing a cloth on purpose") {
   finish(play);
 }
 
+TEST_CASE("a lab begins with the cloth's own look, and what coloured it before is remembered") {
+  App app;
+  app.simulation = std::make_unique<Simulation>(Preset{});
+  app.colors.choose(ParticleField::speed);
+  app.settings.color = "speed";
+  begin_lab(app, "01_hooke");
+  REQUIRE(app.labs.run.has_value());
+  CHECK_FALSE(app.colors.chosen);
+  CHECK(app.settings.color == "speed");
+}
+
 TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
   LabPlayer play("10_opencl");
   play.run(1);
