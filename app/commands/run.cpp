@@ -283,6 +283,7 @@ int run(const RunOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_missing_texture(scene.preset);
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  options.length.warn_if_too_short(scene.preset.dt);
   Outputs outputs(options, scene, steps);
   build_kernels(scene, !options.ledger.empty());
   Simulation simulation(scene.preset, scene.threads);
