@@ -66,6 +66,7 @@ Simulation::Simulation(const Simulation& from)
       time_at_dt_(from.time_at_dt_),
       begun_with_(from.begun_with_),
       divergence_(from.divergence_),
+      diverged_preset_(from.diverged_preset_),
       revision_(from.revision_),
       tear_revision_(from.tear_revision_),
       watch_(from.watch_) {}

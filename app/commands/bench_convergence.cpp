@@ -14,6 +14,7 @@
 #include "app/commands/progress.h"
 #include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
+#include "core/notation/preset_io.h"
 #include "core/output/destination.h"
 
 namespace tyglab {
@@ -61,7 +62,12 @@ Json convergence_json(const std::string& label, const Convergence& study) {
 }
 
 void print_study(std::ostream& out, const std::string& label, const Convergence& study) {
-  out << label << ", " << scheme(study.of.integrator).title << " in double, over " << study.seconds << " s\n"
+  if (!study.problem.empty()) {
+    out << convergence_words(study) << std::endl;
+    return;
+  }
+  out << machine_line() << '\n'
+      << label << ", " << scheme(study.of.integrator).title << " in double, over " << study.seconds << " s\n"
       << "       dt, s    error, m  difference to dt/2, m\n";
   std::array<char, 120> line;
   for (const ConvergencePoint& point : study.points) {
@@ -77,11 +83,13 @@ void print_study(std::ostream& out, const std::string& label, const Convergence&
 }
 
 int convergence(const ConvergenceOptions& options) {
+  if (options.preset.precision == name_of(Precision::float_))
+    throw UsageError(
+        "--precision float: an order is measured in double, so that rounding does not hide it; leave it out");
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   const ResolvedPreset scene = options.preset.resolve("hanging");
   const StudyEffort effort = options.bench.quick ? StudyEffort{.reference = 1e8} : StudyEffort{.reference = 3e9};
-  out << machine_line() << std::endl;
   Convergence study;
   const InterruptGuard guard;
   Progress progress("bench convergence");
@@ -116,7 +124,7 @@ void add_bench_convergence(CLI::App& bench, Action& action) {
   CLI::App* command =
       bench.add_subcommand("convergence", "The order that a method shows in a scene: its error with dt, dt/2, dt/4, …");
   const auto options = std::make_shared<ConvergenceOptions>();
-  options->preset.add_to(*command, false);
+  options->preset.add_to(*command, false, Engines::cpu);
   command
       ->add_option("--seconds", options->seconds, "Simulated time from the start over which runs are compared (0.25)")
       ->type_name("T")

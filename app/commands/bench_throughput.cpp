@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <string_view>
 
 #include "app/charts/chart.h"
 #include "app/commands/bench.h"
@@ -50,14 +51,29 @@ Json row_json(const ThroughputRow& row) {
           {"bytes_per_particle", row.bytes_per_particle}};
 }
 
-void print_row(std::ostream& out, const ThroughputRow& row) {
+/// As wide as the longest name of an integrator among the cases.
+int integrator_width(const std::vector<ThroughputCase>& cases) {
+  std::size_t width = std::string_view("integrator").size();
+  for (const ThroughputCase& which : cases) width = std::max(width, which.preset.integrator.size());
+  return int(width);
+}
+
+void print_head(std::ostream& out, int integrator_width) {
+  std::array<char, 256> line;
+  std::snprintf(line.data(), line.size(),
+                "      cloth  engine  number  %-*s  threads    median  arithm.   memory   ratio   bytes  variant\n",
+                integrator_width, "integrator");
+  out << line.data() << std::flush;
+}
+
+void print_row(std::ostream& out, const ThroughputRow& row, int integrator_width) {
   const Preset& p = row.of.preset;
   std::array<char, 256> line;
-  std::snprintf(line.data(), line.size(), "%4d x %-4d  %-6s  %-6s  %-14s  %7d  %8.2f  %7.2f  %7.2f  %6.2f  %6.1f  %s\n",
+  std::snprintf(line.data(), line.size(), "%4d x %-4d  %-6s  %-6s  %-*s  %7d  %8.2f  %7.2f  %7.2f  %6.2f  %6.1f  %s\n",
                 p.rows, p.columns, std::string(name_of(p.engine)).c_str(), std::string(name_of(p.precision)).c_str(),
-                p.integrator.c_str(), row.threads_used, row.ns_per_particle_step, row.register_limit_ns,
-                row.memory_limit_ns, row.ns_per_particle_step / row.register_limit_ns, row.bytes_per_particle,
-                row.of.variant.c_str());
+                integrator_width, p.integrator.c_str(), row.threads_used, row.ns_per_particle_step,
+                row.register_limit_ns, row.memory_limit_ns, row.ns_per_particle_step / row.register_limit_ns,
+                row.bytes_per_particle, row.of.variant.c_str());
   out << line.data() << std::flush;
   flush_standard_output();  // which sees now, not after all rows, that nobody gets them
 }
@@ -104,12 +120,12 @@ int throughput(const ThroughputOptions& options) {
   std::ostream& out = people(options.outputs());
   const int threads = options.threads > 0 ? options.threads : processors();
   out << machine_line() << "\nns per particle and step: the median of " << counted(options.repeats, "run")
-      << ", and the limits of this machine measured beside it\n\n"
-      << "      cloth  engine  number  integrator      threads   median  arithm.   memory   ratio  bytes  variant\n"
-      << std::flush;
+      << ", and the limits of this machine measured beside it\n\n";
+  const auto cases = throughput_cases(options.quick, threads);
+  const int width = integrator_width(cases);
+  print_head(out, width);
   Json json = Json::array();
   std::vector<ThroughputRow> rows;
-  const auto cases = throughput_cases(options.quick, threads);
   InterruptGuard guard;
   Progress progress("bench throughput");
   wake_processor();
@@ -117,7 +133,7 @@ int throughput(const ThroughputOptions& options) {
     if (InterruptGuard::interrupted()) break;
     rows.push_back(measure_throughput(which, options.repeats));
     progress.clear();
-    print_row(out, rows.back());
+    print_row(out, rows.back(), width);
     json.push_back(row_json(rows.back()));
     progress.update(double(rows.size()) / double(cases.size()));
   }

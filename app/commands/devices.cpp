@@ -13,6 +13,7 @@
 #include "app/viewport/headless_context.h"
 #include "app/viewport/mapped_buffer.h"
 #include "app/viewport/written_vertices.h"
+#include "core/analysis/machine.h"
 #include "core/engines/engine.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
@@ -24,14 +25,11 @@ namespace tyglab {
 namespace {
 
 void print_cpu() {
+  const Machine machine = this_machine();
   std::cout << "CPU engine (--engine cpu)\n";
-  for (const Precision precision : {Precision::float_, Precision::double_}) {
-    Preset preset;
-    preset.rows = preset.columns = 2;
-    preset.precision = precision;
-    std::cout << "  " << name_of(precision) << ": " << make_engine(preset, {preset.rows, preset.columns}, 1)->name()
-              << '\n';
-  }
+  for (const Precision precision : {Precision::float_, Precision::double_})
+    std::cout << "  " << name_of(precision) << ": " << machine.instruction_set << ", up to "
+              << counted(machine.cores, "thread") << '\n';
   std::cout << "  OpenGL: positions are copied into its vertex buffer in every frame in which they moved\n";
 }
 

@@ -39,31 +39,37 @@ std::string known_integrators() {
   return list;
 }
 
-/// Throws where the engine's name is none that --engine takes.
-void check_engine(const std::string& engine) {
-  const std::string_view kind = std::string_view(engine).substr(0, engine.find(':'));
-  if (engine.empty() || kind == "cpu" || kind == "opencl" || kind == automatic) return;
-  const std::array<std::string_view, 3> known{"cpu", "opencl", automatic};
-  const auto meant = nearest(kind, known);
-  throw UsageError("--engine " + engine + ": allowed are cpu, opencl, opencl:N and auto" +
-                   (meant ? "; did you mean " + std::string(*meant) + "?" : ""));
-}
-
-/// N of opencl:N.
-int device_number(const std::string& engine) {
-  const std::size_t colon = engine.find(':');
-  const char *first = engine.data() + colon + 1, *last = engine.data() + engine.size();
+/// N of opencl:N; none where the text is not that.
+std::optional<int> device_number(std::string_view engine) {
+  constexpr std::string_view before = "opencl:";
+  if (!engine.starts_with(before)) return {};
+  const char *first = engine.data() + before.size(), *last = engine.data() + engine.size();
   int number = -1;
   const auto [end, error] = std::from_chars(first, last, number);
-  if (engine.substr(0, colon) != "opencl" || error != std::errc() || end != last || number < 0)
-    throw UsageError("--engine " + engine +
-                     ": allowed are cpu, opencl, auto, and opencl:N with the number of a device (`tyglab devices`)");
+  if (error != std::errc() || end != last || number < 0) return {};
   return number;
 }
 
 }  // namespace
 
-void PresetArgument::add_to(CLI::App& command, bool required) {
+void PresetArgument::add_engine(CLI::App& command) {
+  if (engines == Engines::cpu) {
+    command.add_option("--engine", engine, "cpu, the only engine of this command")
+        ->type_name("cpu")
+        ->check(not_empty());
+    return;
+  }
+  command
+      .add_option("--engine", engine,
+                  "Where it runs: cpu, or opencl, on the first graphics card or else the first OpenCL device, or\n"
+                  "opencl:N on the device that `tyglab devices` gives that number; or auto: the one that is quickest\n"
+                  "in short runs of this scene, whose times are kept")
+      ->type_name("cpu|opencl[:N]|auto")
+      ->check(not_empty());
+}
+
+void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_there) {
+  engines = engines_there;
   command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
       ->required(required)
       ->check(not_empty());
@@ -91,13 +97,7 @@ void PresetArgument::add_to(CLI::App& command, bool required) {
                   "A method or a precision that is typed stays")
       ->type_name("M")
       ->transform(number_between(1e-12, 1, "m"));
-  command
-      .add_option("--engine", engine,
-                  "Where it runs: cpu, or opencl, on the first graphics card or else the first OpenCL device, or\n"
-                  "opencl:N on the device that `tyglab devices` gives that number; or auto: the one that is quickest\n"
-                  "in short runs of this scene, whose times are kept")
-      ->type_name("cpu|opencl[:N]|auto")
-      ->check(not_empty());
+  add_engine(command);
   command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")
       ->type_name("float|double")
       ->check(not_empty());
@@ -129,8 +129,31 @@ bool PresetArgument::typed() const {
 }
 
 bool PresetArgument::sets(std::string_view key) const {
-  return std::any_of(settings.begin(), settings.end(),
-                     [&](const std::string& text) { return parse_setting(text).key == key; });
+  return std::any_of(settings.begin(), settings.end(), [&](const std::string& text) {
+    const std::string typed = parse_setting(text).key;
+    return typed == key || typed == "solver." + std::string(key);
+  });
+}
+
+void PresetArgument::check_engine() const {
+  constexpr std::array<std::string_view, 3> known{"cpu", "opencl", automatic};
+  if (engine.empty()) return;
+  if (engines == Engines::cpu) {
+    if (engine == "cpu") return;
+    throw UsageError("--engine " + engine + ": this command works on the CPU engine alone; leave --engine out");
+  }
+  if (std::find(known.begin(), known.end(), engine) != known.end() || device_number(engine)) return;
+  const auto meant = nearest(std::string_view(engine).substr(0, engine.find(':')), known);
+  throw UsageError("--engine " + engine +
+                   ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` tells each device's N" +
+                   (meant ? "; did you mean " + std::string(*meant) + "?" : ""));
+}
+
+void PresetArgument::keep_to_cpu(Preset& scene) const {
+  if (scene.engine == EngineKind::cpu) return;
+  if (sets("engine")) throw UsageError("--set engine=opencl: this command works on the CPU engine alone; leave it out");
+  std::cerr << "tyglab: the preset asks for OpenCL, but this command works on the CPU engine alone, so that is used.\n";
+  scene.engine = EngineKind::cpu;
 }
 
 void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
@@ -166,7 +189,7 @@ void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional
 
 ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands,
                                        std::optional<double> seconds) const {
-  check_engine(engine);
+  check_engine();
   ResolvedPreset resolved;
   resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
   resolved.preset = load_preset(resolved.source.file);
@@ -175,7 +198,8 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
   } catch (const PresetError& error) {
     throw UsageError(error.what());
   }
-  if (engine.find(':') != std::string::npos) resolved.preset.device = device_number(engine);
+  if (const auto number = device_number(engine)) resolved.preset.device = *number;
+  if (engines == Engines::cpu) keep_to_cpu(resolved.preset);
   resolved.auto_dt = dt == automatic;
   if (tolerance) choose_by_tolerance(resolved, seconds);
   if (resolved.auto_dt) choose_dt(resolved);

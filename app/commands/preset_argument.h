@@ -17,6 +17,9 @@ namespace tyglab {
 struct EngineChoice;
 struct ToleranceChoice;
 
+/// The engines that a command works on.
+enum class Engines { all, cpu };
+
 /// A preset with the command line's settings.
 struct ResolvedPreset {
   Preset preset;
@@ -37,9 +40,12 @@ struct PresetArgument {
   std::string integrator, dt, engine, precision;
   std::optional<double> tolerance;  ///< m
   int threads = 0;                  ///< 0: as many as there are processors
+  Engines engines = Engines::all;   ///< of the command
 
-  /// Adds the argument and its options to a command. It must outlive the parsing.
-  void add_to(CLI::App& command, bool required);
+  /// Adds the argument and its options to a command. It must outlive the parsing. `engines_there`: where only the CPU
+  /// engine is used, another that is typed is refused, and a preset that names one runs on the CPU engine, which is
+  /// said.
+  void add_to(CLI::App& command, bool required, Engines engines_there = Engines::all);
   /// Reads the preset (`fallback` where none was typed) and applies the settings: --set
   /// first, then the options of their own. Throws PresetError for the file, UsageError for a setting. `commands`: words
   /// that might have been meant in place of the preset. A tolerance is tried on the first `seconds` of the motion,
@@ -52,6 +58,9 @@ struct PresetArgument {
  private:
   std::vector<Setting> all_settings() const;
   bool sets(std::string_view key) const;
+  void check_engine() const;
+  void keep_to_cpu(Preset& scene) const;
+  void add_engine(CLI::App& command);
   void choose_dt(ResolvedPreset& resolved) const;
   void choose_engine(ResolvedPreset& resolved) const;
   void choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const;

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "app/commands/preset_argument.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
 #include "core/notation/json_tree.h"
 #include "core/notation/notation.h"
 #include "core/notation/preset_io.h"
@@ -36,7 +38,12 @@ int check(const std::string& name_or_file) {
             << (preset.kind == Kind::one_weight
                     ? std::string("one weight")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
-            << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ").\n";
+            << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ")."
+            << (preset.engine == EngineKind::opencl && !runs_on_opencl(scheme(preset.integrator))
+                    ? " But OpenCL does not run " + preset.integrator +
+                          ", so it needs --engine cpu or another --integrator."
+                    : "")
+            << '\n';
   return exit_done;
 }
 

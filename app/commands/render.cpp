@@ -50,6 +50,7 @@ int render(const RenderOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds);
   const std::string& label = scene.source.label;
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  options.length.warn_if_too_short(scene.preset.dt);
   const PictureSize size = parse_size(options.size, smallest_picture);
   const bool sequence = wants_sequence(options);
   FramePlan plan(sequence ? options.fps : std::nullopt, scene.preset.dt, steps);

@@ -67,6 +67,23 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   return run_headless(sandbox, people(outputs));
 }
 
+/// Throws for an option of the window that was typed before a command.
+void refuse_before_command(const CLI::App& program) {
+  const CLI::App* command = &program;
+  std::string words = "tyglab";
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    words += " " + command->get_name();
+  }
+  for (const CLI::Option* option : program.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_name();
+    throw CLI::ValidationError(name, command->get_option_no_throw(name) != nullptr
+                                         ? "stands before the command; put it after its name"
+                                         : "belongs to the window, and `" + words + "` does not take it; leave it out");
+  }
+}
+
 }  // namespace
 
 void add_sandbox_command(CLI::App& program, Action& action) {
@@ -78,7 +95,8 @@ void add_sandbox_command(CLI::App& program, Action& action) {
   program
       .add_option("--size", options->size,
                   "Of the window, in pixels; with --frames otherwise as large as the screen, up to 2560x1440")
-      ->type_name("WxH");
+      ->type_name("WxH")
+      ->check(not_empty());
   add_output(program, "--screenshot", options->screenshot, "Write the last of --frames as a picture")
       ->type_name("F.png");
   add_output(program, "--time-report", options->time_report, "Write what a frame costs, by part, as JSON")
@@ -97,9 +115,7 @@ void add_sandbox_command(CLI::App& program, Action& action) {
       action = [options, commands = command_names(program)] { return open_sandbox(*options, commands); };
       return;
     }
-    for (const CLI::Option* option : program.get_options())
-      if (option->count() > 0)
-        throw CLI::ValidationError(option->get_name(), "stands before the command; put it after its name");
+    refuse_before_command(program);
   });
 }
 

@@ -114,7 +114,7 @@ void add_stability_map(CLI::App& stability, Action& action) {
   CLI::App* command = stability.add_subcommand(
       "map", "Which k_s and dt a method bears in a scene, by theory and by short runs (one weight: k)");
   const auto options = std::make_shared<MapOptions>();
-  options->preset.add_to(*command, false);
+  options->preset.add_to(*command, false, Engines::cpu);
   add_quick(*command, options->bench, "Fewer cells");
   add_json(*command, options->bench);
   add_output(*command, "--csv", options->csv, "Write a row a cell");

@@ -29,6 +29,15 @@ std::int64_t Length::in_steps(double dt, double default_seconds) const {
   return std::llround(count);
 }
 
+void Length::warn_if_too_short(double dt) const {
+  if (!seconds || *seconds == 0 || in_steps(dt, 0) > 0) return;
+  std::string text = "tyglab: --seconds ";
+  append_number(text, *seconds, 6);
+  text += " is less than half a step of dt = ";
+  append_number(text, dt, 6);
+  std::cerr << text << " s, so no step is made; give more seconds or a smaller --dt.\n";
+}
+
 FramePlan::FramePlan(std::optional<double> fps, double dt, std::int64_t steps)
     : fps_(fps.value_or(std::min(25.0, 1 / dt))), timeline_{dt} {
   constexpr double rounding = 1e-9;

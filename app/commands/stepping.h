@@ -21,6 +21,8 @@ struct Length {
   void add_to(CLI::App& command, bool with_steps);
   /// Steps of dt; `default_seconds` where nothing was typed. Throws UsageError if they are too many to count.
   std::int64_t in_steps(double dt, double default_seconds) const;
+  /// Says in a line on stderr if the seconds typed are too short for a single step of dt.
+  void warn_if_too_short(double dt) const;
 };
 
 /// Which step ends at which time, from the last change of dt on.

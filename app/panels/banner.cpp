@@ -98,7 +98,7 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
 /// advises. Once constants have changed, to try them.
 std::vector<Way> ways_out(const App& app, const Advice& advice) {
   std::vector<Way> ways;
-  if (app.history.can_undo())
+  if (const Preset* before = app.history.last(); before != nullptr && !same_model(*before, app.preset()))
     ways.push_back({"Undo and restart", "Takes the last change of constants back, and begins anew", "Ctrl+Z, then R",
                     [](App& a) { a.command(Command::undo_and_restart); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",

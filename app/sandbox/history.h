@@ -21,6 +21,8 @@ class History {
   /// The next change is a gesture of its own.
   void end_gesture() { gesture_ = 0; }
   bool can_undo() const { return !undo_.empty(); }
+  /// What an undo would bring back; null: nothing.
+  const Preset* last() const { return undo_.empty() ? nullptr : &undo_.back(); }
   bool can_redo() const { return !redo_.empty(); }
   std::optional<Preset> undo(const Preset& present) { return move(undo_, redo_, present); }
   std::optional<Preset> redo(const Preset& present) { return move(redo_, undo_, present); }

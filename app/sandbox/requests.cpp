@@ -386,10 +386,13 @@ bool unsaved(const App& app) {
 
 bool changed_since_divergence(const App& app) {
   if (!app.simulation->divergence()) return false;
-  Preset then = app.simulation->diverged_preset();
-  const Preset& now = app.preset();
-  then.mode = now.mode, then.texture = now.texture, then.name = now.name, then.description = now.description;
-  return then != now;
+  return !same_model(app.simulation->diverged_preset(), app.preset());
+}
+
+bool same_model(Preset a, const Preset& b) {
+  a.mode = b.mode, a.texture = b.texture, a.name = b.name, a.description = b.description;
+  a.engine = b.engine, a.device = b.device, a.precision = b.precision;
+  return a == b;
 }
 
 void watch_dt(App& app) {

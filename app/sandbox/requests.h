@@ -139,7 +139,9 @@ void apply_requests(App& app);
 void watch_dt(App& app);
 /// Whether the present constants differ from those of the file (the view apart).
 bool unsaved(const App& app);
-/// Whether the motion has diverged, and constants of it (not its name or picture) have been changed since.
+/// Whether the motion has diverged, and constants of its model have been changed since.
 bool changed_since_divergence(const App& app);
+/// Whether both say the same of the motion: they may differ in name, picture, engine and precision.
+bool same_model(Preset a, const Preset& b);
 
 }  // namespace tyglab

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 #include "app/panels/imgui_compat.h"
 #include "app/viewport/current_gl_context.h"
@@ -354,6 +355,36 @@ void Gui::show_pointer(InputQueue& input) {
 }
 #endif
 
+#if IMGUI_VERSION_NUM >= 18700
+namespace {
+
+bool is_key(const ImGuiInputEvent& event) {
+  return event.Type == ImGuiInputEventType_Key;
+}
+
+bool is_modifier(const ImGuiInputEvent& event) {
+  const ImGuiKey key = event.Key.Key;
+  return is_key(event) && ((key & ImGuiMod_Mask_) != 0 || (key >= ImGuiKey_LeftCtrl && key <= ImGuiKey_RightSuper) ||
+                           (key >= ImGuiKey_ReservedForModCtrl && key <= ImGuiKey_ReservedForModSuper));
+}
+
+/// A press of another key than a modifier.
+bool is_press(const ImGuiInputEvent& event) {
+  return is_key(event) && event.Key.Down && !is_modifier(event);
+}
+
+/// Cuts off what comes with the first change of a modifier behind a press, and returns it.
+std::vector<ImGuiInputEvent> cut_behind_chord(ImVector<ImGuiInputEvent>& events) {
+  const ImGuiInputEvent* const press = std::find_if(events.begin(), events.end(), is_press);
+  const ImGuiInputEvent* const cut = std::find_if(press, std::as_const(events).end(), is_modifier);
+  std::vector<ImGuiInputEvent> later(cut, std::as_const(events).end());
+  events.resize(events.Size - int(later.size()));
+  return later;
+}
+
+}  // namespace
+#endif
+
 void Gui::begin_frame(InputQueue& input) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
@@ -362,9 +393,14 @@ void Gui::begin_frame(InputQueue& input) {
   show_pointer(input);
   ImGui::NewFrame();
 #else
-  // It spreads what one frame cannot hold over the next ones itself.
+  // It spreads what one frame cannot hold over the next ones itself, but lets go of Ctrl in the frame that shows A.
+  ImVector<ImGuiInputEvent>& queue = ImGui::GetCurrentContext()->InputEventsQueue;
+  const std::vector<ImGuiInputEvent> later = cut_behind_chord(queue);
   ImGui::NewFrame();
-  input.unread = ImGui::GetCurrentContext()->InputEventsQueue.Size > 0;
+  for (const ImGuiInputEvent& event : later) queue.push_back(event);
+  input.unread = std::any_of(queue.begin(), queue.end(), [](const ImGuiInputEvent& event) {
+    return is_press(event) || event.Type == ImGuiInputEventType_Text;
+  });
 #endif
 }
 

@@ -129,8 +129,10 @@ TEST_CASE("constants that change after a divergence are told apart from those th
   CHECK(app.simulation->diverged_preset().k_s == 1e6);
   Preset view = app.preset();
   view.mode = 3;
+  view.precision = Precision::double_;  // built anew
   REQUIRE(apply_edit(app, edit::Change{view}));
   CHECK_FALSE(changed_since_divergence(app));
+  CHECK(app.simulation->rebuilt(edit::Change{view})->diverged_preset().k_s == 1e6);
   view.k_s = 10;
   REQUIRE(apply_edit(app, edit::Change{view}));
   CHECK(app.simulation->divergence().has_value());

@@ -1,6 +1,7 @@
 // What a step costs, counted in instructions: unlike times, they are the same on a busy machine.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -142,7 +143,22 @@ TEST_CASE("one case alone, for other tools") {
   refused({"--steps", "5"}, "--only");
 }
 
-TEST_CASE("throughput names what each scene has and what was skipped") {
+/// The columns of a table end where their heads do, with the longest names too.
+void check_columns(const std::string& table, std::size_t rows) {
+  const std::vector<std::string> lines = test::lines(table);
+  const auto head = std::find_if(lines.begin(), lines.end(),
+                                 [](const std::string& line) { return line.find("  threads  ") != line.npos; });
+  REQUIRE(std::size_t(lines.end() - head) == rows + 1);
+  for (const char* name : {"threads", "median", "memory", "bytes"}) {
+    const std::size_t end = head->find(name) + std::string_view(name).size();
+    for (auto line = head + 1; line != lines.end(); ++line) {
+      CAPTURE(*line);
+      CHECK((line->at(end - 1) != ' ' && line->at(end) == ' '));
+    }
+  }
+}
+
+TEST_CASE("throughput names what each scene has and what was skipped, in columns") {
   const test::TemporaryFolder folder;
   const auto outcome = test::tyglab(folder.path(), {"bench", "throughput", "--quick", "--repeats", "1", "--json", "-"});
   CAPTURE(outcome.err);
@@ -159,6 +175,7 @@ TEST_CASE("throughput names what each scene has and what was skipped") {
     CHECK(run["skipped"] == nlohmann::json{"bodies", "tearing", "hand"});
   }
   CHECK(windy);
+  check_columns(outcome.err, all["runs"].size());
 }
 
 }  // namespace tyglab::instructions_test

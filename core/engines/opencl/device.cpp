@@ -62,6 +62,8 @@ std::vector<DeviceId> ask_drivers(std::string& problem) {
     clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, devices, ids.data(), nullptr);
     for (cl_device_id id : ids) found.push_back({platform, id});
   }
+  if (found.empty())
+    problem = "the OpenCL drivers of this system offer no device, as pocl does where its cache folder cannot be written";
   return found;
 }
 

@@ -1,0 +1,103 @@
+// Options that a command has no use for, and what commands say where they do less than was asked.
+#include <doctest/doctest.h>
+
+#include <thread>
+
+#include "tests/support/files.h"
+
+namespace tyglab::options_test {
+
+using Words = std::vector<std::string>;
+
+/// Runs a command; checks its code, and that it says `says` on stdout or stderr.
+test::Outcome check(const test::TemporaryFolder& folder, const Words& words, int code, const std::string& says) {
+  std::string line;
+  for (const std::string& word : words) line += word + " ";
+  CAPTURE(line);
+  auto outcome = test::tyglab(folder.path(), words);
+  CHECK(outcome.code == code);
+  const std::string all = outcome.out + outcome.err;
+  CHECK_MESSAGE(all.find(says) != std::string::npos, "\"" << says << "\" is missing in: " << all);
+  return outcome;
+}
+
+TEST_CASE("experiments on the CPU engine alone refuse another, and say so where the preset names it") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "opencl.json",
+                   R"({"tyglab_preset": 1, "kind": "one_weight", "solver": {"engine": "opencl"}})");
+  for (const Words& command : {Words{"stability", "map"}, Words{"bench", "convergence"}}) {
+    const auto with = [&](const Words& more) {
+      Words all = command;
+      all.insert(all.end(), more.begin(), more.end());
+      all.emplace_back("--quick");
+      return all;
+    };
+    for (const char* engine : {"opencl:99", "opencl", "auto", "nonsense"})
+      check(folder, with({"one_weight", "--engine", engine}), 2,
+            "--engine " + std::string(engine) + ": this command works on the CPU engine alone");
+    for (const char* set : {"engine=opencl", "solver.engine=opencl"})
+      check(folder, with({"one_weight", "--set", set}), 2, "--set engine=opencl: this command works on the CPU");
+    CHECK(check(folder, with({"one_weight", "--engine", "cpu"}), 0, "").err.empty());
+    CHECK(check(folder, with({"opencl.json", "--engine", "cpu"}), 0, "").err.empty());
+    const auto outcome = check(folder, with({"opencl.json"}), 0, "the preset asks for OpenCL");
+    CHECK(test::lines(outcome.err).size() == 1);
+  }
+  check(folder, {"bench", "convergence", "one_weight", "--precision", "float"}, 2, "in double");
+}
+
+TEST_CASE("--engine: all that is allowed is named") {
+  const test::TemporaryFolder folder;
+  for (const char* engine : {"auto:0", "cpu:0", "opencl:", "opencl:-1", "opencl:1x", "gpu"})
+    check(folder, {"run", "one_weight", "--steps", "1", "--engine", engine}, 2,
+          "--engine " + std::string(engine) + ": allowed are cpu, opencl, opencl:N and auto");
+  check(folder, {"--engine", "auto:0"}, 2, "allowed are cpu, opencl, opencl:N and auto");
+}
+
+TEST_CASE("an option of the window before a command: behind it, or left out where the command has none") {
+  const test::TemporaryFolder folder;
+  check(folder, {"--size", "640x480", "devices"}, 2, "--size: belongs to the window, and `tyglab devices` does not");
+  check(folder, {"--frames", "3", "stability", "map"}, 2, "`tyglab stability map` does not take it; leave it out");
+  check(folder, {"--size", "640x480", "render", "one_weight", "--png", "a.png"}, 2,
+        "--size: stands before the command");
+  check(folder, {"--dt", "0.1", "run", "one_weight"}, 2, "--dt: stands before the command; put it after its name");
+  for (const char* option : {"--size", "--engine"}) check(folder, {option, ""}, 2, "must not be empty");
+  check(folder, {"render", "one_weight", "--png", "a.png", "--size", ""}, 2, "--size");
+}
+
+TEST_CASE("presets check: valid, but for an engine that does not run the method") {
+  const test::TemporaryFolder folder;
+  for (const char* method : {"dopri5", "xpbd", "verlet"}) {
+    const std::string name(method);
+    test::write_file(folder / "a.json",
+                     R"({"tyglab_preset": 1, "solver": {"engine": "opencl", "integrator": ")" + name + "\"}}");
+    const auto outcome = check(folder, {"presets", "check", "a.json"}, 0, "a.json is a valid preset");
+    CHECK((outcome.out.find("But OpenCL does not run " + name) != std::string::npos) == (name != "verlet"));
+  }
+}
+
+TEST_CASE("a run shorter than half of dt says that it makes no step") {
+  const test::TemporaryFolder folder;
+  const std::string says = "--seconds 0.1 is less than half a step of dt = 1 s";
+  check(folder, {"run", "hanging", "--seconds", "0.1", "--dt", "1"}, 0, says);
+  check(folder, {"render", "hanging", "--seconds", "0.1", "--dt", "1", "--size", "64x48", "--png", "a.png"}, 0, says);
+  CHECK(check(folder, {"run", "hanging", "--seconds", "0"}, 0, "0 steps").err.empty());
+  CHECK(check(folder, {"run", "hanging", "--steps", "0", "--dt", "1"}, 0, "0 steps").err.empty());
+}
+
+TEST_CASE("bench convergence without anything to measure says that alone") {
+  const test::TemporaryFolder folder;
+  const auto outcome = check(folder, {"bench", "convergence", "hanging", "--integrator", "dopri5", "--quick"}, 0,
+                             "chooses its own steps");
+  CHECK(test::lines(outcome.out).size() == 1);
+  CHECK(outcome.out.starts_with("There is nothing to measure: "));
+}
+
+TEST_CASE("devices tells how many threads the CPU engine may use") {
+  const test::TemporaryFolder folder;
+  const unsigned count = std::thread::hardware_concurrency();
+  const std::string threads = ", up to " + std::to_string(count) + (count == 1 ? " thread\n" : " threads\n");
+  const auto outcome = check(folder, {"devices"}, 0, threads);
+  CHECK(outcome.out.find(threads) != outcome.out.rfind(threads));  // float and double
+}
+
+}  // namespace tyglab::options_test
