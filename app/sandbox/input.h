@@ -40,7 +40,8 @@ struct InputQueue {
   int mods = 0;
   bool scale_changed = false;   ///< the window went to a monitor with another content scale
   bool anything = false;        ///< an event of any kind arrived
-  bool unread = false;          ///< Dear ImGui has not yet been shown all that was typed and clicked
+  bool unread = false;          ///< Dear ImGui has not yet been shown everything that was typed
+  bool unshown = false;         ///< nor all else that happened: it comes in the next frames
   bool double_click = false;    ///< the left button went down for the second time at the same place, just now
   int double_click_frames = 0;  ///< for how many frames more that counts: Dear ImGui may show a press some frames late
   double double_click_s = 0.4;  ///< longest time between its presses; longer where frames are slow

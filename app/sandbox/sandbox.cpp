@@ -152,7 +152,7 @@ void Sandbox::wait_for_events() {
   } else {
     glfwPollEvents();
   }
-  busy_frames_ = app_.input.anything || app_.input.unread ? 4 : std::max(busy_frames_ - 1, 0);
+  busy_frames_ = app_.input.anything || app_.input.unshown ? 4 : std::max(busy_frames_ - 1, 0);
   if (app_.input.anything) settle_until_ = glfwGetTime() + settle_time;
 }
 

@@ -317,7 +317,7 @@ void Gui::show_typing(InputQueue& input) {
   // The backend has noted them as down already: seen now, they would act before their turn, and not in it.
   for (const auto& [event, character] : waiting_)
     if (event.key != GLFW_KEY_UNKNOWN) io.KeysDown[event.key] = false;
-  input.unread = !waiting_.empty();
+  input.unread = input.unshown = !waiting_.empty();
   io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) || (mods.value_or(0) & GLFW_MOD_CONTROL) != 0;
   io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) || (mods.value_or(0) & GLFW_MOD_SHIFT) != 0;
   io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) || (mods.value_or(0) & GLFW_MOD_ALT) != 0;
@@ -341,7 +341,7 @@ void Gui::show_pointer(InputQueue& input) {
     std::copy(down_.begin(), down_.end(), io.MouseDown);
     io.MousePos = {(next - 1)->at.x, (next - 1)->at.y};
     pointer_.erase(pointer_.begin(), next);
-    input.unread = true;
+    input.unshown = true;
     return;
   }
   down_[std::size_t(next->button)] = next->type == PointerEvent::Type::press;
@@ -351,7 +351,7 @@ void Gui::show_pointer(InputQueue& input) {
   io.KeyShift |= (next->mods & GLFW_MOD_SHIFT) != 0;
   io.KeyAlt |= (next->mods & GLFW_MOD_ALT) != 0;
   pointer_.erase(pointer_.begin(), next + 1);
-  input.unread |= !pointer_.empty();
+  input.unshown |= !pointer_.empty();
 }
 #endif
 
@@ -398,6 +398,7 @@ void Gui::begin_frame(InputQueue& input) {
   const std::vector<ImGuiInputEvent> later = cut_behind_chord(queue);
   ImGui::NewFrame();
   for (const ImGuiInputEvent& event : later) queue.push_back(event);
+  input.unshown = !queue.empty();
   input.unread = std::any_of(queue.begin(), queue.end(), [](const ImGuiInputEvent& event) {
     return is_press(event) || event.Type == ImGuiInputEventType_Text;
   });
