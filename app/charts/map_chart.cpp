@@ -43,8 +43,8 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
   chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
   chart.series.push_back(key("energy error 1e-6", magnitude_color(part_of(1e-6))));
-  chart.series.push_back(key("1e-3", magnitude_color(part_of(1e-3))));
-  chart.series.push_back(key("1", magnitude_color(part_of(1))));
+  chart.series.push_back(key("error 1e-3", magnitude_color(part_of(1e-3))));
+  chart.series.push_back(key("error 1", magnitude_color(part_of(1))));
   return chart;
 }
 

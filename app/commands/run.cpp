@@ -11,6 +11,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/preset_argument.h"
 #include "app/commands/stepping.h"
+#include "app/sandbox/preparing.h"
 #include "core/analysis/engine_choice.h"
 #include "core/analysis/tolerance.h"
 #include "core/integrators/remedy.h"
@@ -271,21 +272,13 @@ std::string closing(const Json& summary, const std::string& hint) {
   return text + (files.empty() ? hint : " Wrote " + files + ".");
 }
 
-/// Drivers build kernels when they first run, for a second or more: what is told of the steps' time is without that.
-void build_kernels(const ResolvedPreset& scene, bool ledger) {
-  if (scene.preset.engine != EngineKind::opencl) return;
-  Simulation simulation(scene.preset, scene.threads);
-  if (ledger) simulation.keep_ledger(true);
-  simulation.advance(1);
-}
-
 int run(const RunOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_missing_texture(scene.preset);
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   options.length.warn_if_too_short(scene.preset.dt);
   Outputs outputs(options, scene, steps);
-  build_kernels(scene, !options.ledger.empty());
+  run_programs_once(scene.preset, !options.ledger.empty());  // that time is none of the steps'
   Simulation simulation(scene.preset, scene.threads);
   if (!options.ledger.empty()) simulation.keep_ledger(true);
   outputs.open(simulation);

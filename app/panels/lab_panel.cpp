@@ -154,10 +154,14 @@ void waiting_part(App& app) {
 void doing_part(App& app, const LabStep& step, const StepRecord& record) {
   const Tokens& c = app.theme.colors;
   if (lab_waits(app)) return waiting_part(app);
-  if (to_be_predicted(step, record)) return set_text(app, "Predict first: then it says here what to do.", c.quiet);
+  const bool first = to_be_predicted(step, record);
   if (cannot_be_done(app))
     return marked_line(app, icon::warning, "!", c.warning,
-                       "This machine has no OpenCL device, so there is nothing to do here; read on.", c.text);
+                       first
+                           ? "This machine has no OpenCL device, so there is nothing to do here; predict, and read on."
+                           : "This machine has no OpenCL device, so there is nothing to do here; read on.",
+                       c.text);
+  if (first) return set_text(app, "Predict first: then it says here what to do.", c.quiet);
   if (!step.todo.empty()) small_head(app, "DO", c.accent), paragraphs_of(app, step.todo, c.text);
   if (step.checks.empty()) return;
   small_head(app, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);

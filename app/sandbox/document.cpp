@@ -55,7 +55,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
     return std::make_unique<Simulation>(preset, threads);
   } catch (const EngineError& error) {
     if (preset.engine == EngineKind::cpu) throw;
-    fallback = sentence(error.what()) + " The CPU runs it instead.";
+    fallback = sentence(error.what()) + " So the CPU runs it.";
     return std::make_unique<Simulation>(on_cpu(preset), threads);
   }
 }

@@ -15,6 +15,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/notation/preset_io.h"
+#include "core/simulation.h"
 
 namespace tyglab {
 namespace {
@@ -38,6 +39,18 @@ int file_of(const std::string& text) {
 }
 
 }  // namespace
+
+void run_programs_once(const Preset& preset, bool ledger) {
+  if (preset.engine != EngineKind::opencl) return;
+  try {
+    Simulation simulation(preset);
+    if (ledger) simulation.keep_ledger(true);
+    simulation.advance(1);
+    simulation.engine().shown();
+  } catch (const EngineError&) {
+    // The cloth itself will meet it, where it is reported.
+  }
+}
 
 void prepare_programs(const Preset& preset, bool ledger) {
   const int input = file_of(preset_to_json(miniature(preset)));

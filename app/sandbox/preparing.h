@@ -11,5 +11,9 @@ namespace tyglab {
 /// Nothing is prepared where that does not work; whoever needs the program builds it then. `ledger`: of steps that note
 /// what bodies stop.
 void prepare_programs(const Preset& preset, bool ledger);
+/// Has the preset's device build what it would build at the first step and the first look, for a second or more where
+/// nothing is kept on disk: here and now. `ledger`: as above. Nothing for other engines; a device that fails says so
+/// at the first step.
+void run_programs_once(const Preset& preset, bool ledger);
 
 }  // namespace tyglab

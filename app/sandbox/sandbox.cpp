@@ -96,8 +96,10 @@ Sandbox::Sandbox(const SandboxOptions& options)
       first_(std::async(std::launch::async,
                         [preset = first_preset(), options] {
                           First first;
-                          if (!needs_window(preset))
+                          if (!needs_window(preset)) {
                             first.simulation = make_simulation(preset, options.threads, first.fallback);
+                            run_programs_once(first.simulation->preset(), false);  // the first frames do not wait
+                          }
                           first.picture = find_picture(preset);
                           return first;
                         })),

@@ -275,10 +275,10 @@ TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
   play.run(1);
   finish(play);
   play.next();
+  play.choose(1);
   if (opencl_devices().devices.empty()) {
     CHECK(cannot_be_done(play.app()));
   } else {
-    play.choose(1);
     play.set("engine=cpu");
     play.run(1);
     CHECK_FALSE(play.done());
@@ -294,6 +294,9 @@ TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
   without.run(1);
   without.next();
   CHECK(cannot_be_done(without.app()));
+  without.run(0);
+  CHECK_FALSE(without.done());  // the answer is not given away
+  without.choose(1);
   without.run(0);
   CHECK(without.done());  // there is nothing to do but to read on
 }

@@ -63,7 +63,8 @@ std::vector<DeviceId> ask_drivers(std::string& problem) {
     for (cl_device_id id : ids) found.push_back({platform, id});
   }
   if (found.empty())
-    problem = "the OpenCL drivers of this system offer no device, as pocl does where its cache folder cannot be written";
+    problem =
+        "the OpenCL drivers of this system offer no device, as pocl does where its cache folder cannot be written";
   return found;
 }
 
@@ -113,7 +114,7 @@ std::vector<DeviceId> find_devices(std::string& problem) {
   return {};
 }
 
-constexpr const char* cure = "; use --engine cpu, or `tyglab devices` to see what there is";
+constexpr const char* cure = "; use the CPU engine (--engine cpu); `tyglab devices` says what there is";
 
 }  // namespace
 
@@ -142,7 +143,8 @@ void check(cl_int code, const char* what) {
   const bool memory =
       code == CL_MEM_OBJECT_ALLOCATION_FAILURE || code == CL_OUT_OF_HOST_MEMORY || code == CL_INVALID_BUFFER_SIZE;
   throw EngineError(std::string("OpenCL, ") + what + ": " + words_of(code) +
-                    (memory ? "; use fewer rows and columns, or --engine cpu" : "; use --engine cpu"));
+                    (memory ? "; use fewer rows and columns, or the CPU engine (--engine cpu)"
+                            : "; use the CPU engine (--engine cpu)"));
 }
 
 Kernel Program::kernel(const char* name) const {
@@ -260,7 +262,8 @@ std::shared_ptr<Device> open_device(int number) {
   const std::vector<DeviceId> found = find_devices(problem);
   if (found.empty())
     throw EngineError("No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
-                      "; on Debian, apt-get install pocl-opencl-icd makes one of the processor. Or use --engine cpu");
+                      "; on Debian, apt-get install pocl-opencl-icd makes one of the processor. Or use the CPU engine "
+                      "(--engine cpu)");
   if (number >= int(found.size()))
     throw EngineError("There is no OpenCL device " + std::to_string(number) + ": they are numbered from 0 to " +
                       std::to_string(found.size() - 1) + cure);

@@ -379,13 +379,13 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   const char* why = projects(method) ? "moves particles one after the other" : "chooses its own steps";
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
-                      "; use --engine cpu, or an integrator of fixed dt, such as verlet");
+                      "; use the CPU engine (--engine cpu), or an integrator of fixed dt, such as verlet");
   std::shared_ptr<Device> device = open_device(preset.device);
   if (preset.precision == Precision::float_)
     return std::make_unique<OpenClEngine<float>>(preset, lattice, std::move(device), width);
   if (!device->facts().fp64)
     throw EngineError("The OpenCL device " + device->facts().name +
-                      " does not compute in double; use --precision float or --engine cpu");
+                      " does not compute in double; use float (--precision float) or the CPU engine (--engine cpu)");
   return std::make_unique<OpenClEngine<double>>(preset, lattice, std::move(device), width);
 }
 
