@@ -113,10 +113,13 @@ INLINE maskv fix(global const uchar* mask, int row, int column, int columns, vec
     fixed = fix(block.mask, row, column, columns, &F, held, hands + 4 * slot);                                      \
   }
 #else
-/// What a work-item does: its band, and level after level, each three rows behind the one before, its rows.
+/// What a work-item does: its band, and level after level, each three rows behind the one before, its rows. Of the
+/// work-items that belong to a band the last does it all. The others are there since drivers deal groups out in runs,
+/// as pocl does, whose first thread takes one more than its share: of as many groups as threads it would take two.
 #define FOR_EACH_ROW                                                                                                \
   const Constants* k = &constants;                                                                                  \
-  const int pitch = 3 * stride, band = (int)get_global_id(0);                                                       \
+  const int items = (int)get_global_size(0) / bands, pitch = 3 * stride, band = (int)get_global_id(0) / items;      \
+  if (((int)get_global_id(0) + 1) % items != 0) return;                                                             \
   const int begin = (int)((long)rows * band / bands), end = (int)((long)rows * (band + 1) / bands);                 \
   scratch += (size_t)band * band_numbers;                                                                           \
   for (int time = level_begin(begin, levels); time < end + 3 * (levels - 1); ++time)                                \

@@ -178,8 +178,9 @@ void OpenClEngine<R>::launch_sweep(const Kernel& kernel, int at, const Constants
     launch_rows(kernel, lattice_.columns);
     return;
   }
-  const std::size_t bands = std::size_t(bands_), one = 1;
-  check(clEnqueueNDRangeKernel(device_->queue(), kernel.get(), 1, nullptr, &bands, &one, 0, nullptr, nullptr),
+  constexpr int items_a_band = 8;  // of which seven do nothing, see FOR_EACH_ROW
+  const std::size_t items = std::size_t(bands_) * items_a_band, one = 1;
+  check(clEnqueueNDRangeKernel(device_->queue(), kernel.get(), 1, nullptr, &items, &one, 0, nullptr, nullptr),
         "starting a kernel");
 }
 
