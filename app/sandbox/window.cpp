@@ -373,10 +373,17 @@ bool is_press(const ImGuiInputEvent& event) {
   return is_key(event) && event.Key.Down && !is_modifier(event);
 }
 
-/// Cuts off what comes with the first change of a modifier behind a press, and returns it.
-std::vector<ImGuiInputEvent> cut_behind_chord(ImVector<ImGuiInputEvent>& events) {
-  const ImGuiInputEvent* const press = std::find_if(events.begin(), events.end(), is_press);
-  const ImGuiInputEvent* const cut = std::find_if(press, std::as_const(events).end(), is_modifier);
+/// Cuts off what is for a later frame, and returns it: from the first change of a modifier behind a press on, and from
+/// the first release of a button behind a move.
+std::vector<ImGuiInputEvent> cut_for_later(ImVector<ImGuiInputEvent>& events) {
+  bool pressed = false, moved = false;
+  const ImGuiInputEvent* cut = events.begin();
+  for (; cut != events.end(); ++cut) {
+    const bool releases = cut->Type == ImGuiInputEventType_MouseButton && !cut->MouseButton.Down;
+    if ((pressed && is_modifier(*cut)) || (moved && releases)) break;
+    pressed |= is_press(*cut);
+    moved |= cut->Type == ImGuiInputEventType_MousePos;
+  }
   std::vector<ImGuiInputEvent> later(cut, std::as_const(events).end());
   events.resize(events.Size - int(later.size()));
   return later;
@@ -393,9 +400,10 @@ void Gui::begin_frame(InputQueue& input) {
   show_pointer(input);
   ImGui::NewFrame();
 #else
-  // It spreads what one frame cannot hold over the next ones itself, but lets go of Ctrl in the frame that shows A.
+  // It spreads what one frame cannot hold over the next ones itself, but lets go of Ctrl in the frame that shows A, and
+  // of a drag in the frame that shows where it leads.
   ImVector<ImGuiInputEvent>& queue = ImGui::GetCurrentContext()->InputEventsQueue;
-  const std::vector<ImGuiInputEvent> later = cut_behind_chord(queue);
+  const std::vector<ImGuiInputEvent> later = cut_for_later(queue);
   ImGui::NewFrame();
   for (const ImGuiInputEvent& event : later) queue.push_back(event);
   input.unshown = !queue.empty();
