@@ -104,8 +104,7 @@ void print_opencl() {
   const OpenClInventory inventory = opencl_devices();
   for (int n = 0; n < int(inventory.devices.size()); ++n) print_device(inventory.devices[std::size_t(n)], n);
   if (inventory.devices.empty())
-    std::cout << "\nNo OpenCL device was found" << (inventory.problem.empty() ? "" : " (" + inventory.problem + ")")
-              << ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.\n";
+    std::cout << '\n' << no_device_words(inventory.problem) << '\n';
   else
     std::cout << "\nOpenCL devices step with " << names_of_methods(true) << ".\nOnly the CPU engine has "
               << names_of_methods(false) << ".\n";

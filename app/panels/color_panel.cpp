@@ -52,11 +52,10 @@ std::array<std::optional<Box>, 10> legend_places(const App& app) {
     const ImVec2 size = size_in(app.theme, area.hi.x - area.lo.x);
     return app.ui.placing.in_corner(area, {size.x, size.y}, corner);
   };
-  const int pictures = app.copies.tiles();
-  const bool room = pictures < viewport.columns * viewport.rows;
-  const glm::vec2 lo = viewport.box.lo, empty = viewport.origin(pictures);
-  return {room ? in(empty, legend_size, ScreenCorner::lower_right) : std::nullopt,
-          room ? in(empty, legend_line_size, ScreenCorner::lower_right) : std::nullopt,
+  const auto free = viewport.free_place(app.copies.tiles());
+  const glm::vec2 lo = viewport.box.lo;
+  return {free ? in(*free, legend_size, ScreenCorner::lower_right) : std::nullopt,
+          free ? in(*free, legend_line_size, ScreenCorner::lower_right) : std::nullopt,
           in(lo, legend_size, ScreenCorner::lower_right),
           in(lo, legend_size, ScreenCorner::lower_left),
           in(lo, legend_size, ScreenCorner::upper_right),

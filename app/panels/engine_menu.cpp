@@ -13,14 +13,12 @@ namespace {
 
 constexpr double looks_again = 0.1;  // s, until the devices are known
 
-/// The device that a preset runs on: the one of its number, or else the first graphics card, or the first of all. Null
-/// where there is none, or none is known.
+/// The device that a preset runs on; null where there is none, or none is known.
 const OpenClDevice* device_of(const Preset& preset, const OpenClInventory* devices) {
-  if (devices == nullptr || devices->devices.empty()) return nullptr;
+  if (devices == nullptr) return nullptr;
   const std::vector<OpenClDevice>& all = devices->devices;
-  if (preset.device >= 0) return preset.device < int(all.size()) ? &all[std::size_t(preset.device)] : nullptr;
-  const auto card = std::find_if(all.begin(), all.end(), [](const OpenClDevice& device) { return !device.processor; });
-  return card != all.end() ? &*card : &all.front();
+  const int number = preset.device >= 0 ? preset.device : preferred_device(all);
+  return number < int(all.size()) ? &all[std::size_t(number)] : nullptr;
 }
 
 void mode_choices(App& app, const OpenClInventory* devices) {
@@ -72,9 +70,7 @@ std::span<const EngineMode> engine_modes() {
 
 std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
   if (mode.engine == EngineKind::cpu) return {};
-  if (devices != nullptr && devices->devices.empty())
-    return "No OpenCL device was found" + (devices->problem.empty() ? "" : " (" + devices->problem + ")") +
-           ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.";
+  if (devices != nullptr && devices->devices.empty()) return no_device_words(devices->problem);
   const Scheme& method = scheme(preset.integrator);
   if (!runs_on_opencl(method))
     return std::string(method.title) + " runs on the CPU engine alone. Choose another method first.";

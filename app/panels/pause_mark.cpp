@@ -24,17 +24,15 @@ std::array<std::optional<Box>, 12> pause_places(const App& app, const Box& row, 
   const Placing& placing = app.ui.placing;
   const float margin = app.theme.px(16);
   const Box below{{row.lo.x, app.ui.notes_from}, app.viewport.box.hi - margin};
-  const int pictures = app.copies.tiles();
-  const bool room = pictures < app.viewport.columns * app.viewport.rows;
-  const Box empty{app.viewport.origin(pictures) + margin, below.hi};
+  const auto free = app.viewport.free_place(app.copies.tiles());
   const auto in = [&](const Box& area, glm::vec2 size, ScreenCorner corner) {
     return placing.in_corner(area, size, corner);
   };
   return {in(row, full, ScreenCorner::upper_right),
           in(row, brief, ScreenCorner::upper_right),
           in(row, brief, ScreenCorner::upper_left),
-          room ? in(empty, full, ScreenCorner::upper_right) : std::nullopt,
-          room ? in(empty, brief, ScreenCorner::upper_right) : std::nullopt,
+          free ? in({*free + margin, below.hi}, full, ScreenCorner::upper_right) : std::nullopt,
+          free ? in({*free + margin, below.hi}, brief, ScreenCorner::upper_right) : std::nullopt,
           in(below, full, ScreenCorner::upper_right),
           in(below, brief, ScreenCorner::upper_right),
           in(below, brief, ScreenCorner::upper_left),

@@ -32,6 +32,10 @@ struct Viewport {
   glm::vec2 size() const { return whole() / glm::vec2(columns, rows); }
   /// Where the n-th picture begins, pixels in the window.
   glm::vec2 origin(int tile) const { return box.lo + size() * glm::vec2(tile % columns, tile / columns); }
+  /// Where one more picture than those would begin; none where they take all places.
+  std::optional<glm::vec2> free_place(int pictures) const {
+    return pictures < columns * rows ? std::optional(origin(pictures)) : std::nullopt;
+  }
   /// The picture under a pixel of the window; the nearest one where none is.
   int tile_at(glm::vec2 p) const;
   /// Divides the viewport for so many pictures.

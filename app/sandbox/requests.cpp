@@ -262,6 +262,7 @@ void apply(App& app, const request::Do& what) {
     case Command::export_values:
       return open_export(app, ExportSource::values);
     case Command::export_mesh:
+      if (app.preset().kind != Kind::cloth) return app.messages.note("An OBJ holds cloth, and this is one weight.");
       return open_export(app, ExportSource::mesh);
     case Command::export_state:
       return open_export(app, ExportSource::state);

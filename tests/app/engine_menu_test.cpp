@@ -17,7 +17,7 @@ constexpr int cpu_double = 1, opencl_float = 2, opencl_double = 3;
 
 OpenClDevice device_called(const char* name, bool processor, bool fp64) {
   OpenClDevice device;
-  device.name = name, device.processor = processor, device.fp64 = fp64;
+  device.name = name, device.processor = processor, device.card = !processor, device.fp64 = fp64;
   return device;
 }
 

@@ -130,6 +130,11 @@ def mesh(stage):
     corner = [float(rows[-1][c]) for c in "xyz"]
     meshed = [float(word) for word in lines[[line[0] for line in lines].index("v") + 1023][1:]]
     check(all(abs(a - b) < 1e-6 for a, b in zip(corner, meshed)), f"{corner} in the state, {meshed} in the mesh")
+    sandbox.close()
+    weight = stage.start("one_weight")
+    weight.key("ctrl+e")
+    weight.wait(lambda r: any("one weight" in m for m in r["messages"]), "the reason why a weight is no mesh")
+    check(weight.later()["dialog"] == "none", "and no dialog")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "core/engines/opencl/disk_cache.h"
 
@@ -80,7 +81,8 @@ OpenClDevice facts_of(const DeviceId& found) {
   facts.fp64 = extensions.find("cl_khr_fp64") != std::string::npos;
   facts.gl_sharing = extensions.find("cl_khr_gl_sharing") != std::string::npos;
   facts.gl_event = extensions.find("cl_khr_gl_event") != std::string::npos;
-  facts.processor = (number_of<cl_device_type>(found.id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
+  const auto type = number_of<cl_device_type>(found.id, CL_DEVICE_TYPE);
+  facts.processor = (type & CL_DEVICE_TYPE_CPU) != 0, facts.card = (type & CL_DEVICE_TYPE_GPU) != 0;
   facts.shared_memory = facts.processor || number_of<cl_bool>(found.id, CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
   return facts;
 }
@@ -260,18 +262,14 @@ std::shared_ptr<Device> open_device(int number) {
   std::string problem;
   const std::lock_guard lock(mutex);
   const std::vector<DeviceId> found = find_devices(problem);
-  if (found.empty())
-    throw EngineError("No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
-                      "; on Debian, apt-get install pocl-opencl-icd makes one of the processor. Or use the CPU engine "
-                      "(--engine cpu)");
+  if (found.empty()) throw EngineError(no_device_words(problem) + " Or use the CPU engine (--engine cpu)");
   if (number >= int(found.size()))
     throw EngineError("There is no OpenCL device " + std::to_string(number) + ": they are numbered from 0 to " +
                       std::to_string(found.size() - 1) + cure);
   if (number < 0) {
-    const auto card = std::find_if(found.begin(), found.end(), [](const DeviceId& f) {
-      return (number_of<cl_device_type>(f.id, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_GPU) != 0;
-    });
-    number = card == found.end() ? 0 : int(card - found.begin());
+    std::vector<OpenClDevice> devices;
+    std::transform(found.begin(), found.end(), std::back_inserter(devices), facts_of);
+    number = preferred_device(devices);
   }
   auto device = opened[number].lock();
   const GlContext gl = gl_context_in_use();
@@ -286,6 +284,17 @@ std::shared_ptr<Device> open_device(int number) {
 }  // namespace tyglab::opencl
 
 namespace tyglab {
+
+int preferred_device(const std::vector<OpenClDevice>& devices) {
+  const auto card =
+      std::find_if(devices.begin(), devices.end(), [](const OpenClDevice& device) { return device.card; });
+  return card == devices.end() ? 0 : int(card - devices.begin());
+}
+
+std::string no_device_words(const std::string& problem) {
+  return "No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
+         ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.";
+}
 
 OpenClInventory opencl_devices() {
   OpenClInventory inventory;

@@ -15,6 +15,7 @@ struct OpenClDevice {
   std::uint64_t memory_bytes = 0;
   bool fp64 = false;           ///< computes in double
   bool processor = false;      ///< a CPU: its memory is the program's own
+  bool card = false;           ///< a graphics card
   bool shared_memory = false;  ///< buffers are read where they are, without a copy
   bool gl_sharing = false;     ///< cl_khr_gl_sharing: can use OpenGL's buffers
   bool gl_event = false;       ///< cl_khr_gl_event: it and OpenGL wait for each other
@@ -27,6 +28,11 @@ struct OpenClInventory {
   std::string problem;  ///< why there is none, if the loader said
 };
 OpenClInventory opencl_devices();
+
+/// The number of the device that is taken where none is named: the first graphics card's, or else 0.
+int preferred_device(const std::vector<OpenClDevice>& devices);
+/// That there is no device, why (OpenClInventory::problem), and the cure, in sentences.
+std::string no_device_words(const std::string& problem);
 
 /// Whether OpenCL devices run the method: those of fixed dt that do not project.
 bool runs_on_opencl(const Scheme& method);
