@@ -1,5 +1,5 @@
 // Tyglab's one binary.
-#include "app/commands/program.h"
+#include "app/cli/program.h"
 
 int main(int argc, char** argv) {
   return tyglab::run_program(argc, argv);

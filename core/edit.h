@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/cloth/lattice.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab::edit {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/cloth/start.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 
 namespace tyglab {
 namespace {

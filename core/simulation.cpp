@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/cloth/start.h"
-#include "core/integrators/remedy.h"
-#include "core/notation/preset_io.h"
-#include "core/notation/readable.h"
+#include "core/io/preset_io.h"
+#include "core/model/readable.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -51,7 +51,7 @@ Simulation::~Simulation() = default;
 
 Simulation::Simulation(const Simulation& from)
     : preset_(from.preset_),
-      gusty_(from.gusty_),
+      effective_preset_(from.effective_preset_),
       threads_(from.threads_),
       lattice_(from.lattice_),
       tears_(from.tears_),
@@ -64,7 +64,7 @@ Simulation::Simulation(const Simulation& from)
       steps_(from.steps_),
       steps_at_dt_(from.steps_at_dt_),
       time_at_dt_(from.time_at_dt_),
-      begun_with_(from.begun_with_),
+      initial_velocity_(from.initial_velocity_),
       divergence_(from.divergence_),
       diverged_preset_(from.diverged_preset_),
       revision_(from.revision_),
@@ -77,7 +77,7 @@ void Simulation::build(const Preset& next) {
   std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
   const Fixed fixed{particles_in(pinned_mask), {}};
   engine_ = made_engine(next, lattice, fixed, start_rows(next), whole, 0);
-  preset_ = next, gusty_ = in_gusts(next, 0);
+  preset_ = next, effective_preset_ = in_gusts(next, 0);
   pinned_ = fixed.pinned;
   lattice_ = lattice;
   tears_ = std::move(whole);
@@ -88,10 +88,10 @@ void Simulation::build(const Preset& next) {
   left_inside_ = 0;
   steps_ = steps_at_dt_ = 0;
   time_at_dt_ = 0;
-  begun_with_ = starting_velocity(next);
+  initial_velocity_ = starting_velocity(next);
   divergence_.reset();
   ++revision_, ++tear_revision_;
-  if (watch_) keep_ledger(true);
+  if (watch_) enable_ledger(true);
 }
 
 /// An engine for these constants with that state, at time t, s. Throws EngineError; the present engine goes on then.
@@ -161,23 +161,23 @@ bool Simulation::converts(const Preset& next) const {
 void Simulation::take_engine(const Preset& next, const State& state) {
   engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
   rebase_time();
-  preset_ = next, gusty_ = in_gusts(next, time());
+  preset_ = next, effective_preset_ = in_gusts(next, time());
 }
 
 /// Constants that the engine takes as it goes.
 void Simulation::take_constants(const Preset& next) {
   Preset gusty = in_gusts(next, time());
   engine_->set_preset(gusty, tears_);
-  preset_ = next, gusty_ = std::move(gusty);
+  preset_ = next, effective_preset_ = std::move(gusty);
 }
 
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
-int Simulation::blow() {
+int Simulation::update_gust() {
   const GustSpan span = gust_span(preset_, time());
   const glm::dvec3 W = span.factor * preset_.W;
-  if (W != gusty_.W) {
-    gusty_.W = W;
-    engine_->set_preset(gusty_, tears_);
+  if (W != effective_preset_.W) {
+    effective_preset_.W = W;
+    engine_->set_preset(effective_preset_, tears_);
     watch_edit(Ledger::Source::edits);
   }
   return span.steps;
@@ -205,7 +205,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   if (change == nullptr || lattice_of(next) != lattice_ || next.kind != preset_.kind) {
     auto fresh = std::make_unique<Simulation>(next, threads_);
-    fresh->keep_ledger(watch_.has_value());
+    fresh->enable_ledger(watch_.has_value());
     return fresh;
   }
   std::unique_ptr<Simulation> other(new Simulation(*this));
@@ -229,8 +229,8 @@ void Simulation::restart_untouched(const Preset& next) {
   const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
   const Fixed fixed{particles_in(pinned_mask), held};
   engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
-  preset_ = next, gusty_ = in_gusts(next, time());
-  begun_with_ = starting_velocity(next);
+  preset_ = next, effective_preset_ = in_gusts(next, time());
+  initial_velocity_ = starting_velocity(next);
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
@@ -250,7 +250,7 @@ void Simulation::move_hand(const edit::MoveHand& e) {
   const auto site = *held();
   held_.velocity = (e.to - position(site.i, site.j)) / (e.steps * preset_.dt);
   hand_steps_left_ = e.steps;
-  begun_with_.reset();  // what the hand lets go keeps its velocity
+  initial_velocity_.reset();  // what the hand lets go keeps its velocity
   update_fixed();
 }
 
@@ -281,7 +281,7 @@ void Simulation::pin(const edit::Pin& e) {
   if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
   const int p = e.i * lattice_.columns + e.j;
   if (held_.particle == p) release();
-  if (begun_with_ != glm::dvec3(0)) begun_with_.reset();  // what is let go begins at rest
+  if (initial_velocity_ != glm::dvec3(0)) initial_velocity_.reset();  // what is let go begins at rest
   pinned_mask_[p] = e.pinned;
   // The preset says what is pinned, so that it can be saved: by a list from now on.
   preset_.pins.mode = Pins::Mode::list;
@@ -319,11 +319,11 @@ Advance Simulation::advance(int steps) {
 /// As far as the engine goes by itself: what follows from the steps is done.
 Advance Simulation::advance_part(int steps) {
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
-  if (gusts(preset_)) steps = std::min(steps, blow());
+  if (gusts(preset_)) steps = std::min(steps, update_gust());
   if (watch_) watch_->before_step(preset_, tears_);
   Advance part = engine_->advance(steps, tears_);
   steps_ += part.steps;
-  if (part.steps > 0) begun_with_.reset();
+  if (part.steps > 0) initial_velocity_.reset();
   left_inside_ = part.left_inside;
   if (part.torn > 0) ++tear_revision_;
   if (held_.particle >= 0) hand_force_ = part.hand_force;
@@ -351,21 +351,21 @@ void Simulation::diverge(const Advance& part) {
                 ? "the weight is more than 1000 times L, or its offset if that is more, away from x_0"
                 : "a " + part.quantity + " is no longer a finite number";
   const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
-  if (outer_forces_win(preset_)) {
+  if (springs_too_weak(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": weight and wind are more than the springs can hold; "
                                            : ": m·g is more than the spring can hold; ";
     d.cause += preset_.integrator + " is stable here " + dt;
-    d.remedy = remedy_for_weak_springs(preset_);
+    d.advice = advice_for_weak_springs(preset_);
   } else {
     d.cause += ": " + preset_.integrator + " is unstable here " + dt;
-    d.remedy = remedy(preset_);
+    d.advice = advice(preset_);
   }
   divergence_ = d;
   diverged_preset_ = preset_;
 }
 
 Snapshot Simulation::snapshot() {
-  return {lattice_, preset_.kind, read(), tears_, time(), steps_, begun_with_};
+  return {lattice_, preset_.kind, read(), tears_, time(), steps_, initial_velocity_};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -378,16 +378,16 @@ void Simulation::restore(const Snapshot& then) {
   update_fixed();
   steps_ = steps_at_dt_ = then.steps;
   time_at_dt_ = then.t;
-  begun_with_ = then.begun_with;
+  initial_velocity_ = then.begun_with;
   if (gusts(preset_)) take_constants(preset_);
   engine_->load(then.state, tears_);
   ++revision_, ++tear_revision_;
-  if (watch_) keep_ledger(true);
+  if (watch_) enable_ledger(true);
 }
 
 void Simulation::load(const State& state) {
   engine_->load(state, tears_);
-  begun_with_.reset();
+  initial_velocity_.reset();
   ++revision_;
 }
 

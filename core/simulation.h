@@ -12,7 +12,7 @@
 #include "core/engines/engine.h"
 #include "core/forces/gust.h"
 #include "core/forces/readout.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 
@@ -90,7 +90,7 @@ class Simulation {
   EnergyReading energy();
   /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
   /// itself; and a run in which the integrator has made more than Ledger::diverges_at counts as diverged.
-  void keep_ledger(bool on);
+  void enable_ledger(bool on);
   /// What the ledger says; none where none is kept.
   std::optional<LedgerReading> ledger() const;
 
@@ -129,9 +129,9 @@ class Simulation {
   std::unique_ptr<Engine> made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
                                       const StateRows& rows, const Tears& tears, double t) const;
   /// The constants that act in this moment: the preset's, with the wind as it blows.
-  const Preset& acting() const { return gusts(preset_) ? gusty_ : preset_; }
+  const Preset& acting() const { return gusts(preset_) ? effective_preset_ : preset_; }
   void take_constants(const Preset& next);
-  int blow();
+  int update_gust();
   bool converts(const Preset& next) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins(const Preset& old);
@@ -154,7 +154,8 @@ class Simulation {
   void watch_edit(Ledger::Source source);
 
   Preset preset_;
-  Preset gusty_;  ///< the same with the wind of this moment, which the engine has; of use only while there are gusts
+  Preset effective_preset_;  ///< the same with the wind of this moment, which the engine has; of use only while there
+                             ///< are gusts
   int threads_;
   Lattice lattice_;
   Tears tears_;
@@ -170,7 +171,7 @@ class Simulation {
   double time_at_dt_ = 0;         ///< and the time then
   /// The velocity of every free particle, while no step has been made since the start. What a method holds then need
   /// not give it back: Verlet's start sees damping by v_0, its read-out by the velocity of half a step ago.
-  std::optional<glm::dvec3> begun_with_;
+  std::optional<glm::dvec3> initial_velocity_;
   std::optional<Divergence> divergence_;
   Preset diverged_preset_;
   State state_;

@@ -7,7 +7,7 @@ EnergyReading Simulation::energy() {
   return read_energy(acting(), tears_, read(), held_);
 }
 
-void Simulation::keep_ledger(bool on) {
+void Simulation::enable_ledger(bool on) {
   if (on) watch_.emplace().begin(preset_, energy());
   if (!on) watch_.reset();
   engine_->note_contacts(on);

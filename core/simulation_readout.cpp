@@ -20,10 +20,12 @@ double rounding_unit(Precision precision) {
 const State& Simulation::read() {
   if (state_revision_ == revision_) return state_;
   engine_->read(state_, tears_), state_revision_ = revision_;
-  if (!begun_with_) return state_;
+  if (!initial_velocity_) return state_;
   for (int i = 0, p = 0; i < lattice_.rows; ++i)
     for (int j = 0; j < lattice_.columns; ++j, ++p)
-      if (!fixed(i, j)) state_.v.x[p] = begun_with_->x, state_.v.y[p] = begun_with_->y, state_.v.z[p] = begun_with_->z;
+      if (!fixed(i, j))
+        state_.v.x[p] = initial_velocity_->x, state_.v.y[p] = initial_velocity_->y,
+        state_.v.z[p] = initial_velocity_->z;
   return state_;
 }
 
@@ -36,7 +38,7 @@ State Simulation::read_raw() {
 /// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
 glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const {
   if (fixed(i, j)) return stored.v;
-  if (begun_with_) return *begun_with_;
+  if (initial_velocity_) return *initial_velocity_;
   if (stored.lag == 0) return stored.v;
   const ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
   return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());

@@ -6,8 +6,8 @@
 #include <ctime>
 #include <limits>
 
-#include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/analysis/accuracy.h"
 #include "core/analysis/engine_forces.h"
-#include "core/integrators/remedy.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {

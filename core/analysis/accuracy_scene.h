@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "core/integrators/amplification.h"
+#include "core/theory/amplification.h"
 
 namespace tyglab {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "core/analysis/study_run.h"
 #include "core/integrators/scheme.h"
-#include "core/notation/preset_io.h"
-#include "core/notation/readable.h"
-#include "core/output/text.h"
+#include "core/io/preset_io.h"
+#include "core/io/text.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -75,7 +75,7 @@ int nominal_order(const Preset& preset) {
 
 bool by_reference(const Convergence& study) {
   const auto told = std::count_if(study.points.begin(), study.points.end(), [](const ConvergencePoint& point) {
-    return point.told && std::isfinite(point.error_rms_m) && point.error_rms_m > 0;
+    return point.resolved && std::isfinite(point.error_rms_m) && point.error_rms_m > 0;
   });
   const bool others = std::any_of(study.points.begin(), study.points.end(),
                                   [](const ConvergencePoint& point) { return point.difference_rms_m > 0; });
@@ -85,7 +85,7 @@ bool by_reference(const Convergence& study) {
 std::optional<double> shown_error(const Convergence& study, const ConvergencePoint& point) {
   const bool reference = by_reference(study);
   const double error = reference ? point.error_rms_m : point.difference_rms_m;
-  if (!std::isfinite(error) || error <= 0 || (reference && !point.told)) return std::nullopt;
+  if (!std::isfinite(error) || error <= 0 || (reference && !point.resolved)) return std::nullopt;
   return error;
 }
 
@@ -114,7 +114,7 @@ std::string convergence_words(const Convergence& study) {
   if (order->order < nominal - as_promised) words += why_lower(study) + " ";
   if (order->order > nominal + as_promised) words += "The coarsest dt are too coarse for a clean slope. ";
   const auto hidden =
-      std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.told; });
+      std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.resolved; });
   if (!order->by_differences && hidden != study.points.end())
     words += "From dt = " + short_number(hidden->dt, 3) + " s on the error cannot be told from the reference's own, " +
              short_number(study.reference.agreement_rms_m, 2) + " m. ";
@@ -157,7 +157,7 @@ void measure_convergence(const StudyStart& start, double seconds, const StudyEff
       point.error_rms_m = infinite;
     } else if (study.referenced) {
       point.error_rms_m = rms_distance(now.track, exact);
-      point.told = point.error_rms_m >= 10 * study.reference.agreement_rms_m;
+      point.resolved = point.error_rms_m >= 10 * study.reference.agreement_rms_m;
     }
     if (!coarser.empty() && !now.track.empty()) study.points.back().difference_rms_m = rms_distance(coarser, now.track);
     study.points.push_back(point);
@@ -178,7 +178,7 @@ std::string convergence_csv(const Convergence& study) {
     if (study.referenced && !diverged) text += printed("%.9g", point.error_rms_m);
     text += ',';
     if (point.difference_rms_m >= 0) text += printed("%.9g", point.difference_rms_m);
-    text += diverged ? ",diverged\n" : point.told ? ",ok\n" : ",below_floor\n";
+    text += diverged ? ",diverged\n" : point.resolved ? ",ok\n" : ",below_floor\n";
   }
   return text;
 }

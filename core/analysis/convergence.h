@@ -17,7 +17,7 @@ struct ConvergencePoint {
   double dt = 0;                 ///< s
   double error_rms_m = 0;        ///< over all particles and times of comparison; infinite where the run diverged
   double difference_rms_m = -1;  ///< how far the run with dt/2 is from this one; below 0: not known
-  bool told = true;              ///< false: the error is under ten times what the references differ by
+  bool resolved = true;          ///< false: the error is under ten times what the references differ by
 };
 
 /// What is known of a scene's convergence so far.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 #include "core/simulation.h"
 
 namespace tyglab {

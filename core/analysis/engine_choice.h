@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

@@ -8,8 +8,8 @@
 
 #include "core/analysis/accuracy.h"
 #include "core/analysis/study_run.h"
-#include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -93,7 +93,7 @@ ErrorPoint measure_point(const StudyStart& start, const StudyReference& referenc
     if (simulation.divergence()) break;
   }
   point.cost = took / reference.seconds;
-  point.told = point.error_rms_m >= 10 * reference.agreement_rms_m;
+  point.resolved = point.error_rms_m >= 10 * reference.agreement_rms_m;
   return point;
 }
 
@@ -135,7 +135,7 @@ std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& ref
     if (!chooses_steps(scheme(preset.integrator)) && a_step * reference.seconds / preset.dt > effort.point) break;
     points.push_back(measure_point(start, reference, stop));
     const ErrorPoint& point = points.back();
-    if (point.error_rms_m <= enough || !point.told) break;
+    if (point.error_rms_m <= enough || !point.resolved) break;
     if (std::isfinite(point.error_rms_m)) no_better = point.error_rms_m < 0.9 * best ? 0 : no_better + 1;
     best = std::min(best, point.error_rms_m);
     if (no_better == 3 || point.cost * reference.seconds * 1e9 / 4 > effort.point || point.cost > effort.cost) break;

@@ -27,7 +27,7 @@ struct ErrorPoint {
   double tolerance = 0;    ///< m; of those methods
   double error_rms_m = 0;  ///< over all particles, at the times of comparison; infinite where the run diverged
   double cost = 0;         ///< processor seconds on one thread for a simulated second
-  bool told = true;        ///< false: the error is under ten times what two references differ by
+  bool resolved = true;    ///< false: the error is under ten times what two references differ by
 };
 
 /// Over which time a motion can be judged, and what it is judged by.

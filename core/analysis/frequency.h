@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "core/engines/cpu/row_field.h"
-#include "core/integrators/modes.h"
+#include "core/simd/row_field.h"
 #include "core/simulation.h"
+#include "core/theory/modes.h"
 
 namespace tyglab {
 

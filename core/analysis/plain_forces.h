@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

@@ -9,7 +9,7 @@
 
 #include "core/analysis/one_weight.h"
 #include "core/analysis/plain_forces.h"
-#include "core/notation/readable.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {

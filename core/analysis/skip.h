@@ -8,7 +8,7 @@
 
 #include "core/cloth/tears.h"
 #include "core/engines/engine.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

@@ -7,11 +7,11 @@
 #include <tuple>
 
 #include "core/cloth/start.h"
-#include "core/integrators/modes.h"
 #include "core/integrators/scheme.h"
-#include "core/notation/notation.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
 #include "core/simulation.h"
+#include "core/theory/modes.h"
 
 namespace tyglab {
 namespace {
@@ -85,7 +85,7 @@ MapCell measure_cell(const Preset& preset, const MapGrid& grid, int column, int 
   own.engine = EngineKind::cpu;
   cell.dt_theory = map_limit(own);
   Simulation simulation(own);
-  simulation.keep_ledger(true);
+  simulation.enable_ledger(true);
   const double affordable = most_work / simulation.lattice().size();
   int left = int(std::min({std::max(std::ceil(run_seconds / own.dt), double(least_steps)), double(most_steps),
                            std::max(affordable, double(least_steps))}));

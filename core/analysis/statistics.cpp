@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/integrators/names.h"
-#include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -26,8 +26,8 @@ MotionStatistics follow(const AccuracyScene& scene, const std::string& integrato
   const Scheme& method = scheme(integrator);
   const double limit = stable_dt(preset, "verlet");
   const double look = block / looks_a_block;
-  const double wished = (iterates(method) ? 1.5 : 0.5) * limit;
-  const int steps = chooses_steps(method) ? 1 : std::max(1, int(std::ceil(look / wished)));
+  const double requested_preset = (iterates(method) ? 1.5 : 0.5) * limit;
+  const int steps = chooses_steps(method) ? 1 : std::max(1, int(std::ceil(look / requested_preset)));
   preset.dt = look / steps;
   MotionStatistics result{scene.name, integrator, preset.dt, settles, settles + count * block};
   Simulation simulation(preset);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/engines/engine.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

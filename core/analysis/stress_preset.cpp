@@ -5,8 +5,8 @@
 
 #include "core/analysis/frequency.h"
 #include "core/integrators/names.h"
-#include "core/notation/notation.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "core/edit.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 #include "core/simulation.h"
 
 namespace tyglab {

@@ -8,8 +8,8 @@
 #include "core/energy/auto_step.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
-#include "core/notation/preset_io.h"
-#include "core/notation/readable.h"
+#include "core/model/readable.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -72,8 +72,8 @@ std::string settings_of(const ErrorPoint& point) {
 std::string ToleranceChoice::words(double tolerance) const {
   ErrorPoint used = chosen;
   if (used.tolerance == 0) used.dt = preset.dt;
-  std::string text = settings_of(used) + ": errs by " + (chosen.told ? "" : "less than ") +
-                     number(chosen.told ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
+  std::string text = settings_of(used) + ": errs by " + (chosen.resolved ? "" : "less than ") +
+                     number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
                      " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) +
                      " m were asked for, and takes " + number(chosen.cost) +
                      " s of one processor for a simulated second.";

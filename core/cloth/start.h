@@ -6,7 +6,7 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/integrators/remedy.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {

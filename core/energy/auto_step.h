@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "core/energy/ledger.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

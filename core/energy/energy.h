@@ -4,7 +4,7 @@
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
 #include "core/engines/engine.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "core/integrators/remedy.h"
-#include "core/notation/readable.h"
+#include "core/model/readable.h"
+#include "core/theory/advice.h"
 
 namespace tyglab {
 namespace {
@@ -60,7 +60,7 @@ std::optional<Divergence> EnergyWatch::divergence(const Preset& preset, const St
   d.cause = preset.integrator + " has made " + short_number(reading.unexplained(), 3) + " J that nothing explains, " +
             short_number(reading.share(), 2) + " times what the scene can hold, at dt = " + short_number(preset.dt) +
             " s";
-  d.remedy = remedy(preset);
+  d.advice = advice(preset);
   return d;
 }
 

@@ -27,7 +27,7 @@ class RunningIntegral {
 };
 
 /// Work done on the cloth since the ledger began, J; what it lost stands below 0.
-struct Works {
+struct WorkTotals {
   double damping = 0;
   double contact = 0;  ///< with bodies: impacts and friction
   double tearing = 0;  ///< energy of springs that broke or were cut
@@ -41,7 +41,7 @@ struct Works {
 struct LedgerReading {
   Energy energy;     ///< now
   double start = 0;  ///< of all kinds together, when the ledger began
-  Works works;
+  WorkTotals works;
   /// What unexplained() is judged by: the energy that the cloth had in motion and springs, what gravity can give it
   /// over its own length, and what wind, hand and edits have brought.
   double scale = 0;

@@ -16,7 +16,7 @@
 #include "core/engines/gl_vertices.h"
 #include "core/engines/position_memory.h"
 #include "core/integrators/step_control.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 
@@ -35,7 +35,7 @@ struct Divergence {
   std::string quantity;   ///< "position", "velocity", "spring length"
   double value = 0;       ///< its value; may be non-finite
   std::string cause;      ///< a sentence
-  std::string remedy;     ///< a sentence
+  std::string advice;     ///< a sentence
   /// "particle (3, 4)" or "spring (3, 4)–(4, 5)".
   std::string where() const;
 };

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/engines/cpu/row_distances.h"
+#include "core/simd/row_distances.h"
 
 namespace tyglab {
 namespace {
@@ -91,8 +91,8 @@ bool within_bounds(const Preset& preset, const Lattice& lattice, const Tears& te
 
 }  // namespace
 
-double growth_of(double largest_way) {
-  return 2 * std::numbers::sqrt3 * largest_way;
+double max_elongation(double max_displacement) {
+  return 2 * std::numbers::sqrt3 * max_displacement;
 }
 
 template <class R>

@@ -7,7 +7,7 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/tears.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 
@@ -31,7 +31,7 @@ struct StateView {
 };
 
 /// By how much a spring can grow where no component of a particle's way is larger: by both of its ends.
-double growth_of(double largest_way);
+double max_elongation(double max_displacement);
 
 /// Of a length computed in R, as a part of it, generously.
 template <class R>

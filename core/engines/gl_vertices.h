@@ -25,7 +25,7 @@ struct GlBuffers {
 };
 
 /// A particle beside a tear: where it stands among those that are drawn, i · columns + j, and which of the eight
-/// triangles round it are whole, a bit each (whole_triangles, app/viewport/vertex_normals.h).
+/// triangles round it are whole, a bit each (whole_triangles, app/render/vertex_normals.h).
 struct TornSite {
   std::uint32_t site, triangles;
 };

@@ -5,9 +5,9 @@
 
 #include <functional>
 
-#include "core/engines/cpu/simd-inl.h"
 #include "core/fields/spring_fields.h"
 #include "core/forces/spring-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {

@@ -42,7 +42,7 @@ glm::dvec3 corrected_velocity(const Body& body, const glm::dvec3& v, const glm::
   return left * tangential - body.restitution * inward * n;
 }
 
-void collide_one(const Body& body, double dt, double epsilon, Passage& p) {
+void collide_one(const Body& body, double dt, double epsilon, ContactStep& p) {
   const glm::dvec3 n = normal(body, p.old_x);
   if (depth(body, p.old_x) > contact_tolerance(body, p.old_x, epsilon)) {
     // It was inside already (the body was moved, a bad start): out along n, the nearest way from where it was. From a
@@ -78,7 +78,7 @@ bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, co
   });
 }
 
-bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& p) {
+bool collide(std::span<const Body> bodies, double dt, double epsilon, ContactStep& p) {
   for (int pass = 0; pass < passes; ++pass) {
     bool touched = false;
     for (const Body& body : bodies)

@@ -5,12 +5,12 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 
 /// A particle over one step: position before, tentative position and velocity after.
-struct Passage {
+struct ContactStep {
   glm::dvec3 old_x, x, v;
 };
 
@@ -27,6 +27,6 @@ bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, co
 
 /// Corrects x and v of a passage for all bodies, in list order and repeatedly. Returns whether x is outside all of them
 /// afterwards (overlapping bodies can leave it inside one).
-bool collide(std::span<const Body> bodies, double dt, double epsilon, Passage& passage);
+bool collide(std::span<const Body> bodies, double dt, double epsilon, ContactStep& passage);
 
 }  // namespace tyglab

@@ -3,7 +3,7 @@
 // every method feels the same one.
 #pragma once
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

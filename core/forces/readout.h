@@ -8,7 +8,7 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

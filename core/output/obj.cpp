@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/notation/preset_io.h"
-#include "core/output/text.h"
+#include "core/io/files.h"
+#include "core/io/text.h"
 
 namespace tyglab {
 namespace {

@@ -4,8 +4,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "core/notation/preset_io.h"
-#include "core/output/destination.h"
+#include "core/io/destination.h"
+#include "core/io/files.h"
 
 namespace tyglab {
 namespace {

@@ -4,9 +4,10 @@
 #include <cerrno>
 #include <iostream>
 
-#include "core/notation/preset_io.h"
-#include "core/output/destination.h"
-#include "core/output/text.h"
+#include "core/io/destination.h"
+#include "core/io/files.h"
+#include "core/io/preset_io.h"
+#include "core/io/text.h"
 
 namespace tyglab {
 
@@ -87,7 +88,7 @@ std::vector<SeriesColumn> ledger_columns() {
 }
 
 std::vector<double> ledger_values(const LedgerReading& r) {
-  const Works& w = r.works;
+  const WorkTotals& w = r.works;
   return {r.energy.kinetic, r.energy.stretch, r.energy.bending, r.energy.gravity, w.damping, w.contact, w.tearing,
           w.wind,           w.hand,           w.edits,          r.unexplained(),  r.scale,   r.share()};
 }

@@ -1,7 +1,7 @@
 #include "core/output/state_csv.h"
 
-#include "core/notation/preset_io.h"
-#include "core/output/text.h"
+#include "core/io/preset_io.h"
+#include "core/io/text.h"
 
 namespace tyglab {
 

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/fields/particle_field.h"
-#include "core/notation/preset_io.h"
-#include "core/output/text.h"
+#include "core/io/preset_io.h"
+#include "core/io/text.h"
 
 namespace tyglab {
 

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "core/analysis/boundary.h"
-#include "core/integrators/amplification.h"
+#include "core/theory/amplification.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::frequency_test {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "core/integrators/names.h"
-#include "core/notation/notation.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
 
 namespace tyglab::stress_test {
 

@@ -37,7 +37,7 @@ TEST_CASE("the estimated error of one weight is that by its closed form, for eve
     const StudyReference reference = study_reference(start, 1, {}, never);
     CHECK(reference.seconds == doctest::Approx(0.992));  // a whole number of steps between samples
     const ErrorPoint point = measure_point(start, reference, never);
-    CHECK(point.told);
+    CHECK(point.resolved);
     CHECK(point.error_rms_m == doctest::Approx(exact_error(preset, reference.seconds)).epsilon(1e-3));
     CHECK(point.cost > 0);
   }

@@ -5,7 +5,7 @@
 #include <complex>
 #include <glm/geometric.hpp>
 
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 

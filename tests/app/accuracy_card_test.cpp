@@ -1,5 +1,5 @@
 // What the cards of accuracy and stability say and draw.
-#include "app/panels/accuracy_card.h"
+#include "app/ui/cards/accuracy_card.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/integrators/remedy.h"
 #include "core/integrators/scheme.h"
+#include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::accuracy_card_test {

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include "app/sandbox/app.h"
+#include "app/ui/app.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
@@ -27,24 +27,24 @@ Preset changed(Preset preset, int rows) {
 
 /// Frames pass until nothing is in work.
 void wait(App& app) {
-  for (int n = 0; n < 20000 && app.building.in_work(); ++n) {
+  for (int n = 0; n < 20000 && app.building.busy(); ++n) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     app.building.poll(app);
   }
-  REQUIRE_FALSE(app.building.in_work());
+  REQUIRE_FALSE(app.building.busy());
 }
 
 TEST_CASE("a small cloth is changed at once, a large one beside the frames") {
   App app = app_with(test::cloth(20, large));
   CHECK(apply_edit(app, edit::Change{changed(app.preset(), 30)}));
-  CHECK_FALSE(app.building.in_work());
+  CHECK_FALSE(app.building.busy());
   CHECK(app.preset().rows == 30);
   app.simulation->advance(3);
   CHECK(apply_edit(app, edit::Change{changed(app.preset(), large)}));
-  CHECK(app.building.in_work());
+  CHECK(app.building.busy());
   CHECK_FALSE(app.building.holds_present());
   CHECK(app.preset().rows == 30);
-  CHECK(app.wished().rows == large);
+  CHECK(app.requested_preset().rows == large);
   CHECK(app.building.lattice() == Lattice{large, large});
   app.simulation->advance(1);  // the present one goes on
   CHECK(app.simulation->steps() == 4);
@@ -58,12 +58,12 @@ TEST_CASE("what is changed meanwhile is felt at once and by the cloth in work") 
   App app = app_with(test::cloth(20, large));
   app.simulation->advance(3);
   apply_edit(app, edit::Change{changed(app.preset(), large)});
-  Preset stiff = app.wished();
+  Preset stiff = app.requested_preset();
   stiff.k_s = 77;
   apply_edit(app, edit::Change{stiff});
   CHECK(app.preset().k_s == 77);
   CHECK(app.preset().rows == 20);
-  CHECK(app.wished() == stiff);
+  CHECK(app.requested_preset() == stiff);
   wait(app);
   CHECK(app.preset() == stiff);
   CHECK(app.history.undo(app.preset())->rows == large);
@@ -80,7 +80,7 @@ TEST_CASE("a newer wish replaces one in work, and going back to the present clot
   app.simulation = std::make_unique<Simulation>(small);
   apply_edit(app, edit::Change{changed(small, large)});
   apply_edit(app, edit::Change{small});
-  CHECK(app.wished() == small);
+  CHECK(app.requested_preset() == small);
   wait(app);
   CHECK(app.preset() == small);
 }
@@ -133,7 +133,7 @@ struct SlowCompiler {
     app.simulation->advance(3);
   }
   void change(double Preset::*constant, double to) {
-    Preset next = app.wished();
+    Preset next = app.requested_preset();
     next.*constant = to;
     apply_edit(app, edit::Change{next});
   }
@@ -155,9 +155,9 @@ TEST_CASE("the ledger is kept once the program that notes contacts has been buil
   slow.may_go_on = true;
   while (!app.building.ledger_ready(app)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(slow.builds == 1);
-  app.simulation->keep_ledger(true);
+  app.simulation->enable_ledger(true);
   app.simulation->advance(1);
-  app.simulation->keep_ledger(false);
+  app.simulation->enable_ledger(false);
   CHECK(app.building.ledger_ready(app));  // the program is there now
   CHECK(slow.builds == 1);
   Preset bare = test::cloth(20, 20);
@@ -177,7 +177,7 @@ TEST_CASE("a feature that a device builds a program for is switched on beside th
   CHECK(app.building.programs());
   CHECK_FALSE(app.building.holds_present());
   CHECK(app.preset().k_b == 0);
-  CHECK(app.wished().k_b == 1);
+  CHECK(app.requested_preset().k_b == 1);
   app.simulation->advance(2);  // the old program goes on
   slow.change(&Preset::k_s, 77);
   slow.change(&Preset::k_b, 2);
@@ -192,7 +192,7 @@ TEST_CASE("a feature that a device builds a program for is switched on beside th
   app.simulation->advance(1);
   for (const double k_b : {0.0, 3.0}) {  // both programs are there now
     slow.change(&Preset::k_b, k_b);
-    CHECK_FALSE(app.building.in_work());
+    CHECK_FALSE(app.building.busy());
     CHECK(app.preset().k_b == k_b);
   }
 }
@@ -206,7 +206,7 @@ TEST_CASE("who takes the feature back meanwhile waits for nothing, and two featu
   App& app = slow.app;
   slow.change(&Preset::k_b, 1);
   slow.change(&Preset::k_b, 0);
-  CHECK(app.building.wished() == nullptr);
+  CHECK(app.building.requested_preset() == nullptr);
   CHECK(app.preset() == without);
   slow.change(&Preset::k_b, 1);
   slow.change(&Preset::k_d, 0.001);

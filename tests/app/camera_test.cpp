@@ -8,9 +8,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
-#include "app/viewport/camera.h"
-#include "app/viewport/picking.h"
-#include "core/notation/preset_io.h"
+#include "app/render/camera.h"
+#include "app/render/picking.h"
+#include "core/io/preset_io.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::camera_test {

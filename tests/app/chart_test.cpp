@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/charts/chart.h"
-#include "app/viewport/image.h"
+#include "app/render/image.h"
+#include "app/ui/kit/chart.h"
 
 namespace tyglab::chart_test {
 

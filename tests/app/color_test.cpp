@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/charts/color_legend.h"
-#include "app/panels/performance.h"
-#include "app/sandbox/app.h"
-#include "app/sandbox/field_colors.h"
-#include "app/viewport/cloth_renderer.h"
-#include "app/viewport/drawn_cloth.h"
-#include "app/viewport/headless_context.h"
+#include "app/render/cloth_renderer.h"
+#include "app/render/drawn_cloth.h"
+#include "app/render/field_colors.h"
+#include "app/render/headless_context.h"
+#include "app/ui/app.h"
+#include "app/ui/cards/performance.h"
+#include "app/ui/kit/color_legend.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::color_test {

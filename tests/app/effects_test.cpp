@@ -1,5 +1,5 @@
 // Leaving out effects where drawing is slow: in order, after a few frames, and back without flickering.
-#include "app/sandbox/effects.h"
+#include "app/scene/effects.h"
 
 #include <doctest/doctest.h>
 
@@ -63,10 +63,10 @@ TEST_CASE("an effect comes back once there is room for it, and less often where 
 
 TEST_CASE("who wishes all effects, or few, has them at once and for good") {
   Effects effects;
-  effects.wish = Effects::Wish::all;
+  effects.mode = Effects::Mode::all;
   draw(effects, 90, 1000);
   CHECK(effects.left_out() == 0);
-  effects.wish = Effects::Wish::few;
+  effects.mode = Effects::Mode::few;
   CHECK(effects.left_out() == Effects::count);
   draw(effects, 1, 1000);
   CHECK(effects.left_out() == Effects::count);

@@ -1,5 +1,5 @@
 // Engines and precisions as they are offered, and what follows from a method that runs on one engine alone.
-#include "app/panels/engine_menu.h"
+#include "app/ui/constants/engine_menu.h"
 
 #include <doctest/doctest.h>
 
@@ -31,11 +31,11 @@ App app_with(const Preset& preset) {
 /// Asks as panels do, and lets frames pass until it is there.
 void act(App& app) {
   apply_requests(app);
-  for (int n = 0; n < 20000 && app.building.in_work(); ++n) {
+  for (int n = 0; n < 20000 && app.building.busy(); ++n) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     app.building.poll(app);
   }
-  REQUIRE_FALSE(app.building.in_work());
+  REQUIRE_FALSE(app.building.busy());
 }
 
 Preset on_opencl() {

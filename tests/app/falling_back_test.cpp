@@ -1,5 +1,5 @@
 // A device that is lost in mid-run.
-#include "app/sandbox/falling_back.h"
+#include "app/session/engine_fallback.h"
 
 #include <doctest/doctest.h>
 

@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/viewport/cloth_topology.h"
-#include "app/viewport/written_vertices.h"
+#include "app/render/cloth_topology.h"
+#include "app/render/written_vertices.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "tests/app/picture_pair.h"
 #include "tests/support/gl_sharing_double.h"

@@ -7,10 +7,10 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "app/panels/overlay.h"
-#include "app/sandbox/app.h"
-#include "app/sandbox/wind_arrow.h"
-#include "app/viewport/spring_picking.h"
+#include "app/render/spring_picking.h"
+#include "app/tools/wind_arrow.h"
+#include "app/ui/app.h"
+#include "app/ui/overlay/overlay.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::hand_test {
@@ -36,9 +36,9 @@ struct Scene {
     const glm::dvec3 a = simulation.positions().at(0, 0), b = simulation.positions().at(8, 8);
     return *camera.project({a.x + (b.x - a.x) * j / 8, a.y + (b.y - a.y) * i / 8, a.z}, size);
   }
-  std::vector<SpringSite> across(glm::vec2 from, glm::vec2 to) const { return across(std::array{Way{from, to}}); }
-  std::vector<SpringSite> across(std::span<const Way> ways) const {
-    return springs_across(simulation.positions(), simulation.tears(), camera, simulation.preset().bodies, ways, size);
+  std::vector<SpringSite> across(glm::vec2 from, glm::vec2 to) const { return across(std::array{Stroke{from, to}}); }
+  std::vector<SpringSite> across(std::span<const Stroke> strokes) const {
+    return springs_across(simulation.positions(), simulation.tears(), camera, simulation.preset().bodies, strokes, size);
   }
   Simulation simulation;
   Camera camera;
@@ -173,7 +173,7 @@ TEST_CASE("the same drag cuts upwards, or along its path") {
 }
 
 glm::vec2 tip(const App& app) {
-  return *app.camera.project(wind_arrow(app, app.wished().W).tip, app.viewport.size());
+  return *app.camera.project(wind_arrow(app, app.requested_preset().W).tip, app.viewport.size());
 }
 
 TEST_CASE("the wind's arrow is shown while there is wind, or as it is asked for") {

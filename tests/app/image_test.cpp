@@ -1,8 +1,8 @@
 // Pictures in and out.
 #include <doctest/doctest.h>
 
-#include "app/viewport/image.h"
-#include "core/notation/preset_io.h"
+#include "app/render/image.h"
+#include "core/io/files.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

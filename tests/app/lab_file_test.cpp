@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "app/labs/lab_state.h"
-#include "app/labs/observables.h"
-#include "app/sandbox/app.h"
+#include "app/session/labs/lab_state.h"
+#include "app/session/labs/observables.h"
+#include "app/ui/app.h"
 #include "tests/support/files.h"
 
 namespace tyglab::lab_file_test {
@@ -172,7 +172,7 @@ TEST_CASE("every observable has a name of its own, and can be asked of any scene
       } else if (const auto value = observe(app, name)) {
         CHECK(std::isfinite(*value));
       } else if (const Observable* row = find_observable(name)) {
-        CHECK_FALSE(row->cure.empty());
+        CHECK_FALSE(row->suggested_fix.empty());
       }
     }
   }

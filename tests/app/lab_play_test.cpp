@@ -1,9 +1,9 @@
 // Every shipped lab, played: done right its checks hold and its answers are true; not done, they do not hold.
 #include <doctest/doctest.h>
 
-#include "app/labs/observables.h"
+#include "app/session/labs/observables.h"
 #include "core/engines/opencl/opencl_devices.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 #include "tests/app/lab_player.h"
 
 namespace tyglab::lab_play_test {

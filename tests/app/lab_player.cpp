@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 
 namespace tyglab::test {
 namespace {

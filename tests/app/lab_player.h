@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/sandbox/app.h"
+#include "app/ui/app.h"
 
 namespace tyglab::test {
 

@@ -1,5 +1,5 @@
 // The palette finds everything by its words, and the table of commands holds all of them.
-#include "app/panels/palette.h"
+#include "app/ui/frame/palette.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <set>
 
-#include "app/sandbox/commands.h"
-#include "app/sandbox/keys.h"
+#include "app/ui/frame/commands.h"
+#include "app/ui/frame/keys.h"
 #include "core/integrators/names.h"
 #include "tests/support/scenes.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/panels/performance.h"
+#include "app/ui/cards/performance.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::performance_test {

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "app/viewport/cloth_renderer.h"
-#include "app/viewport/headless_context.h"
+#include "app/render/cloth_renderer.h"
+#include "app/render/headless_context.h"
 
 namespace tyglab::test {
 

@@ -3,14 +3,14 @@
 
 #include <array>
 
-#include "app/panels/placing.h"
+#include "app/ui/kit/overlay_layout.h"
 
 namespace tyglab::placing_test {
 
 const Box area{{0, 0}, {400, 300}};
 
 TEST_CASE("a mark stands in its corner, or beside what has taken it, and nowhere where the side is full") {
-  Placing placing;
+  OverlayLayout placing;
   placing.begin(4);
   const auto first = placing.in_corner(area, {100, 50}, ScreenCorner::lower_right);
   REQUIRE(first.has_value());
@@ -33,7 +33,7 @@ TEST_CASE("a mark stands in its corner, or beside what has taken it, and nowhere
 }
 
 TEST_CASE("marks keep their gap, and a label takes the first of its places that is free") {
-  Placing placing;
+  OverlayLayout placing;
   placing.begin(4);
   placing.take("bar", {{100, 100}, {200, 120}});
   CHECK_FALSE(placing.free({{203, 100}, {220, 120}}));

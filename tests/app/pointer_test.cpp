@@ -4,9 +4,9 @@
 #include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 
-#include "app/sandbox/app.h"
-#include "app/sandbox/requests.h"
-#include "core/notation/preset_io.h"
+#include "app/session/requests.h"
+#include "app/ui/app.h"
+#include "core/model/resolution.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::pointer_test {

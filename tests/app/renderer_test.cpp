@@ -3,10 +3,10 @@
 
 #include <cstdlib>
 
-#include "app/viewport/cloth_renderer.h"
-#include "app/viewport/cloth_topology.h"
-#include "app/viewport/drawn_cloth.h"
-#include "app/viewport/headless_context.h"
+#include "app/render/cloth_renderer.h"
+#include "app/render/cloth_topology.h"
+#include "app/render/drawn_cloth.h"
+#include "app/render/headless_context.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

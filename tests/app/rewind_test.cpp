@@ -1,5 +1,5 @@
 // The recent past that the sandbox keeps.
-#include "app/sandbox/rewind.h"
+#include "app/session/rewind.h"
 
 #include <doctest/doctest.h>
 

@@ -6,17 +6,16 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "app/panels/curves.h"
-#include "app/panels/numbers.h"
-#include "app/panels/plot.h"
-#include "app/panels/symbol.h"
-#include "app/sandbox/clock.h"
-#include "app/sandbox/history.h"
-#include "app/sandbox/messages.h"
-#include "app/sandbox/series.h"
-#include "app/sandbox/settings.h"
+#include "app/base/numbers.h"
+#include "app/session/history.h"
+#include "app/session/messages.h"
+#include "app/session/pacing.h"
+#include "app/session/series.h"
+#include "app/session/settings.h"
+#include "app/ui/kit/curves.h"
+#include "app/ui/kit/plot.h"
+#include "app/ui/kit/symbol.h"
 #include "core/integrators/names.h"
-#include "core/notation/preset_io.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -1,8 +1,8 @@
 // Positions that a device writes into OpenGL's own memory: the picture is that of copied ones, and nothing is copied.
 #include <doctest/doctest.h>
 
-#include "app/viewport/graphics_error.h"
-#include "app/viewport/mapped_buffer.h"
+#include "app/render/graphics_error.h"
+#include "app/render/mapped_buffer.h"
 #include "tests/app/picture_pair.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "app/sandbox/sleep.h"
+#include "app/session/sleep.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::sleep_test {

@@ -1,5 +1,5 @@
 // The gauge under dt: the limits that it works out beside the frames, and what it says of them.
-#include "app/sandbox/stability_watch.h"
+#include "app/studies/stability_watch.h"
 
 #include <doctest/doctest.h>
 
@@ -8,9 +8,9 @@
 #include <limits>
 #include <thread>
 
-#include "app/panels/stability_row.h"
-#include "app/sandbox/app.h"
-#include "core/integrators/remedy.h"
+#include "app/ui/app.h"
+#include "app/ui/constants/stability_row.h"
+#include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::stability_watch_test {

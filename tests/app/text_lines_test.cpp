@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/labs/lab_state.h"
-#include "app/panels/text_lines.h"
+#include "app/base/text_lines.h"
+#include "app/session/labs/lab_state.h"
 
 namespace tyglab::text_lines_test {
 

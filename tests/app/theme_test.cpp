@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/panels/theme.h"
+#include "app/ui/kit/theme.h"
 
 namespace tyglab::theme_test {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "app/panels/zones.h"
+#include "app/ui/constants/zones.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::zone_words_test {

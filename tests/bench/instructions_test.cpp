@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/commands/bench_instructions.h"
+#include "app/cli/bench_instructions.h"
 #include "tests/support/files.h"
 
 namespace tyglab::instructions_test {

@@ -1,7 +1,6 @@
 // The same run is the same to the last bit, however it is cut into calls.
 #include <doctest/doctest.h>
 
-#include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::determinism_test {

@@ -1,7 +1,7 @@
 // The program as a process: exit codes and what it says, as docs and scripts rely on them.
 #include <doctest/doctest.h>
 
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 #include "tests/support/files.h"
 
 namespace tyglab::exit_codes_test {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/files.h"
 

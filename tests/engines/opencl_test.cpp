@@ -195,7 +195,7 @@ TEST_CASE("one weight, and the ledger with what bodies stop") {
 
   Preset preset = everything(Precision::double_);
   Pair pair(preset);
-  pair.cpu.keep_ledger(true), pair.opencl.keep_ledger(true);
+  pair.cpu.enable_ledger(true), pair.opencl.enable_ledger(true);
   pair.advance(50);
   pair.check();
   const auto contacts = [](Simulation& simulation) { return simulation.engine().contacts(); };

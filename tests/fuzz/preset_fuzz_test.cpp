@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/notation/notation.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::preset_fuzz_test {

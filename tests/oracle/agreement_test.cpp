@@ -6,7 +6,8 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/words.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab::oracle {
 

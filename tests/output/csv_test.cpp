@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/notation/preset_io.h"
-#include "core/output/destination.h"
+#include "core/io/destination.h"
+#include "core/io/files.h"
+#include "core/io/preset_io.h"
+#include "core/io/text.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"
-#include "core/output/text.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -6,7 +6,6 @@
 #include <memory>
 #include <sstream>
 
-#include "core/notation/preset_io.h"
 #include "core/output/obj.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"

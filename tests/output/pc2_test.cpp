@@ -4,7 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/notation/preset_io.h"
+#include "core/io/files.h"
 #include "core/output/point_cache.h"
 #include "tests/support/files.h"
 

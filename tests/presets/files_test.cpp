@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "core/notation/preset_io.h"
+#include "core/io/files.h"
+#include "core/io/preset_io.h"
 #include "tests/support/files.h"
 
 namespace tyglab::files_test {

@@ -6,8 +6,8 @@
 
 #include "core/integrators/integrators_page.h"
 #include "core/integrators/scheme.h"
-#include "core/notation/notation.h"
-#include "core/notation/preset_io.h"
+#include "core/io/files.h"
+#include "core/model/notation.h"
 #include "tests/support/files.h"
 
 namespace tyglab::notation_test {

@@ -1,7 +1,7 @@
 // --set KEY=VALUE.
 #include <doctest/doctest.h>
 
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
 
 namespace tyglab::settings_test {
 

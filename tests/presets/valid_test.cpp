@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/notation/notation.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::valid_test {

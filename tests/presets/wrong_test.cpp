@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/notation/json_fault.h"
-#include "core/notation/preset_io.h"
+#include "core/io/json_fault.h"
+#include "core/io/preset_io.h"
 
 namespace tyglab::wrong_test {
 

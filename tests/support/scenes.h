@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/cloth/state.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 #include "core/simulation.h"
 #include "tests/oracle/oracle.h"
 

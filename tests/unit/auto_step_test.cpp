@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "core/integrators/remedy.h"
 #include "core/simulation.h"
+#include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::auto_step_test {

@@ -6,7 +6,8 @@
 
 #include "core/cloth/start.h"
 #include "core/integrators/scheme.h"
-#include "core/notation/preset_io.h"
+#include "core/io/preset_io.h"
+#include "core/model/resolution.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::change_test {

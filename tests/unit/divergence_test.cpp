@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "core/integrators/remedy.h"
+#include "core/theory/advice.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
@@ -42,7 +42,7 @@ void check_report(const Divergence& divergence, const Simulation& simulation) {
   CHECK(simulation.lattice().contains(divergence.i, divergence.j));
   CHECK_FALSE(divergence.quantity.empty());
   CHECK_FALSE(divergence.cause.empty());
-  CHECK_FALSE(divergence.remedy.empty());
+  CHECK_FALSE(divergence.advice.empty());
 }
 
 TEST_CASE("divergence is found in the very step that makes a spring 1000 times too long") {
@@ -209,30 +209,30 @@ TEST_CASE("where weight and wind are more than the springs can hold, the method 
     CHECK(d.t == doctest::Approx(std::sqrt(2 * 1000 * preset.L / preset.g)).epsilon(0.02));  // ½ g t² = 1000 L
     CHECK(d.cause.find("is unstable") == std::string::npos);
     CHECK(d.cause.find("more than the springs can hold") != std::string::npos);
-    CHECK(d.remedy.find("larger k_s") != std::string::npos);
-    CHECK_FALSE(cure(preset).has_value());
+    CHECK(d.advice.find("larger k_s") != std::string::npos);
+    CHECK_FALSE(suggested_fix(preset).has_value());
   }
-  CHECK_FALSE(outer_forces_win(explosive("verlet", Precision::double_)));
-  CHECK_FALSE(outer_forces_win(Preset{}));
+  CHECK_FALSE(springs_too_weak(explosive("verlet", Precision::double_)));
+  CHECK_FALSE(springs_too_weak(Preset{}));
 }
 
 TEST_CASE("the cure makes the change that the remedy names first, and heals") {
   for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
     CAPTURE(std::string(integrator));
     const Preset preset = explosive(integrator, Precision::double_);
-    const auto cured = cure(preset);
+    const auto cured = suggested_fix(preset);
     REQUIRE(cured.has_value());
     CHECK(cured->integrator == "verlet");
     CHECK(cured->dt < preset.dt);
     char dt[32];
     std::snprintf(dt, sizeof dt, "dt = %.2g s", cured->dt);
-    CHECK(remedy(preset).find(dt) != std::string::npos);
+    CHECK(advice(preset).find(dt) != std::string::npos);
     Simulation simulation(*cured);
     CHECK_FALSE(simulation.advance(2000).diverged);
   }
   Preset calm;
   calm.dt = 1e-6;
-  CHECK_FALSE(cure(calm).has_value());
+  CHECK_FALSE(suggested_fix(calm).has_value());
 }
 
 }  // namespace tyglab::divergence_test

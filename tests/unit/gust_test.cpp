@@ -115,10 +115,10 @@ TEST_CASE("what is read in a gust is the wind that blows: the force on a particl
 TEST_CASE("the ledger explains what gusts do: no energy comes from nowhere") {
   Preset preset = windy("rk4");
   Simulation gusty(preset);
-  gusty.keep_ledger(true);
+  gusty.enable_ledger(true);
   preset.gust = 0;
   Simulation steady(preset);
-  steady.keep_ledger(true);
+  steady.enable_ledger(true);
   gusty.advance(1000), steady.advance(1000);
   CHECK(std::abs(gusty.ledger()->share()) < 3 * std::abs(steady.ledger()->share()) + 1e-4);
 }

@@ -14,7 +14,7 @@ double largest_growth(double k_s, int iterations, int steps) {
   preset.k_s = k_s, preset.k_b = 0, preset.iterations = iterations;
   preset.dt = 1.0 / 30, preset.precision = Precision::double_;
   Simulation simulation(preset);
-  simulation.keep_ledger(true);
+  simulation.enable_ledger(true);
   double before = simulation.energy().energy.total(), most = 0;
   for (int n = 0; n < steps; ++n) {
     simulation.advance(1);

@@ -25,7 +25,7 @@ Preset taut(const std::string& integrator, double k_d) {
 double left_over(Preset preset, double dt, double seconds) {
   preset.dt = dt;
   Simulation simulation(preset);
-  simulation.keep_ledger(true);
+  simulation.enable_ledger(true);
   simulation.advance(int(std::lround(seconds / dt)));
   REQUIRE(!simulation.divergence());
   return simulation.ledger()->share();
@@ -135,7 +135,7 @@ TEST_CASE("a body's impact and friction are contact's, and leave little unexplai
     CAPTURE(method);
     preset.integrator = method;
     Simulation simulation(preset);
-    simulation.keep_ledger(true);
+    simulation.enable_ledger(true);
     simulation.advance(TYGLAB_SANITIZED ? 800 : 4000);
     const LedgerReading ledger = *simulation.ledger();
     CHECK(ledger.works.contact < -0.5 * ledger.start);
@@ -158,7 +158,7 @@ TEST_CASE("what a body stops is contact's also under an engine made anew before 
     return simulation.ledger()->works.contact;
   };
   Simulation simulation(preset);
-  simulation.keep_ledger(true);
+  simulation.enable_ledger(true);
   const auto beside = simulation.rebuilt(edit::Change{other});
   simulation.apply(edit::Change{other});
   CHECK(contact_of(simulation) < -1e-6);
@@ -169,7 +169,7 @@ TEST_CASE("springs that break and cuts take their energy with them") {
   Preset preset = test::cloth(10, 10, "velocity_verlet");
   preset.F_max = 0.02, preset.dt = 2e-4, preset.v_0 = {0, 0, 2};
   Simulation simulation(preset);
-  simulation.keep_ledger(true);
+  simulation.enable_ledger(true);
   simulation.advance(1500);
   CHECK(simulation.tears().torn_count() > 0);
   const double broken = simulation.ledger()->works.tearing;
@@ -184,7 +184,7 @@ TEST_CASE("the hand's work is what it puts in; constants that change are edits")
   Preset preset = test::cloth(10, 10, "velocity_verlet");
   preset.dt = 2e-4;
   Simulation simulation(preset);
-  simulation.keep_ledger(true);
+  simulation.enable_ledger(true);
   simulation.advance(500);
   simulation.apply(edit::Grab{9, 5});
   const glm::dvec3 from = simulation.positions().at(9, 5);
@@ -214,7 +214,7 @@ TEST_CASE("a run in which the integrator makes energy counts as diverged long be
   Preset preset = test::cloth(12, 12, "euler");
   preset.k_d = 0, preset.k_s = 5000;
   Simulation with(preset), without(preset);
-  with.keep_ledger(true);
+  with.enable_ledger(true);
   with.advance(2000), without.advance(2000);
   REQUIRE(with.divergence());
   REQUIRE(without.divergence());
@@ -228,13 +228,13 @@ TEST_CASE("a run in which the integrator makes energy counts as diverged long be
 TEST_CASE("a ledger changes no bit of the motion, and the one weight has one") {
   Preset preset = test::cloth(12, 12);
   Simulation with(preset), without(preset);
-  with.keep_ledger(true);
+  with.enable_ledger(true);
   with.advance(300), without.advance(300);
   CHECK(test::identical(with.read(), without.read()));
   Preset weight = test::one_weight("rk4");
   weight.k_d = 0.01;
   Simulation one(weight);
-  one.keep_ledger(true);
+  one.enable_ledger(true);
   one.advance(500);
   CHECK(one.ledger()->works.damping < 0);
   CHECK(std::abs(one.ledger()->share()) < 1e-6);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/io/preset_io.h"
 #include "core/lockstep.h"
-#include "core/notation/preset_io.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::lockstep_test {

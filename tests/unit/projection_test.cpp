@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/engines/cpu/projection_rows.h"
-#include "core/engines/cpu/row_field.h"
+#include "core/simd/row_field.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::projection_test {

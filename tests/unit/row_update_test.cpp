@@ -1,5 +1,5 @@
 // Row updates in SIMD against plain loops.
-#include "core/engines/cpu/row_update.h"
+#include "core/simd/row_update.h"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "core/engines/cpu/row_field.h"
 #include "core/integrators/scheme.h"
+#include "core/simd/row_field.h"
 
 namespace tyglab::row_update_test {
 

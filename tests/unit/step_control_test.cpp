@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/integrators/amplification.h"
-#include "core/integrators/remedy.h"
+#include "core/theory/advice.h"
+#include "core/theory/amplification.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::step_control_test {
@@ -139,7 +139,7 @@ TEST_CASE("what no inner step is short enough for is found as a divergence, with
     CHECK(simulation.advance(3).diverged);
     CHECK(simulation.steps() == 5);
     CHECK(test::identical(simulation.read(), before));
-    CHECK(simulation.divergence()->remedy.find("implicit_euler") != std::string::npos);
+    CHECK(simulation.divergence()->advice.find("implicit_euler") != std::string::npos);
   }
 }
 

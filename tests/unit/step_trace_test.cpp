@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/integrators/scheme.h"
-#include "core/notation/preset_io.h"
 #include "core/step_trace.h"
 #include "tests/support/scenes.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/cloth/lattice.h"
-#include "core/engines/cpu/row_field.h"
+#include "core/simd/row_field.h"
 
 namespace tyglab::cpu::stiffness_test {
 

@@ -1,12 +1,12 @@
 // Zones of stability along a constant.
-#include "core/integrators/zones.h"
+#include "core/theory/zones.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/integrators/remedy.h"
+#include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::zones_test {

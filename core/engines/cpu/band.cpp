@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/engines/cpu/row_distances.h"
-#include "core/engines/cpu/row_update.h"
 #include "core/forces/contact.h"
 #include "core/forces/spring-inl.h"
+#include "core/simd/row_distances.h"
+#include "core/simd/row_update.h"
 
 namespace tyglab::cpu {
 namespace {
@@ -62,7 +62,7 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
   t.dt_v = cloth_.dt / cloth_.velocity_scale();
-  t.largest_way = largest_way_.data();
+  t.max_displacement = largest_way_.data();
   return t;
 }
 
@@ -187,12 +187,12 @@ void Band<R, Present>::collide_row(int i) {
     }
     R *x[3], *v[3];
     for (int c = 0; c < 3; ++c) x[c] = cloth_.row(vector_x, i, c) + j, v[c] = cloth_.row(vector_v, i, c) + j;
-    Passage p{{old_row(i, 0)[j], old_row(i, 1)[j], old_row(i, 2)[j]}, {*x[0], *x[1], *x[2]}, {*v[0], *v[1], *v[2]}};
+    ContactStep p{{old_row(i, 0)[j], old_row(i, 1)[j], old_row(i, 2)[j]}, {*x[0], *x[1], *x[2]}, {*v[0], *v[1], *v[2]}};
     if (std::none_of(cloth_.preset.bodies.begin(), cloth_.preset.bodies.end(),
                      [&](const Body& b) { return depth(b, p.x) > 0; }))
       continue;
     p.v /= scale;
-    const Passage freely = p;
+    const ContactStep freely = p;
     collided_ = true;
     if (!collide(cloth_.preset.bodies, cloth_.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
@@ -235,7 +235,7 @@ void Band<R, Present>::begin_watch() {
 }
 
 template <class R, unsigned Present>
-double Band<R, Present>::largest_way() const {
+double Band<R, Present>::max_displacement() const {
   double largest = 0;
   bool finite = true;
   for (const R way : largest_way_) {

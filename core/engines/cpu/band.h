@@ -14,11 +14,11 @@
 #include "core/cloth/tears.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/parts.h"
-#include "core/engines/cpu/row_field.h"
-#include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
+#include "core/simd/row_field.h"
+#include "core/simd/row_update.h"
 
 namespace tyglab::cpu {
 
@@ -110,7 +110,7 @@ class Band {
 
   void begin_watch();
   /// Largest way of a particle in one component since begin_watch, m; ∞ if something is not finite.
-  double largest_way() const;
+  double max_displacement() const;
   int left_inside() const { return left_inside_; }
   /// Whether a body has moved a particle since begin_watch.
   bool collided() const { return collided_; }

@@ -118,7 +118,7 @@ void CpuEngine<R, Present>::resolve() {
   cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
                                (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
   make_waves();
-  measure_again();
+  invalidate_budgets();
 }
 
 template <class R, unsigned Present>
@@ -183,7 +183,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   }
   set_fixed(std::vector<int>(pinned_), cloth_.held);
   restart_control();
-  measure_again();
+  invalidate_budgets();
 }
 
 template <class R, unsigned Present>
@@ -240,7 +240,7 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
         if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj;
             cloth_.lattice.contains(i, j))
           guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
-  measure_again();
+  invalidate_budgets();
 }
 
 template <class R, unsigned Present>

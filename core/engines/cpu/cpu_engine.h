@@ -41,7 +41,7 @@ class CpuEngine final : public Engine {
 
  private:
   using Field = RowField<R>;
-  enum class End { none, fault, released, overtaken };
+  enum class End { none, fault, released, rolled_back };
 
   static constexpr bool has(unsigned which) { return (Present & which) != 0; }
   /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
@@ -86,8 +86,8 @@ class CpuEngine final : public Engine {
   /// The steps before say nothing any more of how long the next may be.
   void restart_control() { control_.restart(), knows_first_a_ = false; }
   /// Forgets how far particles may still move, and the backup: something else than their motion has changed.
-  void measure_again() {
-    free_motion_ = tear_motion_ = 0;
+  void invalidate_budgets() {
+    divergence_budget_ = tear_budget_ = 0;
     since_backup_ = -1;
     growth_ = std::numeric_limits<double>::infinity();
   }
@@ -140,8 +140,8 @@ class CpuEngine final : public Engine {
   int left_inside_ = 0;
   End end_ = End::none;
   glm::dvec3 hand_force_{0};
-  double tear_motion_ = 0;  ///< m that particles may still move before a spring can be overloaded
-  double free_motion_ = 0;  ///< m that particles may still move before springs must be measured again
+  double tear_budget_ = 0;        ///< m that particles may still move before a spring can be overloaded
+  double divergence_budget_ = 0;  ///< m that particles may still move before springs must be measured again
 };
 
 std::unique_ptr<Engine> make_cpu_engine(const Preset& preset, const Lattice& lattice, int threads);

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/engines/cpu/cpu_engine.h"
-#include "core/engines/cpu/row_distances.h"
 #include "core/forces/readout.h"
 #include "core/forces/spring-inl.h"
+#include "core/simd/row_distances.h"
 
 namespace tyglab::cpu {
 
@@ -53,7 +53,7 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::find_fault(const Tears& tears, Fault& fault) {
-  return tyglab::find_fault(cloth_.preset, cloth_.lattice, tears, view(), fault, free_motion_);
+  return tyglab::find_fault(cloth_.preset, cloth_.lattice, tears, view(), fault, divergence_budget_);
 }
 
 /// Ends a step on one thread: says whether to go on.
@@ -64,17 +64,17 @@ typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(
   double largest = 0;
   left_inside_ = 0;
   for (const auto& band : bands) {
-    largest = std::max(largest, band->largest_way());
+    largest = std::max(largest, band->max_displacement());
     left_inside_ += band->left_inside();
     if (has(part::hand) && band->has_hand() && !projects(*scheme_)) hand_force_ = band->hand_force();
   }
-  growth_ = growth_of(largest);
+  growth_ = max_elongation(largest);
   if (tears_watched()) {
-    tear_motion_ -= growth_;
-    if (!(tear_motion_ > 0)) tear_motion_ = tear_overloaded(tears);
+    tear_budget_ -= growth_;
+    if (!(tear_budget_ > 0)) tear_budget_ = tear_overloaded(tears);
   }
-  free_motion_ -= growth_;
-  if (!(free_motion_ > 0) && find_fault(tears, fault)) return End::fault;
+  divergence_budget_ -= growth_;
+  if (!(divergence_budget_ > 0) && find_fault(tears, fault)) return End::fault;
   if (has(part::hand) && cloth_.held.particle >= 0 && preset.F_release > 0 &&
       glm::length(hand_force_) > preset.F_release)
     return End::released;
@@ -139,7 +139,7 @@ template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_in_wave(int left) const {
   const int most = std::min(left, int(waves_.size() / sweeps_.size()));
   const bool hand = has(part::hand) && cloth_.held.particle >= 0 && cloth_.preset.F_release > 0;
-  const double motion = tears_watched() ? std::min(free_motion_, tear_motion_) : free_motion_;
+  const double motion = tears_watched() ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
   if (most <= 1 || hand || !(motion > 0)) return 1;
   constexpr double margin = 2;  // motion does not double within a wave, unless something is going wrong
   return int(std::clamp(motion / (margin * growth_), 1.0, double(most)));
@@ -170,10 +170,10 @@ int CpuEngine<R, Present>::finish_wave(int steps, Tears& tears, Fault& fault) {
   const std::size_t sweeps = sweeps_.size();
   for (int n = 0; n < steps; ++n) {
     const std::span last(&waves_[std::size_t(n + 1) * sweeps - 1], 1);
-    const double growth = growth_of(last[0]->largest_way());
-    const bool look = !(free_motion_ - growth > 0) || (tears_watched() && !(tear_motion_ - growth > 0));
+    const double growth = max_elongation(last[0]->max_displacement());
+    const bool look = !(divergence_budget_ - growth > 0) || (tears_watched() && !(tear_budget_ - growth > 0));
     if (look && n < steps - 1) {
-      end_ = End::overtaken;  // its positions are gone
+      end_ = End::rolled_back;  // its positions are gone
       return n;
     }
     end_ = finish_step(last, tears, fault);
@@ -227,11 +227,11 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
   if (tears_watched()) tears = tears_backup_;
-  measure_again();
+  invalidate_budgets();
   Fault none{};
   const End end = end_;
   run(steps, tears, none, false);
-  measure_again();
+  invalidate_budgets();
   end_ = end;
 }
 
@@ -245,7 +245,7 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups || torn_ != tears.torn_count()) keep_backup(tears);
     const int before = since_backup_, batch = std::min(steps - result.steps, steps_between_backups - before);
     int done = run(batch, tears, fault, true);
-    if (end_ == End::overtaken) {
+    if (end_ == End::rolled_back) {
       repeat(before, tears);
       done = run(batch, tears, fault, false);
     }

@@ -15,9 +15,9 @@
 #include "core/cloth/lattice.h"
 #include "core/engines/cpu/pair_masks-inl.h"
 #include "core/engines/cpu/pair_sweep.h"
-#include "core/engines/cpu/simd-inl.h"
 #include "core/forces/spring-inl.h"
 #include "core/forces/wind-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
@@ -62,7 +62,7 @@ class PairSweep {
         keeps_force_(task.update == Update::force),
         dt_v_(L::all(task.dt_v)),
         third_of_W_(L::all(task.W[0] / 3), L::all(task.W[1] / 3), L::all(task.W[2] / 3)),
-        largest_(L::load(task.largest_way)) {}
+        largest_(L::load(task.max_displacement)) {}
 
   HWY_INLINE void run() {
     int j = 0;
@@ -75,7 +75,7 @@ class PairSweep {
           block<true>(j);
     }
     for (; j < t_.columns; j += lanes) block<true>(j);
-    largest_.store(t_.largest_way);
+    largest_.store(t_.max_displacement);
   }
 
  private:

@@ -40,8 +40,8 @@ struct PairTask {
   double W[3];
   double v_to_x, force_to_x, force_to_v;
   Update update;
-  double dt_v;     ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
-  R* largest_way;  ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
+  double dt_v;          ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
+  R* max_displacement;  ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
 };
 
 /// The functions for one precision, for the best instruction set of this machine.
@@ -49,7 +49,7 @@ template <class R>
 struct PairSweeps {
   using Function = void (*)(const PairTask<R>&);
   /// Verlet's update is compiled in; the others are looked up in the task for each row, which costs them next to
-  /// nothing, and every build less. A way that is not finite makes largest_way ∞ or NaN.
+  /// nothing, and every build less. A way that is not finite makes max_displacement ∞ or NaN.
   struct OfFeatures {
     Function displacement, other;
   };

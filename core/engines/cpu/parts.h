@@ -7,7 +7,7 @@
 #include "core/cloth/lattice.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/engine.h"
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab::cpu {
 

@@ -5,8 +5,8 @@
 
 #include "core/cloth/lattice.h"
 #include "core/engines/cpu/projection_rows.h"
-#include "core/engines/cpu/simd-inl.h"
 #include "core/forces/spring-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {

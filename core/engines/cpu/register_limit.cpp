@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "core/engines/cpu/register_limit.h"
-#include "core/engines/cpu/simd-inl.h"
+#include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {

@@ -1,7 +1,7 @@
 // The limit that throughput is measured against: one step's arithmetic with everything in registers.
 #pragma once
 
-#include "core/notation/preset.h"
+#include "core/model/preset.h"
 
 namespace tyglab::cpu {
 

@@ -3,8 +3,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "core/engines/cpu/simd-inl.h"
 #include "core/engines/cpu/stiffness.h"
+#include "core/simd/simd-inl.h"
 
 #ifndef TYGLAB_STIFFNESS_TYPES_
 #define TYGLAB_STIFFNESS_TYPES_

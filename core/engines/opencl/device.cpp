@@ -116,7 +116,7 @@ std::vector<DeviceId> find_devices(std::string& problem) {
   return {};
 }
 
-constexpr const char* cure = "; use the CPU engine (--engine cpu); `tyglab devices` says what there is";
+constexpr const char* suggested_fix = "; use the CPU engine (--engine cpu); `tyglab devices` says what there is";
 
 }  // namespace
 
@@ -220,7 +220,8 @@ ProgramHandle Device::build(const std::string& text, const std::string& options,
     clGetProgramBuildInfo(program.get(), id_, CL_PROGRAM_BUILD_LOG, 0, nullptr, &size);
     std::string log(size, '\0');
     clGetProgramBuildInfo(program.get(), id_, CL_PROGRAM_BUILD_LOG, size, log.data(), nullptr);
-    throw EngineError("The kernels do not build for " + facts_.name + ": " + trimmed(log).substr(0, most) + cure);
+    throw EngineError("The kernels do not build for " + facts_.name + ": " + trimmed(log).substr(0, most) +
+                      suggested_fix);
   }
   check(code, "building a program");
   if (!caches) return program;
@@ -265,7 +266,7 @@ std::shared_ptr<Device> open_device(int number) {
   if (found.empty()) throw EngineError(no_device_words(problem) + " Or use the CPU engine (--engine cpu)");
   if (number >= int(found.size()))
     throw EngineError("There is no OpenCL device " + std::to_string(number) + ": they are numbered from 0 to " +
-                      std::to_string(found.size() - 1) + cure);
+                      std::to_string(found.size() - 1) + suggested_fix);
   if (number < 0) {
     std::vector<OpenClDevice> devices;
     std::transform(found.begin(), found.end(), std::back_inserter(devices), facts_of);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/engines/cpu/row_field.h"
 #include "core/integrators/scheme.h"
+#include "core/simd/row_field.h"
 
 namespace tyglab::opencl {
 namespace {

@@ -109,7 +109,7 @@ void OpenClEngine<R>::resolve() {
     resolved_.push_back({&pass.sweep, constants(over, summed), pass.work});
   }
   upload_bodies();
-  measure_again();
+  invalidate_budgets();
 }
 
 template <class R>
@@ -251,7 +251,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
     enqueue_sweep(kernels_.start, {&start, constants(preset_, start)}, idle_slot);
   }
   write_fixed_velocities();
-  measure_again();
+  invalidate_budgets();
 }
 
 template <class R>
@@ -320,7 +320,7 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
                                  pinned_.data(), 0, nullptr, nullptr),
             "writing to the device");
   }
-  measure_again();  // the backup holds the hand's old velocity
+  invalidate_budgets();  // the backup holds the hand's old velocity
   write_fixed_velocities();
 }
 

@@ -66,7 +66,7 @@ class OpenClEngine final : public Engine {
     Constants constants;
     Work work = Work::forces;
   };
-  enum class End { none, fault, released, overtaken };
+  enum class End { none, fault, released, rolled_back };
 
   bool tears_watched() const { return preset_.F_max > 0 && preset_.k_s > 0 && preset_.kind == Kind::cloth; }
   bool meets_bodies(const Preset& preset) const { return !preset.bodies.empty() && preset.kind == Kind::cloth; }
@@ -102,8 +102,8 @@ class OpenClEngine final : public Engine {
   void read_stored(State& state) const;
 
   /// Forgets how far particles may still move: something else than their motion has changed.
-  void measure_again() {
-    free_motion_ = tear_motion_ = 0;
+  void invalidate_budgets() {
+    divergence_budget_ = tear_budget_ = 0;
     since_backup_ = -1;
     growth_ = std::numeric_limits<double>::infinity();
   }
@@ -112,7 +112,7 @@ class OpenClEngine final : public Engine {
   void make_steps(int count, bool tear_each);
   /// Judges the steps made; returns those that count, and end_ says how they ended.
   int judge(int count, bool tear_each, Tears& tears, Fault& fault);
-  /// Looks at every particle and spring; if all is well, says so in free_motion_.
+  /// Looks at every particle and spring; if all is well, says so in divergence_budget_.
   bool finds_fault(const Tears& tears, Fault& fault);
   /// The same on the device, which leaves the whole state there; it only tells that something may be wrong.
   bool well_on_device();
@@ -151,8 +151,8 @@ class OpenClEngine final : public Engine {
   Tears tears_backup_;
   int since_backup_ = -1;  ///< steps; under 0: there is none
   int torn_ = 0;           ///< springs, when a step was last made: cuts come from outside
-  double growth_ = 0, free_motion_ = 0, tear_motion_ = 0;  ///< as in the CPU engine, m
-  bool tears_often_ = false;                               ///< springs are looked at in every step
+  double growth_ = 0, divergence_budget_ = 0, tear_budget_ = 0;  ///< as in the CPU engine, m
+  bool tears_often_ = false;                                     ///< springs are looked at in every step
   int left_inside_ = 0;
   End end_ = End::none;
   glm::dvec3 hand_force_{0};

@@ -63,7 +63,8 @@ void OpenClEngine<R>::make_steps(int count, bool tear_each) {
 
 template <class R>
 int OpenClEngine<R>::steps_in_batch(int left) const {
-  const double motion = tears_watched() && !tears_often_ ? std::min(free_motion_, tear_motion_) : free_motion_;
+  const double motion =
+      tears_watched() && !tears_often_ ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
   if (!(motion > 0) || solver_) return 1;  // to solve is to wait anyway
   constexpr double margin = 2;             // motion does not double within a batch, unless something is going wrong
   return int(std::clamp(motion / (margin * growth_), 1.0, double(left)));
@@ -105,7 +106,7 @@ StepReport OpenClEngine<R>::look_at_springs(const Look& look) {
 template <class R>
 void OpenClEngine<R>::tear_overloaded(Tears& tears) {
   const StepReport report = look_at_springs([&] { enqueue_tear(0); });
-  tear_motion_ = tear_slack(report);
+  tear_budget_ = tear_slack(report);
   if (report.torn != 0) state_.download(tears);
 }
 
@@ -113,7 +114,7 @@ template <class R>
 bool OpenClEngine<R>::finds_fault(const Tears& tears, Fault& fault) {
   if (remote() && preset_.kind == Kind::cloth && well_on_device()) return false;
   const StateView<R> now{state_.host(vector_x), state_.host(vector_v), state_.stride()};
-  return find_fault(preset_, lattice_, tears, now, fault, free_motion_);
+  return find_fault(preset_, lattice_, tears, now, fault, divergence_budget_);
 }
 
 template <class R>
@@ -125,8 +126,8 @@ bool OpenClEngine<R>::well_on_device() {
                   cl_int(state_.mask_pitch()), cl_int(lattice_.rows), cl_int(lattice_.columns));
     launch_rows(kernels_.look, 32);
   });
-  free_motion_ = growth_left<R>(preset_, {report.straight, report.diagonal, report.bending});
-  return report.bad == 0 && free_motion_ > 0;
+  divergence_budget_ = growth_left<R>(preset_, {report.straight, report.diagonal, report.bending});
+  return report.bad == 0 && divergence_budget_ > 0;
 }
 
 template <class R>
@@ -135,14 +136,14 @@ int OpenClEngine<R>::judge(int count, bool tear_each, Tears& tears, Fault& fault
   bool torn = false;
   for (int n = 0; n < count; ++n) {
     const StepReport& report = report_[std::size_t(n)];
-    growth_ = std::isfinite(report.way) ? growth_of(report.way) : std::numeric_limits<double>::infinity();
-    free_motion_ -= growth_, tear_motion_ -= growth_;
-    if (tear_each) tear_motion_ = tear_slack(report), torn |= report.torn != 0;
+    growth_ = std::isfinite(report.way) ? max_elongation(report.way) : std::numeric_limits<double>::infinity();
+    divergence_budget_ -= growth_, tear_budget_ -= growth_;
+    if (tear_each) tear_budget_ = tear_slack(report), torn |= report.torn != 0;
     left_inside_ = int(report.left_inside);
-    const bool tear = tears_watched() && !tear_each && !(tear_motion_ > 0), look = !(free_motion_ > 0);
+    const bool tear = tears_watched() && !tear_each && !(tear_budget_ > 0), look = !(divergence_budget_ > 0);
     if (!tear && !look && !releases(n)) continue;
     if (n < count - 1) {
-      end_ = End::overtaken;
+      end_ = End::rolled_back;
       return n + 1;
     }
     if (tear) tear_overloaded(tears);
@@ -191,24 +192,24 @@ Advance OpenClEngine<R>::advance(int steps, Tears& tears) {
   take_changes(tears);
   while (result.steps < steps && !result.diverged && !result.released) {
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(tears);
-    tears_often_ = tears_watched() && tear_motion_ < 8 * growth_ && growth_ < free_motion_;
+    tears_often_ = tears_watched() && tear_budget_ < 8 * growth_ && growth_ < divergence_budget_;
     const int before = since_backup_;
     const int batch = steps_in_batch(std::min(steps - result.steps, steps_between_backups - before));
     make_steps(batch, tears_often_);
     int done = judge(batch, tears_often_, tears, fault);
-    if (end_ == End::overtaken) {
+    if (end_ == End::rolled_back) {
       repeat(before + done, tears);
       // What is left of the motion was spent by these very steps, of which the last one is looked at.
       report_.assign(1, report_.back());
       if (held_.particle >= 0) hand_forces_.erase(hand_forces_.begin(), hand_forces_.end() - 4);
-      free_motion_ = tear_motion_ = 0;
+      divergence_budget_ = tear_budget_ = 0;
       done += judge(1, false, tears, fault) - 1;
     }
     result.diverged = end_ == End::fault;
     result.released = end_ == End::released;
     if (result.diverged) {
       repeat(before + done, tears);
-      measure_again();
+      invalidate_budgets();
     }
     result.steps += done;
     if (since_backup_ >= 0) since_backup_ = before + done;

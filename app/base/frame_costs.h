@@ -1,0 +1,93 @@
+// What a frame costs, by part.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/base/stopwatch.h"
+#include "app/base/vertex_way.h"
+
+namespace tyglab {
+
+enum class Part {
+  simulate,
+  sample,
+  colors,
+  normals,
+  upload,
+  index_lists,
+  shadow,
+  draw_cloth,
+  panels,
+  ui_draw,
+  swap,
+  frame
+};
+inline constexpr std::array<std::string_view, 12> part_names{"simulate", "sample",      "colors", "normals",
+                                                             "upload",   "index_lists", "shadow", "draw_cloth",
+                                                             "panels",   "ui_draw",     "swap",   "frame"};
+
+/// What lies between the start of the program and its first picture, in order.
+enum class StartPart { program, settings, window, shaders, cloth, first_frame };
+inline constexpr std::array<std::string_view, 6> start_names{"program", "settings", "window",
+                                                             "shaders", "cloth",    "first_frame"};
+
+class FrameCosts {
+ public:
+  /// Starts to watch with what went before: loading the program, and reading what it was called with.
+  FrameCosts() { started(StartPart::program); }
+
+  /// Counts the time from its making to its end towards a part.
+  class Timer {
+   public:
+    Timer(FrameCosts& costs, Part part) : watch_(costs.now_[std::size_t(part)]) {}
+
+   private:
+    Stopwatch watch_;
+  };
+
+  /// What was measured elsewhere, in this frame.
+  void add(Part part, const Duration& time) {
+    now_[std::size_t(part)].wall_s += time.wall_s, now_[std::size_t(part)].cpu_s += time.cpu_s;
+  }
+  /// That part of the start is over.
+  void started(StartPart part);
+  void add_steps(std::int64_t steps) { steps_ += steps; }
+  /// How a cloth that had moved came to be drawn, bytes that were copied for it and why, and bytes that others read of
+  /// a device's arrays since the last time.
+  void add_copied(VertexWay way, std::size_t bytes, const std::string& why, std::size_t read);
+  /// Of the last such frame.
+  VertexWay way() const { return way_; }
+  const std::string& why_copied() const { return why_copied_; }
+  std::size_t last_copied() const { return last_copied_; }
+  /// Bytes that others read, a frame, over about the last second.
+  double recent_read() const { return recent_read_; }
+  /// Closes the frame: what its parts took joins the means.
+  void end_frame();
+  /// Milliseconds a frame, over about the last second; 0 once a part has not run for a while.
+  double recent_ms(Part part) const { return recent_ms_[std::size_t(part)]; }
+  /// JSON: mean milliseconds a frame by part (on the wall and of the main thread), how often each part ran, how
+  /// positions come to be drawn, bytes copied and read in a frame in which the cloth had moved, what the start took by
+  /// part, frames, steps, size of the window.
+  std::string json(int width, int height, const std::string& engine, const std::string& preset) const;
+
+ private:
+  using Parts = std::array<Duration, part_names.size()>;
+  Parts now_{}, sum_{};
+  std::array<double, part_names.size()> recent_ms_{};
+  std::array<std::int64_t, part_names.size()> counts_{};
+  std::int64_t frames_ = 0, steps_ = 0;
+  VertexWay way_ = VertexWay::copied;
+  std::string why_copied_;
+  std::optional<std::size_t> copied_now_;  ///< of this frame; none: nothing had moved
+  std::size_t read_now_ = 0;
+  std::size_t last_copied_ = 0, copied_ = 0, read_ = 0;
+  double recent_read_ = 0;
+  std::int64_t moved_ = 0;                              ///< frames in which the cloth had moved
+  std::array<double, start_names.size()> started_s_{};  ///< since the program began
+};
+
+}  // namespace tyglab

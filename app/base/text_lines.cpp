@@ -1,0 +1,149 @@
+#include "app/base/text_lines.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace tyglab {
+namespace {
+
+constexpr std::string_view no_break = "\u00a0";
+constexpr std::array<std::string_view, 9> relations{"=", "≈", "≠", "<", ">", "≤", "≥", "∝", "≪"};
+constexpr std::array<std::string_view, 6> operators{"−", "+", "·", "/", "×", "±"};
+
+/// Its neighbours and a sign stay together.
+void bind(std::string& text, std::string_view sign) {
+  const std::string loose = " " + std::string(sign) + " ";
+  const std::string bound = std::string(no_break) + std::string(sign) + std::string(no_break);
+  for (std::size_t at = 0; (at = text.find(loose, at)) != std::string::npos; ++at)
+    text.replace(at, loose.size(), bound);
+}
+
+/// A number is not parted from its unit.
+std::string with_whole_quantities(std::string text) {
+  constexpr std::array<std::string_view, 14> units{"N",  "m",  "s",   "kg",    "J",   "%",    "mm",
+                                                   "cm", "ms", "N/m", "N·s/m", "m/s", "m/s²", "1/s"};
+  for (std::size_t at = 1; (at = text.find(' ', at)) != std::string::npos; ++at) {
+    const bool number = text[at - 1] >= '0' && text[at - 1] <= '9';
+    std::string word = text.substr(at + 1, std::min(text.find(' ', at + 1), text.size()) - at - 1);
+    while (!word.empty() && std::string_view(".,;:?)").find(word.back()) != std::string_view::npos) word.pop_back();
+    if (number && std::find(units.begin(), units.end(), word) != units.end()) text.replace(at, 1, no_break);
+  }
+  return text;
+}
+
+std::vector<std::string> split(std::string_view text, std::string_view at) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(at, from), text.size());
+    parts.emplace_back(text.substr(from, end - from));
+    from = end + at.size();
+  }
+  return parts;
+}
+
+/// The pieces of a formula, each from one relation sign to the next: what a line too short for all of it may part.
+std::vector<std::string> terms_of(std::string_view formula) {
+  std::vector<std::string> terms;
+  for (const std::string& part : split(formula, no_break)) {
+    const bool relation = std::find(relations.begin(), relations.end(), part) != relations.end();
+    if (terms.empty() || relation)
+      terms.push_back(part);
+    else
+      terms.back() += std::string(no_break) + part;
+  }
+  return terms;
+}
+
+/// Lines that are filled word by word.
+class Filled {
+ public:
+  Filled(float width, const Measure& measure) : width_(width), measure_(measure) {}
+  bool fits(const std::string& words) const { return measure_(words) <= width_; }
+  /// After a space, or where the line has no room for it on a new one.
+  void add(const std::string& word) {
+    const std::string longer = line_.empty() ? word : line_ + " " + word;
+    if (line_.empty() || fits(longer)) {
+      line_ = longer;
+    } else {
+      lines_ += line_ + "\n";
+      line_ = word;
+    }
+  }
+  /// The same of one that may be wider than a line: it is then cut where the line ends.
+  void add_any(std::string word) {
+    while (!fits(word)) {
+      std::size_t end = 1;
+      for (std::size_t next = 1; next < word.size() && fits(word.substr(0, next)); ++next)
+        if ((word[next] & 0xC0) != 0x80) end = next;
+      while (end < word.size() && (word[end] & 0xC0) == 0x80) ++end;
+      if (end >= word.size()) break;
+      add(word.substr(0, end));
+      word.erase(0, end);
+    }
+    add(word);
+  }
+  std::string all() const { return lines_ + line_; }
+
+ private:
+  float width_;
+  const Measure& measure_;
+  std::string lines_, line_;
+};
+
+}  // namespace
+
+std::string with_whole_terms(std::string text) {
+  for (const std::string_view sign : operators) bind(text, sign);
+  for (const std::string_view sign : relations) bind(text, sign);
+  return with_whole_quantities(std::move(text));
+}
+
+std::string broken_into_lines(std::string_view text, float width, const Measure& measure) {
+  if (const std::size_t end = text.find('\n'); end != std::string_view::npos)
+    return broken_into_lines(text.substr(0, end), width, measure) + "\n" +
+           broken_into_lines(text.substr(end + 1), width, measure);
+  Filled lines(width, measure);
+  for (const std::string& word : split(text, " ")) {
+    if (lines.fits(word)) {
+      lines.add(word);
+      continue;
+    }
+    for (const std::string& term : terms_of(word)) {
+      if (lines.fits(term)) {
+        lines.add(term);
+      } else {
+        for (const std::string& piece : split(term, no_break)) lines.add_any(piece);
+      }
+    }
+  }
+  return lines.all();
+}
+
+std::string shortened(const std::string& text, float width, const Measure& measure) {
+  if (measure(text) <= width) return text;
+  std::string part = text;
+  while (!part.empty() && measure(part + "…") > width) {
+    while (part.size() > 1 && (part.back() & 0xC0) == 0x80) part.pop_back();  // a character is taken away whole
+    part.pop_back();
+  }
+  return part + "…";
+}
+
+std::vector<std::string> name_lines(const std::string& name, const std::string& state, float width, std::size_t most,
+                                    const Measure& measure) {
+  const std::string both = state.empty() ? name : name + " · " + state;
+  if (measure(both) <= width) return {both};
+  const auto lines = [&](const std::string& text) {
+    std::vector<std::string> all = split(broken_into_lines(with_whole_terms(text), width, measure), "\n");
+    for (std::string& line : all) line = shortened(line, width, measure);
+    return all;
+  };
+  std::vector<std::string> words = lines(name);
+  const std::vector<std::string> more = state.empty() ? std::vector<std::string>() : lines(state);
+  if (words.size() + more.size() > most) words = {shortened(name, width, measure)};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,61 @@
+#include "app/cli/bench_output.h"
+
+#include <chrono>
+#include <ctime>
+#include <iostream>
+
+#include "app/cli/command_line.h"
+#include "app/cli/interrupt.h"
+#include "core/analysis/machine.h"
+
+namespace tyglab {
+namespace {
+
+/// "2026-11-21", the day on which something is measured (UTC).
+std::string today() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
+  return text;
+}
+
+}  // namespace
+
+CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::string& does) {
+  return command.add_flag("--quick", options.quick, does + "; under a minute");
+}
+
+void add_threads(CLI::App& command, BenchOptions& options, const std::string& does) {
+  command.add_option("--threads", options.threads, does + "; otherwise one a processor")
+      ->type_name("N")
+      ->transform(whole_number_between(1, 256));
+}
+
+void add_json(CLI::App& command, BenchOptions& options, const std::string& does) {
+  add_output(command, "--json", options.json, does + "; - is standard output")->type_name("F.json");
+}
+
+CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does) {
+  return add_output(command, "--png", options.png, does + "; - is standard output")->type_name("F.png");
+}
+
+nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs) {
+  const Machine machine = this_machine();
+  return {{"benchmark", benchmark},
+          {"machine",
+           {{"processor", machine.processor}, {"cores", machine.cores}, {"instruction_set", machine.instruction_set}}},
+          {"version", TYGLAB_VERSION},
+          {"build", build_description()},
+          {"date", today()},
+          {"runs", std::move(runs)}};
+}
+
+int bench_exit() {
+  if (!InterruptGuard::interrupted()) return exit_done;
+  std::cerr << "tyglab: Interrupted; the figures measured so far are whole.\n";
+  return exit_interrupted;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,34 @@
+// What the benchmarks say alike: the machine and build that figures belong to.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "app/cli/command_line.h"
+#include "app/cli/outputs.h"
+
+namespace tyglab {
+
+/// What every benchmark and experiment is asked.
+struct BenchOptions {
+  bool quick = false;
+  int threads = 0;  ///< 0: as many as there are processors
+  std::string json, png;
+
+  std::vector<Output> outputs() const { return {{"--json", json}, {"--png", png, true}}; }
+};
+
+/// --quick, --threads, --json and --png, each with what it does in this command.
+CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::string& does);
+void add_threads(CLI::App& command, BenchOptions& options, const std::string& does);
+void add_json(CLI::App& command, BenchOptions& options, const std::string& does = "Write the figures for programs");
+CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does);
+
+/// The frame of a benchmark's JSON: its name, the machine, the version and build, and the rows under "runs".
+nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs);
+
+/// The exit code of a benchmark under an InterruptGuard; says so if Ctrl-C ended it.
+int bench_exit();
+
+}  // namespace tyglab

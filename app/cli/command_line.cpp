@@ -1,0 +1,184 @@
+#include "app/cli/command_line.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <optional>
+#include <sstream>
+
+#include "app/base/data_files.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/preset_argument.h"
+#include "app/render/graphics_error.h"
+#include "app/session/labs/lab.h"
+#include "core/engines/engine.h"
+#include "core/io/destination.h"
+#include "core/io/files.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+/// The number that the whole text is.
+std::optional<double> number_in(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (text.empty() || stop != end || error != std::errc{}) return {};
+  return value;
+}
+
+/// Why a number is refused; empty if it lies within.
+std::string range_problem(double value, double lowest, double highest, const std::string& unit) {
+  if (value >= lowest && value <= highest) return {};
+  return shortest_number(value) + " is not allowed; allowed: " + shortest_number(lowest) + " to " +
+         shortest_number(highest) + (unit.empty() ? "" : " " + unit);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+/// What is wrong with the first word that should be a command and is none, or with the lack of one; empty if nothing
+/// is.
+std::string command_problem(const CLI::App& program, std::span<const char* const> words) {
+  const CLI::App* at = &program;
+  std::string typed;
+  for (const char* const each : words) {
+    const std::string word = each;
+    const std::vector<std::string> names = command_names(*at);
+    if (names.empty() || word.starts_with('-')) return {};
+    if (std::find(names.begin(), names.end(), word) != names.end()) {
+      at = at->get_subcommand(word);
+      typed += (typed.empty() ? "" : " ") + word;
+      continue;
+    }
+    const std::vector<std::string_view> known(names.begin(), names.end());
+    const auto near = nearest(word, known);
+    const std::string meant = near ? " Did you mean '" + std::string(*near) + "'?" : "";
+    if (at != &program) return typed + ": '" + word + "' is none of its commands: " + listed(names) + "." + meant;
+    // Beside commands, the program itself takes presets.
+    if (!near || is_preset(word)) return {};
+    return "'" + word + "' is neither a command nor a preset." + meant;
+  }
+  if (at->get_require_subcommand_min() == 0) return {};
+  return typed + ": one of its commands must follow: " + listed(command_names(*at)) + ".";
+}
+
+/// What CLI11 lists from the last to the first, in the order in which it was typed.
+std::string unexpected(const CLI::ExtrasError& error) {
+  const std::string text = error.what();
+  std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
+  std::string list;
+  for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
+  return "Not expected here: " + list +
+         ". Options stand behind the command that they belong to, as in `tyglab run denim --steps 4`.";
+}
+
+}  // namespace
+
+void prepare_process() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
+  // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
+  // reading alone, so that what is written to it fails and is told.
+  int descriptor = 0;
+  do {
+    descriptor = ::open("/dev/null", O_RDONLY);
+  } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO) ::close(descriptor);
+}
+
+std::vector<std::string> command_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(each->get_name());
+  return names;
+}
+
+int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words) {
+  if (error.get_exit_code() != 0) {
+    if (const std::string problem = command_problem(program, words); !problem.empty()) {
+      std::cerr << "tyglab: " << problem << '\n';
+      return exit_command_line;
+    }
+  }
+  if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    std::cerr << "tyglab: " << unexpected(*extras) << '\n';
+    return exit_command_line;
+  }
+  if (program.exit(error) != 0) return exit_command_line;
+  return run_action([] { return int(exit_done); });  // which sees that the help has arrived
+}
+
+int run_action(const Action& action) {
+  const auto say = [](const std::string& what, ExitCode code) {
+    std::cerr << "tyglab: " << what << '\n';
+    return code;
+  };
+  try {
+    const InterruptExit until_the_work_begins;
+    const int code = action();
+    flush_standard_output();
+    return code;
+  } catch (const UsageError& error) {
+    return say(error.what(), exit_command_line);
+  } catch (const PresetError& error) {
+    return say(error.what(), exit_input);
+  } catch (const LabError& error) {
+    return say(error.what(), exit_input);
+  } catch (const DataFileError& error) {
+    return say(error.what(), exit_input);
+  } catch (const EngineError& error) {
+    return say(error.what(), exit_engine);
+  } catch (const GraphicsError& error) {
+    return say(error.what(), exit_engine);
+  } catch (const OutputError& error) {
+    return say(error.what(), exit_output);
+  } catch (const std::bad_alloc&) {
+    return say("There is not enough memory for a cloth of this size; ask for fewer rows or columns.", exit_engine);
+  } catch (const std::exception& error) {
+    return say(std::string("A fault in the program: ") + error.what(), exit_violation);
+  }
+}
+
+std::string counted(std::int64_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+CLI::Validator number_between(double lowest, double highest, const std::string& unit) {
+  const auto check = [=](std::string& text) -> std::string {
+    const auto value = number_in(text);
+    if (!value) return "'" + text + "' is not a number; write it like 1.5 or 2e-3";
+    return range_problem(*value, lowest, highest, unit);
+  };
+  return {check, ""};
+}
+
+CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest) {
+  const auto check = [=](std::string& text) -> std::string {
+    const auto value = number_in(text);
+    if (!value || (std::isfinite(*value) && *value != std::floor(*value)))
+      return "'" + text + "' is not a whole number; write it like 100 or 1e6";
+    if (auto problem = range_problem(*value, double(lowest), double(highest), ""); !problem.empty()) return problem;
+    text = std::to_string(static_cast<std::int64_t>(*value));
+    return {};
+  };
+  return {check, ""};
+}
+
+CLI::Validator not_empty() {
+  return {[](std::string& text) { return text.empty() ? std::string("must not be empty") : std::string(); }, ""};
+}
+
+}  // namespace tyglab

@@ -1,0 +1,157 @@
+#include "app/cli/commands/devices.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <functional>
+#include <iostream>
+
+#include "app/render/graphics_error.h"
+#include "app/render/headless_context.h"
+#include "app/render/mapped_buffer.h"
+#include "app/render/written_vertices.h"
+#include "core/analysis/machine.h"
+#include "core/engines/engine.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
+#include "core/io/destination.h"
+#include "core/io/files.h"
+#include "core/model/words.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+namespace {
+
+void print_cpu() {
+  const Machine machine = this_machine();
+  std::cout << "CPU engine (--engine cpu)\n";
+  for (const Precision precision : {Precision::float_, Precision::double_})
+    std::cout << "  " << name_of(precision) << ": " << machine.instruction_set << ", up to "
+              << counted(machine.cores, "thread") << '\n';
+  std::cout << "  OpenGL: positions are copied into its vertex buffer in every frame in which they moved\n";
+}
+
+std::string verdict(const OpenClProbe& probe) {
+  if (!probe.offered) return "not offered";
+  return probe.problem.empty() ? "works (a test kernel was built, run and checked)" : "fails: " + probe.problem;
+}
+
+/// Whether OpenGL here, without a window, lends memory of its own.
+bool opengl_lends_memory() {
+  try {
+    const HeadlessContext context;
+    return gl::MappedBuffer::available();
+  } catch (const GraphicsError&) {
+    return false;
+  }
+}
+
+/// Has a device write a small cloth into OpenGL's buffer, here without a window. Why that does not work, a part of a
+/// sentence; empty: it does.
+std::string shared_buffer_problem(int number) {
+  try {
+    const HeadlessContext context;
+    if (const std::string problem = opencl_gl_problem(number); !problem.empty()) return problem;
+    Preset preset;
+    preset.rows = preset.columns = 8;
+    preset.engine = EngineKind::opencl, preset.device = number;
+    Simulation simulation(preset);
+    WrittenVertices vertices;
+    std::size_t looked_at = 0;
+    vertices.write(simulation.engine(), {{simulation.lattice(), 1}, true}, looked_at);
+    return {};
+  } catch (const GraphicsError& error) {
+    return std::string("OpenGL is not there without a window: ") + error.what();
+  } catch (const EngineError& error) {
+    return error.what();
+  }
+}
+
+/// How positions come to where OpenGL draws them.
+std::string sharing(const OpenClDevice& device, int number) {
+  static const bool lends = opengl_lends_memory();
+  if (opencl_works_in_place(number))
+    return lends ? "shared memory: kernels write into its vertex buffer (ARB_buffer_storage), and nothing is copied"
+                 : "positions are copied once in every frame in which they moved, since OpenGL has no "
+                   "ARB_buffer_storage here";
+  const std::string problem =
+      device.gl_sharing ? shared_buffer_problem(number) : "the device offers no cl_khr_gl_sharing";
+  return problem.empty() ? std::string("a shared buffer: kernels write into its vertex buffer (cl_khr_gl_sharing, ") +
+                               (device.gl_event ? "ordered by cl_khr_gl_event" : "OpenGL finishes first") +
+                               "), and nothing is copied"
+                         : "positions are read back and copied in every frame in which they moved: " + problem;
+}
+
+void print_device(const OpenClDevice& device, int number) {
+  const OpenClProbe single = probe_opencl_device(number, false), twice = probe_opencl_device(number, true);
+  std::cout << "\nOpenCL device " << number << ": " << device.name << " (--engine opencl:" << number
+            << ")\n  platform: " << device.platform << "\n  version: " << device.version << ", driver " << device.driver
+            << "\n  compute units: " << device.compute_units << ", memory: " << (device.memory_bytes >> 20)
+            << " MiB\n  float: " << verdict(single) << "\n  double: " << verdict(twice)
+            << "\n  OpenGL: " << sharing(device, number) << '\n';
+}
+
+std::string names_of_methods(bool that_run) {
+  std::string names;
+  for (const Scheme& method : schemes())
+    if (runs_on_opencl(method) == that_run) names += (names.empty() ? "" : ", ") + std::string(method.name);
+  return names;
+}
+
+void print_opencl() {
+  const OpenClInventory inventory = opencl_devices();
+  for (int n = 0; n < int(inventory.devices.size()); ++n) print_device(inventory.devices[std::size_t(n)], n);
+  if (inventory.devices.empty())
+    std::cout << '\n' << no_device_words(inventory.problem) << '\n';
+  else
+    std::cout << "\nOpenCL devices step with " << names_of_methods(true) << ".\nOnly the CPU engine has "
+              << names_of_methods(false) << ".\n";
+}
+
+/// What happens in the child: never returns. Only the parent speaks of Ctrl-C, which reaches both.
+[[noreturn]] void work_and_exit(const std::function<void()>& work) noexcept {
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  work();
+  try {
+    flush_standard_output();
+  } catch (const OutputError&) {
+    ::_exit(exit_output);
+  }
+  ::_exit(exit_done);
+}
+
+/// Runs `work` in a process of its own: a driver that aborts takes its process along. Returns the signal that ended it,
+/// or 0. Throws OutputError if what it had to say did not arrive.
+int in_child(const std::function<void()>& work) {
+  flush_standard_output();
+  const pid_t child = ::fork();
+  if (child < 0) return work(), 0;
+  if (child == 0) work_and_exit(work);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (WIFSIGNALED(status)) return WTERMSIG(status);
+  if (WEXITSTATUS(status) == exit_output) throw OutputError("standard output: not all of the list could be written");
+  return 0;
+}
+
+int devices() {
+  print_cpu();
+  if (const int signal = in_child(print_opencl))
+    std::cout << "\nAn OpenCL driver of this system crashed (" << ::strsignal(signal)
+              << ") when it was asked for its devices, so none can be used. Pocl does so where /sys is not mounted.\n";
+  return exit_done;
+}
+
+}  // namespace
+
+void add_devices_command(CLI::App& program, Action& action) {
+  CLI::App* command = program.add_subcommand("devices", "List the engines and OpenCL devices found, each tested");
+  command->footer("Example: tyglab devices");
+  command->callback([&action] { action = devices; });
+}
+
+}  // namespace tyglab

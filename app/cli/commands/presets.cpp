@@ -1,0 +1,81 @@
+#include "app/cli/commands/presets.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+#include "app/cli/preset_argument.h"
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
+#include "core/io/json_tree.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
+
+namespace tyglab {
+namespace {
+
+int list() {
+  const std::vector<std::string> names = shipped_presets();
+  std::size_t width = 0;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  for (const std::string& name : names) {
+    const Preset preset = load_preset(find_preset(name).file);
+    std::cout << name << std::string(width - name.size() + 2, ' ') << preset.name << ". " << preset.description << '\n';
+  }
+  std::cout << "\nNext: `tyglab NAME` opens one, `tyglab presets show NAME` prints it.\n";
+  return exit_done;
+}
+
+int show(const std::string& name) {
+  std::cout << preset_to_json(load_preset(find_preset(name).file));
+  return exit_done;
+}
+
+int check(const std::string& name_or_file) {
+  const Preset preset = load_preset(find_preset(name_or_file).file);
+  warn_of_missing_texture(preset);
+  std::cout << name_or_file << " is a valid preset: " << printable(preset.name) << ", "
+            << (preset.kind == Kind::one_weight
+                    ? std::string("one weight")
+                    : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
+            << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ")."
+            << (preset.engine == EngineKind::opencl && !runs_on_opencl(scheme(preset.integrator))
+                    ? " But OpenCL does not run " + preset.integrator +
+                          ", so it needs --engine cpu or another --integrator."
+                    : "")
+            << '\n';
+  return exit_done;
+}
+
+}  // namespace
+
+void add_presets_command(CLI::App& program, Action& action) {
+  auto word = std::make_shared<std::string>();
+  CLI::App* command = program.add_subcommand("presets", "List the shipped presets, show one, or judge a file");
+  command->require_subcommand(0, 1);
+  command->footer("Example: tyglab presets show denim > my_denim.json");
+  command->callback([&action, command] {
+    if (command->get_subcommands().empty()) action = list;
+  });
+
+  CLI::App* show_one = command->add_subcommand("show", "Print a preset as JSON, every key with its value");
+  show_one->add_option("NAME", *word, "A shipped preset's name or a preset file")->required();
+  show_one->footer("Example: tyglab presets show denim > my_denim.json");
+  show_one->callback([word, &action] { action = [word] { return show(*word); }; });
+
+  CLI::App* table = command->add_subcommand("notation", "Print the notation table: every constant and variable");
+  table->footer("Example: tyglab presets notation > docs/notation.md");
+  table->callback([&action] {
+    action = [] {
+      std::cout << notation_markdown();
+      return int(exit_done);
+    };
+  });
+
+  CLI::App* check_one = command->add_subcommand("check", "Judge a preset file: every key, type and range");
+  check_one->add_option("FILE", *word, "A preset file, or a shipped preset's name")->required();
+  check_one->footer("Example: tyglab presets check my_denim.json");
+  check_one->callback([word, &action] { action = [word] { return check(*word); }; });
+}
+
+}  // namespace tyglab

@@ -1,0 +1,367 @@
+#include "app/cli/commands/run.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/cli/interrupt.h"
+#include "app/cli/outputs.h"
+#include "app/cli/preset_argument.h"
+#include "app/cli/stepping.h"
+#include "app/process/kernel_prebuild.h"
+#include "core/analysis/engine_choice.h"
+#include "core/analysis/tolerance.h"
+#include "core/io/destination.h"
+#include "core/io/preset_io.h"
+#include "core/model/words.h"
+#include "core/output/obj.h"
+#include "core/output/point_cache.h"
+#include "core/output/series_csv.h"
+#include "core/output/state_csv.h"
+#include "core/output/values_csv.h"
+#include "core/theory/advice.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct RunOptions {
+  PresetArgument preset;
+  Length length;
+  std::string state, values, series, ledger, obj, pc2, json;
+  std::optional<double> fps;
+  std::optional<std::int64_t> series_every;
+
+  /// All but --obj, which names a folder.
+  std::vector<Output> outputs() const {
+    return {{"--state", state},   {"--values", values}, {"--series", series},
+            {"--ledger", ledger}, {"--pc2", pc2, true}, {"--json", json}};
+  }
+};
+
+/// The files of a run. Each is right as far as it goes, however the run ends.
+class Outputs {
+ public:
+  Outputs(const RunOptions& options, const ResolvedPreset& scene, std::int64_t steps)
+      : options_(options), scene_(scene), plan_(options.fps, scene.preset.dt, steps) {
+    check_combination();
+    check_outputs(options.outputs(), scene.source.file);
+    if (options.obj.empty()) return;
+    if (scene.preset.kind == Kind::one_weight)
+      throw UsageError("--obj writes cloth, and " + scene.source.label + " is one weight; --series writes its motion");
+    make_output_folder("--obj", options.obj);
+  }
+
+  /// Opens what is written as the run goes.
+  void open(const Simulation& simulation) {
+    const Preset& preset = simulation.preset();
+    if (!options_.series.empty())
+      series_ = std::make_unique<SeriesCsv>(options_.series, series_columns(preset.kind), preset_hash(preset));
+    if (!options_.ledger.empty())
+      ledger_ = std::make_unique<SeriesCsv>(options_.ledger, ledger_columns(), preset_hash(preset));
+    if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().size());
+  }
+
+  /// The next step at which something is to be written.
+  std::int64_t next_step() const {
+    std::int64_t next = std::numeric_limits<std::int64_t>::max();
+    if (wants_frames() && frame_ < plan_.count()) next = plan_.step_of(frame_);
+    if (series_ || ledger_) next = std::min(next, next_row());
+    return next;
+  }
+
+  void follow(const Timeline& timeline) { plan_.follow(timeline); }
+
+  /// Writes what is due at the present step.
+  void write_due(Simulation& simulation) {
+    const std::int64_t step = simulation.steps();
+    if (wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
+      const VectorField<double>& x = simulation.read().x;
+      if (cache_) cache_->add(x);
+      if (!options_.obj.empty())
+        write_obj(fs::path(options_.obj) / frame_name(scene_.source.label, frame_, plan_.count(), "obj"),
+                  simulation.tears(), x,
+                  {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps()});
+      ++frame_;
+    }
+    if ((series_ || ledger_) && step == next_row()) {
+      if (series_) series_->add(simulation.time(), series_values(simulation));
+      if (ledger_) ledger_->add(simulation.time(), ledger_values(*simulation.ledger()));
+      ++row_;
+    }
+  }
+
+  /// The state as the run ended. Returns what was written: kind, path, and frames where there are several.
+  Json finish(Simulation& simulation) {
+    Json files = Json::array();
+    if (cache_) cache_->finish();
+    if (!options_.state.empty()) {
+      write_output(options_.state, state_csv(simulation));
+      files.push_back({{"kind", "state"}, {"path", options_.state}});
+    }
+    if (!options_.values.empty()) {
+      write_output(options_.values, values_csv(simulation, nullptr));
+      files.push_back({{"kind", "values"}, {"path", options_.values}});
+    }
+    if (series_) files.push_back({{"kind", "series"}, {"path", options_.series}, {"rows", row_}});
+    if (ledger_) files.push_back({{"kind", "ledger"}, {"path", options_.ledger}, {"rows", row_}});
+    if (!options_.obj.empty()) files.push_back({{"kind", "obj"}, {"path", options_.obj}, {"frames", frame_}});
+    if (cache_) files.push_back({{"kind", "pc2"}, {"path", options_.pc2}, {"frames", frame_}});
+    return files;
+  }
+
+ private:
+  /// An option that would do nothing is a mistake of whoever typed it.
+  void check_combination() const {
+    const bool rows = !options_.series.empty() || !options_.ledger.empty();
+    if (options_.series_every && !rows)
+      throw UsageError(
+          "--series-every: says how often --series and --ledger write a row; name a file with --series F.csv");
+    if (options_.fps && !wants_frames() && !(rows && !options_.series_every))
+      throw UsageError(
+          "--fps: counts the frames of --obj, --pc2, --series and --ledger (without --series-every); name one");
+  }
+  bool wants_frames() const { return !options_.obj.empty() || !options_.pc2.empty(); }
+  std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
+
+  const RunOptions& options_;
+  const ResolvedPreset& scene_;
+  FramePlan plan_;
+  std::unique_ptr<SeriesCsv> series_, ledger_;
+  std::unique_ptr<PointCache> cache_;
+  std::int64_t frame_ = 0;  ///< frames written
+  std::int64_t row_ = 0;    ///< rows written
+};
+
+Json divergence_json(const std::optional<Divergence>& divergence) {
+  if (!divergence) return nullptr;
+  const Divergence& d = *divergence;
+  // JSON has no word for inf and nan: null.
+  return {{"t", d.t},         {"step", d.step},         {"i", d.i},
+          {"j", d.j},         {"quantity", d.quantity}, {"value", std::isfinite(d.value) ? Json(d.value) : Json()},
+          {"cause", d.cause}, {"remedy", d.advice}};
+}
+
+/// What the steps did at the end, and what they skipped.
+Json features_json(const Engine& engine) {
+  Json json = Json::object();
+  for (const auto& [name, on] : engine.features()) json[std::string(name)] = on;
+  return json;
+}
+
+/// What an implicit method did; null for others.
+Json solves_json(const Engine& engine) {
+  const SolveCounts counts = engine.solves();
+  if (counts.newton == 0) return nullptr;
+  return {{"newton_steps", counts.newton},
+          {"linear_steps", counts.linear},
+          {"force_evaluations", counts.force_evaluations},
+          {"unconverged", counts.unconverged}};
+}
+
+/// The ledger at the end, J; null where none was kept.
+Json energy_json(const Simulation& simulation) {
+  const auto ledger = simulation.ledger();
+  if (!ledger) return nullptr;
+  Json json = Json::object();
+  const std::vector<double> values = ledger_values(*ledger);
+  std::size_t n = 0;
+  for (const SeriesColumn& column : ledger_columns())
+    json[column.unit.empty() ? column.name : column.name + "_" + column.unit] = values[n++];
+  return json;
+}
+
+/// What --tolerance chose, and what else reached the error, cheapest first; null where it was not asked for.
+Json choice_json(const ToleranceChoice* choice) {
+  if (!choice) return nullptr;
+  Json reached = Json::array();
+  for (const ErrorPoint& point : choice->reached)
+    reached.push_back({{"integrator", point.integrator},
+                       {"precision", name_of(point.precision)},
+                       {"dt", point.dt},
+                       {"tolerance_m", point.tolerance > 0 ? Json(point.tolerance) : Json()},
+                       {"error_rms_m", point.error_rms_m},
+                       {"told", point.resolved},
+                       {"processor_seconds_per_second", point.cost}});
+  return {{"tried_s", choice->seconds}, {"agreement_rms_m", choice->agreement_rms_m}, {"reached", std::move(reached)}};
+}
+
+/// What --engine auto chose, and why; null where it was not asked.
+Json engine_choice_json(const EngineChoice* choice) {
+  if (!choice) return nullptr;
+  Json times = Json::array();
+  for (const EngineTime& time : choice->times)
+    times.push_back({{"engine", name_of(time.engine)},
+                     {"device", time.device < 0 ? Json(nullptr) : Json(time.device)},
+                     {"name", time.name},
+                     {"ns_per_particle_step", time.ns > 0 ? Json(time.ns) : Json(nullptr)}});
+  return {{"why", choice->why}, {"measured_now", choice->measured}, {"times", std::move(times)}};
+}
+
+/// What a method that chooses its own steps did; null for others.
+Json inner_steps_json(const Engine& engine) {
+  const InnerSteps inner = engine.inner_steps();
+  if (inner.accepted == 0) return nullptr;
+  return {{"accepted", inner.accepted},
+          {"rejected", inner.rejected},
+          {"by_stability", inner.by_stability},
+          {"by_accuracy", inner.by_accuracy},
+          {"by_dt", inner.by_dt},
+          {"too_short", inner.too_short},
+          {"below_digits", inner.below_digits},
+          {"force_evaluations", inner.force_evaluations}};
+}
+
+/// What a run did, for programs.
+Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
+             double ns_per_particle_step, Json files) {
+  const Preset& preset = simulation.preset();
+  return {{"version", TYGLAB_VERSION},
+          {"preset", scene.source.label},
+          {"preset_hash", preset_hash(preset)},
+          {"status", status},
+          {"engine", name_of(preset.engine)},
+          {"engine_name", simulation.engine().name()},
+          {"threads", simulation.engine().threads()},
+          {"precision", name_of(preset.precision)},
+          {"integrator", preset.integrator},
+          {"rows", simulation.lattice().rows},
+          {"columns", simulation.lattice().columns},
+          {"dt", preset.dt},
+          {"steps", simulation.steps()},
+          {"t", simulation.time()},
+          {"seconds", wall_seconds},
+          {"ns_per_particle_step", ns_per_particle_step},
+          {"bytes_per_particle", double(simulation.engine().bytes()) / simulation.lattice().size()},
+          {"features", features_json(simulation.engine())},
+          {"solves", solves_json(simulation.engine())},
+          {"inner_steps", inner_steps_json(simulation.engine())},
+          {"tolerance_choice", choice_json(scene.choice.get())},
+          {"engine_choice", engine_choice_json(scene.engine_choice.get())},
+          {"torn", simulation.tears().torn_count()},
+          {"left_inside", simulation.left_inside()},
+          {"energy", energy_json(simulation)},
+          {"diverged", divergence_json(simulation.divergence())},
+          {"files", std::move(files)}};
+}
+
+std::string number(double value, int digits) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  return text.data();
+}
+
+/// The closing sentence.
+std::string closing(const Json& summary, const std::string& hint) {
+  const std::string label = summary["preset"];
+  std::string text = label + ": " + counted(summary["steps"], "step") + " to t = " + number(summary["t"], 6) +
+                     " s, computed in " + number(summary["seconds"], 3) + " s";
+  if (summary["steps"] > 0) text += " (" + number(summary["ns_per_particle_step"], 3) + " ns per particle and step)";
+  text += ".";
+  std::string files;
+  for (const Json& file : summary["files"]) {
+    if (!files.empty()) files += ", ";
+    const std::string path = file["path"];
+    files += output_name(path);
+    if (file.contains("frames")) files += " (" + counted(file["frames"], "frame") + ")";
+  }
+  return text + (files.empty() ? hint : " Wrote " + files + ".");
+}
+
+int run(const RunOptions& options) {
+  const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
+  warn_of_missing_texture(scene.preset);
+  const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
+  options.length.warn_if_too_short(scene.preset.dt);
+  Outputs outputs(options, scene, steps);
+  run_programs_once(scene.preset, !options.ledger.empty());  // that time is none of the steps'
+  Simulation simulation(scene.preset, scene.threads);
+  if (!options.ledger.empty()) simulation.enable_ledger(true);
+  outputs.open(simulation);
+
+  const InterruptGuard guard;
+  const auto start = std::chrono::steady_clock::now();
+  Stepper stepper(simulation, steps, scene.source.label, scene.auto_dt);
+  bool going = true;
+  do {
+    outputs.write_due(simulation);
+    going = stepper.advance_to(std::min(stepper.end(), outputs.next_step()));
+    if (stepper.changed()) outputs.follow(stepper.timeline()), going = true;
+  } while (going && simulation.steps() < stepper.end());
+  if (going) outputs.write_due(simulation);
+  const double wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  const bool diverged = simulation.divergence().has_value();
+  const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
+  const Json told = summary(simulation, scene,
+                            diverged                ? "diverged"
+                            : stepper.interrupted() ? "interrupted"
+                                                    : "done",
+                            wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
+                            outputs.finish(simulation));
+  if (!options.json.empty()) write_output(options.json, told.dump(2) + "\n");
+
+  people(options.outputs())
+      << closing(told, options.json.empty()
+                           ? " Nothing was written: --state, --values, --series, --ledger, --obj, --pc2 name files."
+                           : "")
+      << std::endl;
+  if (diverged)
+    std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+  if (const SolveCounts solves = simulation.engine().solves(); solves.unconverged > 0)
+    std::cerr << "tyglab: " << counted(solves.unconverged, "solve")
+              << " did not reach the tolerance, so the result is not quite the method's: take a smaller dt or more "
+                 "--set iterations=N.\n";
+  if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
+    std::cerr << "tyglab: " << missed << '\n';
+  if (simulation.left_inside() > 0)
+    std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
+              << " left inside a body, since bodies overlap; move them apart.\n";
+  if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written is whole as far as it goes.\n";
+  return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "Simulate without a window and write files");
+  options->preset.add_to(*command, true);
+  options->length.add_to(*command, true);
+  add_output(*command, "--state", options->state, "Write the last state: i,j,x,y,z,vx,vy,vz of every particle (CSV)")
+      ->type_name("F.csv");
+  add_output(*command, "--values", options->values,
+             "Write what can colour the cloth: tension, strain, speed and kinetic energy of every particle (CSV)")
+      ->type_name("F.csv");
+  add_output(*command, "--series", options->series,
+             "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"
+             "units stand in the header. A row per frame of --fps")
+      ->type_name("F.csv");
+  add_output(*command, "--ledger", options->ledger,
+             "Write the energy ledger (CSV), J: what the cloth has, the work of damping, contact, tearing, wind and\n"
+             "hand, and what the integrator made or ate. Rows as of --series; every step is looked at, which costs\n"
+             "some times the step")
+      ->type_name("F.csv");
+  command->add_option("--series-every", options->series_every, "A row every N steps instead")
+      ->type_name("N")
+      ->transform(whole_number_between(1, 1'000'000'000'000));
+  add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
+  add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
+  command->add_option("--fps", options->fps, "Frames per second of simulated time (25 if it is not given)")
+      ->type_name("F")
+      ->transform(number_between(1e-6, 1e7, "frames per second"));
+  add_output(*command, "--json", options->json, "Write a summary for programs")->type_name("F.json");
+  command->footer(
+      "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"
+      "- in place of F is standard output; what is said to people then goes to stderr.\n"
+      "Exit codes: 0 done, 2 wrong command line, 3 wrong preset, 4 diverged, 5 no such engine, 6 not writable, "
+      "130 interrupted.");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace tyglab

@@ -1,0 +1,122 @@
+#include "app/cli/commands/sandbox.h"
+
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+
+#include "app/cli/color_option.h"
+#include "app/cli/headless.h"
+#include "app/cli/outputs.h"
+#include "app/cli/preset_argument.h"
+#include "app/cli/size_option.h"
+#include "app/shell/sandbox.h"
+#include "app/shell/window.h"
+#include "core/io/destination.h"
+
+namespace tyglab {
+namespace {
+
+constexpr auto default_preset = "hanging";
+constexpr PictureSize smallest_window{480, 320};
+
+struct Options {
+  PresetArgument preset;
+  int frames = 0;
+  std::string screenshot, time_report, session_report, color, effects, size;
+
+  std::vector<Output> outputs() const {
+    return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
+  }
+};
+
+/// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
+bool has_display() {
+  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  return named && start_glfw();
+}
+
+int open_sandbox(const Options& options, const std::vector<std::string>& commands) {
+  if (!options.screenshot.empty() && options.frames == 0)
+    throw UsageError("--screenshot: writes the last frame; say with --frames N which one that is");
+  if (is_standard_output(options.session_report))
+    throw UsageError("--session-report -: the report is rewritten all the time; name a file");
+  const PictureSize size = options.size.empty() ? PictureSize{0, 0} : parse_size(options.size, smallest_window);
+  const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
+  const std::vector<Output> outputs = options.outputs();
+  check_outputs(outputs, scene.source.file);
+  SandboxOptions sandbox;
+  sandbox.preset = scene.preset;
+  sandbox.preset_label = scene.source.label;
+  if (scene.source.file.parent_path() != find_preset(default_preset).file.parent_path())
+    sandbox.preset_path = scene.source.file;
+  sandbox.explicit_preset = options.preset.typed();
+  sandbox.threads = scene.threads;
+  sandbox.auto_dt = scene.auto_dt;
+  sandbox.frames = options.frames;
+  sandbox.width = size.width, sandbox.height = size.height;
+  sandbox.screenshot = options.screenshot;
+  sandbox.time_report = options.time_report;
+  sandbox.session_report = options.session_report;
+  if (options.effects == "auto") sandbox.effects = Effects::Mode::automatic;
+  if (options.effects == "all") sandbox.effects = Effects::Mode::all;
+  if (options.effects == "few") sandbox.effects = Effects::Mode::few;
+  sandbox.color = field_called(options.color);
+  if (has_display()) return run_sandbox(sandbox);
+  if (!options.session_report.empty())
+    std::cerr << "--session-report tells what goes on in a window, so it is not written.\n";
+  return run_headless(sandbox, people(outputs));
+}
+
+/// Throws for an option of the window that was typed before a command.
+void refuse_before_command(const CLI::App& program) {
+  const CLI::App* command = &program;
+  std::string words = "tyglab";
+  while (!command->get_subcommands().empty()) {
+    command = command->get_subcommands().front();
+    words += " " + command->get_name();
+  }
+  for (const CLI::Option* option : program.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_name();
+    throw CLI::ValidationError(name, command->get_option_no_throw(name) != nullptr
+                                         ? "stands before the command; put it after its name"
+                                         : "belongs to the window, and `" + words + "` does not take it; leave it out");
+  }
+}
+
+}  // namespace
+
+void add_sandbox_command(CLI::App& program, Action& action) {
+  auto options = std::make_shared<Options>();
+  options->preset.add_to(program, false);
+  program.add_option("--frames", options->frames, "End after N frames")
+      ->type_name("N")
+      ->transform(whole_number_between(1, 1'000'000'000));
+  program
+      .add_option("--size", options->size,
+                  "Of the window, in pixels; with --frames otherwise as large as the screen, up to 2560x1440")
+      ->type_name("WxH")
+      ->check(not_empty());
+  add_output(program, "--screenshot", options->screenshot, "Write the last of --frames as a picture")
+      ->type_name("F.png");
+  add_output(program, "--time-report", options->time_report, "Write what a frame costs, by part, as JSON")
+      ->type_name("F.json");
+  add_output(program, "--session-report", options->session_report,
+             "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
+      ->type_name("F.json");
+  program
+      .add_option("--effects", options->effects,
+                  "Soft shadows and smooth edges: auto leaves out what this machine draws too slowly")
+      ->type_name("auto|all|few")
+      ->check(CLI::IsMember({"auto", "all", "few"}));
+  add_color_option(program, options->color, true);
+  program.callback([options, &action, &program] {
+    if (program.get_subcommands().empty()) {
+      action = [options, commands = command_names(program)] { return open_sandbox(*options, commands); };
+      return;
+    }
+    refuse_before_command(program);
+  });
+}
+
+}  // namespace tyglab

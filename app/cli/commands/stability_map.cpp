@@ -1,0 +1,126 @@
+// `tyglab stability map`: which stiffness and dt a method bears in a scene, by theory and by short runs.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+
+#include "app/cli/bench_output.h"
+#include "app/cli/commands/stability.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/outputs.h"
+#include "app/cli/preset_argument.h"
+#include "app/cli/progress.h"
+#include "app/ui/kit/map_chart.h"
+#include "core/analysis/in_parallel.h"
+#include "core/analysis/machine.h"
+#include "core/integrators/scheme.h"
+#include "core/io/destination.h"
+#include "core/model/readable.h"
+
+namespace tyglab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct MapOptions {
+  PresetArgument preset;
+  BenchOptions bench;
+  std::string csv;
+
+  std::vector<Output> outputs() const {
+    std::vector<Output> all = bench.outputs();
+    all.push_back({"--csv", csv});
+    return all;
+  }
+};
+
+Json map_json(const Preset& preset, const std::string& label, const std::vector<MapCell>& cells) {
+  Json rows = Json::array();
+  for (const MapCell& cell : cells)
+    rows.push_back({{stiffness_key(preset), cell.stiffness},
+                    {"dt", cell.dt},
+                    {"dt_theory", cell.dt_theory > 0 ? Json(cell.dt_theory) : Json(nullptr)},
+                    {"diverged", cell.diverged},
+                    {"t", cell.t},
+                    {"energy_error", cell.share}});
+  Json json = bench_json("stability map", rows);
+  json["scene"] = label, json["integrator"] = preset.integrator;
+  return json;
+}
+
+/// The map as letters, from cells row by row: stiffness to the right and dt upwards: × diverged, · stayed bounded. A
+/// stroke stands in each row where theory's largest stable dt is passed.
+void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, const std::vector<MapCell>& cells) {
+  std::array<char, 200> line;
+  for (auto cell = cells.begin(); cell != cells.end();) {
+    const int row = cell->row;
+    bool stable = true;
+    std::snprintf(line.data(), line.size(), "dt %9.3g s  ", cell->dt);
+    out << line.data();
+    for (; cell != cells.end() && cell->row == row; ++cell) {
+      const bool passed = cell->dt_theory > 0 && cell->dt > cell->dt_theory;
+      out << (stable && passed ? '|' : ' ') << (cell->diverged ? "×" : "·");
+      stable = !passed;
+    }
+    out << '\n';
+  }
+  out << stiffness_key(preset) << " from " << short_number(grid.stiffness(0.5), 3) << " to "
+      << short_number(grid.stiffness(grid.columns - 0.5), 3) << " N/m; × diverged, · bounded in a short run\n";
+  const double here = map_limit(preset);
+  out << (here > 0 ? "| theory's largest stable dt (any configuration): " + short_number(here, 3) + " s at " +
+                         stiffness_key(preset) + " = " + short_number(stiffness_of(preset)) + " N/m\n"
+                   : "By theory " + preset.integrator + " has no largest stable dt.\n");
+}
+
+int map(const MapOptions& options) {
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
+  const ResolvedPreset scene = options.preset.resolve("hanging");
+  const MapGrid grid = options.bench.quick ? map_grid(scene.preset, 12, 8) : map_grid(scene.preset, 36, 26);
+  const std::vector<int> order = coarse_first(grid);
+  out << machine_line() << '\n' << scene.source.label << ", " << scheme(scene.preset.integrator).title << '\n';
+  std::vector<MapCell> cells(order.size());
+  std::size_t done = 0;
+  InterruptGuard guard;
+  Progress progress("stability map");
+  in_parallel(
+      int(order.size()), scene.threads,
+      [&](int n) {
+        const int cell = order[std::size_t(n)];
+        cells[std::size_t(n)] =
+            measure_cell(scene.preset, grid, cell % grid.columns, cell / grid.columns, [] { return false; });
+      },
+      [&](int) { progress.update(double(++done) / double(order.size())); }, InterruptGuard::interrupted);
+  progress.clear();
+  cells.resize(done);
+  std::sort(cells.begin(), cells.end(),
+            [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
+  print_map(out, scene.preset, grid, cells);
+  if (!options.bench.json.empty())
+    write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n");
+  if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells));
+  if (!options.bench.png.empty()) {
+    const Chart page = map_page(dark_tokens(), scene.preset, scene.source.label, machine_line(), grid,
+                                map_boundary(scene.preset, grid), cells);
+    write_charts(options.bench.png, {page}, 1);
+  }
+  return bench_exit();
+}
+
+}  // namespace
+
+void add_stability_map(CLI::App& stability, Action& action) {
+  CLI::App* command = stability.add_subcommand(
+      "map", "Which k_s and dt a method bears in a scene, by theory and by short runs (one weight: k)");
+  const auto options = std::make_shared<MapOptions>();
+  options->preset.add_to(*command, false, Engines::cpu);
+  add_quick(*command, options->bench, "Fewer cells");
+  add_json(*command, options->bench);
+  add_output(*command, "--csv", options->csv, "Write a row a cell");
+  add_png(*command, options->bench, "Draw the map");
+  command->footer("Example: tyglab stability map hanging --integrator rk4 --png map.png");
+  command->callback([&action, options] { action = [options] { return map(*options); }; });
+}
+
+}  // namespace tyglab

@@ -1,0 +1,203 @@
+// `tyglab stability stress`: random scenes, each of which must end bounded or be reported as diverged.
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "app/cli/bench_output.h"
+#include "app/cli/commands/stability.h"
+#include "app/cli/interrupt.h"
+#include "app/cli/outputs.h"
+#include "app/cli/progress.h"
+#include "app/process/child_cases.h"
+#include "core/analysis/machine.h"
+#include "core/analysis/stress.h"
+#include "core/io/destination.h"
+#include "core/io/preset_io.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct StressOptions : BenchOptions {
+  std::int64_t cases = 0;  ///< 0: 1,000, or fewer where quick
+  std::int64_t seed = 1, from = 1;
+  std::int64_t only = 0;  ///< 0: all
+};
+
+Json case_json(std::int64_t number, const StressResult& result) {
+  const Preset& p = result.preset;
+  Json json = {{"case", number},
+               {"kind", name_of(p.kind)},
+               {"integrator", p.integrator},
+               {"rows", p.rows},
+               {"columns", p.columns},
+               {"precision", name_of(p.precision)},
+               {"threads", result.threads},
+               {"dt", p.dt},
+               {"steps", result.steps},
+               {"edits", result.edits},
+               {"unconverged_solves", result.unconverged},
+               {"status", name_of(result.status)}};
+  if (const auto& d = result.divergence)
+    json.update(
+        {{"t_s", d->t}, {"step", d->step}, {"i", d->i}, {"j", d->j}, {"cause", d->cause}, {"remedy", d->advice}});
+  if (!result.problem.empty()) json["problem"] = result.problem;
+  return json;
+}
+
+/// A case in its own process: what is thrown there is a violation too.
+std::string run_case(std::uint64_t seed, std::int64_t number) {
+  StressResult result;
+  try {
+    result = run_stress(seed, std::uint64_t(number));
+  } catch (const std::exception& error) {
+    result.preset = stress_preset(seed, std::uint64_t(number));
+    result.status = StressStatus::failed;
+    result.problem = std::string("an error was thrown: ") + error.what();
+  }
+  return case_json(number, result).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// The row of a case, also where its process did not come to its end.
+Json row_of(std::uint64_t seed, std::int64_t number, const ChildOutcome& outcome) {
+  Json row = outcome.text.empty() ? Json() : Json::parse(outcome.text, nullptr, false);
+  if (!row.is_object()) {
+    StressResult lost;
+    lost.preset = stress_preset(seed, std::uint64_t(number));
+    lost.status = StressStatus::failed;
+    lost.problem = outcome.timed_out     ? "it hung: it was ended after a minute"
+                   : outcome.signal != 0 ? std::string("it crashed: ") + strsignal(outcome.signal)
+                                         : "its process ended without a result";
+    row = case_json(number, lost);
+  }
+  row["seconds"] = outcome.seconds;
+  return row;
+}
+
+/// How many cases of each method ended how.
+using Tally = std::map<std::string, std::map<std::string, int>>;
+
+void print_counts(std::ostream& out, const Tally& counts) {
+  out << "\nintegrator            bounded  diverged  failed\n";
+  std::map<std::string, int> sums;
+  const auto print = [&](const std::string& name, const std::map<std::string, int>& by) {
+    const auto of = [&](const char* status) { return by.contains(status) ? by.at(status) : 0; };
+    std::array<char, 128> line;
+    std::snprintf(line.data(), line.size(), "%-20s  %7d  %8d  %6d\n", name.c_str(), of("bounded"), of("diverged"),
+                  of("failed"));
+    out << line.data();
+  };
+  for (const auto& [name, by] : counts) {
+    print(name, by);
+    for (const auto& [status, count] : by) sums[status] += count;
+  }
+  print("all", sums);
+  out << std::flush;
+  flush_standard_output();
+}
+
+int stress(const StressOptions& options) {
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
+  const std::int64_t count = options.cases > 0 ? options.cases : options.quick ? 200 : 1000;
+  const auto seed = std::uint64_t(options.seed);
+  out << machine_line() << "\nRandom scenes of seed " << seed << ", cases " << options.from << " to "
+      << options.from + count - 1 << ". Each must end bounded, or be reported as diverged.\n"
+      << std::flush;
+  Json rows = Json::array();
+  Tally counts;
+  int failed = 0;
+  InterruptGuard guard;
+  Progress progress("stability stress");
+  const auto ended = [&](std::int64_t number, const ChildOutcome& outcome) {
+    const Json row = row_of(seed, number, outcome);
+    ++counts[row["integrator"]][row["status"]];
+    if (row["status"] == "failed") {
+      ++failed;
+      progress.clear();
+      out << "case " << number << " failed: " << row["problem"].get<std::string>()
+          << " (tyglab stability stress --seed " << seed << " --only " << number << ")\n"
+          << std::flush;
+    }
+    rows.push_back(row);
+    progress.update(double(rows.size()) / double(count));
+  };
+  run_child_cases({.from = options.from,
+                   .count = count,
+                   .at_a_time = options.threads > 0 ? options.threads : processors(),
+                   .work = [&](std::int64_t number) { return run_case(seed, number); },
+                   .ended = ended,
+                   .stop = InterruptGuard::interrupted});
+  progress.clear();
+  print_counts(out, counts);
+  if (!options.json.empty()) {
+    Json all = bench_json("stability stress", rows);
+    all["seed"] = seed, all["from"] = options.from, all["cases"] = rows.size(), all["failed"] = failed;
+    write_output(options.json, all.dump(2) + "\n");
+  }
+  if (InterruptGuard::interrupted())
+    std::cerr << "tyglab: Go on with --seed " << seed << " --from " << options.from + std::int64_t(rows.size())
+              << " --cases " << count - std::int64_t(rows.size()) << "\n";
+  if (const int code = bench_exit(); code != exit_done) return code;
+  if (failed == 0) return exit_done;
+  std::cerr << "tyglab: " << counted(failed, "case") << " failed; see above.\n";
+  return exit_violation;
+}
+
+/// One case in this process, for use under other tools: its preset, what was done to it, and how it ended.
+int only(const StressOptions& options) {
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
+  const auto seed = std::uint64_t(options.seed), number = std::uint64_t(options.only);
+  out << preset_to_json(stress_preset(seed, number)) << std::flush;
+  const StressResult result = run_stress(seed, number);
+  const Json row = case_json(options.only, result);
+  out << row.dump(2) << '\n' << std::flush;
+  if (!options.json.empty())
+    write_output(options.json, bench_json("stability stress", Json::array({row})).dump(2) + "\n");
+  return result.status == StressStatus::failed ? exit_violation : exit_done;
+}
+
+}  // namespace
+
+void add_stability_stress(CLI::App& stability, Action& action) {
+  CLI::App* command = stability.add_subcommand(
+      "stress", "Random scenes, edited while they move: each ends bounded, or is reported as diverged");
+  const auto options = std::make_shared<StressOptions>();
+  constexpr std::int64_t most = 1000000000;
+  CLI::Option* quick = add_quick(*command, *options, "200 cases");
+  command->add_option("--cases", options->cases, "How many cases (1000 if it is not given)")
+      ->type_name("N")
+      ->transform(whole_number_between(1, most))
+      ->excludes(quick);
+  command->add_option("--seed", options->seed, "Of the random scenes (1 if it is not given)")
+      ->type_name("S")
+      ->transform(whole_number_between(0, most));
+  CLI::Option* from = command
+                          ->add_option("--from", options->from,
+                                       "The first case: to go on where another run ended. A case depends on the seed "
+                                       "and its number alone")
+                          ->type_name("N")
+                          ->transform(whole_number_between(1, most));
+  command->add_option("--only", options->only, "One case, told in full: for use under other tools")
+      ->type_name("N")
+      ->transform(whole_number_between(1, most))
+      ->excludes(quick)
+      ->excludes("--cases")
+      ->excludes(from);
+  add_threads(*command, *options, "Cases at a time");
+  add_json(*command, *options, "Write every case for programs");
+  command->footer(
+      "Examples: tyglab stability stress --cases 1000 --seed 1\n"
+      "          tyglab stability stress --seed 1 --only 17");
+  command->callback(
+      [&action, options] { action = [options] { return options->only > 0 ? only(*options) : stress(*options); }; });
+}
+
+}  // namespace tyglab

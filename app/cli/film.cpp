@@ -1,0 +1,54 @@
+#include "app/cli/film.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "app/base/data_files.h"
+#include "app/render/drawn_cloth.h"
+#include "app/render/image.h"
+#include "app/ui/kit/color_legend.h"
+#include "app/ui/kit/picture_gui.h"
+
+namespace tyglab {
+
+Film::Film(const Preset& preset, int view, PictureSize size, std::optional<ParticleField> color)
+    : size_(size), camera_(scene_camera(preset, float(size.width) / float(size.height))) {
+  options_.mode = view == 0 ? preset.mode : view;
+  if (const auto problem = renderer_.set_texture(texture_file(preset.texture)))
+    std::cerr << "tyglab: " << *problem << '\n';
+  if (!color || preset.kind != Kind::cloth) return;
+  colors_.emplace(FieldColors{*color});
+  renderer_.set_color_map(map_colors(colors_->map(false), map_size));
+}
+
+/// What was drawn last, with what its colours mean in a corner.
+Image Film::with_legend() const {
+  constexpr float height_at_1 = 720, least_scale = 0.6f;
+  Theme theme;
+  theme.scale = std::max(float(size_.height) / height_at_1, least_scale);
+  const ImVec2 size{float(size_.width), float(size_.height)};
+  const float margin = theme.px(16);
+  const ImVec2 legend = legend_size(theme, std::max(size.x - 2 * margin, 1.f));
+  const PictureGui gui(size, theme);
+  gui.show(renderer_.texture_id());
+  draw_color_legend({gui.draw(), theme, gui.fonts()}, {size.x - margin - legend.x, size.y - margin - legend.y}, legend,
+                    {info(colors_->field), colors_->map(false), colors_->top(), {}, colors_->beyond()});
+  return gui.pixels();
+}
+
+void Film::shoot(Simulation& simulation, const std::filesystem::path& file) {
+  renderer_.lend_memory(simulation);
+  renderer_.update(simulation, options_);
+  if (colors_) {
+    std::vector<float> values;
+    read_field(colors_->field, simulation, nullptr, {simulation.lattice(), options_.every}, values);
+    const DrawnSites sites{simulation.lattice(), options_.every};
+    renderer_.set_values(values, sites.rows(), sites.columns());
+    colors_->look(span_of(values));
+    options_.colored = colors_->range();
+  }
+  renderer_.draw(camera_, options_, size_.width, size_.height);
+  write_png(file, colors_ ? with_legend() : renderer_.pixels());
+}
+
+}  // namespace tyglab

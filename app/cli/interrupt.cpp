@@ -1,0 +1,56 @@
+#include "app/cli/interrupt.h"
+
+#include <unistd.h>
+
+#include <string_view>
+
+#include "app/cli/command_line.h"
+
+namespace tyglab {
+namespace {
+
+// A signal handler reaches nothing but a global.
+volatile std::sig_atomic_t was_interrupted = 0;
+
+/// Only what a signal handler may call.
+void end_at_once(std::string_view sentence) {
+  // Where stderr is gone too there is nobody left to tell.
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, sentence.data(), sentence.size());
+  ::_exit(exit_interrupted);
+}
+
+extern "C" void exit_on_interrupt(int) {
+  end_at_once("tyglab: Interrupted before it was done.\n");
+}
+
+extern "C" void note_interrupt(int) {
+  if (was_interrupted != 0) end_at_once("\ntyglab: Interrupted twice, so it ended at once.\n");
+  was_interrupted = 1;
+}
+
+}  // namespace
+
+SignalHandler::SignalHandler(void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;  // a write that is interrupted goes on
+  sigaction(SIGINT, &action, &old_int_);
+  sigaction(SIGTERM, &action, &old_term_);
+}
+
+SignalHandler::~SignalHandler() {
+  sigaction(SIGINT, &old_int_, nullptr);
+  sigaction(SIGTERM, &old_term_, nullptr);
+}
+
+InterruptExit::InterruptExit() : handler_(exit_on_interrupt) {}
+
+InterruptGuard::InterruptGuard() : handler_(note_interrupt) {
+  was_interrupted = 0;
+}
+
+bool InterruptGuard::interrupted() {
+  return was_interrupted != 0;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,83 @@
+#include "app/cli/outputs.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "app/cli/command_line.h"
+#include "core/io/destination.h"
+#include "core/io/files.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+namespace {
+
+/// A file that would be replaced or made, as opposed to a pipe or a device, which takes what comes.
+bool is_plain(const fs::path& file) {
+  std::error_code error;
+  return !is_standard_output(file) && (fs::is_regular_file(file, error) || !fs::exists(file, error));
+}
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  if (is_standard_output(a) || is_standard_output(b)) return is_standard_output(a) && is_standard_output(b);
+  std::error_code error;
+  const auto place = [&](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file, error), error); };
+  return is_plain(a) && is_plain(b) && place(a) == place(b);
+}
+
+void require_writable(const std::string& file) {
+  if (is_standard_output(file)) return;
+  std::error_code error;
+  const fs::path path(file);
+  if (fs::is_directory(path, error)) throw OutputError(file + ": is a folder; name a file in it");
+  if (!path.has_filename()) throw OutputError(file + ": is the name of a folder; name a file in it");
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw OutputError(file + ": the folder " + folder.string() + " is not there; make it first (mkdir -p)");
+  const bool device = fs::exists(path, error) && !fs::is_regular_file(path, error);
+  if (device && ::access(file.c_str(), W_OK) != 0)
+    throw OutputError(file + ": may not be written; choose another name");
+  if (!device && ::access(folder.c_str(), W_OK) != 0)
+    throw OutputError(file + ": nothing may be written in " + folder.string() + "; choose another folder");
+}
+
+}  // namespace
+
+void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
+  for (auto a = outputs.begin(); a != outputs.end(); ++a) {
+    if (a->file.empty()) continue;
+    if (a->binary && is_standard_output(a->file) && ::isatty(STDOUT_FILENO) == 1)
+      throw UsageError(a->option +
+                       " -: standard output is a terminal, which cannot show such a file; send it into a "
+                       "file (> F) or a program (| …)");
+    for (auto b = outputs.begin(); b != a; ++b)
+      if (!b->file.empty() && same_file(a->file, b->file))
+        throw UsageError(b->option + " and " + a->option + ": both go to " + output_name(a->file) +
+                         "; name a file for one of them");
+    if (!input.empty() && same_file(a->file, input))
+      throw UsageError(a->option + " " + a->file + ": would replace the preset that is read; name another file");
+    require_writable(a->file);
+  }
+}
+
+std::ostream& people(const std::vector<Output>& outputs) {
+  for (const Output& output : outputs)
+    if (is_standard_output(output.file)) return std::cerr;
+  return std::cout;
+}
+
+void make_output_folder(const std::string& option, const std::string& folder) {
+  if (is_standard_output(folder))
+    throw UsageError(option + " -: several files cannot go to standard output; name a folder");
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw OutputError(folder + ": the folder cannot be made: " + error.message());
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(folder + ": nothing may be written in this folder; choose another");
+}
+
+CLI::Option* add_output(CLI::App& command, const std::string& option, std::string& file, const std::string& what) {
+  return command.add_option(option, file, what)->check(not_empty());
+}
+
+}  // namespace tyglab

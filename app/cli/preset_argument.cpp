@@ -1,0 +1,211 @@
+#include "app/cli/preset_argument.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iostream>
+#include <system_error>
+
+#include "app/base/data_files.h"
+#include "app/base/numbers.h"
+#include "app/cli/command_line.h"
+#include "core/analysis/engine_choice.h"
+#include "core/analysis/machine.h"
+#include "core/analysis/tolerance.h"
+#include "core/energy/auto_step.h"
+#include "core/integrators/names.h"
+#include "core/io/json_tree.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
+
+namespace tyglab {
+namespace fs = std::filesystem;
+
+void warn_of_missing_texture(const Preset& preset) {
+  const fs::path picture = texture_file(preset.texture);
+  std::error_code error;
+  if (!fs::is_regular_file(picture, error))
+    std::cerr << "tyglab: view.texture: there is no picture '" << printable(preset.texture)
+              << "', so the cloth would be drawn without one; check the name and the folder.\n";
+}
+
+namespace {
+
+constexpr std::string_view automatic = "auto";
+
+std::string known_integrators() {
+  std::string list;
+  for (const std::string_view name : integrator_names()) list += (list.empty() ? "" : ", ") + std::string(name);
+  return list;
+}
+
+/// N of opencl:N; none where the text is not that.
+std::optional<int> device_number(std::string_view engine) {
+  constexpr std::string_view before = "opencl:";
+  if (!engine.starts_with(before)) return {};
+  const char *first = engine.data() + before.size(), *last = engine.data() + engine.size();
+  int number = -1;
+  const auto [end, error] = std::from_chars(first, last, number);
+  if (error != std::errc() || end != last || number < 0) return {};
+  return number;
+}
+
+}  // namespace
+
+void PresetArgument::add_engine(CLI::App& command) {
+  if (engines == Engines::cpu) {
+    command.add_option("--engine", engine, "cpu, the only engine of this command")
+        ->type_name("cpu")
+        ->check(not_empty());
+    return;
+  }
+  command
+      .add_option("--engine", engine,
+                  "Where it runs: cpu, or opencl, on the first graphics card or else the first OpenCL device, or\n"
+                  "opencl:N on the device that `tyglab devices` gives that number; or auto: the one that is quickest\n"
+                  "in short runs of this scene, whose times are kept")
+      ->type_name("cpu|opencl[:N]|auto")
+      ->check(not_empty());
+}
+
+void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_there) {
+  engines = engines_there;
+  command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
+      ->required(required)
+      ->check(not_empty());
+  command
+      .add_option("--set", settings,
+                  "Set a constant by the key of the preset file: --set k_s=500 --set \"W=[0,0,0.02]\"\n"
+                  "--set \"bodies[0].r=0.3\". Can be given many times")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->take_all();
+  command.add_option("--integrator", integrator, "Numerical method: " + known_integrators())
+      ->type_name("NAME")
+      ->check(not_empty());
+  command
+      .add_option("--dt", dt,
+                  "Time step, s; or auto: the largest that linear theory allows for these constants, with a margin,\n"
+                  "halved while the energy ledger finds the integrator making energy")
+      ->type_name("S|auto")
+      ->check(not_empty());
+  command
+      .add_option("--tolerance", tolerance,
+                  "Choose --integrator and --dt, and --precision if float cannot hold it, so that positions err by at\n"
+                  "most so much (m, root mean square) in the first second: by short trial runs of this very scene.\n"
+                  "A method or a precision that is typed stays")
+      ->type_name("M")
+      ->transform(number_between(1e-12, 1, "m"));
+  add_engine(command);
+  command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")
+      ->type_name("float|double")
+      ->check(not_empty());
+  command
+      .add_option("--threads", threads,
+                  "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay "
+                  "(all processors if it is not given). The result is the same to the last bit")
+      ->type_name("N")
+      ->transform(whole_number_between(1, 256));
+}
+
+std::vector<Setting> PresetArgument::all_settings() const {
+  std::vector<Setting> all;
+  for (const std::string& text : settings) all.push_back(parse_setting(text));
+  const auto add = [&](const std::string& key, const std::string& value) {
+    if (!value.empty()) all.push_back({"--" + key + " " + value, key, value});
+  };
+  add("integrator", integrator);
+  if (dt != automatic) add("dt", dt);
+  if (engine != automatic) add("engine", engine.substr(0, engine.find(':')));
+  add("precision", precision);
+  return all;
+}
+
+bool PresetArgument::typed() const {
+  const auto typed = {&preset, &integrator, &dt, &engine, &precision};
+  return !settings.empty() || tolerance ||
+         std::any_of(typed.begin(), typed.end(), [](auto* text) { return !text->empty(); });
+}
+
+bool PresetArgument::sets(std::string_view key) const {
+  return std::any_of(settings.begin(), settings.end(), [&](const std::string& text) {
+    const std::string typed = parse_setting(text).key;
+    return typed == key || typed == "solver." + std::string(key);
+  });
+}
+
+void PresetArgument::check_engine() const {
+  constexpr std::array<std::string_view, 3> known{"cpu", "opencl", automatic};
+  if (engine.empty()) return;
+  if (engines == Engines::cpu) {
+    if (engine == "cpu") return;
+    throw UsageError("--engine " + engine + ": this command works on the CPU engine alone; leave --engine out");
+  }
+  if (std::find(known.begin(), known.end(), engine) != known.end() || device_number(engine)) return;
+  const auto meant = nearest(std::string_view(engine).substr(0, engine.find(':')), known);
+  throw UsageError("--engine " + engine +
+                   ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` tells each device's N" +
+                   (meant ? "; did you mean " + std::string(*meant) + "?" : ""));
+}
+
+void PresetArgument::keep_to_cpu(Preset& scene) const {
+  if (scene.engine == EngineKind::cpu) return;
+  if (sets("engine")) throw UsageError("--set engine=opencl: this command works on the CPU engine alone; leave it out");
+  std::cerr << "tyglab: the preset asks for OpenCL, but this command works on the CPU engine alone, so that is used.\n";
+  scene.engine = EngineKind::cpu;
+}
+
+void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
+  const auto chosen = AutoStep::choose(resolved.preset);
+  if (!chosen)
+    throw UsageError("--dt auto: " + resolved.preset.integrator +
+                     " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
+                     "damping with --set k_d=…");
+  resolved.preset.dt = *chosen;
+  std::cerr << "tyglab: --dt auto took " << short_number(*chosen) << " s for " << resolved.preset.integrator << ".\n";
+}
+
+void PresetArgument::choose_engine(ResolvedPreset& resolved) const {
+  if (sets("engine")) throw UsageError("--engine auto: chooses the engine itself; leave out --set engine");
+  resolved.engine_choice = std::make_shared<EngineChoice>(tyglab::choose_engine(resolved.preset, resolved.threads));
+  resolved.preset.engine = resolved.engine_choice->engine, resolved.preset.device = resolved.engine_choice->device;
+  std::cerr << "tyglab: --engine auto chose " << resolved.engine_choice->why << ".\n";
+}
+
+void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const {
+  if (!dt.empty() || sets("dt")) throw UsageError("--tolerance: chooses dt itself; leave out --dt and --set dt");
+  const ToleranceKeeps keeps{!integrator.empty() || sets("integrator"), !precision.empty() || sets("precision")};
+  const double shown = seconds.value_or(0);
+  try {
+    resolved.choice = std::make_shared<ToleranceChoice>(
+        choose_for_tolerance(resolved.preset, *tolerance, shown > 0 ? shown : 1, keeps, [] { return false; }));
+  } catch (const std::runtime_error& error) {
+    throw UsageError(std::string("--tolerance: ") + error.what());
+  }
+  resolved.preset = resolved.choice->preset;
+  std::cerr << "tyglab: --tolerance chose " << resolved.choice->words(*tolerance) << '\n';
+}
+
+ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands,
+                                       std::optional<double> seconds) const {
+  check_engine();
+  ResolvedPreset resolved;
+  resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
+  resolved.preset = load_preset(resolved.source.file);
+  try {
+    resolved.preset = with_parsed_settings(resolved.preset, all_settings());
+  } catch (const PresetError& error) {
+    throw UsageError(error.what());
+  }
+  if (const auto number = device_number(engine)) resolved.preset.device = *number;
+  if (engines == Engines::cpu) keep_to_cpu(resolved.preset);
+  resolved.auto_dt = dt == automatic;
+  if (tolerance) choose_by_tolerance(resolved, seconds);
+  if (resolved.auto_dt) choose_dt(resolved);
+  resolved.threads = threads > 0 ? threads : processors();
+  if (engine == automatic) choose_engine(resolved);
+  return resolved;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,43 @@
+#include "app/cli/program.h"
+
+#include "app/cli/command_line.h"
+#include "app/cli/commands/bench.h"
+#include "app/cli/commands/devices.h"
+#include "app/cli/commands/labs.h"
+#include "app/cli/commands/presets.h"
+#include "app/cli/commands/render.h"
+#include "app/cli/commands/run.h"
+#include "app/cli/commands/sandbox.h"
+#include "app/cli/commands/stability.h"
+
+namespace tyglab {
+
+int run_program(int argc, char** argv) {
+  prepare_process();
+  Action action;
+  CLI::App program(
+      "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
+      "Without a command it opens the sandbox with PRESET, or as it was left the last time.",
+      "tyglab");
+  program.set_version_flag("--version", "tyglab " TYGLAB_VERSION);
+  program.footer(
+      "Examples: tyglab denim\n"
+      "          tyglab run denim --seconds 2 --state denim.csv\n"
+      "`tyglab COMMAND --help` says what a command takes.");
+  add_sandbox_command(program, action);
+  add_run_command(program, action);
+  add_render_command(program, action);
+  add_presets_command(program, action);
+  add_labs_command(program, action);
+  add_bench_command(program, action);
+  add_stability_command(program, action);
+  add_devices_command(program, action);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return exit_of_parsing(program, error, {argv + 1, argv + argc});
+  }
+  return run_action(action);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,126 @@
+#include "app/cli/stepping.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <utility>
+
+#include "app/cli/command_line.h"
+#include "app/cli/interrupt.h"
+#include "core/io/text.h"
+
+namespace tyglab {
+
+void Length::add_to(CLI::App& command, bool with_steps) {
+  CLI::Option* by_time = command.add_option("--seconds", seconds, "Simulated time, s (4 if it is not given)");
+  by_time->type_name("T")->transform(number_between(0, 1e9, "s"));
+  if (with_steps)
+    command.add_option("--steps", steps, "Number of steps, instead of a time")
+        ->type_name("N")
+        ->transform(whole_number_between(0, 1'000'000'000'000))
+        ->excludes(by_time);
+}
+
+std::int64_t Length::in_steps(double dt, double default_seconds) const {
+  if (steps) return *steps;
+  const double count = seconds.value_or(default_seconds) / dt;
+  if (count > 1e12) throw UsageError("--seconds: that many seconds are more than 1e12 steps of dt; ask for fewer");
+  return std::llround(count);
+}
+
+void Length::warn_if_too_short(double dt) const {
+  if (!seconds || *seconds == 0 || in_steps(dt, 0) > 0) return;
+  std::string text = "tyglab: --seconds ";
+  append_number(text, *seconds, 6);
+  text += " is less than half a step of dt = ";
+  append_number(text, dt, 6);
+  std::cerr << text << " s, so no step is made; give more seconds or a smaller --dt.\n";
+}
+
+FramePlan::FramePlan(std::optional<double> fps, double dt, std::int64_t steps)
+    : fps_(fps.value_or(std::min(25.0, 1 / dt))), timeline_{dt} {
+  constexpr double rounding = 1e-9;
+  const double steps_a_frame = 1 / (fps_ * dt);
+  if (steps_a_frame < 1 - rounding) {
+    std::string limit;
+    append_number(limit, 1 / dt, 6);
+    throw UsageError("--fps: frames would lie closer together than the steps; at this dt it is at most " + limit);
+  }
+  count_ = static_cast<std::int64_t>(std::floor(double(steps) / steps_a_frame + rounding)) + 1;
+}
+
+std::int64_t FramePlan::step_of(std::int64_t frame) const {
+  return timeline_.step_at(double(frame) / fps_);
+}
+
+std::int64_t Timeline::step_at(double time) const {
+  return step + std::llround((time - t) / dt);
+}
+
+Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt)
+    : simulation_(simulation),
+      steps_(steps),
+      end_time_(double(steps) * simulation.preset().dt),
+      timeline_{simulation.preset().dt},
+      progress_(what) {
+  if (!auto_dt) return;
+  auto_.emplace();
+  simulation_.enable_ledger(true);
+}
+
+bool Stepper::changed() {
+  return std::exchange(changed_, false);
+}
+
+bool Stepper::advance_to(std::int64_t step) {
+  while (simulation_.steps() < step && !simulation_.divergence() && !interrupted_ && !changed_) {
+    interrupted_ = InterruptGuard::interrupted();
+    if (!interrupted_) advance_portion(step);
+  }
+  const bool reached = simulation_.steps() >= step;
+  if (!reached || simulation_.steps() >= steps_) progress_.clear();
+  return reached;
+}
+
+void Stepper::advance_portion(std::int64_t step) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::int64_t between_looks = 64;
+  const auto portion = std::min({portion_, step - simulation_.steps(), auto_ ? between_looks : portion_});
+  const auto start = Clock::now();
+  simulation_.advance(static_cast<int>(portion));
+  const double took = std::chrono::duration<double>(Clock::now() - start).count();
+  seconds_ += took;
+  // Portions that take about a twentieth of a second: short for a person, long beside the cost of a call.
+  if (took < 0.025 && portion == portion_ && portion_ < 1'000'000) portion_ *= 2;
+  if (took > 0.1 && portion_ > 1) portion_ /= 2;
+  if (auto_) look_at_ledger();
+  progress_.update(double(simulation_.steps()) / double(steps_));
+}
+
+void Stepper::look_at_ledger() {
+  const auto dt = auto_->look(simulation_.preset(), simulation_.time(), *simulation_.ledger());
+  if (!dt) return;
+  Preset next = simulation_.preset();
+  next.dt = *dt;
+  simulation_.apply(edit::Change{next});
+  timeline_ = {*dt, simulation_.steps(), simulation_.time()};
+  steps_ = timeline_.step_at(end_time_);
+  changed_ = true;
+  progress_.clear();
+  std::string text = "tyglab: at t = ";
+  append_number(text, timeline_.t, 4);
+  text += " s " + next.integrator + " was making energy; dt is ";
+  append_number(text, *dt, 3);
+  std::cerr << text << " s from here on.\n";
+}
+
+std::string divergence_text(const Divergence& d) {
+  std::string text = "diverged at t = ";
+  append_number(text, d.t, 6);
+  text += " s (step " + std::to_string(d.step) + "), " + d.where() + ": " + d.quantity + " = ";
+  append_number(text, d.value, 4);
+  return text + "; " + d.cause + ". " + d.advice;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,87 @@
+// How `run` and `render` bring a simulation forward: in portions, with progress, until it ends, diverges or Ctrl-C.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/cli/progress.h"
+#include "core/energy/auto_step.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// How far to go: seconds or steps, whichever was typed.
+struct Length {
+  std::optional<double> seconds;
+  std::optional<std::int64_t> steps;
+
+  /// Adds --seconds, and --steps where `with_steps`.
+  void add_to(CLI::App& command, bool with_steps);
+  /// Steps of dt; `default_seconds` where nothing was typed. Throws UsageError if they are too many to count.
+  std::int64_t in_steps(double dt, double default_seconds) const;
+  /// Says in a line on stderr if the seconds typed are too short for a single step of dt.
+  void warn_if_too_short(double dt) const;
+};
+
+/// Which step ends at which time, from the last change of dt on.
+struct Timeline {
+  double dt;
+  std::int64_t step = 0;  ///< at which dt became this
+  double t = 0;           ///< s, then
+  std::int64_t step_at(double time) const;
+};
+
+/// The steps after which a frame is shown or written, `fps` to a second of simulated time; frame 0 is the start.
+class FramePlan {
+ public:
+  /// Throws UsageError if frames would lie closer together than steps. Without `fps`: 25, or 1/dt where dt is longer.
+  FramePlan(std::optional<double> fps, double dt, std::int64_t steps);
+  double fps() const { return fps_; }
+  std::int64_t count() const { return count_; }
+  std::int64_t step_of(std::int64_t frame) const;
+  /// dt has changed: frames stay where they are in time.
+  void follow(const Timeline& timeline) { timeline_ = timeline; }
+
+ private:
+  double fps_;
+  Timeline timeline_;
+  std::int64_t count_;
+};
+
+class Stepper {
+ public:
+  /// `auto_dt`: halves dt where the energy ledger asks for it.
+  Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt = false);
+  /// Advances to that step. False if it ended before: diverged, interrupted, or dt has changed (changed()).
+  bool advance_to(std::int64_t step);
+  /// Whether dt has changed since the last call, so that what is planned in steps is to be planned anew.
+  bool changed();
+  const Timeline& timeline() const { return timeline_; }
+  /// The step with which the run ends.
+  std::int64_t end() const { return steps_; }
+  bool interrupted() const { return interrupted_; }
+  /// Wall time of the stepping alone, s.
+  double seconds() const { return seconds_; }
+
+ private:
+  void advance_portion(std::int64_t step);
+  void look_at_ledger();
+
+  Simulation& simulation_;
+  std::int64_t steps_;
+  double end_time_;  ///< s
+  Timeline timeline_;
+  std::optional<AutoStep> auto_;
+  bool changed_ = false;
+  Progress progress_;
+  std::int64_t portion_ = 1;
+  double seconds_ = 0;
+  bool interrupted_ = false;
+};
+
+/// When, where and why a run diverged, and what to do, as sentences.
+std::string divergence_text(const Divergence& divergence);
+
+}  // namespace tyglab

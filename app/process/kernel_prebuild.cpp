@@ -1,0 +1,80 @@
+#include "app/process/kernel_prebuild.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <string>
+#include <vector>
+
+#include "core/engines/opencl/opencl_devices.h"
+#include "core/integrators/scheme.h"
+#include "core/io/preset_io.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+namespace {
+
+/// As small as it can be with every kernel run that the preset's cloth runs.
+Preset miniature(Preset preset) {
+  const bool solves = is_implicit(scheme(preset.integrator));
+  const int side = solves ? 150 : 16, most = solves ? most_solved_in_one_launch : 0;
+  const auto shortened = [&](int length, int other) { return std::min(length, std::max(side, most / other + 1)); };
+  preset.columns = shortened(preset.columns, preset.rows), preset.rows = shortened(preset.rows, preset.columns);
+  if (preset.pins.mode == Pins::Mode::list) preset.pins = Pins{};
+  return preset;
+}
+
+/// A file in memory with that text, to be read from its beginning; under 0: none could be made.
+int file_of(const std::string& text) {
+  const int file = ::memfd_create("preset", MFD_CLOEXEC);
+  if (file >= 0 && (::write(file, text.data(), text.size()) != ssize_t(text.size()) || ::lseek(file, 0, SEEK_SET) != 0))
+    return ::close(file), -1;
+  return file;
+}
+
+}  // namespace
+
+void run_programs_once(const Preset& preset, bool ledger) {
+  if (preset.engine != EngineKind::opencl) return;
+  try {
+    Simulation simulation(preset);
+    if (ledger) simulation.enable_ledger(true);
+    simulation.advance(1);
+    simulation.engine().shown();
+  } catch (const EngineError&) {
+    // The cloth itself will meet it, where it is reported.
+  }
+}
+
+void prepare_programs(const Preset& preset, bool ledger) {
+  const int input = file_of(preset_to_json(miniature(preset)));
+  if (input < 0) return;
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, output, "/dev/null", O_WRONLY, 0);
+  const std::string engine = preset.device < 0 ? "opencl" : "opencl:" + std::to_string(preset.device);
+  // A time series reads the cloth, which is a kernel too; so does the ledger.
+  std::vector<std::string> words{"tyglab",   "run",  "/dev/stdin",     "--steps", "3",
+                                 "--engine", engine, "--series-every", "1",       ledger ? "--ledger" : "--series",
+                                 "-"};
+  std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  const int failed = ::posix_spawn(&child, "/proc/self/exe", &files, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  ::close(input);
+  while (failed == 0 && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+}  // namespace tyglab

@@ -1,0 +1,90 @@
+// A camera that orbits a point. Angles in radians, lengths in metres, pixels with y down from the top left corner.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <span>
+
+#include "core/engines/engine.h"
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+struct Camera {
+  glm::vec3 target{0, 0, 0};
+  float distance = 2;
+  float yaw = 0.35f;    ///< 0 looks along -z; grows as the eye goes round to +x
+  float pitch = 0.18f;  ///< height of the eye over the horizon of the target; within ±85 degrees
+  float fov_y = 0.62f;  ///< vertical field of view
+
+  glm::vec3 eye() const;
+  glm::vec3 right() const;
+  glm::vec3 up() const;
+  glm::vec3 forward() const;
+  glm::mat4 view() const;
+  glm::mat4 projection(float aspect) const;
+
+  /// Turns the scene under a drag of (dx, dy) pixels: half a turn takes 600 pixels.
+  void orbit(float dx, float dy);
+  /// Moves the target with the pointer: the point under it stays under it.
+  void pan(float dx, float dy, float viewport_height);
+  /// Positive steps come nearer, an eighth of the distance a step.
+  void zoom(float wheel_steps);
+  /// Comes as near as it can while the points keep within that part of the picture's width and height; keeps the
+  /// direction. The points then stand in the middle of the picture. Something covers so much of its height along the
+  /// upper edge (`covered`, 0 to 0.3): only what is left counts as the picture.
+  void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered = 0);
+  /// Goes back along its direction until the points keep within that part of the picture.
+  void make_room(std::span<const glm::vec3> points, float aspect, float part, float covered = 0);
+  /// Puts the box (corners lo, hi) into view; keeps the direction.
+  void frame(glm::vec3 lo, glm::vec3 hi, float aspect);
+
+  /// Pixel of a point, none when it is behind the camera. `size` is the viewport's, in pixels.
+  std::optional<glm::vec2> project(glm::dvec3 world, glm::vec2 size) const;
+  /// Metres that a pixel shows at the depth of a place.
+  double metres_per_pixel(glm::dvec3 at, float viewport_height) const;
+  /// The point under the pixel in the plane through `through` that is parallel to the camera plane ("The hand").
+  glm::dvec3 unproject_in_camera_plane(glm::vec2 pixel, glm::dvec3 through, glm::vec2 size) const;
+  /// Unit direction from the eye through a pixel.
+  glm::dvec3 ray(glm::vec2 pixel, glm::vec2 size) const;
+
+  bool operator==(const Camera&) const = default;
+};
+
+/// Camera::project for many points: what depends on the camera alone is worked out once.
+class Projector {
+ public:
+  Projector(const Camera& camera, glm::vec2 size);
+  std::optional<glm::vec2> operator()(glm::dvec3 world) const;
+  /// Distance before the camera, m.
+  double depth(glm::dvec3 world) const { return glm::dot(world - eye_, ahead_); }
+
+ private:
+  glm::dvec3 eye_, ahead_, right_, up_;
+  glm::dvec2 middle_;
+  double pixels_per_slope_, nearest_;
+};
+
+/// An axis-aligned box, m. Empty while lo > hi.
+struct Bounds {
+  glm::vec3 lo{1e30f}, hi{-1e30f};
+  bool empty() const { return lo.x > hi.x; }
+  void add(glm::vec3 point);
+  void add(const Bounds& other);
+};
+
+/// The box of all finite particles.
+Bounds bounds(const PositionView& positions);
+/// The box of a preset's start and of where it will hang, with its spheres: what a first look should see.
+Bounds scene_bounds(const Preset& preset);
+/// A camera in the house's favourite direction that frames scene_bounds, below what covers so much of the picture's
+/// height along its upper edge.
+Camera scene_camera(const Preset& preset, float aspect, float covered = 0);
+/// Height of the drawn ground: that of the highest plane below the start if there is one, else a little below all that
+/// scene_bounds holds.
+double ground_height(const Preset& preset);
+
+}  // namespace tyglab

@@ -1,0 +1,222 @@
+// What stands in a picture, one after the other: shadows, ground, bodies or a weight, and the cloth in its five views.
+#include <algorithm>
+
+#include "app/render/cloth_renderer_parts.h"
+
+namespace tyglab {
+namespace {
+
+constexpr float ghost_opacity = 0.9f;
+constexpr float hem_part = 0.007f;  ///< of the cloth's shorter side
+
+}  // namespace
+
+void ClothRenderer::Parts::draw_shadow(const ViewOptions& options) {
+  if (!options.shadows || (!shadow_stale && shadow_of_cloth == options.lit())) return;
+  const Stopwatch watch(work.shadow);
+  shadow.begin();
+  if (!one_weight() && options.lit()) {
+    shared->cloth_depth.use();
+    mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
+  }
+  shared->solid_depth.use();
+  for (const Body& body : preset.bodies) {
+    if (body.shape != Body::Shape::sphere || one_weight()) continue;
+    shared->solid_depth.set("placed", glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)));
+    shared->sphere.draw();
+  }
+  if (one_weight()) {
+    shared->solid_depth.set("placed", glm::vec4(0, 0, 0, 1));
+    spring.draw();
+    hanger.draw();
+    shared->solid_depth.set("placed", glm::vec4(weight_model.weight, weight_model.radius));
+    shared->sphere.draw();
+  }
+  shadow.end();
+  shadow_stale = false;
+  shadow_of_cloth = options.lit();
+}
+
+void ClothRenderer::Parts::draw_background() {
+  shared->background.use();
+  glDepthMask(GL_FALSE);
+  glBindVertexArray(shared->nothing.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthMask(GL_TRUE);
+}
+
+void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
+  const glm::vec3 centre = (framed.lo + framed.hi) / 2.0f;
+  // The lines have faded out before the square ends (ground.frag).
+  const float half = 8.6f * scene_radius();
+  glEnable(GL_BLEND);
+  glBindVertexArray(shared->nothing.id());
+  shared->ground.use();
+  shared->ground.set("area", glm::vec4(centre.x - half, centre.z - half, centre.x + half, centre.z + half));
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  if (options.shadows && !box.empty()) {
+    shared->ground_shadow.use();
+    shared->ground_shadow.set("shadow_map", shadow_unit);
+    shared->ground_shadow.set("area", shadow_area(box, to_light, ground_y));
+    // Upon the lines, not flickering through them.
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1, -4);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+  }
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, glm::vec3 base, float gloss) {
+  shared->solid.use();
+  shared->solid.set("shadow_map", shadow_unit);
+  shared->solid.set("placed", placed);
+  shared->solid.set("base", base);
+  shared->solid.set("gloss", gloss);
+  what.draw();
+}
+
+void ClothRenderer::Parts::draw_bodies(const ViewOptions& options) {
+  for (const Body& body : preset.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    draw_solid(shared->sphere, glm::vec4(glm::vec3(body.c), drawn_radius(body, preset.L)), options.palette.body, 0.12f);
+  }
+}
+
+void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
+  const glm::vec4 here(0, 0, 0, 1);
+  const Palette& colours = options.palette;
+  draw_solid(hanger, here, 0.6f * colours.body, 0.05f);
+  draw_solid(spring, here, colours.body, 0.5f);
+  draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colours.lines, 0.25f);
+  shared->solid.set("own_light", 1.0f);
+  draw_solid(rest_line, here, 0.8f * colours.points, 0);
+  draw_solid(equilibrium_line, here, colours.pins, 0);
+  shared->solid.set("own_light", 0.0f);
+}
+
+/// Uses a program: of a coloured cloth the second one, with what colours it.
+const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl::Program* colored,
+                                             const ViewOptions& options) {
+  const gl::Program& program = options.colored && colored != nullptr ? *colored : plain;
+  program.use();
+  if (&program == &plain) return plain;
+  const ValueRange& range = *options.colored;
+  program.set("stride", mesh.stride());
+  program.set("values", values_unit);
+  program.set("color_map", colors_unit);
+  program.set("value_range", glm::vec2(range.lo, 1 / std::max(range.hi - range.lo, 1e-30f)));
+  return program;
+}
+
+void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
+  const Lattice& lattice = mesh.lattice();
+  const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
+  const gl::Program& cloth = use(shared->cloth, shared->colored ? &shared->colored->cloth : nullptr, options);
+  cloth.set("cloth", texture_unit);
+  cloth.set("shadow_map", shadow_unit);
+  cloth.set("stride", mesh.stride());
+  cloth.set("texture_step", 1.0f / steps);
+  cloth.set("hem", options.palette.hem);
+  cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
+  mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
+}
+
+void ClothRenderer::Parts::draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width) {
+  const gl::Program& lines = use(shared->lines, shared->colored ? &shared->colored->lines : nullptr, options);
+  lines.set("spacing", spacing());
+  lines.set("max_width", width);
+  lines.set("ink", glm::vec4(options.palette.lines, opacity));
+  glEnable(GL_BLEND);
+  mesh.draw(list, GL_LINES);
+  glDisable(GL_BLEND);
+}
+
+/// In a colour of their own, whatever colours the cloth.
+void ClothRenderer::Parts::draw_bending(const ViewOptions& options) {
+  ViewOptions own = options;
+  own.colored.reset();
+  own.palette.lines = options.palette.bending;
+  draw_lines(ClothMesh::List::bending, own, 1, 0.6f * options.line_width);
+}
+
+void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
+  const gl::Program& points = use(shared->points, shared->colored ? &shared->colored->points : nullptr, options);
+  points.set("spacing", spacing());
+  points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
+  points.set("towards", 0.0f);
+  points.set("ink", glm::vec4(options.palette.points, 1));
+  points.set("rim", 0.0f);
+  points.set("ring", 0.0f);
+  glEnable(GL_BLEND);
+  mesh.draw(ClothMesh::List::particles, GL_POINTS);
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
+  shared->points.use();
+  shared->points.set("spacing", spacing());
+  shared->points.set("towards", 0.03f);
+  glEnable(GL_BLEND);
+  shared->points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
+  shared->points.set("ink", glm::vec4(options.palette.pins, 1));
+  shared->points.set("rim", 1.2f);
+  shared->points.set("ring", 0.0f);
+  mesh.draw(ClothMesh::List::pins, GL_POINTS);
+  if (options.highlighted) {
+    const float size = 1.8f * options.point_size;
+    shared->points.set("diameter", glm::vec3(0, size, size));
+    shared->points.set("ink", glm::vec4(options.palette.highlight, 1));
+    shared->points.set("ring", 0.2f * options.point_size);
+    glDisable(GL_DEPTH_TEST);
+    mesh.draw_particle(options.highlighted->i / every, options.highlighted->j / every);
+    glEnable(GL_DEPTH_TEST);
+  }
+  glDisable(GL_BLEND);
+}
+
+/// Seen through whatever hangs before it, since it is there to be compared.
+void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 colour, float width) {
+  const WeightModel& weight = other.weight_model;
+  if (other.one_weight()) return draw_solid(shared->sphere, glm::vec4(weight.weight, weight.radius), colour, 0.25f);
+  shared->lines.use();
+  shared->lines.set("spacing", other.spacing());
+  shared->lines.set("max_width", width);
+  shared->lines.set("ink", glm::vec4(colour, ghost_opacity));
+  glEnable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  other.mesh.draw(ClothMesh::List::outlines, GL_LINES);
+  glEnable(GL_DEPTH_TEST);
+  glDisable(GL_BLEND);
+}
+
+void ClothRenderer::Parts::draw_opaque(const ViewOptions& options) {
+  if (one_weight()) return draw_weight(options);
+  draw_bodies(options);
+  if (options.lit()) draw_triangles(options);
+}
+
+void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
+  const float width = options.line_width;
+  switch (options.mode) {
+    case 2:
+      draw_lines(ClothMesh::List::diagonal, options, options.colored ? 0.8f : 0.5f, 0.7f * width);
+      draw_lines(ClothMesh::List::straight, options, 1, width);
+      if (options.bending) draw_bending(options);
+      break;
+    case 3:
+      draw_lines(ClothMesh::List::connections, options, 1, width);
+      break;
+    case 4:
+      draw_lines(ClothMesh::List::outlines, options, 1, width);
+      break;
+    case 5:
+      draw_points(options);
+      break;
+    default:
+      break;
+  }
+  draw_marks(options);
+}
+
+}  // namespace tyglab

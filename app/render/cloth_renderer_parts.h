@@ -1,0 +1,109 @@
+// What a ClothRenderer has: cloth_renderer.cpp brings it up to date and draws a frame, cloth_drawing.cpp draws each
+// thing in it. Included by these two alone.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "app/render/cloth_mesh.h"
+#include "app/render/cloth_renderer.h"
+#include "app/render/cloth_texture.h"
+#include "app/render/draw_timer.h"
+#include "app/render/drawn_cloth.h"
+#include "app/render/gl_objects.h"
+#include "app/render/render_target.h"
+#include "app/render/shadow_map.h"
+#include "app/render/solid_mesh.h"
+#include "app/render/staging.h"
+#include "app/render/value_texture.h"
+#include "app/render/weight_model.h"
+
+namespace tyglab {
+
+/// What only a cloth needs that is coloured by values.
+struct ColoredCloth {
+  gl::Program cloth{{"cloth.vert", "cloth.frag", {}, "COLORED"}};
+  gl::Program lines{{"lines.vert", "lines.frag", "lines.geom", "COLORED"}};
+  gl::Program points{{"points.vert", "points.frag", {}, "COLORED"}};
+  ValueTexture map{GL_LINEAR};
+};
+
+/// What cloths of one window share.
+struct ClothRenderer::Shared {
+  gl::Program background{{"background.vert", "background.frag"}};
+  gl::Program ground{{"ground.vert", "ground.frag"}};
+  gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
+  gl::Program cloth{{"cloth.vert", "cloth.frag"}};
+  gl::Program solid{{"solid.vert", "solid.frag"}};
+  gl::Program lines{{"lines.vert", "lines.frag", "lines.geom"}};
+  gl::Program points{{"points.vert", "points.frag"}};
+  gl::Program cloth_depth{{"cloth_depth.vert", "depth.frag"}};
+  gl::Program solid_depth{{"solid_depth.vert", "depth.frag"}};
+  gl::Buffer frame;
+  gl::VertexArray nothing;  ///< core profile draws with an array bound, even an empty one
+  ClothTexture texture;
+  SolidMesh sphere{sphere_geometry(64, 40)};
+  std::optional<ColoredCloth> colored;  ///< made when it is first asked for
+  std::shared_ptr<PositionLoans> loans = std::make_shared<PositionLoans>();
+};
+
+struct ClothRenderer::Parts {
+  /// Where each texture is bound while the cloth is drawn.
+  static constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3;
+  static inline const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
+
+  std::shared_ptr<Shared> shared;
+  ClothMesh mesh{shared->loans};
+  DrawnCloth drawn;  ///< where not every particle is
+  int every = 1;
+  SolidMesh spring, hanger, rest_line, equilibrium_line;
+  WeightModel weight_model;
+  ShadowMap shadow;
+  RenderTarget target;
+  ValueTexture values{GL_NEAREST};
+  DrawTimer timer;
+
+  Preset preset;
+  Bounds box;     ///< of all that casts shadows
+  Bounds framed;  ///< scene_bounds of the preset, kept as long as it
+  float ground_y = 0;
+  bool shadow_stale = true;
+  bool shadow_of_cloth = false;  ///< whether the cloth is in the shadow map: a net casts none
+  RenderWork work;
+  // What update() saw last.
+  const Simulation* simulation = nullptr;
+  std::uint64_t revision = 0, tear_revision = 0;
+  std::uint64_t engine_copied = 0;
+  bool written = false;  ///< the last time the device wrote what is drawn
+
+  explicit Parts(std::shared_ptr<Shared> with) : shared(std::move(with)) {}
+  bool take_written(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed);
+  void take_read(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed);
+  void take(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed);
+  void take_preset(const Preset& next);
+  void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
+  void draw_shadow(const ViewOptions& options);
+  void draw_background();
+  void draw_ground(const ViewOptions& options);
+  void draw_solid(const SolidMesh& mesh, glm::vec4 placed, glm::vec3 base, float gloss);
+  void draw_bodies(const ViewOptions& options);
+  void draw_weight(const ViewOptions& options);
+  void draw_triangles(const ViewOptions& options);
+  const gl::Program& use(const gl::Program& plain, const gl::Program* colored, const ViewOptions& options);
+  void draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width);
+  void draw_bending(const ViewOptions& options);
+  void draw_points(const ViewOptions& options);
+  void draw_marks(const ViewOptions& options);
+  void draw_ghost(const Parts& other, glm::vec3 colour, float width);
+  void draw_opaque(const ViewOptions& options);
+  void draw_blended(const ViewOptions& options);
+  float scene_radius() const { return std::max(glm::length(framed.hi - framed.lo) / 2, 1e-4f); }
+  float spacing() const { return float(preset.L * every); }
+  bool one_weight() const { return preset.kind == Kind::one_weight; }
+};
+
+}  // namespace tyglab

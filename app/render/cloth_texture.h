@@ -1,0 +1,33 @@
+// The picture on the cloth.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/render/gl_objects.h"
+#include "app/render/image.h"
+
+namespace tyglab {
+
+/// A picture for the cloth, ready for the graphics card.
+struct ClothPicture {
+  std::filesystem::path file;
+  std::vector<Image> sizes;  ///< halvings
+};
+/// Needs no graphics context, so it may be done beside the frames. Throws std::runtime_error with a sentence.
+ClothPicture read_picture(const std::filesystem::path& file);
+
+class ClothTexture {
+ public:
+  /// A plain light grey.
+  ClothTexture();
+  /// Takes a picture with its halvings (read_picture). Throws std::runtime_error with a sentence and keeps the old one.
+  void take(const ClothPicture& picture);
+  /// Binds it to a texture unit.
+  void bind(int unit) const;
+
+ private:
+  gl::Texture texture_;
+};
+
+}  // namespace tyglab

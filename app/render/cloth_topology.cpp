@@ -1,0 +1,147 @@
+#include "app/render/cloth_topology.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyglab {
+namespace {
+
+/// A spring by its owner and its direction.
+struct Edge {
+  int direction, i, j;
+};
+
+/// The spring between two corners of the quad (i, j).
+Edge edge_between(Corner a, Corner b, int i, int j) {
+  const bool swapped = b.di < a.di || (b.di == a.di && b.dj < a.dj);
+  if (swapped) std::swap(a, b);
+  for (int direction = 0; direction < stretch_directions; ++direction) {
+    const Direction& d = directions[direction];
+    if (d.di == b.di - a.di && d.dj == b.dj - a.dj) return {direction, i + a.di, j + a.dj};
+  }
+  return {0, i, j};  // not reached: any two corners of a quad are neighbours
+}
+
+template <class Visit>
+void for_each_triangle(const Lattice& lattice, Visit visit) {
+  for (int i = 0; i + 1 < lattice.rows; ++i)
+    for (int j = 0; j + 1 < lattice.columns; ++j)
+      for (int which = 0; which < 2; ++which) visit(i, j, which);
+}
+
+/// A set of stretch springs: a bit for each direction at each owner.
+class EdgeSet {
+ public:
+  explicit EdgeSet(const Lattice& lattice) : lattice_(lattice), bits_(lattice.size(), 0) {}
+  void add(const Edge& e) { bits_[e.i * lattice_.columns + e.j] |= std::uint8_t(1 << e.direction); }
+  /// Indices of the edges for which `wanted(direction, i, j)` holds.
+  template <class Wanted>
+  Indices indices(int stride, Wanted wanted) const {
+    Indices list;
+    for (int i = 0; i < lattice_.rows; ++i) {
+      for (int j = 0; j < lattice_.columns; ++j) {
+        for (int direction = 0; direction < stretch_directions; ++direction) {
+          if ((bits_[i * lattice_.columns + j] >> direction & 1) == 0 || !wanted(direction, i, j)) continue;
+          list.push_back(std::uint32_t(i * stride + j));
+          list.push_back(std::uint32_t((i + directions[direction].di) * stride + j + directions[direction].dj));
+        }
+      }
+    }
+    return list;
+  }
+
+ private:
+  Lattice lattice_;
+  std::vector<std::uint8_t> bits_;
+};
+
+const std::array<Corner, 3>& corners_of(int i, int j, int which) {
+  return quad_triangles[(i + j) & 1][which];
+}
+
+}  // namespace
+
+Indices triangle_indices(const Lattice& lattice, int stride, const Tears& tears) {
+  Indices list;
+  list.reserve(std::size_t(6) * (lattice.rows - 1) * (lattice.columns - 1));
+  for_each_triangle(lattice, [&](int i, int j, int which) {
+    if (!tears.untorn() && !tears.triangle_whole(i, j, which)) return;
+    for (const Corner& c : corners_of(i, j, which)) list.push_back(std::uint32_t((i + c.di) * stride + j + c.dj));
+  });
+  return list;
+}
+
+Indices spring_indices(const Lattice& lattice, int stride, const Tears& tears, int first, int last) {
+  Indices list;
+  list.reserve(std::size_t(2) * (last - first) * lattice.size());
+  for (int i = 0; i < lattice.rows; ++i) {
+    for (int j = 0; j < lattice.columns; ++j) {
+      for (int direction = first; direction < last; ++direction) {
+        if (!lattice.has_spring(direction, i, j) || !tears.whole(direction, i, j)) continue;
+        const Direction& d = directions[direction];
+        list.push_back(std::uint32_t(i * stride + j));
+        list.push_back(std::uint32_t((i + d.di) * stride + j + d.dj));
+      }
+    }
+  }
+  return list;
+}
+
+Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears) {
+  EdgeSet edges(lattice);
+  for_each_triangle(lattice, [&](int i, int j, int which) {
+    if (!tears.triangle_whole(i, j, which)) return;
+    const auto& c = corners_of(i, j, which);
+    for (int k = 0; k < 3; ++k) edges.add(edge_between(c[k], c[(k + 1) % 3], i, j));
+  });
+  return edges.indices(stride, [](int, int, int) { return true; });
+}
+
+Indices connection_indices(const Lattice& lattice, int stride, const Tears& tears) {
+  EdgeSet edges(lattice);
+  if (tears.untorn()) return {};
+  for_each_triangle(lattice, [&](int i, int j, int which) {
+    if (tears.triangle_whole(i, j, which)) return;
+    const auto& c = corners_of(i, j, which);
+    for (int k = 0; k < 3; ++k) edges.add(edge_between(c[k], c[(k + 1) % 3], i, j));
+    // The diagonal that is no triangle's edge is seen nowhere else.
+    edges.add((i + j) % 2 == 0 ? edge_between({0, 1}, {1, 0}, i, j) : edge_between({0, 0}, {1, 1}, i, j));
+  });
+  return edges.indices(stride, [&](int direction, int i, int j) { return tears.whole(direction, i, j); });
+}
+
+Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted) {
+  Indices list;
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j)
+      if (wanted(i, j)) list.push_back(std::uint32_t(i * stride + j));
+  return list;
+}
+
+void remove_long(Indices& indices, int corners, const FloatRows& p, float longest) {
+  const auto short_enough = [&](std::uint32_t a, std::uint32_t b) {
+    const float *from = p.data + a, *to = p.data + b;
+    const auto y = std::size_t(p.component), z = 2 * y;
+    const float dx = to[0] - from[0], dy = to[y] - from[y], dz = to[z] - from[z];
+    return dx * dx + dy * dy + dz * dz <= longest * longest;
+  };
+  auto kept = indices.begin();
+  for (auto first = indices.begin(); first != indices.end(); first += corners) {
+    bool keep = true;
+    for (int k = 0; k < corners; ++k) keep = keep && short_enough(first[k], first[(k + 1) % corners]);
+    if (keep) kept = std::copy(first, first + corners, kept);
+  }
+  indices.erase(kept, indices.end());
+}
+
+std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears) {
+  if (tears.untorn()) return {};
+  std::vector<bool> beside(lattice.size(), false);
+  for_each_triangle(lattice, [&](int i, int j, int which) {
+    if (tears.triangle_whole(i, j, which)) return;
+    for (const Corner& c : corners_of(i, j, which)) beside[(i + c.di) * lattice.columns + j + c.dj] = true;
+  });
+  return particle_indices(lattice, stride, [&](int i, int j) { return beside[i * lattice.columns + j]; });
+}
+
+}  // namespace tyglab

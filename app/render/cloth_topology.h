@@ -1,0 +1,31 @@
+// Which particles a view joins: lists of vertex indices, where particle (i, j) is vertex i·stride + j.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "app/render/vertex_normals.h"
+#include "core/cloth/lattice.h"
+#include "core/cloth/tears.h"
+
+namespace tyglab {
+
+using Indices = std::vector<std::uint32_t>;
+
+/// Three indices for each whole triangle, counter-clockwise seen from the front.
+Indices triangle_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// Two indices for each whole spring of the directions `first` to `last` (lattice.h), `last` not included.
+Indices spring_indices(const Lattice& lattice, int stride, const Tears& tears, int first, int last);
+/// Two indices for each edge of a whole triangle, each edge once.
+Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// Two indices for each whole stretch spring in a quad that has lost a triangle.
+Indices connection_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// An index for each particle for which `wanted` holds.
+Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted);
+/// Takes out what has an edge longer than `longest` m or not finite; `corners` indices stand for each triangle or line.
+void remove_long(Indices& indices, int corners, const FloatRows& positions, float longest);
+/// Particles, each once, that are a corner of a triangle that is not whole.
+std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears);
+
+}  // namespace tyglab

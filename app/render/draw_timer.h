@@ -1,0 +1,31 @@
+// How long the graphics card takes to draw, asked without waiting for it.
+#pragma once
+
+#include "app/render/gl_objects.h"
+
+namespace tyglab {
+
+struct QueryTraits {
+  static GLuint make() {
+    GLuint id = 0;
+    glGenQueries(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
+};
+
+class DrawTimer {
+ public:
+  /// What is drawn between these two is measured, unless an earlier drawing still is.
+  void begin();
+  void end();
+  /// Of the last drawing that is known, ms; 0 before the first.
+  double ms();
+
+ private:
+  gl::Object<QueryTraits> query_;
+  bool running_ = false, asked_ = false;
+  double ms_ = 0;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,47 @@
+// The scale of a coloured cloth: which values its colours stand for.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "app/render/cloth_renderer.h"
+#include "app/ui/kit/color_map.h"
+#include "core/fields/particle_field.h"
+
+namespace tyglab {
+
+/// The top of a scale that follows a quantity and does not flicker: a round number (1, 2, 3 or 5 times a power of ten)
+/// that grows at once, and shrinks once it was not needed for so many looks, to what they needed.
+class SteadyTop {
+ public:
+  static constexpr int patience = 40;
+  /// Takes the greatest value of now; what is not above 0 changes nothing.
+  double look(double greatest);
+  double now() const { return top_; }
+  void forget() { *this = SteadyTop(); }
+
+ private:
+  double top_ = 0;  ///< 0: nothing has been seen yet
+  int calm_ = 0;
+  double calm_top_ = 0;  ///< what would have done since it was needed last
+};
+
+struct FieldColors {
+  ParticleField field;
+  std::optional<double> fixed = {};  ///< the top as somebody has set it
+  SteadyTop automatic = {};
+  std::optional<FieldSpan> seen = {};  ///< of the values that were looked at last
+
+  double top() const { return fixed.value_or(automatic.now() > 0 ? automatic.now() : 1); }
+  ValueRange range() const { return {info(field).is_signed ? -float(top()) : 0.f, float(top())}; }
+  ColorMap map(bool on_light) const { return {info(field).is_signed, on_light}; }
+  /// Whether a value is beyond the scale, and has the colour of its end.
+  bool beyond() const;
+  /// The values have changed to those with that span.
+  void look(const std::optional<FieldSpan>& span);
+};
+
+/// Of the renderer's colour map.
+inline constexpr int map_size = 256;
+
+}  // namespace tyglab

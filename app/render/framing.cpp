@@ -1,0 +1,205 @@
+// What a first look at a preset should hold.
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include "app/render/camera.h"
+
+namespace tyglab {
+namespace {
+
+glm::vec3 start_corner(const Preset& p, int i, int j) {
+  const double theta = p.tilt_deg * std::numbers::pi / 180;
+  const glm::dvec3 along_row((j - (p.columns - 1) / 2.0) * p.L, 0, 0);
+  const glm::dvec3 down = i * p.L * glm::dvec3(0, -std::sin(theta), std::cos(theta));
+  return glm::vec3(p.x_0 + p.initial_stretch * (along_row + down));
+}
+
+Bounds start_bounds(const Preset& p) {
+  Bounds b;
+  for (int i : {0, p.rows - 1})
+    for (int j : {0, p.columns - 1}) b.add(start_corner(p, i, j));
+  return b;
+}
+
+bool hangs_from_top(const Pins& pins) {
+  const auto in_top_row = [](const Pins::Site& site) { return site.i == 0; };
+  return pins.mode == Pins::Mode::top_row || pins.mode == Pins::Mode::top_corners ||
+         (pins.mode == Pins::Mode::list && !pins.list.empty() &&
+          std::all_of(pins.list.begin(), pins.list.end(), in_top_row));
+}
+
+/// The height to which the cloth will come down, roughly.
+float lowest_hanging(const Preset& p, const Bounds& start) {
+  const float length = float((p.rows - 1) * p.L), width = float((p.columns - 1) * p.L);
+  if (hangs_from_top(p.pins)) return std::min(start.lo.y, start.hi.y - 1.08f * length);
+  switch (p.pins.mode) {
+    case Pins::Mode::left_column:
+      return start.lo.y - 0.25f * width;
+    case Pins::Mode::boundary:
+      return start.lo.y - 0.2f * std::max(length, width);
+    case Pins::Mode::four_corners:
+      return start.lo.y - 0.42f * std::max(length, width);
+    case Pins::Mode::list:
+      return start.lo.y - 0.5f * std::min(length, width);
+    default:
+      break;
+  }
+  return p.g > 0 ? start.lo.y - 0.6f * std::max(length, width) : start.lo.y;
+}
+
+std::optional<double> plane_below(const Preset& p, double y) {
+  std::optional<double> highest;
+  for (const Body& body : p.bodies)
+    if (body.shape == Body::Shape::plane && body.y <= y) highest = std::max(body.y, highest.value_or(body.y));
+  return highest;
+}
+
+std::vector<glm::vec3> start_points(const Preset& p) {
+  std::vector<glm::vec3> points;
+  for (int i : {0, p.rows - 1})
+    for (int j : {0, p.columns - 1}) points.push_back(start_corner(p, i, j));
+  return points;
+}
+
+void add_corners(std::vector<glm::vec3>& points, const Bounds& b) {
+  for (int k = 0; k < 8; ++k)
+    points.emplace_back(k & 1 ? b.hi.x : b.lo.x, k & 2 ? b.hi.y : b.lo.y, k & 4 ? b.hi.z : b.lo.z);
+}
+
+/// Of the pins of a list, where the corners come to hang: below the nearest pin, nearly as far as the cloth reaches.
+void add_hanging_corners(std::vector<glm::vec3>& points, const Preset& p) {
+  for (int i : {0, p.rows - 1}) {
+    for (int j : {0, p.columns - 1}) {
+      const auto distance = [&](const Pins::Site& s) { return std::hypot(double(s.i - i), double(s.j - j)); };
+      const auto pin = std::min_element(p.pins.list.begin(), p.pins.list.end(),
+                                        [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+      const glm::vec3 from = start_corner(p, pin->i, pin->j);
+      points.push_back(from);
+      points.emplace_back(from.x, from.y - 0.85f * float(distance(*pin) * p.L), from.z);
+    }
+  }
+}
+
+/// Where cloth that hangs from its top edge comes to rest, with as much swing as it had at the start.
+void add_hanging_sheet(std::vector<glm::vec3>& points, const Preset& p, const Bounds& start) {
+  const float bottom = lowest_hanging(p, start), swing = 0.2f * (start.hi.z - start.lo.z);
+  for (int j : {0, p.columns - 1}) {
+    const glm::vec3 top = start_corner(p, 0, j);
+    points.push_back(top);
+    for (const float z : {top.z - swing, top.z + swing}) points.emplace_back(top.x, bottom, z);
+  }
+}
+
+/// Corners of what is seen once the start is over: where the cloth will be, roughly, and the spheres.
+std::vector<glm::vec3> lasting_points(const Preset& p) {
+  std::vector<glm::vec3> points;
+  Bounds spheres;
+  for (const Body& body : p.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    // A draped cloth stands off from its sphere.
+    spheres.add(glm::vec3(body.c) - 1.1f * float(body.r));
+    spheres.add(glm::vec3(body.c) + 1.1f * float(body.r));
+  }
+  const Bounds start = start_bounds(p);
+  if (!spheres.empty()) add_corners(points, spheres);
+  if (hangs_from_top(p.pins)) {
+    add_hanging_sheet(points, p, start);
+  } else if (p.pins.mode == Pins::Mode::list && !p.pins.list.empty()) {
+    add_hanging_corners(points, p);
+  } else if (p.pins.mode == Pins::Mode::four_corners || p.pins.mode == Pins::Mode::boundary) {
+    points = start_points(p);
+    const glm::vec3 middle = (start.lo + start.hi) / 2.0f;
+    // The edges sag too; the near one would be the first to leave the picture. What tears off its pins hangs down.
+    const float torn = p.F_max > 0 ? 0.6f * std::max(start.hi.x - start.lo.x, start.hi.z - start.lo.z) : 0;
+    const float bottom = std::min(lowest_hanging(p, start), start.lo.y - torn);
+    for (const float z : {middle.z, start.hi.z}) points.emplace_back(middle.x, bottom, z);
+  } else if (p.pins.mode != Pins::Mode::none || spheres.empty()) {
+    Bounds box = scene_bounds(p);
+    if (p.pins.mode == Pins::Mode::left_column) box.hi.y += 0.15f * (box.hi.x - box.lo.x);  // it flies up at first
+    add_corners(points, box);
+  }
+  if (const auto plane = plane_below(p, start.hi.y))
+    for (glm::vec3& point : points) point.y = std::max(point.y, float(*plane));
+  return points;
+}
+
+Bounds weight_bounds(const Preset& p) {
+  const double sag = p.k > 0 ? p.m * p.g / p.k : 0;
+  const double reach = std::clamp(std::max(std::abs(p.offset), std::abs(sag)), 0.02, 1e3);
+  Bounds b;
+  b.add(glm::vec3(p.x_0) + glm::vec3(-1.2 * reach, -sag - 1.6 * reach, -0.3 * reach));
+  b.add(glm::vec3(p.x_0) + glm::vec3(1.2 * reach, 3.2 * reach, 0.3 * reach));
+  return b;
+}
+
+}  // namespace
+
+void Bounds::add(glm::vec3 point) {
+  lo = glm::min(lo, point);
+  hi = glm::max(hi, point);
+}
+
+void Bounds::add(const Bounds& other) {
+  if (other.empty()) return;
+  add(other.lo);
+  add(other.hi);
+}
+
+Bounds bounds(const PositionView& positions) {
+  Bounds b;
+  for (int i = 0; i < positions.rows; ++i) {
+    for (int j = 0; j < positions.columns; ++j) {
+      const glm::vec3 x(positions.at(i, j));
+      if (std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z)) b.add(x);
+    }
+  }
+  return b;
+}
+
+Bounds scene_bounds(const Preset& p) {
+  if (p.kind == Kind::one_weight) return weight_bounds(p);
+  Bounds b = start_bounds(p);
+  b.lo.y = lowest_hanging(p, b);
+  if (const auto plane = plane_below(p, b.hi.y)) b.lo.y = std::max(b.lo.y, float(*plane));
+  // A slanted sheet swings through: leave it as much room behind its top edge as it has before it.
+  if (hangs_from_top(p.pins)) b.lo.z -= 0.35f * (b.hi.z - b.lo.z);
+  for (const Body& body : p.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    b.add(glm::vec3(body.c) - float(body.r));
+    b.add(glm::vec3(body.c) + float(body.r));
+  }
+  return b;
+}
+
+Camera scene_camera(const Preset& p, float aspect, float covered) {
+  Camera camera;
+  if (p.kind == Kind::one_weight) {
+    camera.yaw = 0, camera.pitch = 0.06f;
+    const Bounds b = scene_bounds(p);
+    camera.frame(b.lo, b.hi, aspect);
+    return camera;
+  }
+  // A cloth that lies flat is seen from higher up, or it would be but a line.
+  const double flatness = std::abs(std::cos(p.tilt_deg * std::numbers::pi / 180));
+  if (flatness > 0.9) camera.pitch = 0.3f;
+  // The start, which is left at once, may come nearer to the edges than what is looked at for long.
+  std::vector<glm::vec3> seen = start_points(p);
+  const std::vector<glm::vec3> lasting = lasting_points(p);
+  seen.insert(seen.end(), lasting.begin(), lasting.end());
+  camera.frame(seen, aspect, {0.98f, 0.92f}, covered);
+  camera.make_room(lasting, aspect, 0.84f, covered);
+  return camera;
+}
+
+double ground_height(const Preset& p) {
+  const Bounds b = scene_bounds(p);
+  if (const auto plane = plane_below(p, b.hi.y)) return *plane;
+  return b.lo.y - 0.1 * glm::length(b.hi - b.lo);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,100 @@
+#include "app/render/gl_objects.h"
+
+#include <fstream>
+#include <glm/gtc/type_ptr.hpp>
+#include <sstream>
+#include <string>
+
+#include "app/base/data_files.h"
+
+namespace tyglab::gl {
+namespace {
+
+/// Text of shaders/NAME, with its lines `#include "…"` replaced by those files.
+std::string shader_text(std::string_view name) {
+  const auto file = data_file("shaders/" + std::string(name));
+  std::ifstream stream(file);
+  if (!stream) throw GraphicsError("The shader " + file.string() + " cannot be read. Check that you may read it.");
+  std::ostringstream text;
+  for (std::string line; std::getline(stream, line);) {
+    if (line.starts_with("#include \"")) {
+      const std::size_t begin = line.find('"') + 1;
+      text << shader_text(line.substr(begin, line.rfind('"') - begin)) << '\n';
+    } else {
+      text << line << '\n';
+    }
+  }
+  return text.str();
+}
+
+/// A shader that is attached to a program and then lives as long as it.
+void attach(GLuint program, GLenum stage, std::string_view name, std::string_view define) {
+  std::string text = shader_text(name);
+  if (!define.empty()) text.insert(text.find('\n') + 1, "#define " + std::string(define) + '\n');
+  const char* const source = text.c_str();
+  const GLuint shader = glCreateShader(stage);
+  glShaderSource(shader, 1, &source, nullptr);
+  glCompileShader(shader);
+  GLint ok = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  if (ok == 0) {
+    char log[4096] = "";
+    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    glDeleteShader(shader);
+    throw GraphicsError("The shader shaders/" + std::string(name) +
+                        " does not compile with this graphics driver. A newer Mesa may cure it; the log says:\n" + log);
+  }
+  glAttachShader(program, shader);
+  glDeleteShader(shader);
+}
+
+}  // namespace
+
+void Buffer::write(GLenum target, const void* data, std::size_t bytes) {
+  glBindBuffer(target, id());
+  if (bytes_ != GLsizeiptr(bytes)) {
+    bytes_ = GLsizeiptr(bytes);
+    glBufferData(target, bytes_, data, GL_DYNAMIC_DRAW);
+  } else if (bytes_ > 0) {
+    glBufferSubData(target, 0, bytes_, data);
+  }
+}
+
+Program::Program(const Files& files) {
+  const GLuint program = object_.id();
+  attach(program, GL_VERTEX_SHADER, files.vertex, files.define);
+  if (!files.geometry.empty()) attach(program, GL_GEOMETRY_SHADER, files.geometry, files.define);
+  attach(program, GL_FRAGMENT_SHADER, files.fragment, files.define);
+  glLinkProgram(program);
+  GLint ok = 0;
+  glGetProgramiv(program, GL_LINK_STATUS, &ok);
+  if (ok == 0) {
+    char log[4096] = "";
+    glGetProgramInfoLog(program, sizeof log, nullptr, log);
+    throw GraphicsError("The shaders " + std::string(files.vertex) + " and " + std::string(files.fragment) +
+                        " do not fit together with this graphics driver; the log says:\n" + log);
+  }
+  const GLuint block = glGetUniformBlockIndex(program, "Frame");
+  if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, 0);
+}
+
+void Program::set(const char* name, int value) const {
+  glUniform1i(location(name), value);
+}
+void Program::set(const char* name, float value) const {
+  glUniform1f(location(name), value);
+}
+void Program::set(const char* name, glm::vec2 value) const {
+  glUniform2fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, glm::vec3 value) const {
+  glUniform3fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, glm::vec4 value) const {
+  glUniform4fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::mat4& value) const {
+  glUniformMatrix4fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+}  // namespace tyglab::gl

@@ -1,0 +1,128 @@
+// OpenGL objects as owning, move-only types. Each needs its context to be current when it is made and destroyed.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/render/graphics_error.h"
+
+namespace tyglab::gl {
+
+/// Owns one name; `Traits` makes and deletes it.
+template <class Traits>
+class Object {
+ public:
+  Object() : id_(Traits::make()) {}
+  ~Object() { reset(); }
+  Object(Object&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    if (this != &other) reset(), id_ = std::exchange(other.id_, 0);
+    return *this;
+  }
+  GLuint id() const { return id_; }
+
+ private:
+  void reset() {
+    if (id_ != 0) Traits::destroy(id_);
+  }
+  GLuint id_;
+};
+
+struct BufferTraits {
+  static GLuint make() {
+    GLuint id = 0;
+    glGenBuffers(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
+};
+struct VertexArrayTraits {
+  static GLuint make() {
+    GLuint id = 0;
+    glGenVertexArrays(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
+};
+struct TextureTraits {
+  static GLuint make() {
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+};
+struct RenderbufferTraits {
+  static GLuint make() {
+    GLuint id = 0;
+    glGenRenderbuffers(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteRenderbuffers(1, &id); }
+};
+struct FramebufferTraits {
+  static GLuint make() {
+    GLuint id = 0;
+    glGenFramebuffers(1, &id);
+    return id;
+  }
+  static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
+};
+struct ProgramTraits {
+  static GLuint make() { return glCreateProgram(); }
+  static void destroy(GLuint id) { glDeleteProgram(id); }
+};
+
+using VertexArray = Object<VertexArrayTraits>;
+using Texture = Object<TextureTraits>;
+using Renderbuffer = Object<RenderbufferTraits>;
+using Framebuffer = Object<FramebufferTraits>;
+
+/// A buffer that is written whole, and keeps its storage while the size stays.
+class Buffer {
+ public:
+  GLuint id() const { return object_.id(); }
+  GLsizeiptr bytes() const { return bytes_; }
+  /// Binds it to `target` and replaces the content.
+  void write(GLenum target, const void* data, std::size_t bytes);
+  template <class T>
+  void write(GLenum target, const std::vector<T>& data) {
+    write(target, data.data(), data.size() * sizeof(T));
+  }
+
+ private:
+  Object<BufferTraits> object_;
+  GLsizeiptr bytes_ = 0;
+};
+
+/// A linked program made of the files "shaders/NAME.vert", "….frag" and, where asked for, "….geom".
+class Program {
+ public:
+  struct Files {
+    std::string_view vertex, fragment, geometry = {};
+    std::string_view define = {};  ///< a name that all of them see as defined
+  };
+  /// Throws GraphicsError with the compiler's log, DataFileError if a file is missing.
+  explicit Program(const Files& files);
+  void use() const { glUseProgram(object_.id()); }
+  // Uniforms of the program in use; a name that the compiler dropped is ignored.
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set(const char* name, glm::vec2 value) const;
+  void set(const char* name, glm::vec3 value) const;
+  void set(const char* name, glm::vec4 value) const;
+  void set(const char* name, const glm::mat4& value) const;
+
+ private:
+  GLint location(const char* name) const { return glGetUniformLocation(object_.id(), name); }
+  Object<ProgramTraits> object_;
+};
+
+}  // namespace tyglab::gl

@@ -1,0 +1,32 @@
+// Pictures in memory and as files.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+/// 8-bit sRGB, three bytes a pixel, rows from the top, no padding.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// Writes a PNG whole or not at all, or to standard output ("-"). Throws OutputError (core/io/preset_io.h).
+void write_png(const std::filesystem::path& file, const Image& image);
+
+/// The part between two corners, pixels from the upper left one; what lies outside the picture is left out.
+Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi);
+
+/// Reads PNG, JPEG, BMP or TGA (transparency is laid over white). At most 8192 pixels a side and 64 MB as a file.
+/// Throws std::runtime_error with a sentence that names the file and the cure.
+Image read_image(const std::filesystem::path& file);
+
+/// A picture, then its halves down to one pixel, each pixel the mean of four: against shimmering where it is drawn
+/// small.
+std::vector<Image> halvings(Image image);
+
+}  // namespace tyglab

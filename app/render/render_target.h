@@ -1,0 +1,51 @@
+// Where a frame is drawn: a multisampled picture with depth, and the plain texture it is resolved into.
+#pragma once
+
+#include <optional>
+
+#include "app/render/gl_objects.h"
+#include "app/render/image.h"
+
+namespace tyglab {
+
+class RenderTarget {
+ public:
+  /// Binds it for drawing, made anew where size or samples differ from last time. Throws GraphicsError.
+  void begin(int width, int height, int samples);
+  /// Resolves what was drawn into texture().
+  void resolve();
+  GLuint texture() const { return parts_ ? parts_->resolved.id() : 0; }
+  Image pixels() const;
+
+ private:
+  struct Parts {
+    gl::Framebuffer drawn, resolving;
+    gl::Renderbuffer colour, depth;
+    gl::Texture resolved;
+  };
+  void make();
+  std::optional<Parts> parts_;
+  int width_ = 0, height_ = 0, samples_ = 0;
+};
+
+/// The framebuffers and the viewport in use, put back when this ends, by an exception too.
+class SavedTarget {
+ public:
+  SavedTarget() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_VIEWPORT, viewport_);
+  }
+  ~SavedTarget() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, GLuint(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(read_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+  }
+  SavedTarget(const SavedTarget&) = delete;
+  SavedTarget& operator=(const SavedTarget&) = delete;
+
+ private:
+  GLint draw_ = 0, read_ = 0, viewport_[4] = {};
+};
+
+}  // namespace tyglab

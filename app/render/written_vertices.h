@@ -1,0 +1,51 @@
+// Vertex buffers of a cloth that its device writes itself (cl_khr_gl_sharing), so that nothing passes through main
+// memory. Only run against a double of such a device so far: no graphics card was there to try it on.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/render/camera.h"
+#include "app/render/gl_objects.h"
+#include "app/render/vertex_memory.h"
+#include "core/engines/engine.h"
+
+namespace tyglab {
+
+class WrittenVertices {
+ public:
+  /// Whether the engine's device can write buffers of the present context. False for good once it has failed.
+  bool can(const Engine& engine) const { return problem_.empty() && engine.gl_sharing() != GlSharing::none; }
+  /// Particles beside tears have such normals from now on.
+  void take_tears(std::vector<TornSite> torn);
+  /// Has the engine write, and says between what the positions lie. What the very first buffer holds is read back and
+  /// compared with that, since a driver may share in name only; `read` counts its bytes. Throws EngineError.
+  Bounds write(Engine& engine, const VertexOrder& order, std::size_t& read);
+  /// It does not work here, for that reason: can() is false from now on.
+  void fail(const std::string& why) { free(), problem_ = why; }
+  /// Why it failed; empty: it did not.
+  const std::string& problem() const { return problem_; }
+  /// The cloth comes another way now.
+  void free() { vertices_.reset(), buffers_.reset(), bytes_ = 0; }
+  VertexSource positions() const { return {buffers_->positions.id(), 0}; }
+  VertexSource normals() const { return {buffers_->normals.id(), 0}; }
+  std::size_t bytes() const { return 2 * bytes_; }
+
+ private:
+  struct Buffers {
+    gl::Object<gl::BufferTraits> positions, normals;
+  };
+  VertexBox write_new(Engine& engine, const VertexOrder& order, std::size_t bytes);
+  void look_at(const VertexBox& box, const DrawnSites& sites) const;
+
+  std::optional<Buffers> buffers_;
+  std::unique_ptr<GlVertices> vertices_;  ///< of the buffers, so it goes first
+  std::size_t bytes_ = 0;                 ///< of each
+  std::vector<TornSite> torn_;
+  bool looked_ = false;
+  std::string problem_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,91 @@
+#include "app/scene/cloth_colors.h"
+
+#include "app/ui/app.h"
+
+namespace tyglab {
+namespace {
+
+/// What distances in the n-th picture are measured from. Overlaid, the original shows how far the first copy is from
+/// it where it is itself the reference.
+Simulation* reference_of(App& app, int tile) {
+  const Copies& copies = app.copies;
+  if (copies.lockstep.empty()) return nullptr;
+  const bool itself = copies.reference == Copies::original && tile == 0;
+  return &cloth_of(app, itself && copies.overlaid ? 0 : copies.reference);
+}
+
+}  // namespace
+
+bool light_ground(const App& app) {
+  return app.view.palette == light_palette;
+}
+
+void ClothColors::choose(std::optional<ParticleField> field) {
+  if (field == (chosen ? std::optional(chosen->field) : std::nullopt)) return;
+  chosen.reset();
+  if (field) chosen.emplace(FieldColors{*field});
+  pictures_.clear();
+}
+
+void ClothColors::update(App& app, int tile, int every) {
+  if (pictures_.size() <= std::size_t(tile)) pictures_.resize(std::size_t(tile) + 1);
+  Picture& picture = pictures_[std::size_t(tile)];
+  Simulation& cloth = cloth_in_tile(app, tile);
+  Simulation* reference = chosen->field == ParticleField::distance ? reference_of(app, tile) : nullptr;
+  Source now{&cloth,         cloth.revision(), reference, reference != nullptr ? reference->revision() : 0,
+             cloth.preset(), chosen->field,    every};
+  if (now == picture.of || app.building.holds_present()) return;  // then another thread reads the cloth
+  const FrameCosts::Timer timer(app.costs, Part::colors);
+  picture.of = std::move(now);
+  picture.sites = {cloth.lattice(), every};
+  read_field(chosen->field, cloth, reference, picture.sites, picture.values);
+  picture.version = ++versions_;
+  if (!cloth.divergence()) chosen->look(span_of(picture.values));  // what is left of it would take all of the scale
+}
+
+void ClothColors::give(App& app, int tile, ClothRenderer& renderer) {
+  const ColorMap map = chosen->map(light_ground(app));
+  if (map_ != map) {
+    app.renderer->set_color_map(map_colors(map, map_size));
+    map_ = map;
+  }
+  Picture& picture = pictures_[std::size_t(tile)];
+  if (picture.given_to == &renderer && picture.given == picture.version) return;
+  renderer.set_values(picture.values, picture.sites.rows(), picture.sites.columns());
+  picture.given_to = &renderer, picture.given = picture.version;
+}
+
+std::optional<float> ClothColors::value(int tile, Pins::Site site) const {
+  if (!chosen || std::size_t(tile) >= pictures_.size()) return std::nullopt;
+  const Picture& picture = pictures_[std::size_t(tile)];
+  const int every = picture.sites.every, row = (site.i + every / 2) / every, column = (site.j + every / 2) / every;
+  if (row >= picture.sites.rows() || column >= picture.sites.columns()) return std::nullopt;
+  const float value = picture.values[std::size_t(row) * std::size_t(picture.sites.columns()) + std::size_t(column)];
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+std::uint64_t ClothColors::version(int tile) const {
+  return std::size_t(tile) < pictures_.size() ? pictures_[std::size_t(tile)].version : 0;
+}
+
+std::string why_not_colored(const App& app, ParticleField field) {
+  if (field == ParticleField::distance && app.copies.lockstep.empty())
+    return "There is no copy to measure from; add one first.";
+  return {};
+}
+
+const FieldColors* shown_colors(const App& app) {
+  const auto& chosen = app.colors.chosen;
+  if (!chosen || app.preset().kind != Kind::cloth || !why_not_colored(app, chosen->field).empty()) return nullptr;
+  return &*chosen;
+}
+
+std::optional<ParticleField> next_field(const App& app) {
+  const auto fields = particle_fields();
+  const auto& chosen = app.colors.chosen;
+  for (std::size_t k = chosen ? std::size_t(chosen->field) + 1 : 0; k < fields.size(); ++k)
+    if (why_not_colored(app, fields[k].field).empty()) return fields[k].field;
+  return std::nullopt;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,67 @@
+// What colours the cloths of the window: worked out only where it is shown and something has moved.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/render/field_colors.h"
+
+namespace tyglab {
+
+struct App;
+class ClothRenderer;
+
+class ClothColors {
+ public:
+  std::optional<FieldColors> chosen;   ///< none: the cloth has its own look
+  std::optional<float> under_pointer;  ///< the value of the particle that the pointer touches
+
+  /// Takes a field, with an automatic scale, or none.
+  void choose(std::optional<ParticleField> field);
+  /// Works out what the n-th picture lacks; of all pictures before any is drawn, since they share one scale.
+  void update(App& app, int tile, int every);
+  /// Hands the renderer of that picture what it lacks.
+  void give(App& app, int tile, ClothRenderer& renderer);
+  /// The value of a particle in the n-th picture; none where it is not known.
+  std::optional<float> value(int tile, Pins::Site site) const;
+  /// Counts up whenever values of that picture change.
+  std::uint64_t version(int tile) const;
+
+ private:
+  /// What the values of a picture are worked out from.
+  struct Source {
+    const Simulation* cloth = nullptr;
+    std::uint64_t revision = 0;
+    const Simulation* reference = nullptr;
+    std::uint64_t reference_revision = 0;
+    Preset constants;
+    ParticleField field{};
+    int every = 0;
+    bool operator==(const Source&) const = default;
+  };
+  struct Picture {
+    Source of;
+    DrawnSites sites;
+    std::vector<float> values;
+    std::uint64_t version = 0;
+    const ClothRenderer* given_to = nullptr;
+    std::uint64_t given = 0;
+  };
+
+  std::vector<Picture> pictures_;
+  std::uint64_t versions_ = 0;
+  std::optional<ColorMap> map_;
+};
+
+/// Whether the viewport's ground is light, which asks for other colours.
+bool light_ground(const App& app);
+/// Nothing where the cloth can be coloured by that now; otherwise a sentence why not.
+std::string why_not_colored(const App& app, ParticleField field);
+/// What colours the cloth at present; null where it has its own look.
+const FieldColors* shown_colors(const App& app);
+/// The field after the present one that can be shown, or after the last none.
+std::optional<ParticleField> next_field(const App& app);
+
+}  // namespace tyglab

@@ -1,0 +1,49 @@
+// The pictures of the cloth and its copies: drawn anew only where something in them has changed.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "app/render/camera.h"
+#include "app/render/cloth_renderer.h"
+
+namespace tyglab {
+
+struct App;
+
+class ClothViews {
+ public:
+  /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window.
+  void draw(App& app, glm::vec2 magnified);
+  /// Copies have been made anew, perhaps where old ones stood, with the same count of changes.
+  void forget_copies() { copies_.clear(); }
+  /// The texture with the n-th picture of the viewport.
+  unsigned picture(const App& app, int tile) const;
+
+ private:
+  /// What a picture shows.
+  struct Drawn {
+    const Simulation* cloth = nullptr;
+    std::uint64_t revision = ~0ull;
+    Camera camera;
+    ViewOptions view;
+    glm::ivec2 size{0};
+    std::uint64_t values = 0;  ///< ClothColors::version
+    bool operator==(const Drawn&) const = default;
+  };
+  /// Frames the scene where that is asked for, and, until the camera is taken in hand, for each new size of a picture.
+  void frame_scene(App& app, glm::vec2 shown);
+  bool take_ghosts(App& app, glm::ivec2 size);
+  /// Returns what it took, ms; 0 where the last picture stays.
+  double draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved);
+  ClothRenderer& renderer(App& app, int tile);
+
+  std::vector<std::unique_ptr<ClothRenderer>> copies_;  ///< of copies; the original's is App::renderer
+  std::vector<Drawn> drawn_;                            ///< by picture
+  std::vector<Ghost> ghosts_;
+  std::vector<std::uint64_t> ghost_revisions_;
+  glm::ivec2 size_{0};   ///< of a picture
+  glm::vec3 framed_{0};  ///< width, height of a picture and what the buttons cover of it, as it was framed last, pixels
+};
+
+}  // namespace tyglab

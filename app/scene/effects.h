@@ -1,0 +1,44 @@
+// Effects of the viewport's picture, and leaving them out where drawing takes too long on this machine.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "app/render/cloth_renderer.h"
+
+namespace tyglab {
+
+/// Effects are left out in this order, one at a time, once drawing takes longer than too_long_ms in the mean of a few
+/// frames; and brought back in the opposite order, if what they cost then would leave drawing well below that. Who has
+/// come back in vain stays away longer. Frames after a change of size do not count.
+class Effects {
+ public:
+  static constexpr int count = 3;  ///< soft edges of shadows, smooth edges (multisampling), shadows at all
+  static constexpr double too_long_ms = 20;
+  static constexpr int looks = 15;      ///< frames in a mean
+  static constexpr int patience = 240;  ///< frames before one is brought back
+  enum class Mode { automatic, all, few };
+
+  Mode mode = Mode::automatic;
+
+  /// The pictures of a frame took so long, with the effects that apply() left.
+  void drew(double ms);
+  /// Size or scene have changed: what was measured tells nothing any more, and the next frames settle.
+  void disturb();
+  /// How many are left out.
+  int left_out() const { return mode == Mode::all ? 0 : mode == Mode::few ? count : left_out_; }
+  void apply(ViewOptions& view) const;
+  /// "soft shadows and smooth edges": what is left out; empty: nothing is.
+  std::string words() const;
+
+ private:
+  void settle();
+  int left_out_ = 0;
+  double mean_ms_ = 0, before_ms_ = 0;  ///< before the last one was left out
+  std::array<double, count> gain_ms_{};
+  int frames_ = 0, skipped_ = 0;
+  int wait_ = patience;
+  bool brought_back_ = false;  ///< the last change brought one back
+};
+
+}  // namespace tyglab

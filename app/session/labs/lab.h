@@ -1,0 +1,85 @@
+// A lab: steps in which a student predicts, does something, and the app looks whether it is so. Read from Markdown
+// (docs/labs/README.md says how a file looks).
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tyglab {
+
+/// A lab's file is wrong. `what()` names file, line and cure.
+class LabError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The right side of a check, or an answer: a number, an observable times a factor, or a word.
+struct Operand {
+  double factor = 1;    ///< the number itself where there is no name
+  std::string name;     ///< of an observable
+  bool before = false;  ///< its value when the step before was completed
+  std::string word;     ///< "euler", "yes"
+};
+
+enum class Relation { less, at_most, equal, unlike, at_least, greater };
+
+/// What must hold: the observable `name`, related to the operand.
+struct Condition {
+  std::string name;
+  Relation relation = Relation::equal;
+  Operand right;
+};
+
+/// What the student says before doing anything: a number, or one of several sentences.
+struct Prediction {
+  std::string question;
+  std::vector<std::string> choices;  ///< empty: a number is typed
+  std::size_t right = 0;             ///< which of them is
+  Operand answer;
+  double within = 0;      ///< how far a number may be off: in its unit, or as a part of it
+  bool relative = false;  ///< as a part
+  std::string unit;
+};
+
+/// A preset, and settings ("k_s=500") to be made in it.
+struct SceneSetup {
+  std::string preset;  ///< shipped name or path
+  std::vector<std::string> settings;
+};
+
+/// Paragraphs of plain text.
+using Paragraphs = std::vector<std::string>;
+
+struct LabStep {
+  std::string title;
+  Paragraphs text;
+  std::optional<SceneSetup> open;
+  std::optional<Prediction> prediction;
+  Paragraphs todo;             ///< shown once the prediction is made
+  std::optional<double> stop;  ///< s: simulated time at which the motion pauses by itself
+  std::vector<Condition> checks;
+  bool needs_opencl = false;
+  Paragraphs explanation;  ///< shown afterwards
+};
+
+struct Lab {
+  std::string label;  ///< the file's name without .md
+  std::string title;
+  Paragraphs summary;
+  std::vector<LabStep> steps;
+};
+
+/// Reads a lab's text; `source` names it in errors, and presets that are not shipped are looked for in `folder`. Throws
+/// LabError; never returns half a lab.
+Lab parse_lab(std::string_view text, std::string_view source, const std::filesystem::path& folder = {});
+/// Reads a file. Throws LabError.
+Lab load_lab(const std::filesystem::path& file);
+
+/// The check in words: "k_s ≥ 180 N/m".
+std::string words_of(const Condition& condition);
+
+}  // namespace tyglab

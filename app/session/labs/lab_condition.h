@@ -1,0 +1,18 @@
+// What a check asks and what an answer says, as a lab writes it. In words: words_of() (lab.h).
+#pragma once
+
+#include <string_view>
+
+#include "app/session/labs/lab.h"
+
+namespace tyglab {
+
+/// Reads "k_s >= 180 N/m", "integrator = euler", "error < 0.3 before.error". In the first step nothing can be asked of
+/// the one before. Throws LabError, which does not name the place.
+Condition parse_condition(std::string_view value, bool first_step);
+
+/// Reads "0.098 m within 10 %", "dt_crit within 0.0001" into a prediction: the answer, its unit and how far a number
+/// may be off. Throws as parse_condition does.
+void parse_answer(std::string_view value, bool first_step, Prediction& given);
+
+}  // namespace tyglab

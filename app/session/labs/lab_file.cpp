@@ -1,0 +1,315 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <utility>
+
+#include "app/base/preset_files.h"
+#include "app/session/labs/lab.h"
+#include "app/session/labs/lab_condition.h"
+#include "app/session/labs/lab_text.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
+
+namespace tyglab {
+namespace {
+
+constexpr std::uintmax_t most_bytes = 1 << 20;
+
+constexpr std::array<std::string_view, 11> lab_keys{"open", "set",  "predict", "answer", "choice", "right",
+                                                    "do",   "stop", "check",   "needs",  "within"};
+
+class LabReader {
+ public:
+  LabReader(std::string_view text, std::string_view source, const std::filesystem::path& folder)
+      : text_(text), source_(source), folder_(folder) {}
+  Lab read();
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const { fail_at(line_, why); }
+  [[noreturn]] void fail_at(int line, const std::string& why) const {
+    throw LabError(source_ + ":" + std::to_string(line) + ": " + why);
+  }
+  /// What `read` returns; what it finds wrong is wrong in this line.
+  template <class Read>
+  auto placed(const Read& read) const {
+    try {
+      return read();
+    } catch (const LabError& error) {
+      fail(error.what());
+    }
+  }
+  void note(const LabError& error);
+  void noted(const std::function<void()>& read);
+  void take_or_note(std::string_view line);
+  void take_line(std::string_view line);
+  void end_file();
+  void take_key(std::string_view line);
+  void take_value(std::string_view key, std::string_view value);
+  void begin_step(std::string_view title);
+  void begin_block();
+  void end_step();
+  void end_prediction();
+  void end_block();
+  void end_opening();
+  bool note_wrong_settings(Preset preset, const std::vector<std::string>& settings);
+  LabStep& step() { return lab_.steps.back(); }
+  bool first_step() const { return lab_.steps.size() == 1; }
+  Prediction& prediction(std::string_view key);
+
+  void take_answer(std::string_view value);
+  void take_seconds(std::string_view value);
+  void take_needs(std::string_view value);
+
+  std::string_view text_;
+  std::string source_;
+  std::filesystem::path folder_;
+  Lab lab_;
+  Gathered prose_;
+  std::string problems_;  ///< a line each
+  int line_ = 0, block_line_ = 0, step_line_ = 0, predict_line_ = 0, open_line_ = 0;
+  std::vector<int> set_lines_;  ///< of the block's settings
+  bool in_block_ = false, had_block_ = false;
+  int rights_ = 0;
+  bool answered_ = false;
+};
+
+Lab LabReader::read() {
+  try {
+    for (std::size_t at = 0; at <= text_.size();) {
+      const std::size_t end = std::min(text_.find('\n', at), text_.size());
+      ++line_;
+      take_or_note(trimmed(text_.substr(at, end - at)));
+      at = end + 1;
+    }
+    end_file();
+  } catch (const LabError& error) {
+    note(error);
+  }
+  if (!problems_.empty()) throw LabError(problems_);
+  return std::move(lab_);
+}
+
+void LabReader::note(const LabError& error) {
+  problems_ += (problems_.empty() ? "" : "\n") + std::string(error.what());
+}
+
+/// What is wrong in one line of a block says nothing of the lines after it, so all such lines are told at once; where
+/// headings are wrong the reading ends.
+void LabReader::take_or_note(std::string_view line) {
+  if (!in_block_) return take_line(line);
+  noted([&] { take_line(line); });
+}
+
+void LabReader::noted(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const LabError& error) {
+    note(error);
+  }
+}
+
+void LabReader::end_file() {
+  if (in_block_) fail_at(block_line_, "this block is never closed; end it with a line ```");
+  if (lab_.title.empty()) fail_at(1, "a lab begins with its title; write a first line such as # Hooke's law");
+  if (lab_.steps.empty()) fail("a lab has at least one step; begin one with a line such as ## Look first");
+  end_step();
+}
+
+void LabReader::take_line(std::string_view line) {
+  if (in_block_ && line == "```") return end_block();
+  if (in_block_) return line.empty() ? void() : take_key(line);
+  if (line.starts_with("```")) {
+    if (line != "```lab") fail("the only block that a lab may have is ```lab; remove this one, or call it so");
+    return begin_block();
+  }
+  if (line.starts_with("## ")) return begin_step(trimmed(line.substr(3)));
+  if (line.starts_with("# ")) {
+    if (!lab_.title.empty()) fail("a lab has one title; begin a step with ##");
+    lab_.title = card_text(trimmed(line.substr(2)));
+    return;
+  }
+  if (line.starts_with("#")) fail("a heading is # (the title) or ## (a step), with a space after it");
+  if (lab_.title.empty() && !line.empty())
+    fail("a lab begins with its title; write a line such as # Hooke's law first");
+  prose_.add(line);
+}
+
+void LabReader::begin_step(std::string_view title) {
+  if (lab_.title.empty()) fail("a lab begins with its title; write a line such as # Hooke's law before the steps");
+  if (title.empty()) fail("a step needs a title after ##");
+  end_step();
+  lab_.steps.emplace_back().title = card_text(title);
+  step_line_ = line_;
+  had_block_ = false;
+}
+
+void LabReader::begin_block() {
+  if (lab_.steps.empty()) fail("a ```lab block belongs to a step; begin one with a line such as ## Look first");
+  if (had_block_) fail("this step has a ```lab block already; put both in one, or begin another step with ##");
+  step().text = prose_.take();
+  in_block_ = had_block_ = true;
+  block_line_ = line_;
+  predict_line_ = open_line_ = rights_ = 0;
+  set_lines_.clear();
+  answered_ = false;
+}
+
+void LabReader::end_step() {
+  if (lab_.steps.empty()) {
+    lab_.summary = prose_.take();
+    return;
+  }
+  if (had_block_) {
+    step().explanation = prose_.take();
+  } else {
+    step().text = prose_.take();
+  }
+  if (step().text.empty()) fail_at(step_line_, "this step says nothing; write what it is about under its title");
+}
+
+/// A prediction has its sentences, of which one is right, or its number.
+void LabReader::end_prediction() {
+  const Prediction& given = *step().prediction;
+  if (given.choices.empty() && !answered_)
+    fail_at(predict_line_, "this prediction has no answer; add a line such as answer: 0.098 m within 10 %, or choices");
+  if (!given.choices.empty() && answered_)
+    fail_at(predict_line_, "this prediction has an answer and choices; keep one of them");
+  if (!given.choices.empty() && (rights_ != 1 || given.choices.size() < 2))
+    fail_at(predict_line_, "of the sentences to choose from exactly one begins with right:, the others with choice:");
+}
+
+void LabReader::end_block() {
+  in_block_ = false;
+  if (step().prediction) noted([&] { end_prediction(); });
+  if (step().open) noted([&] { end_opening(); });
+}
+
+/// The preset must be there, and its settings such as it takes.
+void LabReader::end_opening() {
+  const SceneSetup& opening = *step().open;
+  try {
+    const Preset preset = load_preset(find_preset(opening.preset).file);
+    try {
+      with_settings(preset, opening.settings);
+    } catch (const PresetError&) {
+      if (!note_wrong_settings(preset, opening.settings)) throw;
+    }
+  } catch (const std::exception& error) {
+    fail_at(open_line_, error.what());
+  }
+}
+
+/// Notes each that cannot be made after those before it, with its own line. False where it is only all together that
+/// they are wrong.
+bool LabReader::note_wrong_settings(Preset preset, const std::vector<std::string>& settings) {
+  bool any = false;
+  for (std::size_t k = 0; k < settings.size(); ++k) try {
+      Setting setting = parse_setting(settings[k]);
+      setting.typed = "set";  // as the file says it, not as a command line would
+      preset = with_parsed_settings(preset, {setting});
+    } catch (const PresetError& error) {
+      any = true;
+      note(LabError(source_ + ":" + std::to_string(set_lines_[k]) + ": " + error.what()));
+    }
+  return any;
+}
+
+void LabReader::take_key(std::string_view line) {
+  const auto colon = line.find(':');
+  if (colon == std::string_view::npos)
+    fail("a line of a block is KEY: VALUE, such as check: k_s >= 180; \"" + std::string(line) + "\" has no colon");
+  const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
+  if (std::find(lab_keys.begin(), lab_keys.end(), key) == lab_keys.end()) {
+    const auto meant = nearest(key, lab_keys);
+    fail("\"" + std::string(key) + "\" is no key of a lab" +
+         (meant ? "; did you mean " + std::string(*meant) + "?"
+                : "; known: open, set, predict, answer, choice, right, do, stop, check, needs"));
+  }
+  if (value.empty()) fail(std::string(key) + ": says nothing; write its value after the colon, or remove the line");
+  take_value(key, value);
+}
+
+Prediction& LabReader::prediction(std::string_view key) {
+  if (!step().prediction) fail(std::string(key) + ": needs a question; write a line predict: before it");
+  return *step().prediction;
+}
+
+void LabReader::take_value(std::string_view key, std::string_view value) {
+  if (key == "open") {
+    if (step().open) fail("a step opens one preset; remove this line, or begin another step with ##");
+    const std::filesystem::path beside = folder_ / value;
+    std::error_code ignored;
+    const bool own = !folder_.empty() && std::filesystem::is_regular_file(beside, ignored);
+    step().open = SceneSetup{own ? beside.string() : std::string(value), {}};
+    open_line_ = line_;
+  } else if (key == "set") {
+    if (!step().open) fail("set: changes the preset that the step opens; write a line open: before it");
+    step().open->settings.emplace_back(value);
+    set_lines_.push_back(line_);
+  } else if (key == "predict") {
+    if (step().prediction) fail("a step asks for one prediction; remove this line, or begin another step with ##");
+    step().prediction.emplace().question = card_text(value);
+    predict_line_ = line_;
+  } else if (key == "choice" || key == "right") {
+    Prediction& given = prediction(key);
+    if (key == "right") given.right = given.choices.size(), ++rights_;
+    given.choices.push_back(card_text(value));
+  } else if (key == "answer") {
+    take_answer(value);
+  } else if (key == "do") {
+    step().todo.push_back(card_text(value));
+  } else if (key == "stop") {
+    take_seconds(value);
+  } else if (key == "check") {
+    step().checks.push_back(placed([&] { return parse_condition(value, first_step()); }));
+  } else if (key == "needs") {
+    take_needs(value);
+  } else {
+    fail("within stands in the line of the answer: answer: 0.098 m within 10 %");
+  }
+}
+
+void LabReader::take_needs(std::string_view value) {
+  if (value != "opencl") fail("the one thing that a step can need is opencl, not \"" + std::string(value) + "\"");
+  step().needs_opencl = true;
+}
+
+void LabReader::take_seconds(std::string_view value) {
+  const std::vector<std::string> words = words_in(value);
+  const auto seconds = plain_number(words[0]);
+  if (!seconds || *seconds <= 0 || words.size() > 2 || (words.size() == 2 && words[1] != "s"))
+    fail("stop: is a simulated time above 0, such as stop: 2 s");
+  step().stop = seconds;
+}
+
+void LabReader::take_answer(std::string_view value) {
+  Prediction& given = prediction("answer");
+  answered_ = true;  // if perhaps not well: that is told for itself
+  placed([&] { parse_answer(value, first_step(), given); });
+}
+
+}  // namespace
+
+Lab parse_lab(std::string_view text, std::string_view source, const std::filesystem::path& folder) {
+  return LabReader(text, source, folder).read();
+}
+
+Lab load_lab(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
+    throw LabError(file.string() + ": is not a file, so it cannot be read as a lab");
+  if (const auto size = std::filesystem::file_size(file, error); !error && size > most_bytes)
+    throw LabError(file.string() + ": too large for a lab (1 MiB at most)");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw LabError(file.string() + ": the file cannot be read; is it there, and may it be read?");
+  Lab lab = parse_lab(text.str(), file.string(), file.parent_path());
+  lab.label = file.stem().string();
+  return lab;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,94 @@
+// The lab in work: which step, what was predicted, what holds; and the labs that there are.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/session/labs/lab.h"
+#include "core/cloth/state.h"
+
+namespace tyglab {
+
+struct App;
+
+/// What is known at the moment at which a step was completed: what later steps call `before`.
+struct Moment {
+  std::map<std::string, double, std::less<>> values;
+  std::optional<State> state;  ///< where a later step asks how far apart the cloth is from it
+};
+
+enum class CheckState { unknown, open, holds };
+
+struct StepRecord {
+  char typed[32] = "";  ///< of a prediction that is a number
+  int chosen = -1;
+  bool predicted = false;
+  std::vector<CheckState> checks;  ///< as they are now
+  bool done = false;               ///< all held at once, at least once
+  bool right = false;              ///< the prediction, once it is done
+  double answer = 0;               ///< the right number then
+  Moment moment;
+};
+
+struct LabRun {
+  Lab lab;
+  std::size_t step = 0;
+  std::vector<StepRecord> records;
+  bool show_explanation = false;  ///< it has just come: the card scrolls to it
+  const LabStep& now() const { return lab.steps[step]; }
+  StepRecord& record() { return records[step]; }
+  const StepRecord& record() const { return records[step]; }
+};
+
+struct LabState {
+  bool looked = false;  ///< for the files
+  std::vector<Lab> list;
+  std::vector<std::string> problems;  ///< of files that were refused
+  std::optional<LabRun> run;
+  std::optional<bool> opencl;  ///< whether there is a device; none: nobody has asked yet
+  std::string opened;          ///< label of the preset that a step opened last
+  bool enter = false;          ///< Enter was pressed in the prediction's field
+};
+
+/// A file, or else the lab of that name: one that comes with the program or of the user's folder. Throws LabError; an
+/// unknown name is answered with the nearest.
+std::filesystem::path find_lab_file(const std::string& name_or_file);
+/// The labs that come with the program and those of the user's folder; `problems`: why files were refused.
+std::vector<Lab> read_labs(std::vector<std::string>& problems);
+
+/// The same, read at the first call; what is wrong in one is said in a message.
+const std::vector<Lab>& find_labs(App& app);
+/// How many of the lab's steps are done, as it is remembered.
+int steps_done(const App& app, const Lab& lab);
+
+/// Begins a lab where it was left, at a step that opens a preset.
+void begin_lab(App& app, std::string_view label);
+/// Goes to a step, and opens its preset, paused.
+void enter_step(App& app, std::size_t step);
+/// One step back, to be read; nothing is opened.
+void back_step(App& app);
+/// Opens the step's preset once more, where it has one.
+void set_up_step(App& app);
+void leave_lab(App& app);
+
+/// Takes what was typed or chosen as the prediction. False where there is nothing yet, or no number.
+bool predict(App& app);
+/// Whether the machine lacks what the step needs, so that it can only be read.
+bool cannot_be_done(App& app);
+
+/// Whether another preset has been opened than the step's: the lab then waits, and looks at nothing.
+bool lab_waits(const App& app);
+/// Puts the lab's cloth back: at the step in work, or the last one before it that opens one.
+void resume_lab(App& app);
+
+/// Called in every frame: looks which checks hold, and whether the step is done.
+void watch_lab(App& app);
+/// Of the steps that are due, those up to where the step stops the motion; pauses it there.
+int up_to_stop(const App& app, int due);
+void pause_at_stop(App& app);
+
+}  // namespace tyglab

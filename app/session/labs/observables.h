@@ -1,0 +1,43 @@
+// What a lab's checks can ask the sandbox: one row each, and every constant of the notation table.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tyglab {
+
+struct App;
+
+struct Observable {
+  std::string_view name;
+  std::string_view unit;           ///< SI, empty if it has none
+  std::string_view meaning;        ///< a sentence
+  std::string_view suggested_fix;  ///< what to do where it is not known, empty where it always is
+  /// Its value, none while it is not known; null for words.
+  std::optional<double> (*number)(App&) = nullptr;
+  std::string_view (*word)(const App&) = nullptr;
+  std::span<const std::string_view> (*words)() = nullptr;  ///< those it can be
+};
+
+std::span<const Observable> observables();
+/// The row of that name, or nullptr. Constants of the notation table ("k_s", "W.x") are no rows.
+const Observable* find_observable(std::string_view name);
+
+/// Whether a check may name it: a row, or a number of the notation table.
+bool is_observable(std::string_view name);
+bool is_word(std::string_view name);
+std::string_view unit_of(std::string_view name);
+/// Every name a check may use, for "did you mean".
+std::vector<std::string_view> observable_names();
+
+/// Its value; none while it is not known.
+std::optional<double> observe(App& app, std::string_view name);
+std::string_view observe_word(const App& app, std::string_view name);
+
+/// The table of docs/labs/README.md.
+std::string observables_markdown();
+
+}  // namespace tyglab

@@ -1,0 +1,105 @@
+// Cloths that take longer to build than a frame lasts are built beside it, in a thread of their own; the present one
+// goes on meanwhile. So are the programs of OpenCL devices.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/session/history.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+struct App;
+
+/// The preset that was opened or saved last: what "unsaved" and every reset compare with.
+struct Document {
+  Preset saved;
+  std::string label;
+  std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+};
+
+/// What is to be built.
+struct BuildOrder {
+  Preset target;
+  bool fresh = true;  ///< at its start; otherwise with the state of the present cloth, which must not change meanwhile
+  bool restarts = false;             ///< a restart asked for it
+  std::optional<Document> document;  ///< of a preset that is opened
+  bool programs = false;  ///< the present cloth is to have these constants, once programs have been built for them
+};
+
+class BackgroundRebuild {
+ public:
+  /// Builds the programs that the preset's device needs, beside the frames. None: they are built when they are needed.
+  /// `ledger`: those of steps that note what bodies stop.
+  std::function<void(const Preset&, bool ledger)> prepare_programs;
+
+  bool busy() const { return making_.has_value(); }
+  /// Whether the present cloth is being read, so that it may neither step nor change.
+  bool holds_present() const { return making_ && !making_->fresh; }
+  /// Frames that were drawn while something was in work.
+  std::int64_t frames_beside() const { return frames_beside_; }
+  /// The constants that have been asked for, while they are in work; otherwise null, and where a preset is opened.
+  const Preset* requested_preset() const { return wish() != nullptr && !opens() ? &wish()->target : nullptr; }
+  /// The lattice of the cloth that will be shown next; none where it is the present one.
+  std::optional<Lattice> lattice() const {
+    return wish() != nullptr ? std::optional(lattice_of(wish()->target)) : std::nullopt;
+  }
+  /// Whether programs alone are built for it.
+  bool programs() const { return wish() != nullptr && wish()->programs; }
+  /// Whether what has been asked for is a restart, or a preset that is opened.
+  bool restarts() const { return wish() != nullptr && wish()->restarts; }
+  bool opens() const { return wish() != nullptr && wish()->document.has_value(); }
+
+  /// Builds that; what is in work is not wanted any more. `before`: the history to return to if it cannot be built.
+  void order(const App& app, BuildOrder order, History before);
+  /// What has been asked for is not wanted any more.
+  void drop() { next_.reset(), dropped_ = busy(); }
+  /// Keeps an edit for the cloth in work.
+  void defer(Edit edit) { deferred_.push_back(std::move(edit)); }
+  /// The cloth in work gets another name.
+  void rename(const std::string& name);
+  /// Called in every frame: takes the cloth that is ready, if one is.
+  void poll(App& app);
+  /// Whether the ledger can be kept from now on without waiting for a compiler. Otherwise its program is being built.
+  bool ledger_ready(const App& app);
+  /// Frees a cloth beside the frame: that takes a while too.
+  void dispose(std::unique_ptr<Simulation> simulation);
+
+ private:
+  const BuildOrder* wish() const { return next_ ? &*next_ : making_ && !dropped_ ? &*making_ : nullptr; }
+  bool available(const BuildOrder& made) const;
+  void start(const App& app);
+  void finish(App& app);
+  void take(App& app, std::unique_ptr<Simulation> made, const BuildOrder& order);
+  void go_on(App& app);
+  void give_up(App& app, const std::string& why);
+
+  std::optional<BuildOrder> making_, next_;
+  bool dropped_ = false;  ///< what is being made is not wanted
+  std::vector<Edit> deferred_;
+  History before_;
+  std::int64_t frames_beside_ = 0;
+  std::future<std::unique_ptr<Simulation>> work_;
+  std::future<void> disposal_, ledger_programs_;
+};
+
+/// Of the preset's cloth.
+double particles(const Preset& preset);
+/// Whether an OpenCL device must build programs before the present cloth has these constants.
+bool needs_programs(const App& app, const Preset& preset);
+/// Whether an edit takes so long that it is to be built beside the frames.
+bool takes_long(const App& app, const Edit& edit);
+/// The same of a preset that is opened.
+bool takes_long(const App& app, const Preset& preset);
+/// What was changed from `before` to `after`, changed in `present`.
+Preset rebased(const Preset& before, const Preset& after, const Preset& present);
+/// Takes a simulation in place of the present one.
+void swap_in(App& app, std::unique_ptr<Simulation> simulation);
+
+}  // namespace tyglab

@@ -1,0 +1,37 @@
+#include "app/session/rewind.h"
+
+namespace tyglab {
+
+void Rewind::look(Simulation& simulation) {
+  if (simulation.divergence()) return;
+  if (Snapshot::bytes(simulation.lattice()) > most_bytes / fewest) return clear();
+  const double t = simulation.time();
+  // A restart or another cloth: that past is another's.
+  if (!kept_.empty() && (t < kept_.back().t || !simulation.fits(kept_.back()))) clear();
+  if (!kept_.empty() && t - kept_.back().t < interval) return;
+  kept_.push_back(simulation.snapshot());
+  bytes_ += kept_.back().bytes();
+  while (bytes_ > most_bytes || t - kept_.front().t > longest) {
+    bytes_ -= kept_.front().bytes();
+    kept_.pop_front();
+  }
+}
+
+const Snapshot* Rewind::before(const Simulation& simulation, double t, double seconds) const {
+  if (kept_.empty() || !simulation.fits(kept_.front())) return nullptr;
+  for (auto at = kept_.rbegin(); at != kept_.rend(); ++at)
+    if (t - at->t >= seconds) return &*at;
+  return &kept_.front();
+}
+
+void Rewind::go_back(Simulation& simulation, double t, double seconds) {
+  const Snapshot* then = before(simulation, t, seconds);
+  if (then == nullptr) return;
+  simulation.restore(*then);
+  while (!kept_.empty() && &kept_.back() != then) {
+    bytes_ -= kept_.back().bytes();
+    kept_.pop_back();
+  }
+}
+
+}  // namespace tyglab

@@ -1,0 +1,65 @@
+// What is remembered from one session to the next: window, layout, text size, the last preset.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+struct Layout {
+  float left_width = 320, right_width = 344;  ///< at scale 1
+  bool left = true, right = true, status = true;
+  bool inside = false;  ///< the picked particle's step, written out, stands among the plots
+  bool map = false;     ///< the map of stiffness against dt stands among the plots
+  std::set<std::string> folded{"Start",  "Stability", "Accuracy",
+                               "Copies", "Energy",    "Performance"};  ///< sections that are closed
+  bool operator==(const Layout&) const = default;
+};
+
+/// How the pointer's tools work, and what they show.
+struct ToolSettings {
+  bool cut_along_path = false;  ///< a cut takes what the pointer's way crosses; otherwise springs upwards (2.3.4)
+  bool slow_hand = false;       ///< slow motion while the hand is in the cloth
+  std::set<std::string> arrows{"F_s", "F_b", "F_d", "F_g"};  ///< variables drawn at the picked particle
+};
+
+/// The preset of the last session, with what was not saved.
+struct Session {
+  Preset preset;
+  Preset saved;  ///< as it was opened or saved; a user's file is read again
+  std::string label;
+  std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+};
+
+struct Settings {
+  int x = -1, y = -1, width = 1440, height = 860;  ///< of the window; x < 0: let the system choose
+  bool maximised = false;
+  double ui_scale = 1;
+  std::string theme = "dark";  ///< a Look's name
+  Layout layout;
+  ToolSettings handling;
+  bool plot_log = false;
+  bool all_effects = false;  ///< however slow they are to draw
+  std::string color;         ///< name of the field that colours the cloth; empty: none
+  bool tour_seen = false;
+  std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
+  std::optional<Session> session;
+};
+
+/// Folder of settings and the user's presets: $TYGLAB_CONFIG_DIR, $XDG_CONFIG_HOME/tyglab or ~/.config/tyglab; empty
+/// where none of them is known.
+std::filesystem::path config_folder();
+std::filesystem::path user_preset_folder();
+
+/// The settings, or the defaults and in `problem` a few sentences when the file is there but of no use; it is then
+/// renamed to settings.json.broken, so that nothing of it is lost.
+Settings load_settings(std::string& problem);
+/// Writes them atomically. Throws OutputError.
+void save_settings(const Settings& settings);
+
+}  // namespace tyglab

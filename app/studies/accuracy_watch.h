@@ -1,0 +1,55 @@
+// How large the errors of the present settings are: short runs of the present motion, finer ones and those of other
+// methods, made beside the frames at low priority while the accuracy card is open, and dropped when it closes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/studies/background.h"
+#include "core/analysis/error_study.h"
+
+namespace tyglab {
+
+struct App;
+
+/// Constants without what no motion depends on.
+Preset moving(Preset preset);
+
+/// What is known so far of the motion from one moment on.
+struct AccuracyStudy {
+  Preset of;     ///< the constants
+  double t = 0;  ///< s, the moment
+  StudyReference reference;
+  std::optional<ErrorPoint> present;  ///< the settings as they are
+  std::vector<ErrorPoint> points;     ///< those of other methods, a method's one after the other
+  bool done = false;
+  std::string problem;  ///< why there is nothing to show
+};
+
+class AccuracyWatch {
+ public:
+  static constexpr int largest = 256 * 256;  ///< particles that are judged beside the window
+  static constexpr double window = 0.25;     ///< s of motion, where it does not take too long
+
+  /// Called in every frame that shows the card: begins a study where constants have changed, or the cloth has moved on
+  /// since the last.
+  void poll(App& app);
+  /// The card is closed: what is in work is stopped and forgotten.
+  void drop();
+  /// A copy of what is known; none while nothing is.
+  std::optional<AccuracyStudy> study() const;
+
+ private:
+  using Work = Background<AccuracyStudy>;
+  void begin(App& app);
+  static void work(Work::Shared& shared, const StudyStart& start);
+
+  Work work_;
+  std::shared_ptr<Work::Shared> shown_;  ///< the last that has something to show
+  double begun_ = -1;                    ///< s, as the window counts
+  double changed_ = -1;                  ///< when the constants last differed from those of the study
+};
+
+}  // namespace tyglab

@@ -1,0 +1,45 @@
+// The map of stiffness against dt, filled by short runs beside the frames while its card is shown.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "app/studies/background.h"
+#include "core/analysis/stability_map.h"
+
+namespace tyglab {
+
+struct App;
+
+/// What is known of a map.
+struct MapFindings {
+  Preset of;  ///< the constants; its stiffness and dt are those with which it began
+  MapGrid grid;
+  MapBoundary boundary;
+  std::vector<MapCell> cells;
+  std::string problem;  ///< why there are no more
+};
+
+class MapWatch {
+ public:
+  static constexpr int columns = 28, rows = 20;
+  static constexpr int largest = 128 * 128;  ///< particles of a cloth that is mapped
+
+  /// Called in every frame that shows the map: begins one where there is none, or where constants other than stiffness
+  /// and dt have changed or these have left it.
+  void poll(App& app);
+  /// The card is closed: what is in work is stopped and forgotten.
+  void drop();
+  /// A copy of what is known; none while nothing is.
+  std::optional<MapFindings> findings() const;
+  bool busy() const { return work_.busy(); }
+
+ private:
+  using Work = Background<MapFindings>;
+  void begin(App& app);
+
+  Work work_;
+  double changed_ = -1;  ///< s, as the window counts; when the constants last differed from the map's
+};
+
+}  // namespace tyglab

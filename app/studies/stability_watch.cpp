@@ -1,0 +1,85 @@
+#include "app/studies/stability_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "app/ui/app.h"
+#include "core/analysis/frequency.h"
+#include "core/integrators/scheme.h"
+#include "core/theory/amplification.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double reaches = 1e5;               // zones, to either side of a value: further than any slider
+constexpr double between_looks = 0.5;         // s, at a cloth in motion
+constexpr int largest_looked_at = 128 * 128;  // particles: to linearise more of them would be felt in the frame
+
+/// What the stability card draws: here, since it takes longer than the rest of a frame.
+void add_curves(StabilityLimits& limits, const Scheme& method) {
+  const double dt = limits.of.dt, now = limits.fastest.omega() * dt;
+  const double most = std::clamp(1.3 * std::max({now, any_configuration(limits.of).omega() * dt, 2.5}), 1.0, 20.0);
+  const double zeta_over_h = now > 0 ? limits.fastest.damping * dt / (2 * now * now) : 0;
+  limits.damped = growth_curve(method, most, zeta_over_h);
+  if (zeta_over_h > 0) limits.undamped = growth_curve(method, most, 0);
+}
+
+StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
+  const Scheme& method = scheme(preset.integrator);
+  StabilityLimits limits{.of = preset, .now = {}, .damped = {}, .undamped = {}, .zones = {}};
+  const std::array any{any_configuration(preset)};
+  limits.any = dt_crit(method, any), limits.fastest = any[0];
+  limits.stiffness = stiffness_margin(method, any, preset.dt);
+  const auto add_zones = [&](const ZonedConstant& constant) {
+    const double value = preset.*constant.field > 0 ? preset.*constant.field : Preset{}.*constant.field;
+    limits.zones.emplace(constant.key, stability_zones(preset, constant.field, value / reaches, value * reaches));
+  };
+  if (preset.kind == Kind::cloth)
+    std::for_each(zoned_cloth.begin(), zoned_cloth.end(), add_zones);
+  else
+    std::for_each(zoned_weight.begin(), zoned_weight.end(), add_zones);
+  if (cloth) {
+    const std::array fastest{fastest_mode(*cloth, live_tolerance)};
+    limits.now = dt_crit(method, fastest), limits.omega = fastest[0].omega();
+    limits.fastest = fastest[0];
+  }
+  if (has_step_limit(method)) add_curves(limits, method);
+  return limits;
+}
+
+}  // namespace
+
+GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h) {
+  constexpr int points = 160;
+  constexpr double most_growth = 1.25;
+  GrowthCurve curve;
+  for (int n = 1; n <= points; ++n) {
+    const double h = most_h * n / points, radius = spectral_radius(amplification(method, h, zeta_over_h * h));
+    if (radius > most_growth) break;
+    curve.h.push_back(h), curve.radius.push_back(radius);
+  }
+  return curve;
+}
+
+void StabilityWatch::poll(App& app) {
+  if (work_.valid()) {
+    if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + 0.03);  // what is ready soon is to be seen
+      return;
+    }
+    limits_ = work_.get();
+  }
+  const Simulation& simulation = *app.simulation;
+  const bool new_constants = looked_for_ != simulation.preset(), moved = looked_at_ != simulation.time();
+  if (!new_constants && (!moved || app.ui.now < begun_ + between_looks)) return;
+  begun_ = app.ui.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
+  std::optional<Linearisation> cloth;
+  if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);
+  work_ = std::async(std::launch::async,
+                     [preset = simulation.preset(), cloth = std::move(cloth)] { return work_out(preset, cloth); });
+  app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + 0.03);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,57 @@
+// How large dt may be for the cloth as it is: worked out beside the frames while a panel shows it, at most twice a
+// second.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/preset.h"
+#include "core/theory/modes.h"
+#include "core/theory/zones.h"
+
+namespace tyglab {
+
+struct App;
+struct Scheme;
+
+/// Growth of a mode per step, as a spectral radius, over ω·dt; ends where it grows by a quarter a step.
+struct GrowthCurve {
+  std::vector<double> h, radius;
+};
+/// ζ in proportion to ω, as damping weighs on modes about as their stiffness does: ζ = `zeta_over_h` ω·dt.
+GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h);
+
+/// Limits of the present method by linear theory (core/analysis/frequency.h). dt in s: 0 where none is stable, infinity
+/// where none is too large.
+struct StabilityLimits {
+  Preset of;       ///< the constants they belong to
+  double any = 0;  ///< dt_crit in any configuration of the springs
+  std::optional<double>
+      now;               ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
+  double omega = 0;      ///< 1/s, of the fastest mode now, where `now` is there
+  Mode fastest{};        ///< that mode; where `now` is not there, what no mode in any configuration exceeds
+  double stiffness = 0;  ///< by how much k_s and k_b can grow until dt reaches `any`
+  GrowthCurve damped, undamped;  ///< the method's growth, for modes damped as the fastest is, and without damping
+  std::map<std::string, std::vector<ZoneSpan>, std::less<>> zones;  ///< by the constant's key
+};
+
+class StabilityWatch {
+ public:
+  /// Called in every frame that shows the limits: takes what is ready and begins what is due.
+  void poll(App& app);
+  /// The newest limits; none before the first are ready.
+  const std::optional<StabilityLimits>& limits() const { return limits_; }
+
+ private:
+  std::future<StabilityLimits> work_;
+  std::optional<StabilityLimits> limits_;
+  double begun_ = -1;      ///< s, as the window counts; when the last look began
+  double looked_at_ = -1;  ///< simulated time of it
+  std::optional<Preset> looked_for_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,207 @@
+#include "app/ui/cards/accuracy_card.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/numbers.h"
+#include "app/ui/cards/cards.h"
+#include "app/ui/kit/convergence_chart.h"
+#include "app/ui/kit/curves.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+#include "core/theory/amplification.h"
+
+namespace tyglab {
+namespace {
+
+constexpr const char* stability_heading = card_name::stability;
+constexpr const char* accuracy_heading = card_name::accuracy;
+// Pixels at scale 1.
+constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
+
+/// Words over a chart, in what the card's height leaves.
+void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
+                     float room_at_1 = words_at_1) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = card_width(app);
+  const ImFont& font = *app.fonts.small;
+  const std::string lines = in_lines(font, words, width);
+  const float tall = font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.c_str()).y + app.theme.px(6);
+  const float line = std::max(app.theme.px(room_at_1), tall);
+  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, lines);
+  ImGui::Dummy({width, line});
+  const float rest = height - app.theme.px(card::head + card::foot) - line;
+  if (chart == nullptr || rest < app.theme.px(100)) return;
+  draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, {lo.x, lo.y + line}, {width, rest}, *chart);
+  ImGui::Dummy({width, rest});
+}
+
+/// A vertical line from the chart's foot to its head.
+ChartSeries mark_at(const std::string& name, double x, ImU32 color, LineStyle line, double lo, double hi) {
+  return {name, {color, line, 1.6f}, true, 0, {x, x}, {lo, hi}};
+}
+
+std::string stability_sentence(const StabilityLimits& limits) {
+  const Scheme& method = scheme(limits.of.integrator);
+  if (projects(method)) return "XPBD projects positions: linear theory has no word for it.";
+  if (chooses_steps(method)) return "This method keeps its own steps within what is stable, as far as dt allows.";
+  const double h = limits.fastest.omega() * limits.of.dt;
+  const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
+  const double radius = spectral_radius(amplification(method, h, zeta));
+  const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
+  const std::string kept = short_number(radius);
+  return of + short_number(h, 3) +
+         (radius > 1 + 1e-9 ? ", where a swing grows " + kept + "-fold a step."
+                            : ", where a swing keeps " + kept + " of its size a step.");
+}
+
+}  // namespace
+
+Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
+  const Scheme& method = scheme(limits.of.integrator);
+  const double dt = limits.of.dt, now = limits.fastest.omega() * dt, bound = any_configuration(limits.of).omega() * dt;
+  Chart chart;
+  chart.padding = 0;
+  chart.x.title = "ω·dt", chart.y.title = "growth a step (spectral radius)";
+  chart.x.from_zero = true;
+  double least = 1, most = 0, hi = 1;
+  const auto curve = [&](const std::string& name, LineStyle line, const GrowthCurve& of) {
+    ChartSeries series{name, integrator_style(c, method.name), true, 0, of.h, of.radius};
+    series.style.line = line;
+    for (const double radius : of.radius) least = std::min(least, radius), hi = std::max(hi, radius);
+    if (!of.h.empty()) most = std::max(most, of.h.back());
+    chart.series.push_back(std::move(series));
+  };
+  const bool damped = !limits.undamped.h.empty();
+  curve(std::string(method.title) + (damped ? ", damped" : ""), LineStyle::solid, limits.damped);
+  if (damped) curve("undamped", LineStyle::dotted, limits.undamped);
+  most = std::max({most, now, bound});
+  chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
+  if (limits.now) chart.series.push_back(mark_at("cloth now", now, c.text, LineStyle::solid, least, hi));
+  chart.series.push_back(mark_at("at most", bound, c.warning, LineStyle::dashed, least, hi));
+  return chart;
+}
+
+std::string accuracy_words(const AccuracyStudy& study) {
+  if (!study.problem.empty()) return "There is nothing to compare with: " + study.problem + ".";
+  if (!study.present) return "Measuring…";
+  const ErrorPoint& now = *study.present;
+  const std::string over = " over the " + short_number(rounded(study.reference.seconds, 2)) +
+                           " s from t = " + time_number(study.t, now.dt) + " s";
+  const std::string method(scheme(now.integrator).title);
+  if (!chooses_steps(scheme(now.integrator)) && now.dt < 0.9 * study.of.dt)
+    return "This cloth can be followed closely for " + short_number(rounded(study.reference.seconds, 2)) +
+           " s in the time there is: too short to judge a dt of " + short_number(study.of.dt) + " s.";
+  if (!std::isfinite(now.error_rms_m)) return "As it is set, " + method + " diverges" + over + ".";
+  const double floor = 10 * study.reference.agreement_rms_m;
+  const std::string error = now.resolved
+                                ? "errs by " + short_number(rounded(now.error_rms_m, 2))
+                                : "errs by less than " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
+  return method + " " + error + " m (rms)" + over + " and takes " + short_number(rounded(now.cost, 2)) +
+         " s of processor a second.";
+}
+
+Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
+  Chart chart;
+  chart.padding = 0;
+  chart.x.title = "processor seconds for a simulated second", chart.x.log = true;
+  chart.y.title = "error, m (rms)", chart.y.log = true;
+  const auto put = [](ChartSeries& series, const ErrorPoint& point) {
+    if (std::isfinite(point.error_rms_m) && point.error_rms_m > 0 && point.resolved)
+      series.x.push_back(point.cost), series.y.push_back(point.error_rms_m);
+  };
+  for (std::size_t n = 0; n < study.points.size();) {
+    const std::string& name = study.points[n].integrator;
+    ChartSeries series{std::string(scheme(name).title), integrator_style(c, name), true, 2.5f, {}, {}};
+    for (; n < study.points.size() && study.points[n].integrator == name; ++n) put(series, study.points[n]);
+    if (!series.x.empty()) chart.series.push_back(std::move(series));
+  }
+  if (!study.present || (study.present->tolerance == 0 && study.present->dt < 0.9 * study.of.dt)) return chart;
+  ChartSeries present{"as it is set", {c.text, LineStyle::solid, 1}, false, 6, {}, {}};
+  put(present, *study.present);
+  if (!present.x.empty()) chart.series.push_back(std::move(present));
+  return chart;
+}
+
+float stability_card_height(const App& app) {
+  return card_height(app, stability_heading, words_at_1 + chart_at_1);
+}
+
+void stability_card(App& app, float height) {
+  if (begin_card(app, stability_heading, height)) {
+    app.stability.poll(app);
+    if (const auto& limits = app.stability.limits()) {
+      const Scheme& method = scheme(limits->of.integrator);
+      const bool drawn = has_step_limit(method);
+      const Chart chart = drawn ? stability_chart(app.theme.colors, *limits) : Chart{};
+      words_and_chart(app, height, stability_sentence(*limits), drawn ? &chart : nullptr);
+    }
+  }
+  end_card(app);
+}
+
+float accuracy_card_height(const App& app) {
+  const float words = app.convergence.shown ? convergence_words_at_1 : words_at_1 + 50;
+  return card_height(app, accuracy_heading, ways_at_1 + words + chart_at_1);
+}
+
+namespace {
+
+/// Errors of several methods, or the order of the present one; of that what else can be done with it.
+void accuracy_ways(App& app) {
+  static constexpr const char* ways[] = {"Errors", "Convergence"};
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  if (const int k = segments(app, "accuracy ways", ways, 2, app.convergence.shown); k >= 0)
+    app.convergence.shown = k == 1;
+  tooltip(app, gui::item_id(), "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on.");
+  const auto at_right = [&](int n) {
+    ImGui::SetCursorScreenPos({lo.x + card_width(app) - app.theme.px(26.f * float(n + 1)), lo.y + app.theme.px(2)});
+  };
+  if (app.convergence.shown) {
+    at_right(0);
+    if (quiet_button(app, "csv_convergence", icon::download, "CSV", "Write the convergence as a CSV file…"))
+      app.command(Command::export_convergence);
+    at_right(1);
+    if (quiet_button(app, "again", icon::restart, "again", "Measure again, from the present moment on"))
+      app.command(Command::measure_convergence);
+  }
+  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(ways_at_1)});
+}
+
+void errors_shown(App& app, float height) {
+  app.accuracy.poll(app);
+  const auto study = app.accuracy.study();
+  if (!study) return words_and_chart(app, height, "Measuring…", nullptr);
+  const Chart chart = accuracy_chart(app.theme.colors, *study);
+  words_and_chart(app, height, accuracy_words(*study), study->present ? &chart : nullptr);
+}
+
+void convergence_shown(App& app, float height) {
+  app.convergence.poll(app);
+  const auto study = app.convergence.study();
+  const std::string over = study ? " Over the " + short_number(rounded(study->seconds, 2)) +
+                                       " s from t = " + time_number(study->t, study->of.dt) + " s, in double."
+                                 : "";
+  const Chart chart = study ? convergence_chart(app.theme.colors, *study) : Chart{};
+  words_and_chart(app, height, !study || !study->done ? "Measuring…" : convergence_words(*study) + over,
+                  chart.series.empty() ? nullptr : &chart, convergence_words_at_1);
+}
+
+}  // namespace
+
+void accuracy_card(App& app, float height) {
+  if (begin_card(app, accuracy_heading, height)) {
+    app.ui.accuracy_shown = true;
+    if (app.simulation->lattice().size() > AccuracyWatch::largest) {
+      words_and_chart(app, height, "This cloth is too large to be judged beside the window.", nullptr);
+    } else {
+      accuracy_ways(app);
+      const float rest = height - app.theme.px(ways_at_1);
+      app.convergence.shown ? convergence_shown(app, rest) : errors_shown(app, rest);
+    }
+  }
+  end_card(app);
+}
+
+}  // namespace tyglab

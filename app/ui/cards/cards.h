@@ -1,0 +1,25 @@
+// The cards of the plots' column by their names, which stand on their tabs and headings.
+#pragma once
+
+#include <string_view>
+
+#include "app/session/settings.h"
+
+namespace tyglab {
+
+struct App;
+
+namespace card_name {
+inline constexpr const char *height = "Height", *forces = "Forces", *distances = "Distances", *map = "Map",
+                            *step = "Step", *copies = "Copies", *stability = "Stability", *accuracy = "Accuracy",
+                            *energy = "Energy", *performance = "Performance";
+}
+
+/// Whether it is the card whose tab is chosen.
+bool in_front(const App& app, std::string_view name);
+/// Brings a card into sight: the column, its tab where it is one, what stands under its heading.
+void show_card(App& app, std::string_view name);
+/// Of a card that is not always there: brings it into sight, or closes it where it is `seen` already.
+void toggle_card(App& app, std::string_view name, bool Layout::*there, bool seen);
+
+}  // namespace tyglab

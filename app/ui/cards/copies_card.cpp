@@ -1,0 +1,208 @@
+#include "app/ui/cards/copies_card.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/base/numbers.h"
+#include "app/ui/cards/cards.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/plot.h"
+#include "app/ui/kit/plot_card.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr const char* heading = card_name::copies;
+constexpr float line_at_1 = 24, buttons_at_1 = 34, under_words_at_1 = 12;  // pixels at scale 1
+constexpr float cost_at_1 = 72, apart_at_1 = 84, remove_at_1 = 26;         // columns
+constexpr float costs_from_at_1 = 250;                                     // a narrower card leaves the costs out
+constexpr const char* copies_explanation =
+    "Copies move beside this cloth with the same start, hand and wind, each with another method, dt or constant: see "
+    "where they part.";
+constexpr const char* add_label = "Add a copy with…";
+constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
+
+/// Width of what stands in the card, before it has begun.
+float copies_inner_width(const App& app) {
+  return plot_card_inner_width(app, app.ui.plots.width);
+}
+
+bool costs_shown(const App& app) {
+  return copies_inner_width(app) >= app.theme.px(costs_from_at_1);
+}
+
+/// Whether the two buttons have no room in one row.
+bool buttons_wrap(const App& app) {
+  const float add = text_width(*app.fonts.text, add_label) + 2 * ImGui::GetStyle().FramePadding.x;
+  return add + app.theme.px(10) + segments_size(app, copies_ways.data(), 2).x > copies_inner_width(app);
+}
+
+float explanation_height(const App& app) {
+  const ImFont& font = *app.fonts.text;
+  return font.CalcTextSizeA(font.FontSize, 1e9f, copies_inner_width(app), copies_explanation).y;
+}
+
+/// What a copy may be made with; constants offer the same in their own menus.
+void copy_menu(App& app) {
+  if (!begin_menu(app, "copy menu")) return;
+  int group = 0;
+  for (const CopyChoice& choice : copy_choices(app.preset())) {
+    if (std::exchange(group, choice.group) != choice.group) ImGui::Separator();
+    if (ImGui::MenuItem(choice.label.c_str())) app.request(request::AddCopy{choice.differences, choice.reference});
+    report_control(app, choice.label);
+  }
+  end_menu();
+}
+
+/// Where a row's columns end, pixels from the left; `tail`: what stands to the right of the names.
+struct Columns {
+  float cost, apart, whole;
+};
+
+Columns columns_of(const App& app) {
+  const float whole = card_width(app), apart = whole - app.theme.px(remove_at_1);
+  return {apart - app.theme.px(apart_at_1), apart, whole};
+}
+
+void right_aligned(App& app, const ImFont& font, float x, float middle, ImU32 color, const std::string& text) {
+  draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x - text_width(font, text), baseline_at(app.fonts, middle)},
+                   color, text);
+}
+
+void head(App& app) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const Columns at = columns_of(app);
+  const float middle = lo.y + app.theme.px(card::line) / 2;
+  const Tokens& c = app.theme.colors;
+  if (costs_shown(app)) right_aligned(app, *app.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
+  right_aligned(app, *app.fonts.small, lo.x + at.apart, middle, c.quiet, "apart, m");
+  ImGui::Dummy({at.whole, app.theme.px(card::line)});
+}
+
+std::string number_or_dash(double value) {
+  return std::isfinite(value) ? short_number(value, 2) : "–";
+}
+
+/// A cloth: its line, its name, what a simulated second costs, how far it is from the reference. A click makes it the
+/// reference.
+void cloth_line(App& app, int n) {
+  Copies& copies = app.copies;
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const Columns at = columns_of(app);
+  const float height = app.theme.px(line_at_1), middle = std::round(lo.y + height / 2), sample = app.theme.px(22);
+  ImGui::PushID(n);
+  if (ImGui::InvisibleButton("cloth", {at.apart, height}) && copies.reference != n)
+    copies.reference = n, copies.forget();
+  report_control(app, n == Copies::original ? "original" : "copy" + std::to_string(n));
+  const bool hovered = ImGui::IsItemHovered();
+  tooltip(app, gui::item_id(),
+          copies.reference == n ? "The reference: distances are measured from here."
+                                : "Click to measure distances from this one.");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, app.theme.px(4));
+  const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
+  draw_styled_line(draw, ends, 2, style_of_cloth(app, n), app.theme.scale);
+  const bool diverged = cloth_of(app, n).divergence().has_value();
+  const float left = lo.x + sample + app.theme.px(6),
+              room = lo.x + at.cost - (costs_shown(app) ? app.theme.px(cost_at_1) : 0) - left;
+  draw_on_baseline(draw, *app.fonts.small, {left, baseline_at(app.fonts, middle)}, diverged ? c.danger : c.text,
+                   fitted(*app.fonts.small, name_of_cloth(app, n), room));
+  const Lockstep::Cost& cost = n == Copies::original ? copies.cost : copies.lockstep[std::size_t(n)].cost;
+  if (costs_shown(app))
+    right_aligned(app, *app.fonts.mono, lo.x + at.cost, middle, c.text,
+                  cost.per_second() > 0 && !diverged ? number_or_dash(cost.per_second()) : "–");
+  const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
+  right_aligned(app, *app.fonts.mono, lo.x + at.apart, middle, diverged ? c.danger : c.text,
+                diverged                ? "diverged"
+                : n == copies.reference ? "reference"
+                                        : number_or_dash(apart));
+  if (n != Copies::original) {
+    ImGui::SetCursorScreenPos({lo.x + at.whole - app.theme.px(22), lo.y + app.theme.px(1)});
+    if (quiet_button(app, "remove", icon::close, "×", "Remove this copy"))
+      app.request(request::RemoveCopy{std::size_t(n)});
+    report_control(app, "remove" + std::to_string(n));
+  }
+  ImGui::PopID();
+  ImGui::SetCursorScreenPos({lo.x, lo.y + height});
+}
+
+void buttons(App& app, bool any) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(3)});
+  if (text_button(app, add_label, !any)) ImGui::OpenPopup("copy menu");
+  report_control(app, "add");
+  copy_menu(app);
+  if (any) {
+    const float right = ImGui::GetItemRectMax().x + app.theme.px(10);
+    ImGui::SetCursorScreenPos(buttons_wrap(app) ? ImVec2(lo.x, lo.y + app.theme.px(buttons_at_1 + 3))
+                                                : ImVec2(right, lo.y + app.theme.px(4)));
+    if (const int k = segments(app, "ways", copies_ways.data(), 2, app.copies.overlaid);
+        k >= 0 && (k == 1) != app.copies.overlaid) {
+      app.copies.overlaid = k == 1;
+      app.redraw_cloth = true;
+    }
+    report_control(app, "ways");
+  }
+  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(any && buttons_wrap(app) ? 2 * buttons_at_1 : buttons_at_1)});
+}
+
+}  // namespace
+
+void copies_plot(App& app, ImVec2 size) {
+  Copies& copies = app.copies;
+  copies.shown = true;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  static constexpr const char* quantities[] = {"Distance", "Energy"};
+  const bool energy = copies.plotted == Copies::Quantity::energy;
+  if (const int k = segments(app, "plotted", quantities, 2, energy); k >= 0) copies.plotted = Copies::Quantity(k);
+  report_control(app, "plotted");
+  const Series& series = energy ? copies.energy : copies.distance;
+  std::vector<std::string> names;
+  std::vector<PlotCurve> curves;
+  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) names.push_back(name_of_cloth(app, n));
+  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n)
+    if (energy || n != copies.reference)
+      curves.push_back(
+          {names[std::size_t(n + 1)], style_of_cloth(app, n), series.t(), series.column(std::size_t(n + 1))});
+  for (PlotCurve& curve : curves) curve.gaps = series.gaps();
+  PlotFrame frame = time_frame(app, series, !energy, energy ? "J" : "m", why_empty(app));
+  frame.from_zero = false;
+  const float used = app.theme.px(34);
+  if (size.y - used < app.theme.px(40)) return;
+  ImGui::SetCursorScreenPos({lo.x, lo.y + used});
+  zoom_time(app, frame, draw_plot(app, "plot", {size.x, size.y - used}, curves, frame));
+}
+
+float copies_card_height(const App& app) {
+  const std::size_t copies = app.copies.lockstep.size();
+  if (copies == 0)
+    return card_height(app, heading, explanation_height(app) / app.theme.scale + under_words_at_1 + buttons_at_1);
+  const float buttons = buttons_wrap(app) ? 2 * buttons_at_1 : buttons_at_1;
+  return card_height(app, heading, card::line + line_at_1 * float(copies + 1) + buttons);
+}
+
+void copies_card(App& app, float height) {
+  if (begin_card(app, heading, height)) {
+    Copies& copies = app.copies;
+    copies.shown = true;
+    const bool any = !copies.lockstep.empty();
+    if (any) {
+      head(app);
+      for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) cloth_line(app, n);
+    } else {
+      ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + card_width(app));
+      wrapped(app, copies_explanation, app.theme.colors.text);
+      ImGui::PopTextWrapPos();
+      ImGui::Dummy({0, app.theme.px(6)});
+    }
+    buttons(app, any);
+  }
+  end_card(app);
+}
+
+}  // namespace tyglab

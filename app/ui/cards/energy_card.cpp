@@ -1,0 +1,104 @@
+#include "app/ui/cards/energy_card.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/numbers.h"
+#include "app/ui/cards/cards.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+
+namespace tyglab {
+namespace {
+
+constexpr const char* energy_heading = card_name::energy;
+constexpr std::string_view height_row = "height";
+constexpr float gap_at_1 = 7;  // pixels at scale 1
+
+ImU32 color_of(const Tokens& c, double share) {
+  return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
+}
+
+/// From the middle of the bar: to the right what the cloth has or gained, to the left what it lost.
+void draw_bar(App& app, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float middle = std::round((lo.x + hi.x) / 2);
+  const float end = middle + float(std::clamp(part, -1.0, 1.0)) * (hi.x - middle);
+  draw.AddRectFilled({std::min(middle, end), lo.y}, {std::max(middle, end), hi.y}, color, app.theme.px(2));
+  draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, app.theme.colors.line);
+}
+
+void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, double largest, float width) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float height = app.theme.px(card::line), middle = std::round(lo.y + height / 2);
+  const float baseline = baseline_at(app.fonts, middle);
+  const bool judged = row.kind == EnergyKind::unexplained;
+  const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
+  ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
+  ImGui::InvisibleButton("energy", {width, height});
+  report_control(app, "line");
+  tooltip(app, gui::item_id(), std::string(row.help) + (judged ? " Now " + share_text(reading) + "." : ""));
+  ImGui::PopID();
+  const ImU32 ink = row.joule == 0 && !judged ? c.quiet : c.text;
+  const ImU32 color = judged ? color_of(c, part) : row.kind == EnergyKind::has ? c.accent : c.text;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, judged ? color : ink, row.name);
+  const float value = app.theme.px(96), bar = app.theme.px(4), left = lo.x + app.theme.px(128);
+  // Height counts from wherever y = 0 is: its size says nothing beside the others.
+  if (row.name != height_row && left + app.theme.px(24) < lo.x + width - value)
+    draw_bar(app, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
+             faded(color, 0.8f));
+  const std::string text = short_number(row.joule, 3) + " J";
+  const ImFont& mono = *app.fonts.mono;
+  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, judged ? color : ink, text);
+}
+
+}  // namespace
+
+std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
+  return {
+      {EnergyKind::has, "motion", "Kinetic energy, ½ m v² of every particle.", r.energy.kinetic},
+      {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of those that pull.", r.energy.stretch},
+      {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of those that push.", r.energy.bending},
+      {EnergyKind::has, height_row, "m g y of every particle, from y = 0.", r.energy.gravity},
+      {EnergyKind::works, "damping", "Work of F_d since the ledger began: it only takes.", r.works.damping},
+      {EnergyKind::works, "contact", "Taken by bodies: impacts and friction.", r.works.contact},
+      {EnergyKind::works, "tearing, cutting", "Energy of springs that broke or were cut.", r.works.tearing},
+      {EnergyKind::works, "wind", "Work of F_wind.", r.works.wind},
+      {EnergyKind::works, "hand", "Work of the hand.", r.works.hand},
+      {EnergyKind::works, "edits", "Jumps of energy by changed constants, pins and methods.", r.works.edits},
+      {EnergyKind::unexplained, "made by the method",
+       "What is left: energy that no force explains, so the integrator made it (above 0) or ate it.", r.unexplained()},
+  };
+}
+
+std::string share_text(const LedgerReading& reading) {
+  return short_number(100 * reading.share(), 2) + " % of what the scene can hold, " + short_number(reading.scale, 3) +
+         " J";
+}
+
+float energy_card_height(const App& app) {
+  return card_height(app, energy_heading, float(energy_rows({}).size()) * card::line + 2 * gap_at_1);
+}
+
+void energy_card(App& app, float height) {
+  app.ui.energy_shown = begin_card(app, energy_heading, height);
+  if (const auto reading = app.simulation->ledger(); app.ui.energy_shown && reading) {
+    const float width = card_width(app);
+    EnergyKind last = EnergyKind::has;
+    const std::vector<EnergyRow> rows = energy_rows(*reading);
+    double largest = 0;
+    for (const EnergyRow& row : rows)
+      if (row.name != height_row) largest = std::max(largest, std::abs(row.joule));
+    for (const EnergyRow& row : rows) {
+      if (row.kind != last) ImGui::Dummy({width, app.theme.px(gap_at_1)});
+      last = row.kind;
+      energy_line(app, row, *reading, largest, width);
+    }
+  }
+  end_card(app);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,30 @@
+// The energy ledger as a card: what the cloth has, what worked on it, and what the integrator made or ate.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ui/app.h"
+#include "core/energy/ledger.h"
+
+namespace tyglab {
+
+enum class EnergyKind { has, works, unexplained };
+
+struct EnergyRow {
+  EnergyKind kind;
+  std::string_view name, help;
+  double joule;
+};
+/// Rows of the card, in its order.
+std::vector<EnergyRow> energy_rows(const LedgerReading& reading);
+
+/// "0.013 % of the scene's energy": what stands beside the unexplained energy.
+std::string share_text(const LedgerReading& reading);
+
+/// The card in the plots column, closed unless the user has opened it, and its height (pixels).
+void energy_card(App& app, float height);
+float energy_card_height(const App& app);
+
+}  // namespace tyglab

@@ -1,0 +1,16 @@
+// The next step of the picked particle: formulas, numbers put in, results.
+#pragma once
+
+#include <string>
+
+#include "app/ui/app.h"
+
+namespace tyglab {
+
+/// Writes it at the cursor, in so much room; it scrolls.
+void inside_step(App& app, ImVec2 size);
+
+/// "d + dt² a", as the method's table says it.
+std::string formula_of(const Scheme& method, const TracedAssignment& assignment);
+
+}  // namespace tyglab

@@ -1,0 +1,67 @@
+#include "app/ui/cards/map_card.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/numbers.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/map_chart.h"
+#include "app/ui/kit/widgets.h"
+
+namespace tyglab {
+namespace {
+
+/// The place under a pixel: columns and rows of the grid from its beginning; none outside.
+std::optional<ImVec2> place_at(const PlotAxes& axes, const MapGrid& grid, ImVec2 pixel) {
+  const float x = (pixel.x - axes.lo.x) / (axes.hi.x - axes.lo.x), y = (axes.hi.y - pixel.y) / (axes.hi.y - axes.lo.y);
+  if (x < 0 || y < 0 || x >= 1 || y >= 1) return std::nullopt;
+  return ImVec2{x * float(grid.columns), y * float(grid.rows)};
+}
+
+const MapCell* cell_at(const MapFindings& map, ImVec2 place) {
+  const auto found = std::find_if(map.cells.begin(), map.cells.end(), [&](const MapCell& cell) {
+    return cell.column == int(place.x) && cell.row == int(place.y);
+  });
+  return found == map.cells.end() ? nullptr : &*found;
+}
+
+void take_place(App& app, const MapGrid& grid, ImVec2 place) {
+  Preset next = at_place(app.requested_preset(), rounded(grid.stiffness(place.x), 2), rounded(grid.dt(place.y), 2));
+  app.propose(std::move(next));
+}
+
+void words_alone(App& app, const std::string& words) {
+  wrapped(app, words, app.theme.colors.text);
+}
+
+}  // namespace
+
+void stability_map(App& app, ImVec2 size) {
+  app.ui.map_shown = true;
+  app.map.poll(app);
+  if (app.simulation->lattice().size() > MapWatch::largest)
+    return words_alone(app, "This cloth is too large to be mapped beside the window.");
+  const auto map = app.map.findings();
+  if (!map) return;
+  if (!map->problem.empty()) return words_alone(app, "The map ends here: " + map->problem);
+  const Preset present = at_place(map->of, stiffness_of(app.requested_preset()), app.requested_preset().dt);
+  Chart chart = map_chart(app.theme.colors, present, map->grid, map->boundary, map->cells);
+  chart.padding = 0;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const PlotAxes axes = draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, lo, size, chart);
+  ImGui::SetCursorScreenPos(axes.lo);
+  const bool clicked =
+      ImGui::InvisibleButton("map", {std::max(axes.hi.x - axes.lo.x, 1.f), std::max(axes.hi.y - axes.lo.y, 1.f)});
+  report_control(app, "map");
+  const auto place = place_at(axes, map->grid, ImGui::GetIO().MousePos);
+  if (!place || !ImGui::IsItemHovered()) return;
+  if (clicked) take_place(app, map->grid, *place);
+  begin_tooltip_at_pointer(app);
+  const MapCell* cell = cell_at(*map, *place);
+  wrapped(app, cell != nullptr ? cell_words(map->of, *cell) + "." : "This run has not been made yet.",
+          app.theme.colors.text);
+  wrapped(app, "Click to take these values.", app.theme.colors.quiet);
+  end_tooltip(app);
+}
+
+}  // namespace tyglab

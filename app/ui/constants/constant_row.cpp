@@ -1,0 +1,339 @@
+#include "app/ui/constants/constant_row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "app/base/numbers.h"
+#include "app/ui/constants/zones.h"
+#include "app/ui/kit/slider.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// A row of either table, ready to be drawn. Vectors have three components.
+struct Line {
+  std::string_view symbol, quantity, storhet, unit, equation, help;
+  std::string key;  ///< as --set names it
+  double min, max;
+  Scale scale;
+  Effect effect;
+  bool zero_is_off, integer = false;
+  int components = 1;
+  double value[3]{}, saved[3]{none, none, none}, standard[3]{};
+  std::function<void(const double* value, unsigned gesture)> set;
+};
+
+template <class T>
+Line describe(const Row<T>& row) {
+  return {.symbol = row.symbol,
+          .quantity = row.quantity,
+          .storhet = row.storhet,
+          .unit = row.unit,
+          .equation = row.equation,
+          .help = row.help,
+          .key = std::string(row.key),
+          .min = row.min,
+          .max = row.max,
+          .scale = row.scale,
+          .effect = row.effect,
+          .zero_is_off = row.zero_is_off,
+          .set = {}};
+}
+
+template <class T>
+void read(const FieldOf<T>& field, const T& from, double* out) {
+  if (const auto* number = std::get_if<double T::*>(&field)) out[0] = from.**number;
+  if (const auto* integer = std::get_if<int T::*>(&field)) out[0] = from.**integer;
+  if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field))
+    for (int k = 0; k < 3; ++k) out[k] = (from.**vector)[k];
+}
+
+template <class T>
+void write(const FieldOf<T>& field, T& to, const double* value) {
+  if (const auto* number = std::get_if<double T::*>(&field)) to.** number = value[0];
+  if (const auto* integer = std::get_if<int T::*>(&field)) to.** integer = int(std::lround(value[0]));
+  if (const auto* vector = std::get_if<glm::dvec3 T::*>(&field)) to.** vector = {value[0], value[1], value[2]};
+}
+
+template <class T>
+void classify(const FieldOf<T>& field, Line& line) {
+  line.integer = std::holds_alternative<int T::*>(field);
+  line.components = std::holds_alternative<glm::dvec3 T::*>(field) ? 3 : 1;
+}
+
+/// The slider spans what lies round the preset's value; a value typed beyond it moves the span.
+SliderScale scale_of(const Line& line, int k) {
+  PresetRow probe{};
+  probe.field = &Preset::offset;
+  probe.min = line.min, probe.max = line.max, probe.scale = line.scale;
+  double centre = std::isnan(line.saved[k]) ? line.value[k] : line.saved[k];
+  if (line.components == 3)
+    for (double v : {line.saved[0], line.saved[1], line.saved[2]})
+      if (std::abs(v) > std::abs(centre)) centre = v;
+  SliderRange range = slider_range(probe, centre);
+  if (line.value[k] != 0 && (line.value[k] > range.max || line.value[k] < range.min))
+    range = slider_range(probe, line.value[k]);
+  return {range.min, range.max, line.scale, line.integer};
+}
+
+/// On which side of its slider the preset's value lies, since the span has moved to where the value is now: -1 left,
+/// 1 right, 0 on it.
+int preset_is_off(const Line& line, const SliderScale& scale) {
+  const double saved = line.saved[0];
+  if (line.components != 1 || std::isnan(saved) || saved == 0) return 0;
+  return saved < scale.min ? -1 : saved > scale.max ? 1 : 0;
+}
+
+/// A small arrowhead at that end of the slider.
+void draw_off_mark(App& app, int side, ImVec2 lo, ImVec2 hi) {
+  if (side == 0) return;
+  const float size = app.theme.px(4), x = side < 0 ? lo.x - app.theme.px(1) : hi.x + app.theme.px(1),
+              middle = std::round((lo.y + hi.y) / 2), tip = float(side) * size;
+  ImGui::GetWindowDrawList()->AddTriangleFilled({x + tip, middle}, {x, middle - size}, {x, middle + size},
+                                                app.theme.colors.warning);
+}
+
+std::string value_text(const Line& line, double value) {
+  return line.zero_is_off && value == 0 ? std::string("off") : short_number(value);
+}
+
+std::string all_values(const Line& line, const double* values) {
+  std::string text;
+  for (int k = 0; k < line.components; ++k) text += (k > 0 ? "  " : "") + value_text(line, values[k]);
+  return text;
+}
+
+bool in_range(App& app, const Line& line, double value) {
+  if (value >= line.min && value <= line.max && (!line.integer || value == std::round(value))) return true;
+  const std::string unit = line.unit.empty() ? "" : " " + std::string(line.unit);
+  app.messages.error(std::string(line.symbol) + " goes from " + short_number(line.min) + " to " +
+                     short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
+                     short_number(value) + " was not taken.");
+  return false;
+}
+
+void take(App& app, const Line& line, int k, const SliderResult& result, unsigned gesture) {
+  // A change that builds the cloth anew waits for the end of the drag.
+  const bool due = line.effect == Effect::rebuild ? result.finished : result.changed;
+  double next[3] = {line.value[0], line.value[1], line.value[2]};
+  if (result.reset && !std::isnan(line.saved[k])) {
+    next[k] = line.saved[k];
+  } else if (due && result.value != line.value[k] && in_range(app, line, result.value)) {
+    next[k] = result.value;
+  } else {
+    return;
+  }
+  line.set(next, gesture);
+}
+
+void row_tooltip(App& app, const Line& line) {
+  const Tokens& c = app.theme.colors;
+  begin_tooltip(app);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = symbol_width(app.fonts, line.symbol) + app.theme.px(10);
+  draw_symbol(*ImGui::GetWindowDrawList(), app.fonts, {at.x, at.y + app.fonts.title->Ascent}, line.symbol, c.text);
+  ImGui::Dummy({width, app.fonts.title->FontSize});
+  ImGui::SameLine(0, 0);
+  ImGui::PushFont(app.fonts.title);
+  wrapped(app, std::string(line.quantity) + " · " + std::string(line.storhet), c.text);
+  ImGui::PopFont();
+  wrapped(app, line.help, c.text);
+  std::string facts = short_number(line.min) + " to " + short_number(line.max);
+  if (!line.unit.empty()) facts += " " + std::string(line.unit);
+  if (line.zero_is_off) facts += ", 0 is off";
+  if (!line.equation.empty()) facts += " · equation (" + std::string(line.equation) + ")";
+  wrapped(app, facts, c.quiet);
+  if (const auto& limits = app.stability.limits())
+    if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(app, words, c.text);
+  if (const SliderScale scale = scale_of(line, 0); preset_is_off(line, scale) != 0)
+    wrapped(app,
+            "The slider has moved with the value: it goes from " + short_number(scale.min) + " to " +
+                short_number(scale.max) + " now, and the preset's " + short_number(line.saved[0]) +
+                " lies off its end. Double-click goes back.",
+            c.warning);
+  if (line.effect == Effect::start) wrapped(app, "Counts at the next restart (R).", c.warning);
+  ImGui::PushFont(app.fonts.small);
+  wrapped(app,
+          line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
+                               : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
+                                 "slider to reset. Right-click for more.",
+          c.quiet);
+  ImGui::PopFont();
+  end_tooltip(app);
+}
+
+/// "Add a copy with k_s = …": half, double, or what is typed.
+void copy_items(App& app, const Line& line) {
+  if (line.components != 1 || line.effect == Effect::rebuild || line.effect == Effect::start ||
+      line.effect == Effect::view)
+    return;
+  const auto add = [&](double value) {
+    char text[40];
+    std::snprintf(text, sizeof text, "=%.17g", rounded(value, 6));
+    app.request(request::AddCopy{{line.key + text}});
+  };
+  ImGui::Separator();
+  for (const double factor : {0.5, 2.0}) {
+    const double value = line.integer ? std::round(factor * line.value[0]) : factor * line.value[0];
+    if (value == line.value[0] || value < line.min || value > line.max) continue;
+    if (ImGui::MenuItem(("Add a copy with " + line.key + " = " + short_number(value)).c_str())) add(value);
+    report_control(app, factor < 1 ? "copy_half" : "copy_double");
+  }
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(("Add a copy with " + line.key + " =").c_str());
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(app.theme.px(88));
+  char typed[40] = "";
+  if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
+    if (const auto value = typed_number(typed, line.unit); value && in_range(app, line, *value)) add(*value);
+    if (*typed != 0 && !typed_number(typed, line.unit))
+      app.messages.error(std::string("“") + typed + "” is not a number, so there is no copy with it.");
+    ImGui::CloseCurrentPopup();
+  }
+  report_control(app, "copy_value");
+}
+
+void row_menu(App& app, const Line& line, ImVec2 lo, ImVec2 hi) {
+  if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(lo, hi) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
+    ImGui::OpenPopup("row menu");
+  if (!begin_menu(app, "row menu")) return;
+  if (!std::isnan(line.saved[0]) &&
+      ImGui::MenuItem(("Reset to the preset's " + all_values(line, line.saved)).c_str(), "double-click"))
+    line.set(line.saved, 0);
+  if (ImGui::MenuItem(("To the default " + all_values(line, line.standard)).c_str())) line.set(line.standard, 0);
+  copy_items(app, line);
+  end_menu();
+}
+
+/// The symbol; a double click on it resets, and a dot before it says that the value differs from the preset's.
+void symbol_cell(App& app, const Line& line, const RowColumns& columns) {
+  const Tokens& c = app.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("symbol", {columns.symbol, columns.height});
+  if (ImGui::IsItemActive() && app.input.double_click && !std::isnan(line.saved[0])) line.set(line.saved, 0);
+  bool changed = false;
+  for (int k = 0; k < line.components; ++k) changed |= !std::isnan(line.saved[k]) && line.saved[k] != line.value[k];
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float middle = lo.y + columns.height / 2;
+  if (changed) draw.AddCircleFilled({lo.x - app.theme.px(7), std::round(middle)}, app.theme.px(2.5f), c.warning, 12);
+  draw_symbol(draw, app.fonts, {lo.x, baseline_at(app.fonts, middle)}, line.symbol, c.text);
+}
+
+/// The palette asked for this constant: its slider, which is drawn next, takes the focus.
+void take_wanted_focus(App& app, const std::string& key) {
+  SliderState& state = app.ui.slider;
+  if (state.wanted_key != key) return;
+  state.wanted_key.clear();
+  state.wanted_order = state.order;
+}
+
+void vector_cells(App& app, const Line& line, const RowColumns& columns, float slider_width) {
+  const float width = slider_width + columns.gap + columns.value;
+  const float cell = std::floor((width - 2 * app.theme.px(4)) / 3);
+  const char* names[3] = {"x", "y", "z"};
+  take_wanted_focus(app, line.key);
+  for (int k = 0; k < 3; ++k) {
+    if (k > 0) ImGui::SameLine(0, app.theme.px(4));
+    const SliderResult result =
+        drag_cell(app, names[k], scale_of(line, k), line.value[k], cell, columns.height, line.unit);
+    if (app.report) report_control(app, line.key + "." + names[k]);
+    take(app, line, k, result, ImGui::GetID(names[k]));
+  }
+}
+
+void draw_line(App& app, const Line& line) {
+  const RowColumns columns = row_columns(app);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = app.ui.row_width;
+  const float slider_width = width - columns.symbol - columns.value - columns.unit - 2 * columns.gap;
+  ImGui::BeginGroup();
+  symbol_cell(app, line, columns);
+  ImGui::SameLine(0, 0);
+  if (line.components == 3) {
+    vector_cells(app, line, columns, slider_width);
+  } else {
+    const unsigned gesture = ImGui::GetID("slider");
+    take_wanted_focus(app, line.key);
+    const SliderScale scale = scale_of(line, 0);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const SliderResult slid = slider(app, scale, line.value[0], slider_width, columns.height);
+    draw_zones(app, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
+    draw_off_mark(app, preset_is_off(line, scale), at, {at.x + slider_width, at.y + columns.height});
+    if (app.report) report_control(app, line.key + ".slider");
+    take(app, line, 0, slid, gesture);
+    ImGui::SameLine(0, columns.gap);
+    const bool dragging = app.ui.slider.dragged == gesture;
+    const double shown = dragging ? app.ui.slider.value : line.value[0];
+    take(app, line, 0,
+         value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.unit), 0);
+    if (app.report) report_control(app, line.key + ".value");
+  }
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
+                   {lo.x + width - columns.unit + app.theme.px(2), baseline_at(app.fonts, lo.y + columns.height / 2)},
+                   app.theme.colors.quiet, line.unit);
+  ImGui::EndGroup();
+  if (tooltip_due(app, ImGui::GetID("row"))) row_tooltip(app, line);
+  row_menu(app, line, lo, {lo.x + width, lo.y + columns.height});
+}
+
+}  // namespace
+
+RowColumns row_columns(const App& app) {
+  return {app.theme.px(26), app.theme.px(56), app.theme.px(64), app.theme.px(44), app.theme.px(4)};
+}
+
+void constant_row(App& app, const PresetRow& row) {
+  Line line = describe(row);
+  classify(row.field, line);
+  read(row.field, app.requested_preset(), line.value);
+  read(row.field, app.document.saved, line.saved);
+  read(row.field, Preset{}, line.standard);
+  line.set = [&app, &row](const double* value, unsigned gesture) {
+    Preset next = app.requested_preset();
+    write(row.field, next, value);
+    app.propose(std::move(next), gesture);
+  };
+  ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
+  draw_line(app, line);
+  ImGui::PopID();
+}
+
+void body_row(App& app, const BodyRow& row, int index) {
+  Line line = describe(row);
+  line.key = "bodies[" + std::to_string(index) + "]." + line.key;
+  classify(row.field, line);
+  read(row.field, app.requested_preset().bodies[index], line.value);
+  if (std::size_t(index) < app.document.saved.bodies.size() &&
+      app.document.saved.bodies[index].shape == app.requested_preset().bodies[index].shape)
+    read(row.field, app.document.saved.bodies[index], line.saved);
+  read(row.field, Body{}, line.standard);
+  line.set = [&app, &row, index](const double* value, unsigned gesture) {
+    Preset next = app.requested_preset();
+    write(row.field, next.bodies[index], value);
+    app.propose(std::move(next), gesture);
+  };
+  ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
+  draw_line(app, line);
+  ImGui::PopID();
+}
+
+void labelled_row(App& app, const char* label, const std::function<void(float)>& content) {
+  const RowColumns columns = row_columns(app);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float width = app.ui.row_width;
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
+                   {lo.x, baseline_at(app.fonts, lo.y + app.theme.px(15))}, app.theme.colors.quiet, label);
+  ImGui::SetCursorScreenPos({lo.x + columns.symbol, lo.y});
+  content(width - columns.symbol);
+  // A control that is drawn last on the line ends it; whatever its height, the next row keeps clear of it.
+  const float bottom = std::max(ImGui::GetItemRectMax().y, lo.y + app.theme.px(30));
+  ImGui::SetCursorScreenPos({lo.x, bottom + app.theme.px(4)});
+}
+
+}  // namespace tyglab

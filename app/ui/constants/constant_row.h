@@ -1,0 +1,26 @@
+// One constant on one line: symbol, slider, value, unit, in columns that line up.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "app/ui/app.h"
+#include "core/model/notation.h"
+
+namespace tyglab {
+
+/// Draws the row of a constant of the preset; changes become requests. Rows without a slider (text) are not for here.
+void constant_row(App& app, const PresetRow& row);
+/// The same for body `index`.
+void body_row(App& app, const BodyRow& row, int index);
+
+/// A line whose slider column `content` fills (combos, buttons): a plain label stands where symbols do.
+void labelled_row(App& app, const char* label, const std::function<void(float width)>& content);
+
+/// Height of a row and width of its columns, at the present scale.
+struct RowColumns {
+  float height, symbol, value, unit, gap;
+};
+RowColumns row_columns(const App& app);
+
+}  // namespace tyglab

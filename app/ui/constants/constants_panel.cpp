@@ -1,0 +1,262 @@
+// The constants at the left, in the order of the report, and the picked particle below them.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "app/base/numbers.h"
+#include "app/ui/constants/constant_row.h"
+#include "app/ui/constants/stability_row.h"
+#include "app/ui/frame/panels.h"
+#include "app/ui/kit/curves.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+#include "core/forces/gust.h"
+#include "core/integrators/scheme.h"
+#include "core/model/resolution.h"
+
+namespace tyglab {
+namespace {
+
+struct Section {
+  const char* name;
+  std::string_view block;  ///< of the preset file; rows that no section lists come into the section of their block
+  std::vector<std::string_view> keys;
+};
+
+const std::array<Section, 6>& sections() {
+  static const std::array<Section, 6> list{{
+      {"Integrator", "solver", {"dt", "tolerance", "iterations"}},
+      {"Springs", "forces", {"k_s", "k_b", "k_d", "k"}},
+      {"Outer forces", "", {"g", "W", "gust", "gust_period"}},
+      {"Tearing", "tearing", {"F_max", "F_release"}},
+      {"Cloth", "cloth", {"rows", "columns", "L", "m"}},
+      {"Start", "", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
+  }};
+  return list;
+}
+
+std::vector<const PresetRow*> rows_of(const Section& wanted) {
+  std::vector<const PresetRow*> rows;
+  for (std::string_view key : wanted.keys)
+    if (const PresetRow* row = find_row(key)) rows.push_back(row);
+  for (const PresetRow& row : notation()) {
+    const bool listed = std::any_of(sections().begin(), sections().end(), [&](const Section& s) {
+      return std::find(s.keys.begin(), s.keys.end(), row.key) != s.keys.end();
+    });
+    if (!listed && !row.section.empty() && row.section == wanted.block) rows.push_back(&row);
+  }
+  return rows;
+}
+
+std::string order_text(const Scheme& scheme) {
+  char text[64];
+  if (scheme.order_damped == scheme.order_undamped) {
+    std::snprintf(text, sizeof text, "order %d", scheme.order_undamped);
+  } else {
+    std::snprintf(text, sizeof text, "order %d with damping, %d without", scheme.order_damped, scheme.order_undamped);
+  }
+  return text;
+}
+
+/// "Verlet (2.15)"; methods that the report does not have bear no number.
+std::string label_of(const Scheme& scheme) {
+  const std::string title(scheme.title);
+  return scheme.equation.empty() ? title : title + " (" + std::string(scheme.equation) + ")";
+}
+
+/// The line of a method's curves, as a sample beside its name.
+void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle, const Scheme& scheme) {
+  CurveStyle style = integrator_style(theme.colors, scheme.name);
+  style.width = 3;
+  const ImVec2 ends[] = {{left, std::round(middle)}, {left + theme.px(20), std::round(middle)}};
+  draw_styled_line(draw, ends, 2, style, theme.scale);
+}
+
+void integrator_row(App& app) {
+  const Tokens& c = app.theme.colors;
+  const Scheme& now = scheme(app.requested_preset().integrator);
+  const float width = app.ui.row_width;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const std::string room = "         ", label = room + label_of(now);
+  const bool open = begin_combo(app, "##integrator", label.c_str(), width);
+  const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (!open) {
+    draw_sample(app.theme, draw, lo.x + app.theme.px(10), middle, now);
+    const std::string order = order_text(now);
+    const float x = lo.x + width - app.theme.px(34) - text_width(*app.fonts.small, order);
+    if (x > lo.x + text_width(*app.fonts.text, label) + app.theme.px(16))
+      draw_text(draw, *app.fonts.small, {x, middle - app.fonts.small->FontSize / 2}, c.quiet, order);
+    tooltip(app, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
+    return;
+  }
+  for (const Scheme& choice : schemes()) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const std::string name = room + label_of(choice);
+    const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
+    draw_sample(app.theme, *ImGui::GetWindowDrawList(), at.x + app.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
+                choice);
+    if (chosen && choice.name != now.name) {
+      Preset next = app.requested_preset();
+      next.integrator = choice.name;
+      app.propose(std::move(next));
+    }
+    report_control(app, choice.name);
+    tooltip(app, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
+  }
+  end_combo();
+}
+
+void scale_resolution(App& app, double q) {
+  app.propose(with_resolution(app.requested_preset(), q));
+}
+
+void resolution_row(App& app) {
+  static constexpr const char* tip =
+      "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, "
+      "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
+      "Tears are mended.";
+  labelled_row(app, "divide", [&](float) {
+    const Preset& preset = app.requested_preset();
+    const float gap = app.theme.px(6);
+    const bool coarser = preset.rows >= 3 && (preset.columns >= 3 || preset.columns == 1);
+    if (text_button(app, "÷ 2", false, coarser)) scale_resolution(app, 0.5);
+    tooltip(app, gui::item_id(), tip);
+    ImGui::SameLine(0, gap);
+    const bool finer = preset.rows * 2 - 1 <= 4096 && preset.columns * 2 - 1 <= 4096;
+    if (text_button(app, "× 2", false, finer)) scale_resolution(app, 2);
+    tooltip(app, gui::item_id(), tip);
+    ImGui::SameLine(0, app.theme.px(12));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    char text[64];
+    std::snprintf(text, sizeof text, "%d particles", preset.rows * preset.columns);
+    draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
+                     {at.x, baseline_at(app.fonts, at.y + app.theme.px(15))}, app.theme.colors.quiet, text);
+    ImGui::Dummy({text_width(*app.fonts.small, text), app.theme.px(30)});
+  });
+}
+
+std::string pins_text(const Pins& pins) {
+  static const std::map<Pins::Mode, std::string> names{{Pins::Mode::none, "none"},
+                                                       {Pins::Mode::top_row, "top row"},
+                                                       {Pins::Mode::top_corners, "top corners"},
+                                                       {Pins::Mode::four_corners, "four corners"},
+                                                       {Pins::Mode::left_column, "left column"},
+                                                       {Pins::Mode::boundary, "boundary"}};
+  const auto it = names.find(pins.mode);
+  return it != names.end() ? it->second : "own list (" + std::to_string(pins.list.size()) + ")";
+}
+
+void pins_row(App& app) {
+  labelled_row(app, "pins", [&](float width) {
+    const Pins& pins = app.requested_preset().pins;
+    const bool open = begin_combo(app, "##pins", pins_text(pins).c_str(), width);
+    if (!open) {
+      tooltip(app, gui::item_id(), "Particles that never move.", "Right double-click a particle to pin or unpin it");
+      return;
+    }
+    for (Pins::Mode mode : {Pins::Mode::none, Pins::Mode::top_row, Pins::Mode::top_corners, Pins::Mode::four_corners,
+                            Pins::Mode::left_column, Pins::Mode::boundary}) {
+      if (!ImGui::Selectable(pins_text({mode, {}}).c_str(), pins.mode == mode) || pins.mode == mode) continue;
+      Preset next = app.requested_preset();
+      next.pins = {mode, {}};
+      app.propose(std::move(next));
+    }
+    end_combo();
+  });
+}
+
+void rows(App& app, const Section& wanted) {
+  for (const PresetRow* row : rows_of(wanted))
+    if (applies(*row, app.requested_preset())) constant_row(app, *row);
+}
+
+bool empty(const Section& wanted, const Preset& preset) {
+  for (const PresetRow* row : rows_of(wanted))
+    if (applies(*row, preset)) return false;
+  return true;
+}
+
+}  // namespace
+
+bool applies(const PresetRow& row, const Preset& preset) {
+  if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;
+  if (row.key == "tolerance") return chooses_steps(scheme(preset.integrator));
+  if (row.key == "iterations") return iterates(scheme(preset.integrator));
+  if (row.key == "gust" && preset.W == glm::dvec3(0)) return false;
+  if (row.key == "gust_period" && !gusts(preset)) return false;
+  return !row.only_one_kind || row.only == preset.kind;
+}
+
+void show_constant(App& app, std::string_view key) {
+  app.ui.panels = app.settings.layout.left = true, app.ui.side_plots = app.ui.side_cloth = false;
+  app.ui.slider.wanted_key = key;
+  for (const Section& wanted : sections()) {
+    const auto list = rows_of(wanted);
+    if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;
+    app.settings.layout.folded.erase(wanted.name);
+    if (std::string_view(wanted.name) == "Cloth") app.settings.layout.folded.erase("Weight");
+  }
+}
+
+void constants_sections(App& app) {
+  const bool cloth = app.requested_preset().kind == Kind::cloth;
+  for (const Section& wanted : sections()) {
+    if (empty(wanted, app.requested_preset())) continue;
+    const std::string_view name = wanted.name;
+    if (name == "Cloth" && cloth) body_sections(app);
+    if (!section(app, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
+    if (name == "Integrator") integrator_row(app);
+    rows(app, wanted);
+    if (name == "Integrator") stability_row(app);
+    if (name == "Cloth" && cloth) resolution_row(app), pins_row(app);
+  }
+}
+
+/// Height of eight rows of constants with the heads of their sections: less is too little of the list.
+float least_list(const App& app) {
+  return app.theme.px(372);
+}
+
+/// What goes on below the lower edge of the list fades out there instead of being cut through.
+void fade_lower_edge(App& app) {
+  if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1) return;
+  const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const ImVec2 hi{lo.x + size.x - ImGui::GetStyle().ScrollbarSize, lo.y + size.y};
+  const ImU32 solid = app.theme.colors.panel, clear = faded(solid, 0);
+  const float begin = hi.y - app.theme.px(34), full = hi.y - app.theme.px(6);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilledMultiColor({lo.x, begin}, {hi.x, full}, clear, clear, solid, solid);
+  draw.AddRectFilled({lo.x, full}, hi, solid);
+}
+
+void constants_panel(App& app, const Region& region) {
+  const float padding = app.theme.px(16);
+  if (!begin_region("constants", region, app.theme.colors.panel, {padding, app.theme.px(6)})) return end_region();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(2)));
+  // The picked particle stays in sight below the rows; where the window is too low it scrolls with them.
+  const float particle = particle_panel_height(app);
+  const bool fixed = ImGui::GetContentRegionAvail().y - particle > least_list(app);
+  const float below = fixed ? particle : 0;
+  // The scrollbar stands in the margin, so that rows are as wide as the particle's read-outs below.
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  app.ui.row_width = room.x;
+  gui::begin_child("rows", {room.x + padding - app.theme.px(3), room.y - below});
+  if (std::exchange(app.ui.constants_to_top, false)) ImGui::SetScrollY(0);
+  constants_sections(app);
+  view_section(app);
+  if (!fixed) particle_panel(app);
+  ImGui::Dummy({0, app.theme.px(4)});
+  fade_lower_edge(app);
+  ImGui::EndChild();
+  if (fixed) particle_panel(app);
+  ImGui::PopStyleVar();
+  end_region();
+}
+
+}  // namespace tyglab

@@ -1,0 +1,114 @@
+#include "app/ui/constants/engine_menu.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/ui/frame/panels.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/widgets.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double looks_again = 0.1;  // s, until the devices are known
+
+/// The device that a preset runs on; null where there is none, or none is known.
+const OpenClDevice* device_of(const Preset& preset, const OpenClInventory* devices) {
+  if (devices == nullptr) return nullptr;
+  const std::vector<OpenClDevice>& all = devices->devices;
+  const int number = preset.device >= 0 ? preset.device : preferred_device(all);
+  return number < int(all.size()) ? &all[std::size_t(number)] : nullptr;
+}
+
+void mode_choices(App& app, const OpenClInventory* devices) {
+  const Preset& preset = app.requested_preset();
+  for (const EngineMode& mode : engine_modes()) {
+    const bool now = mode.engine == preset.engine && mode.precision == preset.precision;
+    const std::string obstacle = now ? "" : why_not(mode, preset, devices);
+    const ImGuiSelectableFlags flags = obstacle.empty() ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+    if (ImGui::Selectable(mode.label, now, flags) && !now) {
+      Preset next = preset;
+      next.engine = mode.engine, next.precision = mode.precision;
+      app.propose(std::move(next));
+    }
+    report_control(app, mode.name);
+    tooltip(app, gui::item_id(), obstacle.empty() ? words_of(mode, preset, devices) : obstacle);
+  }
+}
+
+/// Where there are several, while one of them is in use.
+void device_choices(App& app, const OpenClInventory& inventory) {
+  if (inventory.devices.size() < 2) return;
+  ImGui::Separator();
+  for (int n = 0; n < int(inventory.devices.size()); ++n) {
+    const OpenClDevice& device = inventory.devices[std::size_t(n)];
+    ImGui::PushID(n);
+    if (ImGui::Selectable(device.name.c_str(), app.requested_preset().device == n)) {
+      Preset next = app.requested_preset();
+      next.device = n;
+      app.propose(std::move(next));
+    }
+    ImGui::PopID();
+    report_control(app, "device_" + std::to_string(n));
+    tooltip(app, gui::item_id(),
+            "OpenCL device " + std::to_string(n) + ": " + device.name + " of " + device.platform + ", " +
+                std::to_string(device.compute_units) + " compute units.");
+  }
+}
+
+}  // namespace
+
+std::span<const EngineMode> engine_modes() {
+  static constexpr std::array<EngineMode, 4> modes{
+      {{"cpu_float", "CPU · float", "CPU, float", EngineKind::cpu, Precision::float_},
+       {"cpu_double", "CPU · double", "CPU, double", EngineKind::cpu, Precision::double_},
+       {"opencl_float", "OpenCL · float", "OpenCL, float", EngineKind::opencl, Precision::float_},
+       {"opencl_double", "OpenCL · double", "OpenCL, double", EngineKind::opencl, Precision::double_}}};
+  return modes;
+}
+
+std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
+  if (mode.engine == EngineKind::cpu) return {};
+  if (devices != nullptr && devices->devices.empty()) return no_device_words(devices->problem);
+  const Scheme& method = scheme(preset.integrator);
+  if (!runs_on_opencl(method))
+    return std::string(method.title) + " runs on the CPU engine alone. Choose another method first.";
+  const OpenClDevice* device = device_of(preset, devices);
+  if (device != nullptr && mode.precision == Precision::double_ && !device->fp64)
+    return device->name + " does not compute in double.";
+  return {};
+}
+
+std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
+  std::string where = "On the processor";
+  if (mode.engine == EngineKind::opencl) {
+    const OpenClDevice* device = device_of(preset, devices);
+    where = device != nullptr ? "By OpenCL on " + device->name : "By OpenCL, on a graphics card or another device";
+  }
+  return where + (mode.precision == Precision::float_ ? ", in float: numbers of 7 digits."
+                                                      : ", in double: numbers of 16 digits, and twice the memory.");
+}
+
+void engine_menu(App& app, float width) {
+  const Preset& preset = app.requested_preset();
+  const auto modes = engine_modes();
+  const auto now = std::find_if(modes.begin(), modes.end(), [&](const EngineMode& mode) {
+    return mode.engine == preset.engine && mode.precision == preset.precision;
+  });
+  if (!begin_combo(app, "##engine", now->label, width)) {
+    tooltip(app, gui::item_id(), "Engine and precision. Now: " + app.simulation->engine().name());
+    return;
+  }
+  app.device_search.begin();
+  const OpenClInventory* devices = app.device_search.found();
+  if (devices == nullptr) app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + looks_again);
+  mode_choices(app, devices);
+  if (ImGui::Selectable("Automatic")) app.command(Command::choose_engine);
+  report_control(app, "automatic_engine");
+  tooltip(app, gui::item_id(), "Takes the engine that is quickest with this scene, in this precision: by short runs.");
+  if (preset.engine == EngineKind::opencl && devices != nullptr) device_choices(app, *devices);
+  end_combo();
+}
+
+}  // namespace tyglab

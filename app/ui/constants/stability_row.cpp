@@ -1,0 +1,126 @@
+#include "app/ui/constants/stability_row.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/base/numbers.h"
+#include "app/ui/constants/constant_row.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double full = 1.5;  // of the limit, at the bar's right end
+constexpr double near_limit = 0.9;
+
+ImU32 color_of(const Tokens& c, double part) {
+  return part > 1 ? c.danger : part > near_limit ? c.warning : c.good;
+}
+
+std::string two_digits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, value < 10 ? "%.2f" : "%.3g", value);
+  return text;
+}
+
+void draw_gauge(App& app, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
+  const Tokens& c = app.theme.colors;
+  const double part = app.requested_preset().dt / limits.any;
+  const float rounding = app.theme.px(3), width = hi.x - lo.x;
+  const auto at = [&](double of) { return lo.x + width * float(std::clamp(of / full, 0.0, 1.0)); };
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(lo, hi, c.field, rounding);
+  draw.AddRectFilled(lo, {std::max(at(part), lo.x + 2 * rounding), hi.y}, color_of(c, part), rounding);
+  const float reach = app.theme.px(3), line = app.theme.px(2);
+  draw.AddLine({at(1), lo.y - reach}, {at(1), hi.y + reach}, c.text, line);
+  if (limits.now && *limits.now > 0 && *limits.now < full * limits.any)
+    draw.AddCircleFilled({at(*limits.now / limits.any), (lo.y + hi.y) / 2}, app.theme.px(3), c.text, 16);
+}
+
+/// "auto" where other rows have their unit: dt follows the constants.
+void auto_toggle(App& app, ImVec2 at, float width, float height) {
+  const Tokens& c = app.theme.colors;
+  const ImFont& font = *app.fonts.small;
+  const bool on = app.auto_dt.has_value();
+  const ImVec2 after = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos(at);
+  if (ImGui::InvisibleButton("auto", {width, height})) app.command(Command::toggle_auto);
+  report_control(app, "auto");
+  const bool hovered = ImGui::IsItemHovered();
+  tooltip(app, gui::item_id(),
+          on ? "dt is chosen by the program: 0.8 of what is stable in any configuration, less where the ledger finds "
+               "that the method makes energy. Click to keep it as it is."
+             : "Let the program choose dt, and watch it: 0.8 of what is stable in any configuration, less where the "
+               "ledger finds that the method makes energy.");
+  const float inset = std::round((height - app.theme.px(20)) / 2);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({at.x, at.y + inset}, {at.x + width, at.y + height - inset},
+                     on        ? c.accent
+                     : hovered ? c.field_hover
+                               : c.field,
+                     app.theme.px(4));
+  const float x = at.x + (width - text_width(font, "auto")) / 2;
+  draw_on_baseline(draw, font, {x, baseline_at(app.fonts, at.y + height / 2)}, on ? c.on_accent : c.quiet, "auto");
+  ImGui::SetCursorScreenPos(after);
+}
+
+}  // namespace
+
+std::string stability_text(const StabilityLimits& limits, double dt) {
+  if (std::isinf(limits.any)) return "no limit";
+  return limits.any > 0 ? two_digits(dt / limits.any) : "always above";
+}
+
+std::string stability_words(const StabilityLimits& limits, double dt) {
+  if (chooses_steps(scheme(limits.of.integrator)))
+    return "This method chooses its own steps within dt, as short as stability and tolerance ask.";
+  if (std::isinf(limits.any))
+    return "Linear theory gives this method no largest dt. Bodies, and springs that switch, still may.";
+  if (limits.any == 0) return "No dt is stable: without more damping this method feeds energy into every oscillation.";
+  std::string text = "dt is " + two_digits(dt / limits.any) + " of the largest that is stable in any configuration, " +
+                     short_number(limits.any) + " s.";
+  if (limits.now && *limits.now > 0 && std::isfinite(*limits.now))
+    text += " As the cloth hangs now (dot), " + short_number(*limits.now) +
+            " s: its fastest mode has ω = " + short_number(limits.omega) + " 1/s.";
+  if (std::isfinite(limits.stiffness) && limits.stiffness > 0 && limits.of.kind == Kind::cloth)
+    text += " With this dt, springs " + two_digits(limits.stiffness) + " times as stiff would reach the limit" +
+            (limits.of.k_b == 0 ? ": k_s = " + short_number(limits.stiffness * limits.of.k_s) + " N/m." : ".");
+  return text + " One-sided springs switch, so this is advice and no promise.";
+}
+
+void stability_row(App& app) {
+  app.stability.poll(app);
+  const auto& limits = app.stability.limits();
+  labelled_row(app, "limit", [&](float width) {
+    const RowColumns columns = row_columns(app);
+    const ImVec2 lo = ImGui::GetCursorScreenPos();
+    const float height = app.theme.px(30);  // as the labels of such rows are placed
+    ImGui::Dummy({width, height});
+    report_control(app, "stability");
+    const bool wants_words = tooltip_due(app, ImGui::GetID("stability"));
+    auto_toggle(app, {lo.x + width - columns.unit, lo.y}, columns.unit, height);
+    if (!limits) return;
+    const Tokens& c = app.theme.colors;
+    const double dt = app.requested_preset().dt;
+    const bool bounded = limits->any > 0 && std::isfinite(limits->any);
+    const float bar = width - columns.value - columns.unit - 2 * columns.gap, middle = lo.y + height / 2;
+    const float half = app.theme.px(4);
+    const std::string text = stability_text(*limits, dt);
+    const float right = lo.x + bar + columns.gap + columns.value;
+    if (bounded) draw_gauge(app, *limits, {lo.x, middle - half}, {lo.x + bar, middle + half});
+    const ImFont& font = bounded ? *app.fonts.mono : *app.fonts.small;
+    const float x = bounded ? right - app.theme.px(6) - text_width(font, text) : lo.x;
+    draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x, baseline_at(app.fonts, middle)},
+                     bounded            ? color_of(c, dt / limits->any)
+                     : limits->any == 0 ? c.danger
+                                        : c.quiet,
+                     text);
+    if (wants_words) tooltip(app, ImGui::GetID("stability"), stability_words(*limits, dt));
+  });
+}
+
+}  // namespace tyglab

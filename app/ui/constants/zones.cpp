@@ -1,0 +1,89 @@
+#include "app/ui/constants/zones.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/numbers.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+ImU32 zone_color(const Tokens& c, Zone zone) {
+  return zone == Zone::stable ? c.good : zone == Zone::near ? c.warning : c.danger;
+}
+
+/// Colour is never the only sign: what is unstable is hatched and thicker.
+void draw_span(App& app, Zone zone, ImVec2 lo, ImVec2 hi) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 color = zone_color(app.theme.colors, zone);
+  if (zone != Zone::unstable) {
+    draw.AddRectFilled(lo, {hi.x, lo.y + app.theme.px(2)}, faded(color, zone == Zone::stable ? 0.7f : 1));
+    return;
+  }
+  draw.PushClipRect(lo, hi, true);
+  draw.AddRectFilled(lo, hi, faded(color, 0.55f));
+  const float tall = hi.y - lo.y, apart = app.theme.px(5);
+  for (float x = lo.x - tall; x < hi.x; x += apart)
+    draw.AddLine({x, hi.y}, {x + tall, lo.y}, color, app.theme.px(1.6f));
+  draw.PopClipRect();
+}
+
+double value_of(const Preset& preset, std::string_view key) {
+  for (const auto& zoned : zoned_cloth)
+    if (zoned.key == key) return preset.*zoned.field;
+  return preset.k;
+}
+
+std::string no_part_of_it(std::string_view key) {
+  return key == "L" ? ": rest lengths do not enter the largest frequency" : "";
+}
+
+}  // namespace
+
+void draw_zones(App& app, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi) {
+  const auto& limits = app.stability.limits();
+  if (!limits || app.auto_dt) return;
+  const auto zones = limits->zones.find(key);
+  if (zones == limits->zones.end() || std::isinf(limits->any)) return;
+  const float top = std::round((lo.y + hi.y) / 2 + app.theme.px(9)), foot = top + app.theme.px(4);
+  for (const ZoneSpan& span : zones->second) {
+    const auto at = [&](double value) {
+      return std::round(lo.x + float(std::clamp(slider_position(scale, value), 0.0, 1.0)) * (hi.x - lo.x));
+    };
+    const float from = at(span.from), to = at(span.to);
+    if (to > from) draw_span(app, span.zone, {from, top}, {to, foot});
+  }
+}
+
+std::string zone_words(const StabilityLimits& limits, std::string_view key, std::string_view unit) {
+  const auto found = limits.zones.find(key);
+  if (found == limits.zones.end()) return "";
+  const std::vector<ZoneSpan>& zones = found->second;
+  const std::string method(scheme(limits.of.integrator).title), name(key);
+  const auto quantity = [&](double value) {
+    return name + " = " + short_number(rounded(value, 3)) + " " + std::string(unit);
+  };
+  const double value = value_of(limits.of, key);
+  const auto here =
+      std::find_if(zones.begin(), zones.end(), [&](const ZoneSpan& z) { return value >= z.from && value <= z.to; });
+  if (here == zones.end()) return "";
+  const auto unstable = [](const ZoneSpan& z) { return z.zone == Zone::unstable; };
+  if (std::none_of(zones.begin(), zones.end(), unstable)) {
+    if (std::isinf(limits.any)) return "";
+    return method + " holds at this dt, whatever " + name + " is" + no_part_of_it(key) + ".";
+  }
+  const std::string others = key == "dt" ? "" : key == "k_d" ? " at this dt" : " at this dt; implicit Euler does not";
+  if (!unstable(*here)) {
+    const auto above = std::find_if(here, zones.end(), unstable);
+    if (above != zones.end()) return method + " breaks above " + quantity(above->from) + others + ".";
+    const auto below = std::find_if(std::make_reverse_iterator(here), zones.rend(), unstable);
+    return method + " breaks below " + quantity(below->to) + others + ".";
+  }
+  std::string text = method + " is unstable here";
+  if (here != zones.begin()) return text + "; it holds below " + quantity(here->from) + ".";
+  if (here + 1 != zones.end()) return text + "; it holds above " + quantity(here->to) + ".";
+  return text + ", whatever " + name + " is" + no_part_of_it(key) + ".";
+}
+
+}  // namespace tyglab

@@ -1,0 +1,120 @@
+// F1: what mouse and keys do.
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "app/ui/frame/commands.h"
+#include "app/ui/frame/panels.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+
+namespace tyglab {
+namespace {
+
+struct Entry {
+  const char *keys, *does;
+};
+
+constexpr Entry mouse_entries[] = {
+    {"Right drag", "grabs a particle and pulls it"},
+    {"Right click", "picks a particle: its forces are shown"},
+    {"Right double-click", "pins or unpins a particle"},
+    {"Left drag", "cuts the springs upwards, or what it crosses (C)"},
+    {"Drag the wind's tip", "changes W; Shift in depth, Ctrl on an axis"},
+    {"Left drag on a sphere", "moves the sphere"},
+    {"Middle or Ctrl+left drag", "orbits; with Shift pans"},
+    {"Wheel, two fingers", "zooms; with Shift pans"},
+    {"Drop a file", "opens a preset, or takes a picture as texture"},
+};
+constexpr Entry sliders[] = {
+    {"Drag · Shift drag", "changes · ten times finer"},
+    {"Double-click", "back to the preset's value"},
+    {"Double-click or Ctrl+click the number", "types a value"},
+    {"← → · Ctrl · Shift", "steps · finer · coarser"},
+    {"Tab, ↑ ↓ · Esc", "next slider · back to the cloth"},
+    {"Right-click a row", "resets · adds a copy with another value"},
+};
+
+/// Text that is wrapped between `left` and `right`, pixels within the window; returns where it ends below.
+float text_between(App& app, const char* text, ImVec2 at, float right, ImU32 color) {
+  ImGui::SetCursorPos(at);
+  ImGui::PushTextWrapPos(right);
+  wrapped(app, text, color);
+  ImGui::PopTextWrapPos();
+  return ImGui::GetCursorPosY();
+}
+
+/// A column of the help: from where to where, and how much of it the keys take.
+struct Column {
+  float left, width, keys;
+};
+
+void table(App& app, const char* title, std::span<const Entry> entries, const Column& column) {
+  const Tokens& c = app.theme.colors;
+  const float right = column.left + column.width, does = column.left + column.keys;
+  ImGui::PushFont(app.fonts.title);
+  float y = text_between(app, title, {column.left, ImGui::GetCursorPosY()}, right, c.text);
+  ImGui::PopFont();
+  for (const Entry& entry : entries) {
+    const float keys_end = text_between(app, entry.keys, {column.left, y}, does - app.theme.px(12), c.accent);
+    y = std::max(keys_end, text_between(app, entry.does, {does, y}, right, c.text));
+  }
+  ImGui::SetCursorPos({column.left, y + app.theme.px(8)});
+}
+
+/// Every command that has keys; the views have theirs.
+std::vector<Entry> key_entries() {
+  std::vector<Entry> entries;
+  for (const CommandRow& row : command_rows())
+    if (*row.keys != 0) entries.push_back({row.keys, row.help});
+  entries.push_back({"1 to 5", "the five views"});
+  return entries;
+}
+
+void tables(App& app, float width) {
+  const ImVec2 start = ImGui::GetCursorPos();
+  const float gap = app.theme.px(32);
+  const bool two = width > app.theme.px(640);
+  const float column = two ? (width - gap) / 2 : width, key_width = std::min(app.theme.px(180), 0.42f * column);
+  const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
+  table(app, "In the viewport", mouse_entries, left);
+  table(app, "On sliders", sliders, left);
+  const float half = ImGui::GetCursorPosY();
+  if (two) ImGui::SetCursorPosY(start.y);
+  table(app, "Keys", key_entries(), right);
+  text_between(app, "A slider or text field in use keeps its keys; Esc gives them back.",
+               {right.left, ImGui::GetCursorPosY()}, right.left + column, app.theme.colors.quiet);
+  ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + app.theme.px(4)});
+}
+
+}  // namespace
+
+void help_overlay(App& app) {
+  if (app.ui.dialog.kind != Dialog::Kind::none) app.ui.help = false;
+  if (!app.ui.help) return;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const float width = std::min(app.theme.px(960), window.x - app.theme.px(32));
+  ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - app.theme.px(32)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(24), app.theme.px(20)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(5)));
+  ImGui::SetNextWindowFocus();
+  if (ImGui::Begin("help", nullptr,
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    tables(app, ImGui::GetContentRegionAvail().x);
+    if (text_button(app, "Close", true)) app.ui.help = false;
+    for (const Command command : {Command::choose_lab, Command::start_tour, Command::open_palette}) {
+      ImGui::SameLine();
+      if (text_button(app, row_of(command).name)) app.ui.help = false, app.command(command);
+    }
+    const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    cover_viewport(app, lo, {lo.x + size.x, lo.y + size.y});
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(4);
+}
+
+}  // namespace tyglab

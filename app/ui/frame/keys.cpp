@@ -1,0 +1,142 @@
+#include "app/ui/frame/keys.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "app/ui/app.h"
+#include "app/ui/frame/commands.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int counted = GLFW_MOD_CONTROL | GLFW_MOD_SHIFT | GLFW_MOD_ALT | GLFW_MOD_SUPER;
+
+constexpr std::array slider_keys{GLFW_KEY_LEFT,  GLFW_KEY_RIGHT,    GLFW_KEY_UP,        GLFW_KEY_DOWN,
+                                 GLFW_KEY_HOME,  GLFW_KEY_END,      GLFW_KEY_PAGE_DOWN, GLFW_KEY_TAB,
+                                 GLFW_KEY_ENTER, GLFW_KEY_KP_ENTER, GLFW_KEY_PAGE_UP,   GLFW_KEY_ESCAPE,
+                                 GLFW_KEY_DELETE};
+
+/// "1" to "5", of the digits' row or the keypad.
+std::optional<int> digit(const KeyEvent& event) {
+  if ((event.mods & counted) != 0) return std::nullopt;
+  if (event.key >= GLFW_KEY_1 && event.key <= GLFW_KEY_5) return event.key - GLFW_KEY_0;
+  if (event.key >= GLFW_KEY_KP_1 && event.key <= GLFW_KEY_KP_5) return event.key - GLFW_KEY_KP_0;
+  return std::nullopt;
+}
+
+/// Enter in the field of a lab's prediction gives it.
+void lab_field_takes(App& app, const KeyEvent& event) {
+  app.labs.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+}
+
+/// Keys of a text field: only those that end it matter here. True if the field has the key.
+bool typing_takes(App& app, const KeyEvent& event) {
+  SliderState& slider = app.ui.slider;
+  if (slider.typing == 0 && !ImGui::GetIO().WantTextInput) return false;
+  if (event.key == GLFW_KEY_Q && (event.mods & counted) == GLFW_MOD_CONTROL) {
+    slider.cancel = true;  // a number half typed is no change that could be lost
+    return false;
+  }
+  if (slider.typing != 0) {
+    slider.commit |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER || event.key == GLFW_KEY_TAB;
+    slider.cancel |= event.key == GLFW_KEY_ESCAPE;
+  } else {
+    lab_field_takes(app, event);
+  }
+  return true;
+}
+
+bool dialog_takes(App& app, const KeyEvent& event) {
+  if (app.ui.dialog.kind == Dialog::Kind::none) return false;
+  if (event.key == GLFW_KEY_ESCAPE) app.ui.dialog.kind = Dialog::Kind::none;
+  app.ui.dialog.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  return true;
+}
+
+bool slider_takes(App& app, const KeyEvent& event) {
+  if (app.ui.slider.focused == 0) return false;
+  const bool plain = (event.mods & GLFW_MOD_ALT) == 0;
+  if (!plain || std::find(slider_keys.begin(), slider_keys.end(), event.key) == slider_keys.end()) return false;
+  app.ui.slider.keys.push_back(event);
+  return true;
+}
+
+/// The palette takes what moves in its list and what ends it; letters go to its text field.
+bool palette_takes(App& app, const KeyEvent& event) {
+  CommandPalette& palette = app.ui.palette;
+  if (!palette.open) return false;
+  if (palette.enter) {
+    palette.later.push_back(event);
+    return true;
+  }
+  if (event.key == GLFW_KEY_ESCAPE || (event.key == GLFW_KEY_P && event.mods == GLFW_MOD_CONTROL)) palette.open = false;
+  palette.go += (event.key == GLFW_KEY_DOWN ? 1 : 0) - (event.key == GLFW_KEY_UP ? 1 : 0);
+  palette.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  return true;
+}
+
+/// Of the tour's keys only those that lead through it; the others do what they always do.
+bool tour_takes(App& app, const KeyEvent& event) {
+  Tour& tour = app.ui.tour;
+  if (tour.card < 0 || (event.mods & counted) != 0) return false;
+  const bool next = event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  const bool leave = event.key == GLFW_KEY_ESCAPE;
+  tour.next |= next, tour.leave |= leave;
+  return next || leave;
+}
+
+/// The help lies over everything but a dialog.
+bool help_takes(App& app, const KeyEvent& event) {
+  if (!app.ui.help || event.key != GLFW_KEY_ESCAPE) return false;
+  app.ui.help = false;
+  return true;
+}
+
+bool list_takes(App& app, const KeyEvent& event) {
+  if (!app.viewport.blocked || event.key != GLFW_KEY_ESCAPE) return false;
+  return app.ui.close_lists = true;
+}
+
+void command_for(App& app, const KeyEvent& event) {
+  if (const auto mode = digit(event)) {
+    Preset next = app.requested_preset();
+    next.mode = *mode;
+    app.propose(std::move(next));
+    return;
+  }
+  for (const CommandRow& row : command_rows())
+    for (const Chord& chord : row.chords)
+      if (chord.key == event.key && chord.mods == (event.mods & counted) && (chord.repeats || !event.repeat))
+        return app.command(row.command);
+}
+
+void take_key(App& app, const KeyEvent& event) {
+  const bool taken = dialog_takes(app, event) || palette_takes(app, event) || help_takes(app, event) ||
+                     list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event) ||
+                     tour_takes(app, event);
+  if (!taken) command_for(app, event);
+}
+
+}  // namespace
+
+void handle_keys(App& app) {
+  CommandPalette& palette = app.ui.palette;
+  // What was pressed after the palette's Enter comes once that has acted.
+  if (!palette.enter)
+    for (const KeyEvent& event : std::exchange(palette.later, {})) take_key(app, event);
+  for (std::size_t n = 0; n < app.input.keys.size(); ++n) {
+    const bool before = palette.enter;
+    take_key(app, app.input.keys[n]);
+    // Letters typed after it are no part of what is looked for.
+    if (palette.enter && !before)
+      std::erase_if(app.input.text, [&](const TypedCharacter& typed) { return typed.keys_before > n + 1; });
+  }
+}
+
+}  // namespace tyglab

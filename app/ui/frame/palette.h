@@ -1,0 +1,22 @@
+// Ctrl+P: commands, presets, integrators, labs, constants and views, found by what is typed.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "app/ui/app.h"
+
+namespace tyglab {
+
+/// Opens it; `labs`: with labs alone, and how far each is done.
+void open_palette(App& app, bool labs = false);
+/// Draws it, and does what is chosen.
+void palette(App& app);
+
+/// All that it finds now.
+std::vector<PaletteEntry> palette_entries(App& app);
+/// Indices of the entries that hold every word typed, those whose title begins with it first.
+std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_view typed);
+
+}  // namespace tyglab

@@ -1,0 +1,349 @@
+#include "app/ui/frame/session_report.h"
+#include "app/ui/cards/energy_card.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>  // the window that an item stands in
+
+#include <cctype>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "app/tools/wind_arrow.h"
+#include "app/ui/app.h"
+#include "core/io/files.h"
+#include "core/io/preset_io.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds period{90};
+constexpr int samples = 5;  ///< rows and columns of particles that are told, corners included
+
+/// "##name" is name, "Save as…" is Save_as.
+std::string plain(std::string_view name) {
+  std::string out;
+  for (const char letter : name) {
+    const bool kept =
+        std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '[' || letter == ']';
+    if (kept)
+      out += letter;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  while (!out.empty() && out.back() == '_') out.pop_back();
+  return out;
+}
+
+/// Popups have names made of numbers: each is the one menu that is open.
+std::string place_of(const ImGuiWindow& window) {
+  const std::string name = window.RootWindow->Name;
+  return name.rfind("##", 0) == 0 ? "menu" : name;
+}
+
+Json vector(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Pixels in the window, or null behind the camera.
+Json on_screen(const App& app, const glm::dvec3& x) {
+  const auto at = app.camera.project(x, app.viewport.size());
+  if (!at) return nullptr;
+  return {at->x + app.viewport.box.lo.x, at->y + app.viewport.box.lo.y};
+}
+
+Json site(const std::optional<Pins::Site>& site) {
+  return site ? Json{site->i, site->j} : Json(nullptr);
+}
+
+Json particle(const App& app, int i, int j) {
+  const glm::dvec3 x = app.simulation->position(i, j);
+  return {{"i", i}, {"j", j}, {"x", vector(x)}, {"at", on_screen(app, x)}, {"pinned", app.simulation->pinned(i, j)}};
+}
+
+std::set<int> sample_of(int count) {
+  std::set<int> indices;
+  for (int k = 0; k < samples; ++k) indices.insert(k * (count - 1) / (samples - 1));
+  return indices;
+}
+
+Json particles(const App& app) {
+  Json list = Json::array();
+  const Lattice& lattice = app.simulation->lattice();
+  for (const int i : sample_of(lattice.rows))
+    for (const int j : sample_of(lattice.columns)) list.push_back(particle(app, i, j));
+  return list;
+}
+
+Json bodies(const App& app) {
+  Json list = Json::array();
+  for (const Body& body : app.preset().bodies)
+    list.push_back({{"shape", name_of(body.shape)}, {"c", vector(body.c)}, {"at", on_screen(app, body.c)}});
+  return list;
+}
+
+Json held(const App& app) {
+  const auto held = app.simulation->held();
+  if (!held) return nullptr;
+  Json json = particle(app, held->i, held->j);
+  json["force_N"] = vector(app.simulation->hand_force());
+  return json;
+}
+
+Json divergence(const App& app) {
+  const auto& d = app.simulation->divergence();
+  if (!d) return nullptr;
+  return {{"t", d->t},         {"step", d->step},         {"i", d->i},
+          {"j", d->j},         {"quantity", d->quantity}, {"value", d->value},
+          {"cause", d->cause}, {"remedy", d->advice},     {"constants_changed", changed_since_divergence(app)}};
+}
+
+/// What the gauge under dt shows; infinity cannot be said in JSON.
+Json dt_over_limit(const App& app) {
+  const auto& limits = app.stability.limits();
+  return limits && limits->any > 0 && std::isfinite(limits->any) ? Json(app.preset().dt / limits->any) : Json(nullptr);
+}
+
+/// The ledger; null while none is kept.
+Json energy(const App& app) {
+  const auto ledger = app.simulation->ledger();
+  if (!ledger) return nullptr;
+  Json json = Json::object();
+  for (const EnergyRow& row : energy_rows(*ledger)) json[std::string(row.name)] = row.joule;
+  json["share"] = ledger->share();
+  return json;
+}
+
+/// What the accuracy card knows; null while it is closed.
+Json accuracy(const App& app) {
+  const auto study = app.accuracy.study();
+  if (!study) return nullptr;
+  Json json = {{"seconds", study->reference.seconds}, {"points", study->points.size()}, {"done", study->done}};
+  const auto& present = study->present;
+  json["error_rms_m"] = present && std::isfinite(present->error_rms_m) ? Json(present->error_rms_m) : Json(nullptr);
+  return json;
+}
+
+/// What is known of the order of convergence; null while nothing is.
+Json convergence(const App& app) {
+  const auto study = app.convergence.study();
+  if (!study) return nullptr;
+  const auto order = measured_order(*study);
+  return {{"points", study->points.size()},
+          {"t", study->t},
+          {"order", order ? Json(order->order) : Json(nullptr)},
+          {"done", study->done}};
+}
+
+/// The lab in work; null without one.
+Json lab(const App& app) {
+  if (!app.labs.run) return nullptr;
+  const LabRun& run = *app.labs.run;
+  const StepRecord& record = run.record();
+  Json checks = Json::array();
+  for (const CheckState state : record.checks) checks.push_back(state == CheckState::holds);
+  return {{"label", run.lab.label},        {"step", run.step}, {"steps", run.lab.steps.size()},
+          {"predicted", record.predicted}, {"checks", checks}, {"done", record.done},
+          {"right", record.right}};
+}
+
+/// The copies in lockstep; a distance is told where the card measures it.
+Json copies(const App& app) {
+  Json list = Json::array();
+  const Copies& copies = app.copies;
+  for (int n = 0; n < int(copies.lockstep.size()); ++n) {
+    const Simulation& cloth = cloth_of(app, n);
+    Json copy = {{"name", name_of_cloth(app, n)}, {"t", cloth.time()}, {"steps", cloth.steps()}};
+    const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
+    copy["distance"] = std::isfinite(apart) ? Json(apart) : Json(nullptr);
+    copy["diverged"] = cloth.divergence().has_value();
+    copy["torn_springs"] = cloth.tears().torn_count();
+    const auto held = cloth.held();
+    copy["held"] = held ? Json{held->i, held->j} : Json(nullptr);
+    list.push_back(copy);
+  }
+  return list;
+}
+
+/// What colours the cloth, and where its scale ends; null where nothing does.
+Json colors(const App& app) {
+  const FieldColors* shown = shown_colors(app);
+  if (shown == nullptr) return nullptr;
+  const auto& marked = app.colors.under_pointer;
+  return {{"field", info(shown->field).name},
+          {"top", shown->top()},
+          {"fixed", shown->fixed.has_value()},
+          {"marked", marked ? Json(*marked) : Json(nullptr)}};
+}
+
+/// The step that is written out; null where none is.
+Json inside(const App& app) {
+  const StepTrace* trace = app.inside.shown();
+  if (trace == nullptr) return nullptr;
+  return {{"site", {trace->i, trace->j}},
+          {"evaluations", trace->stages.size()},
+          {"springs", trace->stages.front().springs.size()},
+          {"x", vector(trace->x_after)}};
+}
+
+int pinned_count(const App& app) {
+  const Lattice& lattice = app.simulation->lattice();
+  int count = 0;
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j) count += app.simulation->pinned(i, j);
+  return count;
+}
+
+/// The wind and its arrow; `tip` in pixels of the window, null where none is shown.
+Json wind(const App& app) {
+  Json json = {{"W", vector(app.preset().W)}, {"now", vector(app.simulation->wind())}, {"tip", nullptr}};
+  if (wind_arrow_shown(app)) json["tip"] = on_screen(app, wind_arrow(app, app.requested_preset().W).tip);
+  return json;
+}
+
+Json handling(const App& app) {
+  const ToolSettings& handling = app.settings.handling;
+  return {{"cut_along_path", handling.cut_along_path},
+          {"slow_hand", handling.slow_hand},
+          {"arrows", handling.arrows},
+          {"arrows_shown", app.ui.arrows}};
+}
+
+std::string_view name_of(Tool::Kind kind) {
+  static constexpr std::string_view names[] = {"none", "orbit", "pan", "right", "grab", "cut", "body", "wind"};
+  return names[std::size_t(kind)];
+}
+
+std::string_view name_of(Dialog::Kind kind) {
+  static constexpr std::string_view names[] = {"none",    "open",    "save",    "write_export",
+                                               "texture", "picture", "unsaved", "large_cloth"};
+  return names[std::size_t(kind)];
+}
+
+void add_simulation(Json& json, const App& app) {
+  const Simulation& simulation = *app.simulation;
+  json["t"] = simulation.time();
+  json["steps"] = simulation.steps();
+  json["paused"] = !app.pacing.playing;
+  json["asleep"] = app.asleep();
+  json["speed"] = app.pacing.speed;
+  json["aim"] = app.pacing.aim();
+  json["wind"] = wind(app);
+  json["divergence"] = divergence(app);
+  json["dt_over_limit"] = dt_over_limit(app);
+  json["auto_dt"] = app.auto_dt.has_value();
+  json["energy"] = energy(app);
+  json["accuracy"] = accuracy(app);
+  json["convergence"] = convergence(app);
+  json["copies"] = copies(app);
+  const auto map = app.map.findings();
+  json["map_cells"] = map ? Json(map->cells.size()) : Json(nullptr);
+  json["copies_reference"] = app.copies.reference;
+  const auto next = app.building.lattice();
+  json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
+  json["frames_while_building"] = app.building.frames_beside();
+  json["label"] = app.document.label;
+  json["file"] = app.document.file.string();
+  json["unsaved"] = unsaved(app);
+  json["preset"] = Json::parse(preset_to_json(app.preset()));
+  json["torn_springs"] = simulation.tears().torn_count();
+  json["pinned"] = pinned_count(app);
+  json["picked"] = site(app.picked);
+  json["picked_x"] = app.picked ? vector(simulation.position(app.picked->i, app.picked->j)) : Json(nullptr);
+  json["inside"] = inside(app);
+  json["held"] = held(app);
+  json["view"] = app.preset().mode;
+  json["colors"] = colors(app);
+  json["effects_left_out"] = app.effects.left_out();
+}
+
+void add_window(Json& json, const App& app) {
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const glm::vec2 at = app.viewport.box.lo, size = app.viewport.whole();
+  json["window"] = {window.x, window.y};
+  json["viewport"] = {at.x, at.y, size.x, size.y};
+  json["pictures"] = {app.viewport.columns, app.viewport.rows};
+  json["pointer"] = {app.input.at.x, app.input.at.y};
+  json["tool"] = name_of(app.tool.kind);
+  json["camera"] = {{"yaw", app.camera.yaw}, {"pitch", app.camera.pitch}, {"distance", app.camera.distance}};
+  json["view_buttons"] = app.viewport.buttons;
+  json["tabs"] = app.ui.plots.cards;
+  json["tab"] = app.ui.plots.tab;
+  json["handling"] = handling(app);
+  json["theme"] = app.settings.theme;
+  const SliderState& slider = app.ui.slider;
+  const bool starts = slider.typing_starts || app.ui.dialog.refused || app.ui.dialog.selecting;  // takes no keys yet
+  json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);
+  json["dialog"] = name_of(app.ui.dialog.kind);
+  json["problem"] = app.ui.dialog.problem;
+  json["palette"] = app.ui.palette.open;
+  json["tour"] = app.ui.tour.card;
+  json["lab"] = lab(app);
+  Json messages = Json::array();
+  for (const Message& message : app.messages.list()) messages.push_back(message.text);
+  json["messages"] = messages;
+  Json marks = Json::object();
+  for (const OverlayLayout::Mark& mark : app.ui.placing.marks()) {
+    const glm::vec2 lo = mark.box.lo, extent = mark.box.hi - lo;
+    marks[mark.name] = {lo.x, lo.y, extent.x, extent.y};
+  }
+  json["marks"] = marks;
+}
+
+}  // namespace
+
+void SessionReport::add_control(std::string_view name) {
+  const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
+  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+  if (!window.ClipRect.Contains(ImVec2((lo.x + hi.x) / 2, (lo.y + hi.y) / 2))) return;
+  // As much of it as is seen: a list may cut it at its edge.
+  ImRect seen(lo, hi);
+  seen.ClipWith(window.ClipRect);
+  drawing_[place_of(window) + "." + plain(name)] = {{seen.Min.x, seen.Min.y}, {seen.GetWidth(), seen.GetHeight()}};
+}
+
+std::string SessionReport::json(const App& app, bool ended) const {
+  Json json;
+  json["tyglab_session"] = 1;
+  json["frames"] = frames_;
+  json["events"] = events_;
+  json["ended"] = ended;
+  add_simulation(json, app);
+  add_window(json, app);
+  json["particles"] = particles(app);
+  json["bodies"] = bodies(app);
+  Json controls = Json::object();
+  for (const auto& [name, box] : shown_) controls[name] = {box.at.x, box.at.y, box.size.x, box.size.y};
+  json["controls"] = controls;
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void SessionReport::end_frame(App& app) {
+  shown_.swap(drawing_);
+  drawing_.clear();
+  ++frames_;
+  events_ += std::ssize(app.input.keys);
+  for (const PointerEvent& event : app.input.pointer) events_ += event.type != PointerEvent::Type::move;
+  if (failed_ || Clock::now() - written_ < period) return;
+  try {
+    write_atomically(file_, json(app, false));
+    written_ = Clock::now();
+  } catch (const OutputError& error) {
+    failed_ = true;
+    app.messages.error(std::string(error.what()) + ". The session report ends here.");
+  }
+}
+
+void SessionReport::finish(const App& app) {
+  if (failed_) throw OutputError(file_.string() + ": a part of the session report could not be written.");
+  write_atomically(file_, json(app, true));
+}
+
+void report_control(App& app, std::string_view name) {
+  if (app.report) app.report->add_control(name);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,82 @@
+// Curves in axes, linear or logarithmic, that survive a blow-up: what the window's plots and the benchmarks' pictures
+// are drawn with.
+#pragma once
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ui/kit/fonts.h"
+#include "app/ui/kit/theme.h"
+
+namespace tyglab {
+
+/// Where and with what a plot is drawn.
+struct PlotPaint {
+  ImDrawList& draw;
+  const Theme& theme;
+  const Fonts& fonts;
+};
+
+/// One direction of a plot: `lo` at its beginning, `hi` at its end.
+struct PlotScale {
+  double lo = 0, hi = 1;
+  bool log = false;
+  bool drawable(double v) const { return std::isfinite(v) && (!log || v > 0); }
+  /// 0 at lo, 1 at hi; values far away keep to a bounded number, so that pixels stay exact.
+  double at(double v) const {
+    const double t = log ? std::log10(v / lo) / std::log10(hi / lo) : (v - lo) / (hi - lo);
+    return std::clamp(t, -1e4, 1e4);
+  }
+};
+
+/// From values to pixels.
+struct PlotAxes {
+  ImVec2 lo, hi;  ///< corners of the plot's own area
+  PlotScale x, y;
+  float px(double v) const { return lo.x + float(x.at(v)) * (hi.x - lo.x); }
+  float py(double v) const { return hi.y - float(std::clamp(y.at(v), -3.0, 4.0)) * (hi.y - lo.y); }
+};
+
+/// `x` and `y` have the same length.
+struct PlotCurve {
+  std::string_view symbol;  ///< of the read-out, or its name in a legend
+  CurveStyle style;
+  std::span<const double> x, y;
+  bool line = true;
+  float marks = 0;                             ///< radius of a disc at each point, at scale 1; 0: none
+  std::size_t from = 0, to = std::size_t(-1);  ///< only the samples [from, to) are drawn
+  std::span<const std::size_t> gaps = {};      ///< samples that no line leads to, ascending
+};
+
+struct PlotTick {
+  double at;
+  std::string label;
+};
+
+/// The span of an axis and its ticks.
+struct PlotRange {
+  double lo, hi;
+  std::vector<double> ticks;
+};
+/// Decades between the least and the most, both positive; at most `most_decades`, counted from above.
+PlotRange log_range(double least, double most, int most_decades = 6);
+/// Round steps that hold the least and the most; 0 too if `from_zero`.
+PlotRange linear_range(double least, double most, bool from_zero);
+/// With labels as short as they can be.
+std::vector<PlotTick> labelled(std::span<const double> ticks);
+
+/// Ground and horizontal lines, their labels to the left of it.
+void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> y_ticks);
+/// Vertical lines with labels below; those that would touch the one before go without.
+void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> ticks);
+/// The points [first, last) of a curve. What is not finite interrupts it; where it leaves the scale stands a flag.
+void draw_curve(const PlotPaint& paint, const PlotAxes& axes, const PlotCurve& curve, std::size_t first,
+                std::size_t last);
+
+}  // namespace tyglab

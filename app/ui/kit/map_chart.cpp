@@ -1,0 +1,68 @@
+#include "app/ui/kit/map_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/numbers.h"
+#include "app/ui/kit/color_map.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double least_share = 1e-6, most_share = 1;  // of the colours
+
+double part_of(double share) {
+  const double size = std::max(std::abs(share), least_share);
+  return std::log(size / least_share) / std::log(most_share / least_share);
+}
+
+ImU32 color_of(const Tokens& c, const MapCell& cell) {
+  return cell.diverged ? mixed(c.ground, c.danger, 0.75f) : magnitude_color(part_of(cell.share));
+}
+
+/// A name in the legend with a disc of its colour, and nothing in the plot.
+ChartSeries key(const std::string& name, ImU32 color) {
+  return {name, {color, LineStyle::solid, 1}, false, 6, {}, {}};
+}
+
+}  // namespace
+
+Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, const MapBoundary& boundary,
+                std::span<const MapCell> cells) {
+  const std::string stiffness = stiffness_key(preset);
+  Chart chart;
+  chart.x = {stiffness + ", N/m", true, false, {}, {{grid.least_stiffness, grid.most_stiffness}}};
+  chart.y = {"dt, s", true, false, {}, {{grid.least_dt, grid.most_dt}}};
+  for (const MapCell& cell : cells)
+    chart.cells.push_back({grid.stiffness(cell.column), grid.stiffness(cell.column + 1), grid.dt(cell.row),
+                           grid.dt(cell.row + 1), color_of(c, cell), cell.diverged});
+  if (!boundary.dt.empty())
+    chart.series.push_back(
+        {"stable dt, by theory", {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
+  chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
+  chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
+  chart.series.push_back(key("energy error 1e-6", magnitude_color(part_of(1e-6))));
+  chart.series.push_back(key("error 1e-3", magnitude_color(part_of(1e-3))));
+  chart.series.push_back(key("error 1", magnitude_color(part_of(1))));
+  return chart;
+}
+
+Chart map_page(const Tokens& c, const Preset& preset, const std::string& label, const std::string& note,
+               const MapGrid& grid, const MapBoundary& boundary, std::span<const MapCell> cells) {
+  Chart chart = map_chart(c, preset, grid, boundary, cells);
+  chart.title =
+      "Which " + stiffness_key(preset) + " and dt " + std::string(scheme(preset.integrator).title) + " bears: " + label;
+  chart.note = note;
+  return chart;
+}
+
+std::string cell_words(const Preset& preset, const MapCell& cell) {
+  std::string text = stiffness_key(preset) + " = " + short_number(cell.stiffness, 2) +
+                     " N/m, dt = " + short_number(cell.dt, 2) + " s: ";
+  if (cell.diverged) return text + "diverged after " + short_number(cell.t, 2) + " s";
+  return text + (cell.share < 0 ? "ate " : "made ") + short_number(100 * std::abs(cell.share), 2) +
+         " % of the scene's energy in " + short_number(cell.t, 2) + " s";
+}
+
+}  // namespace tyglab

@@ -1,0 +1,162 @@
+#include "app/ui/kit/plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/base/numbers.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+
+namespace tyglab {
+namespace {
+
+struct Window {
+  std::size_t first, last;
+};
+
+/// The samples in sight, with one more on either side so that lines reach the edges.
+Window window_of(std::span<const double> x, const PlotFrame& frame) {
+  auto first = std::lower_bound(x.begin(), x.end(), frame.x_min);
+  auto last = std::upper_bound(first, x.end(), frame.x_max);
+  if (first != x.begin()) --first;
+  if (last != x.end()) ++last;
+  return {std::size_t(first - x.begin()), std::size_t(last - x.begin())};
+}
+
+/// The finite values that the window shows, thinned to a bounded number.
+std::vector<double> values_in(std::span<const PlotCurve> curves, const PlotFrame& frame) {
+  std::vector<double> values;
+  for (const PlotCurve& curve : curves) {
+    const auto first = std::size_t(std::lower_bound(curve.x.begin(), curve.x.end(), frame.x_min) - curve.x.begin());
+    const auto last = std::size_t(std::upper_bound(curve.x.begin(), curve.x.end(), frame.x_max) - curve.x.begin());
+    const std::size_t stride = std::max<std::size_t>(1, (last - first) / 1000);
+    for (std::size_t n = first; n < last; n += stride)
+      if (std::isfinite(curve.y[n]) && (!frame.log || curve.y[n] > 0)) values.push_back(curve.y[n]);
+  }
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double quantile(const std::vector<double>& sorted, double q) {
+  return sorted[std::size_t(q * double(sorted.size() - 1))];
+}
+
+float label_width(App& app, std::span<const PlotTick> ticks) {
+  float width = app.theme.px(38);
+  for (const PlotTick& tick : ticks)
+    width = std::max(width, text_width(*app.fonts.small, tick.label) + app.theme.px(7));
+  return width;
+}
+
+/// The times at both ends, below.
+void draw_times(const PlotPaint& paint, const PlotAxes& axes) {
+  const ImFont& font = *paint.fonts.small;
+  const float below = axes.hi.y + paint.theme.px(4);
+  const std::string from = short_number(rounded(axes.x.lo, 4)) + " s", to = short_number(rounded(axes.x.hi, 4)) + " s";
+  draw_text(paint.draw, font, {axes.lo.x, below}, paint.theme.colors.quiet, from);
+  draw_text(paint.draw, font, {axes.hi.x - text_width(font, to), below}, paint.theme.colors.quiet, to);
+}
+
+void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const PlotCurve> curves,
+              std::string_view unit) {
+  const std::span<const double> x = curves.front().x;
+  const double along = (ImGui::GetIO().MousePos.x - axes.lo.x) / (axes.hi.x - axes.lo.x);
+  const double wanted = axes.x.lo + along * (axes.x.hi - axes.x.lo);
+  auto after = std::lower_bound(x.begin(), x.end(), wanted);
+  if (after == x.end()) --after;
+  if (after != x.begin() && wanted - *(after - 1) < *after - wanted) --after;
+  const auto n = std::size_t(after - x.begin());
+  const Tokens& c = app.theme.colors;
+  const float at = std::round(axes.px(x[n]));
+  draw.AddLine({at, axes.lo.y}, {at, axes.hi.y}, faded(c.text, 0.4f));
+  const auto has = [&](const PlotCurve& curve) { return n >= curve.from && n < curve.to; };
+  for (const PlotCurve& curve : curves)
+    if (has(curve) && axes.y.drawable(curve.y[n]))
+      draw.AddCircleFilled({at, axes.py(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
+  begin_tooltip_at_pointer(app);
+  ImGui::PushFont(app.fonts.mono);
+  wrapped(app, "t = " + time_number(x[n], app.preset().dt) + " s", c.quiet);
+  ImDrawList& tip = *ImGui::GetWindowDrawList();
+  float names = app.theme.px(48);
+  for (const PlotCurve& curve : curves)
+    names = std::max(names, symbol_width(app.fonts, curve.symbol) + app.theme.px(12));
+  for (const PlotCurve& curve : curves) {
+    if (!has(curve) || !std::isfinite(curve.y[n])) continue;
+    const ImVec2 lo = ImGui::GetCursorScreenPos();
+    const float line = app.theme.px(20), middle = std::round(lo.y + line / 2);
+    const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(24), middle}};
+    draw_styled_line(tip, sample, 2, curve.style, app.theme.scale);
+    draw_symbol(tip, app.fonts, {lo.x + app.theme.px(32), baseline_at(app.fonts, middle)}, curve.symbol, c.text);
+    const std::string value = steady_number(curve.y[n]) + " " + std::string(unit);
+    draw_on_baseline(tip, *app.fonts.mono, {lo.x + app.theme.px(32) + names, baseline_at(app.fonts, middle)}, c.text,
+                     value);
+    ImGui::Dummy(
+        {app.theme.px(36) + names + text_width(*app.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
+  }
+  ImGui::PopFont();
+  end_tooltip(app);
+}
+
+}  // namespace
+
+PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) {
+  const std::vector<double> values = values_in(curves, frame);
+  if (values.empty()) return frame.log ? log_range(1e-3, 1) : linear_range(0, 1, true);
+  // Nearly all of the values count; beyond three times their spread begins what leaves the scale.
+  const double low = quantile(values, 0.02), high = quantile(values, 0.97);
+  if (frame.log) return log_range(std::max(values.front(), low * 1e-2), std::min(values.back(), high * 1e3));
+  const double reach = 3 * std::max({high - low, 0.1 * std::abs(high), 1e-300});
+  return linear_range(std::max(values.front(), low - reach), std::min(values.back(), high + reach), frame.from_zero);
+}
+
+float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + size.x, lo.y + size.y};
+  ImGui::InvisibleButton(id, size);
+  const bool hovered = ImGui::IsItemHovered() && !app.ui.help;
+  const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
+  const PlotRange range = plot_range(curves, frame);
+  const std::vector<PlotTick> ticks = labelled(range.ticks);
+  const ImFont& font = *app.fonts.small;
+  const PlotAxes axes{{lo.x + label_width(app, ticks), lo.y + std::round(font.FontSize / 2)},
+                      {hi.x, hi.y - font.FontSize - app.theme.px(6)},
+                      {frame.x_min, frame.x_max},
+                      {range.lo, range.hi, frame.log}};
+  if (axes.hi.x - axes.lo.x < 8 || axes.hi.y - axes.lo.y < 8) return 0;
+  draw_ground(paint, axes, ticks);
+  draw_times(paint, axes);
+  if (curves.empty() || curves.front().x.empty()) {
+    const float width = text_width(font, frame.when_empty);
+    draw_text(paint.draw, font,
+              {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},
+              app.theme.colors.quiet, frame.when_empty);
+    return 0;
+  }
+  const auto [first, last] = window_of(curves.front().x, frame);
+  paint.draw.PushClipRect(axes.lo, axes.hi, true);
+  for (const PlotCurve& curve : curves) draw_curve(paint, axes, curve, first, last);
+  paint.draw.PopClipRect();
+  if (!hovered) return 0;
+  if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(app, paint.draw, axes, curves, frame.unit);
+  const bool scrolls = app.ui.plots.scrolls && !ImGui::GetIO().KeyCtrl;
+  return scrolls ? 0 : ImGui::GetIO().MouseWheel;
+}
+
+const char* why_empty(const App& app) {
+  if (app.simulation->divergence()) return "Restart to see curves";
+  return app.pacing.playing ? "Waiting for the first step" : "Press Space to run";
+}
+
+PlotFrame time_frame(const App& app, const Series& series, bool log, std::string_view unit,
+                     std::string_view when_empty) {
+  const double now = series.empty() ? app.simulation->time() : series.t().back();
+  const double length = series.empty() ? 0 : now - series.t().front();
+  const double window = app.ui.plots.window_s.value_or(length <= 2 ? 2 : length <= 5 ? 5 : 10);
+  const double end = std::max(now, window);
+  return {.x_min = end - window, .x_max = end, .log = log, .from_zero = true, .unit = unit, .when_empty = when_empty};
+}
+
+void zoom_time(App& app, const PlotFrame& frame, float wheel) {
+  if (wheel != 0) app.ui.plots.window_s = std::clamp((frame.x_max - frame.x_min) * std::pow(0.8, wheel), 0.1, 120.0);
+}
+
+}  // namespace tyglab

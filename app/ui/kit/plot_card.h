@@ -1,0 +1,31 @@
+// A card with a plot: its ground, with a title, a note and buttons over what it holds.
+#pragma once
+
+#include <string_view>
+
+#include "app/ui/frame/panels.h"
+
+namespace tyglab {
+
+/// Begins where the cursor stands, as wide as its region; the cursor then goes inside it.
+class PlotCard {
+ public:
+  /// `buttons`: how many head_buttons follow; the note stands to their left.
+  PlotCard(App& app, const char* id, std::string_view title, std::string_view note, float height, int buttons = 0);
+  ~PlotCard();
+  PlotCard(const PlotCard&) = delete;
+  PlotCard& operator=(const PlotCard&) = delete;
+  const Region& inner() const { return inner_; }
+
+  /// A button on the title's line, the n-th from the right; the cursor stays.
+  bool head_button(App& app, int n, const char* id, const char* glyph, const char* word, const char* tip) const;
+
+ private:
+  Region inner_;
+};
+
+/// Height of a card with so much in it, and width of what a card of that width holds, px.
+float plot_card_height(const App& app, float content);
+float plot_card_inner_width(const App& app, float width);
+
+}  // namespace tyglab

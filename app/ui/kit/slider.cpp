@@ -1,0 +1,320 @@
+#include "app/ui/kit/slider.h"
+
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/base/numbers.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double zero_stretch = 0.04;      ///< of a logarithmic slider that starts at 0
+constexpr double double_click_time = 0.6;  ///< s
+constexpr double decades_below = 1e3;      ///< its smallest value but 0 is max over this
+
+bool has_zero(const SliderScale& s) {
+  return s.scale == Scale::logarithmic && s.min <= 0;
+}
+double lowest(const SliderScale& s) {
+  return has_zero(s) ? s.max / decades_below : s.min;
+}
+
+/// Places are given to the digits that a pixel can tell apart, never to seventeen.
+double tidy(const SliderScale& s, double value, int digits) {
+  if (s.integer) return std::round(value);
+  if (s.scale == Scale::logarithmic) return rounded(value, digits);
+  const double step = std::pow(10, std::floor(std::log10((s.max - s.min) / 100)) - (digits - 3));
+  return rounded(std::round(value / step) * step, 12);
+}
+
+struct KeyStep {
+  double by;
+  int digits;
+};
+
+KeyStep key_step(int mods) {
+  if ((mods & GLFW_MOD_CONTROL) != 0) return {0.001, 5};
+  return {(mods & GLFW_MOD_SHIFT) != 0 ? 0.1 : 0.01, 3};
+}
+
+double stepped(const SliderScale& s, double value, double direction, int mods) {
+  if (s.integer) return std::clamp(value + direction * ((mods & GLFW_MOD_SHIFT) != 0 ? 10 : 1), s.min, s.max);
+  const KeyStep step = key_step(mods);
+  return slider_value(s, slider_position(s, value) + direction * step.by, step.digits);
+}
+
+void start_typing(SliderState& state, unsigned id, double value) {
+  state.typing = id;
+  state.typing_starts = true;
+  state.commit = state.cancel = false;
+  std::snprintf(state.text, sizeof state.text, "%.10g", value);
+}
+
+/// Whether the last item, a number, was pressed so that it can be typed.
+bool wants_typing(const App& app) {
+  return (ImGui::IsItemActive() && app.input.double_click) ||
+         (ImGui::IsItemActivated() && (app.input.mods & GLFW_MOD_CONTROL) != 0);
+}
+
+/// Keys of the focused slider, as one result.
+SliderResult take_keys(App& app, const SliderScale& scale, double value) {
+  SliderState& state = app.ui.slider;
+  SliderResult result{.value = value};
+  const auto go = [&](double to) { result.changed = to != value, result.value = to; };
+  for (const KeyEvent& key : state.keys) {
+    switch (key.key) {
+      case GLFW_KEY_LEFT:
+        go(stepped(scale, result.value, -1, key.mods));
+        break;
+      case GLFW_KEY_RIGHT:
+        go(stepped(scale, result.value, 1, key.mods));
+        break;
+      case GLFW_KEY_PAGE_DOWN:
+        go(stepped(scale, result.value, -1, GLFW_MOD_SHIFT));
+        break;
+      case GLFW_KEY_PAGE_UP:
+        go(stepped(scale, result.value, 1, GLFW_MOD_SHIFT));
+        break;
+      case GLFW_KEY_HOME:
+        go(scale.min);
+        break;
+      case GLFW_KEY_END:
+        go(scale.max);
+        break;
+      case GLFW_KEY_DELETE:
+        result.reset = true;
+        break;
+      case GLFW_KEY_ENTER:
+      case GLFW_KEY_KP_ENTER:
+        start_typing(state, ImGui::GetID("value"), value);
+        break;
+      case GLFW_KEY_ESCAPE:
+        state.focused = 0;
+        break;
+      case GLFW_KEY_UP:
+        state.wanted_order = state.focused_order - 1;
+        break;
+      case GLFW_KEY_DOWN:
+        state.wanted_order = state.focused_order + 1;
+        break;
+      case GLFW_KEY_TAB:
+        state.wanted_order = state.focused_order + ((key.mods & GLFW_MOD_SHIFT) != 0 ? -1 : 1);
+        break;
+      default:
+        break;
+    }
+  }
+  state.keys.clear();
+  result.finished = result.changed;
+  return result;
+}
+
+/// Focus goes from slider to slider in the order in which they are drawn.
+bool follow_focus(SliderState& state, unsigned id) {
+  const int order = state.order++;
+  if (state.wanted_order == order) {
+    state.focused = id;
+    state.wanted_order = -1;
+    ImGui::SetScrollHereY(0.5f);
+  }
+  if (state.focused != id) return false;
+  state.focused_order = order;
+  return state.focused_seen = true;
+}
+
+/// The drag of a slider or of a cell; `width` pixels are the whole scale.
+SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigned id, float width, bool jump,
+                       float left) {
+  SliderState& state = app.ui.slider;
+  SliderResult result{.value = value};
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsItemActivated()) {
+    state.focused = id;
+    state.dragged = id;
+    state.value = value;
+    state.position = slider_position(scale, value);
+    state.reset_done = app.ui.now - state.reset_time < double_click_time;
+    const double under = (io.MousePos.x - left) / width;
+    if (jump && !state.reset_done && !app.input.double_click &&
+        std::abs(under - state.position) * width > app.theme.px(6))
+      state.position = under;
+  } else if (ImGui::IsItemActive() && state.dragged == id) {
+    state.position += io.MouseDelta.x / width * (io.KeyShift ? 0.1 : 1);
+  }
+  if (jump && ImGui::IsItemActive() && app.input.double_click) {
+    result.reset = state.reset_done = true;
+    state.reset_time = app.ui.now;
+  }
+  if (ImGui::IsItemActive() && state.dragged == id && !state.reset_done) {
+    const double to = slider_value(scale, state.position, io.KeyShift ? 4 : 3);
+    // A value outside the slider stays until the pointer truly moves it.
+    const bool moved = std::abs(state.position - slider_position(scale, value)) * width > 0.5;
+    if (moved && to != state.value) result.changed = true, state.value = to;
+    result.value = state.value;
+  }
+  if (ImGui::IsItemDeactivated() && state.dragged == id) {
+    result.finished = !state.reset_done;
+    result.value = state.value;
+    state.dragged = 0;
+  }
+  return result;
+}
+
+void draw_track(App& app, const SliderScale& scale, double value, ImVec2 lo, ImVec2 hi, bool hovered, bool focused) {
+  const Tokens& c = app.theme.colors;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float round = app.theme.px(4), middle = (lo.y + hi.y) / 2, half = app.theme.px(8);
+  const ImVec2 a{lo.x, middle - half}, b{hi.x, middle + half};
+  draw.AddRectFilled(a, b, hovered ? c.field_hover : c.field, round);
+  const double t = slider_position(scale, value);
+  const float x = std::round(lo.x + float(t) * (hi.x - lo.x));
+  if (x > lo.x + 1) draw.AddRectFilled(a, {x, b.y}, mixed(c.field, c.accent, hovered ? 0.42f : 0.34f), round);
+  if (focused)
+    draw.AddRect({a.x - 2, a.y - 2}, {b.x + 2, b.y + 2}, c.accent, round + 2, 0, std::max(1.f, app.theme.px(1.5f)));
+  const float thick = app.theme.px(2), tall = app.theme.px(10);
+  const float at = std::clamp(x, lo.x + thick, hi.x - thick);
+  draw.AddRectFilled({at - thick, middle - tall}, {at + thick, middle + tall}, c.text, app.theme.px(2));
+  // The value lies beyond the slider's own range: an arrow at the end says so.
+  const float r = app.theme.px(4);
+  if (value > scale.max * (1 + 1e-9))
+    draw.AddTriangleFilled({hi.x - 3 * r, middle - r}, {hi.x - 3 * r, middle + r}, {hi.x - 2 * r, middle}, c.text);
+  if (value < lowest(scale) * (1 - 1e-9) && value != 0 && value < scale.max)
+    draw.AddTriangleFilled({lo.x + 3 * r, middle - r}, {lo.x + 3 * r, middle + r}, {lo.x + 2 * r, middle}, c.text);
+}
+
+/// The text field of a value. Sets `result` when the typing ends.
+void type_value(App& app, double value, float width, float height, std::string_view unit, SliderResult& result) {
+  SliderState& state = app.ui.slider;
+  if (state.typing_starts) ImGui::SetKeyboardFocusHere();
+  ImGui::PushFont(app.fonts.mono);
+  const float above = std::floor((height - app.fonts.mono->FontSize) / 2);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(4), above));
+  ImGui::SetNextItemWidth(width);
+  ImGui::InputText("##typed", state.text, sizeof state.text, ImGuiInputTextFlags_AutoSelectAll);
+  ImGui::PopStyleVar();
+  ImGui::PopFont();
+  if (ImGui::IsItemActive()) state.typing_starts = false;
+  // Enter counts once the text field has been shown all that was typed before it.
+  const bool ended = (state.commit || state.cancel) && !app.input.unread;
+  const bool over = ended || (!state.typing_starts && !ImGui::IsItemActive());
+  if (!over) return;
+  state.typing = 0;
+  if (state.cancel) return;
+  if (const auto typed = typed_number(state.text, unit)) {
+    result.changed = result.finished = *typed != value;
+    result.value = *typed;
+  } else {
+    app.messages.error(std::string("“") + state.text + "” is not a number" +
+                       (unit.empty() ? "" : " in " + std::string(unit)) +
+                       "; the value stays. Type one such as 310 or 1e-4.");
+  }
+}
+
+}  // namespace
+
+double slider_position(const SliderScale& s, double value) {
+  if (s.max <= s.min) return 0;
+  if (s.scale == Scale::linear) return std::clamp((value - s.min) / (s.max - s.min), 0.0, 1.0);
+  const double low = lowest(s);
+  if (value <= 0) return 0;
+  const double t = std::clamp(std::log(value / low) / std::log(s.max / low), 0.0, 1.0);
+  return has_zero(s) ? zero_stretch + (1 - zero_stretch) * t : t;
+}
+
+double slider_value(const SliderScale& s, double position, int digits) {
+  position = std::clamp(position, 0.0, 1.0);
+  if (position == 0) return s.min;
+  if (position == 1) return s.max;
+  if (s.scale == Scale::linear) return std::clamp(tidy(s, s.min + (s.max - s.min) * position, digits), s.min, s.max);
+  const double low = lowest(s);
+  if (has_zero(s)) {
+    if (position < zero_stretch) return 0;
+    position = (position - zero_stretch) / (1 - zero_stretch);
+  }
+  return std::clamp(tidy(s, low * std::pow(s.max / low, position), digits), low, s.max);
+}
+
+SliderResult slider(App& app, const SliderScale& scale, double value, float width, float height) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("slider", {width, height});
+  const unsigned id = gui::item_id();
+  const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  SliderResult result = take_drag(app, scale, value, id, width, true, lo.x);
+  const bool focused = follow_focus(app.ui.slider, id);
+  if (focused && !app.ui.slider.keys.empty()) result = take_keys(app, scale, value);
+  const bool dragging = ImGui::IsItemActive() && app.ui.slider.dragged == id;
+  draw_track(app, scale, dragging ? app.ui.slider.value : value, lo, {lo.x + width, lo.y + height}, hovered, focused);
+  return result;
+}
+
+SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, double value, float width, float height,
+                       std::string_view unit) {
+  ImGui::PushID(id_text);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  SliderResult result{.value = value};
+  const unsigned typing_id = ImGui::GetID("value");
+  if (app.ui.slider.typing == typing_id) {
+    type_value(app, value, width, height, unit, result);
+    ImGui::PopID();
+    return result;
+  }
+  ImGui::InvisibleButton("cell", {width, height});
+  const unsigned id = gui::item_id();
+  const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  if (wants_typing(app)) {
+    start_typing(app.ui.slider, typing_id, value);
+  } else {
+    result = take_drag(app, scale, value, id, app.theme.px(300), false, lo.x);
+  }
+  const bool focused = follow_focus(app.ui.slider, id);
+  if (focused && !app.ui.slider.keys.empty()) result = take_keys(app, scale, value);
+  const Tokens& c = app.theme.colors;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float inset = std::round((height - app.theme.px(20)) / 2);
+  const ImVec2 a{lo.x, lo.y + inset}, b{lo.x + width, lo.y + height - inset};
+  draw.AddRectFilled(a, b, hovered ? c.field_hover : c.field, app.theme.px(4));
+  if (focused) draw.AddRect(a, b, c.accent, app.theme.px(4));
+  const bool dragging = ImGui::IsItemActive() && app.ui.slider.dragged == id;
+  const std::string text = short_number(dragging ? app.ui.slider.value : value);
+  const ImFont& font = *app.fonts.mono;
+  draw.PushClipRect(a, b, true);
+  const float x = std::max(a.x + 2, b.x - app.theme.px(5) - text_width(font, text));
+  draw_on_baseline(draw, font, {x, baseline_at(app.fonts, lo.y + height / 2)}, c.text, text);
+  draw.PopClipRect();
+  ImGui::PopID();
+  return result;
+}
+
+SliderResult value_cell(App& app, const char* id_text, double value, std::string_view shown, float width, float height,
+                        std::string_view unit) {
+  SliderState& state = app.ui.slider;
+  SliderResult result{.value = value};
+  const unsigned id = ImGui::GetID(id_text);
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  if (state.typing == id) {
+    type_value(app, value, width, height, unit, result);
+    return result;
+  }
+  ImGui::InvisibleButton(id_text, {width, height});
+  const bool hovered = ImGui::IsItemHovered();
+  if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
+  if (wants_typing(app)) start_typing(state, id, value);
+  const ImFont& font = *app.fonts.mono;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float inset = app.theme.px(2);
+  if (hovered)
+    draw.AddRectFilled({lo.x, lo.y + inset}, {lo.x + width, lo.y + height - inset}, app.theme.colors.field,
+                       app.theme.px(4));
+  draw_on_baseline(
+      draw, font, {lo.x + width - app.theme.px(4) - text_width(font, shown), baseline_at(app.fonts, lo.y + height / 2)},
+      app.theme.colors.text, shown);
+  return result;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,55 @@
+#include "core/io/destination.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+
+#include "core/io/files.h"
+
+namespace tyglab {
+
+bool is_standard_output(const std::filesystem::path& file) {
+  return file == "-" || file == "/dev/stdout";
+}
+
+std::string output_name(const std::filesystem::path& file) {
+  return is_standard_output(file) ? "standard output" : file.string();
+}
+
+namespace {
+
+/// Whether the pipe that standard output is has lost its reader.
+bool reader_is_gone() {
+  pollfd output{STDOUT_FILENO, POLLOUT, 0};
+  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
+std::string lost_output(const std::filesystem::path& file, int error) {
+  if (error == EPIPE || (error == 0 && is_standard_output(file) && reader_is_gone()))
+    return output_name(file) + ": nobody reads it any longer, so what was still to come is lost";
+  const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : std::string();
+  return output_name(file) + ": cannot be written" + why + "; send it elsewhere, or make room";
+}
+
+void write_output(const std::filesystem::path& file, std::string_view bytes) {
+  if (!is_standard_output(file)) return write_atomically(file, bytes);
+  std::cout.write(bytes.data(), std::streamsize(bytes.size()));
+  flush_standard_output();
+}
+
+void flush_standard_output() {
+  errno = 0;
+  std::cout.flush();
+  std::fflush(stdout);
+  if (std::cout.good() && std::ferror(stdout) == 0) return;
+  // An earlier write may be the one that failed: then errno says nothing of it.
+  throw OutputError(lost_output("-", errno));
+}
+
+}  // namespace tyglab

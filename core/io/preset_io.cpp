@@ -1,0 +1,383 @@
+#include "core/io/preset_io.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/integrators/names.h"
+#include "core/io/json_tree.h"
+#include "core/model/notation.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+using Type = JsonNode::Type;
+
+template <class Names>
+std::string listed(const Names& names) {
+  std::string all;
+  for (std::string_view name : names) all += (all.empty() ? "" : ", ") + std::string(name);
+  return all;
+}
+
+/// Why `v` is not allowed, or empty. The one place where ranges are checked.
+template <class T>
+std::string range_problem(const Row<T>& row, double v) {
+  if (std::isfinite(v) && v >= row.min && v <= row.max) return {};
+  return shortest_number(v) + " is not allowed; allowed: " + shortest_number(row.min) + " to " +
+         shortest_number(row.max) + (row.unit.empty() ? "" : " " + std::string(row.unit)) +
+         (row.zero_is_off ? " (0: never)" : "");
+}
+
+template <class T>
+std::string value_problem(const Row<T>& row, const T& object) {
+  return std::visit(
+      [&](auto field) -> std::string {
+        const auto& value = object.*field;
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, glm::dvec3>) {
+          for (int c = 0; c < 3; ++c)
+            if (auto problem = range_problem(row, value[c]); !problem.empty()) return problem;
+          return {};
+        } else if constexpr (std::is_same_v<Value, std::string>) {
+          if (row.key == "integrator" && !is_integrator(value)) {
+            const auto meant = nearest(value, integrator_names());
+            return "\"" + value + "\" is no integrator" +
+                   (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
+                   " Known: " + listed(integrator_names());
+          }
+          return {};
+        } else {
+          return range_problem(row, double(value));
+        }
+      },
+      row.field);
+}
+
+std::string pins_problem(const Preset& p) {
+  if (p.pins.mode != Pins::Mode::list) return {};
+  for (const auto [i, j] : p.pins.list)
+    if (i < 0 || i >= p.rows || j < 0 || j >= p.columns)
+      return "[" + std::to_string(i) + ", " + std::to_string(j) + "] lies outside the cloth; allowed: [0, 0] to [" +
+             std::to_string(p.rows - 1) + ", " + std::to_string(p.columns - 1) + "]";
+  return {};
+}
+
+/// Reads values of one source (a file, a --set) into a preset; knows how to complain.
+class Reader {
+ public:
+  explicit Reader(std::string_view source) : source_(source) {}
+
+  [[noreturn]] void fail(int line, const std::string& path, const std::string& why) const {
+    throw PresetError(printable(source_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + path +
+                                (path.empty() ? "" : ": ") + why));
+  }
+  [[noreturn]] void wrong_type(const JsonNode& node, const std::string& path, std::string_view expected) const {
+    fail(node.line, path, "must be " + std::string(expected) + ", not " + std::string(type_name(node.type)));
+  }
+
+  template <class T>
+  void field(const JsonNode& node, const std::string& path, const Row<T>& row, T& object) const {
+    std::visit([&](auto member) { value(node, path, object.*member); }, row.field);
+    if (const auto problem = value_problem(row, object); !problem.empty()) fail(node.line, path, problem);
+  }
+
+  template <class Enum, std::size_t N>
+  void choice(const JsonNode& node, const std::string& path, const std::array<std::string_view, N>& names,
+              Enum& out) const {
+    if (node.type != Type::text) wrong_type(node, path, "a text, one of " + listed(names));
+    const auto it = std::find(names.begin(), names.end(), node.text);
+    if (it == names.end()) {
+      const auto meant = nearest(node.text, names);
+      fail(node.line, path,
+           "\"" + node.text + "\" is not known" + (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
+               " Allowed: " + listed(names));
+    }
+    out = Enum(it - names.begin());
+  }
+
+  void value(const JsonNode& node, const std::string& path, double& out) const {
+    if (!node.is_number()) wrong_type(node, path, "a number");
+    out = node.number;
+  }
+  void value(const JsonNode& node, const std::string& path, int& out) const {
+    if (node.type == Type::number) fail(node.line, path, "must be written as a whole number, like 32");
+    if (node.type != Type::integer) wrong_type(node, path, "a whole number");
+    out = int(std::clamp(node.number, -2147483648.0, 2147483647.0));
+  }
+  void value(const JsonNode& node, const std::string& path, std::string& out) const {
+    if (node.type != Type::text) wrong_type(node, path, "a text");
+    out = node.text;
+  }
+  /// A text that is drawn in every frame, of at most so many bytes.
+  void words(const JsonNode& node, const std::string& path, std::size_t most, std::string& out) const {
+    value(node, path, out);
+    if (out.size() > most)
+      fail(node.line, path,
+           "must be a text of at most " + std::to_string(most) + " bytes; it has " + std::to_string(out.size()));
+  }
+  void value(const JsonNode& node, const std::string& path, glm::dvec3& out) const {
+    if (node.type != Type::list) wrong_type(node, path, "a list of three numbers");
+    if (node.items.size() != 3)
+      fail(node.line, path, "must be a list of three numbers, not of " + std::to_string(node.items.size()));
+    for (int c = 0; c < 3; ++c) value(node.items[c], path + "[" + std::to_string(c) + "]", out[c]);
+  }
+
+  void pins(const JsonNode& node, const std::string& path, Pins& out) const {
+    out = {};
+    if (node.type == Type::text) {
+      choice(node, path,
+             std::to_array<std::string_view>(
+                 {"none", "top_row", "top_corners", "four_corners", "left_column", "boundary"}),
+             out.mode);
+      return;
+    }
+    if (node.type != Type::list) wrong_type(node, path, "a name or a list of [row, column]");
+    out.mode = Pins::Mode::list;
+    for (std::size_t n = 0; n < node.items.size(); ++n) {
+      const JsonNode& item = node.items[n];
+      const std::string item_path = path + "[" + std::to_string(n) + "]";
+      if (item.type != Type::list || item.items.size() != 2) wrong_type(item, item_path, "[row, column]");
+      Pins::Site site;
+      value(item.items[0], item_path, site.i);
+      value(item.items[1], item_path, site.j);
+      out.list.push_back(site);
+    }
+  }
+
+  void body_key(const std::string& key, const JsonNode& node, const std::string& path, Body& body) const {
+    if (key == "shape") return choice(node, path, shape_names, body.shape);
+    if (const BodyRow* row = find_body_row(key)) return field(node, path, *row, body);
+    std::vector<std::string_view> known{"shape"};
+    for (const BodyRow& row : body_notation()) known.push_back(row.key);
+    unknown(node.line, path, key, known);
+  }
+
+  void body(const JsonNode& node, const std::string& path, Body& out) const {
+    if (node.type != Type::object) wrong_type(node, path, "a block {…}");
+    out = {};
+    for (const auto& [key, child] : node.members) body_key(key, child, path + "." + key, out);
+  }
+
+  void bodies(const JsonNode& node, const std::string& path, std::vector<Body>& out) const {
+    if (node.type != Type::list) wrong_type(node, path, "a list of bodies");
+    out.assign(node.items.size(), {});
+    for (std::size_t n = 0; n < out.size(); ++n) body(node.items[n], path + "[" + std::to_string(n) + "]", out[n]);
+  }
+
+  /// One inner key. `section` empty: any section (as in --set).
+  void key(std::string_view section, const std::string& name, const JsonNode& node, const std::string& path,
+           Preset& p) const {
+    const auto in = [&](std::string_view s) { return section.empty() || section == s; };
+    if (in("cloth") && name == "pins") return pins(node, path, p.pins);
+    if (in("solver") && name == "engine") return choice(node, path, engine_names, p.engine);
+    if (in("solver") && name == "precision") return choice(node, path, precision_names, p.precision);
+    if (const PresetRow* row = find_row(name); row && in(row->section)) return field(node, path, *row, p);
+    std::vector<std::string_view> known;
+    if (in("cloth")) known.push_back("pins");
+    if (in("solver")) known.insert(known.end(), {"engine", "precision"});
+    if (section.empty()) known.insert(known.end(), {"kind", "name", "description", "bodies"});
+    for (const PresetRow& row : notation())
+      if (in(row.section)) known.push_back(row.key);
+    unknown(node.line, path, name, known);
+  }
+
+  /// A key of the file's top level that is not a section.
+  bool top_key(const std::string& name, const JsonNode& node, Preset& p) const {
+    if (name == "kind") return choice(node, name, kind_names, p.kind), true;
+    if (name == "name") return words(node, name, 200, p.name), true;
+    if (name == "description") return words(node, name, 4000, p.description), true;
+    if (name == "bodies") return bodies(node, name, p.bodies), true;
+    return false;
+  }
+
+  [[noreturn]] void unknown(int line, const std::string& path, const std::string& key,
+                            const std::vector<std::string_view>& known) const {
+    const auto meant = nearest(key, known);
+    fail(line, path,
+         "unknown key" + (meant ? "; did you mean " + std::string(*meant) + "?" : "; known: " + listed(known)));
+  }
+
+ private:
+  std::string source_;
+};
+
+void check_version(const Reader& reader, const JsonNode& node) {
+  if (node.type != Type::integer) reader.wrong_type(node, "tyglab_preset", "a whole number");
+  if (node.number > preset_version)
+    reader.fail(node.line, "tyglab_preset",
+                "this preset has version " + shortest_number(node.number) +
+                    ", made by a newer Tyglab; this one reads up to " + std::to_string(preset_version) +
+                    ". Update Tyglab, or save the preset from it in the older form");
+  if (node.number < 1) reader.fail(node.line, "tyglab_preset", "versions begin at 1");
+}
+
+/// Keys whose values are words, even where they begin like numbers: name=3 sheets, texture=./mine.png.
+bool is_text_key(const std::string& key) {
+  constexpr std::array<std::string_view, 5> words{"name", "description", "kind", "engine", "precision"};
+  const PresetRow* row = find_row(key);
+  return std::find(words.begin(), words.end(), key) != words.end() ||
+         (row && std::holds_alternative<std::string Preset::*>(row->field));
+}
+
+/// A number as people type it: also .5 and 5.
+JsonNode setting_number(const std::string& key, const std::string& text, const Reader& reader) {
+  JsonNode node;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, node.number);
+  if (text.empty() || error != std::errc{} || stop != end)
+    reader.fail(0, key, "'" + text + "' is not a number; write it like 1.5 or 2e-3");
+  node.type = text.find_first_of(".eE") == std::string::npos ? Type::integer : Type::number;
+  return node;
+}
+
+/// What comes from no file has no lines.
+void forget_lines(JsonNode& node) {
+  node.line = 0;
+  for (JsonNode& item : node.items) forget_lines(item);
+  for (JsonNode::Member& member : node.members) forget_lines(member.value);
+}
+
+/// Value of a setting: a bare word (integrator=euler, name=3 sheets), otherwise JSON. `key` without its block's name.
+JsonNode setting_value(const Setting& setting, const std::string& key, const Reader& reader) {
+  const std::string& text = setting.value;
+  const bool word = !text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) != 0) && text != "null" &&
+                    text != "true" && text != "false";
+  if (word || (is_text_key(key) && !text.starts_with('"'))) {
+    try {
+      nlohmann::json(text).dump();
+    } catch (const nlohmann::json::exception&) {
+      reader.fail(0, setting.key, "must be UTF-8 text");
+    }
+    JsonNode node;
+    node.type = Type::text;
+    node.text = text;
+    return node;
+  }
+  if (text.empty() || std::string_view("[{\"").find(text[0]) == std::string_view::npos)
+    return setting_number(setting.key, text, reader);
+  JsonNode node = parse_json(text, setting.typed, Lines::one);
+  forget_lines(node);
+  return node;
+}
+
+/// "bodies[2].r" -> index 2, key "r".
+bool body_setting(const std::string& key, std::size_t& index, std::string& inner) {
+  if (key.rfind("bodies[", 0) != 0) return false;
+  const auto close = key.find("].");
+  if (close == std::string::npos) return false;
+  const char* begin = key.data() + 7;
+  const auto result = std::from_chars(begin, key.data() + close, index);
+  inner = key.substr(close + 2);
+  return result.ec == std::errc{} && result.ptr == key.data() + close;
+}
+
+/// A key of a body: bodies[0].r. Of whole bodies there is only the whole list.
+void apply_to_body(const std::string& key, const JsonNode& node, const Reader& reader, Preset& p) {
+  std::size_t index = 0;
+  std::string inner;
+  if (!body_setting(key, index, inner))
+    reader.fail(0, key, "one value of a body is set like bodies[0].r=0.3, and all bodies like bodies=[{\"r\": 0.3}]");
+  const std::size_t count = p.bodies.size();
+  if (index >= count)
+    reader.fail(0, key,
+                count == 0   ? "there are no bodies; bodies=[{\"r\": 0.3}] makes one"
+                : count == 1 ? "there is one body, bodies[0]"
+                             : "there are " + std::to_string(count) + " bodies, counted from 0");
+  reader.body_key(inner, node, key, p.bodies[index]);
+}
+
+/// x_0.y sets one component. False if the key is none.
+bool apply_to_component(const std::string& key, const JsonNode& node, const Reader& reader, Preset& p) {
+  if (key.size() <= 2 || key[key.size() - 2] != '.' || key.back() < 'x' || key.back() > 'z') return false;
+  const PresetRow* row = find_row(key.substr(0, key.size() - 2));
+  const auto* vector = row ? std::get_if<glm::dvec3 Preset::*>(&row->field) : nullptr;
+  if (!vector) return false;
+  reader.value(node, key, (p.**vector)[key.back() - 'x']);
+  if (const auto problem = value_problem(*row, p); !problem.empty()) reader.fail(0, key, problem);
+  return true;
+}
+
+void apply_setting(const Setting& setting, Preset& p) {
+  const Reader reader(setting.typed);
+  std::string key = setting.key;
+  std::string_view section;
+  if (const auto dot = key.find('.'); dot != std::string::npos) {
+    const auto it = std::find(section_names.begin(), section_names.end(), key.substr(0, dot));
+    if (it != section_names.end()) section = *it, key.erase(0, dot + 1);
+  }
+  const JsonNode node = setting_value(setting, key, reader);
+  if (section.empty() && reader.top_key(key, node, p)) return;
+  if (section.empty() && key.starts_with("bodies[")) return apply_to_body(key, node, reader, p);
+  if (!apply_to_component(key, node, reader, p)) reader.key(section, key, node, key, p);
+}
+
+}  // namespace
+
+Preset parse_preset(std::string_view text, std::string_view source) {
+  const JsonNode root = parse_json(text, source, Lines::told);
+  const Reader reader(source);
+  if (root.type != Type::object) reader.wrong_type(root, "", "a block {…}");
+  if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
+  Preset preset;
+  int pins_line = 0;
+  for (const auto& [name, node] : root.members) {
+    if (name == "tyglab_preset" || reader.top_key(name, node, preset)) continue;
+    if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
+      std::vector<std::string_view> known(section_names.begin(), section_names.end());
+      known.insert(known.end(), {"tyglab_preset", "kind", "name", "description"});
+      reader.unknown(node.line, name, name, known);
+    }
+    if (node.type != Type::object) reader.wrong_type(node, name, "a block {…}");
+    for (const auto& [key, child] : node.members) {
+      reader.key(name, key, child, name + "." + key, preset);
+      if (key == "pins") pins_line = child.line;
+    }
+  }
+  if (const auto problem = pins_problem(preset); !problem.empty()) reader.fail(pins_line, "cloth.pins", problem);
+  return preset;
+}
+
+Setting parse_setting(const std::string& text) {
+  const auto equals = text.find('=');
+  Setting setting{"--set " + text, text.substr(0, equals), {}};
+  if (equals == std::string::npos || equals == 0)
+    Reader(setting.typed).fail(0, "", "must be KEY=VALUE, for example k_s=500");
+  setting.value = text.substr(equals + 1);
+  return setting;
+}
+
+Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& settings) {
+  Preset changed = preset;
+  for (const Setting& setting : settings) apply_setting(setting, changed);
+  if (const auto problem = check_preset(changed); !problem.empty()) throw PresetError("--set: " + problem);
+  return changed;
+}
+
+Preset with_settings(const Preset& preset, const std::vector<std::string>& settings) {
+  std::vector<Setting> parsed;
+  parsed.reserve(settings.size());
+  for (const std::string& text : settings) parsed.push_back(parse_setting(text));
+  return with_parsed_settings(preset, parsed);
+}
+
+std::string check_preset(const Preset& preset) {
+  for (const PresetRow& row : notation())
+    if (const auto problem = value_problem(row, preset); !problem.empty())
+      return std::string(row.section) + "." + std::string(row.key) + ": " + problem;
+  for (std::size_t n = 0; n < preset.bodies.size(); ++n)
+    for (const BodyRow& row : body_notation())
+      if (const auto problem = value_problem(row, preset.bodies[n]); !problem.empty())
+        return "bodies[" + std::to_string(n) + "]." + std::string(row.key) + ": " + problem;
+  if (const auto problem = pins_problem(preset); !problem.empty()) return "cloth.pins: " + problem;
+  return {};
+}
+
+}  // namespace tyglab

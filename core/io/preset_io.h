@@ -1,0 +1,49 @@
+// Presets in and out: JSON files, `--set KEY=VALUE`. Everything is checked before anything is applied.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// A preset (or a --set) is wrong. `what()` names file, line, key and what is allowed.
+class PresetError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+inline constexpr int preset_version = 1;
+
+/// Parses and checks a whole preset. `source` names it in errors. Throws PresetError; never returns half a preset.
+Preset parse_preset(std::string_view text, std::string_view source);
+/// Reads a file. Throws PresetError (missing, unreadable, wrong).
+Preset load_preset(const std::filesystem::path& file);
+/// JSON text with every key, one block a line, ready to be read and edited by a person.
+std::string preset_to_json(const Preset& preset);
+/// Writes atomically: a temporary file beside it, then renamed. Throws OutputError.
+void save_preset(const Preset& preset, const std::filesystem::path& file);
+/// 64-bit FNV-1a of the JSON text without name and description, in hex: tells scenes apart in state files.
+std::string preset_hash(const Preset& preset);
+
+/// The same for settings as --set takes them: k_s=500, "W=[0,0,0.02]", "bodies[0].r=0.3".
+Preset with_settings(const Preset& preset, const std::vector<std::string>& settings);
+
+/// A setting and how it was typed, which is what errors call it.
+struct Setting {
+  std::string typed;  ///< "--set k_s=500", "--dt 0.001"
+  std::string key, value;
+};
+/// Takes "KEY=VALUE" apart. Throws PresetError.
+Setting parse_setting(const std::string& text);
+/// Applies settings to a copy, in order, checks the whole, and returns it. Throws PresetError naming the setting.
+Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& settings);
+
+/// What would be wrong with this preset (as edited in a program), or empty. The same checks as for files.
+std::string check_preset(const Preset& preset);
+
+}  // namespace tyglab

@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+std::string list_text(const glm::dvec3& v) {
+  return "[" + shortest_number(v.x) + ", " + shortest_number(v.y) + ", " + shortest_number(v.z) + "]";
+}
+
+std::string json_text(std::string_view text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+template <class T>
+std::string field_text(const Row<T>& row, const T& object) {
+  return std::visit(
+      [&](auto field) -> std::string {
+        const auto& value = object.*field;
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::string>)
+          return json_text(value);
+        else if constexpr (std::is_same_v<Value, glm::dvec3>)
+          return list_text(value);
+        else
+          return shortest_number(double(value));
+      },
+      row.field);
+}
+
+std::string pins_text(const Pins& pins) {
+  if (pins.mode != Pins::Mode::list) return json_text(name_of(pins.mode));
+  std::string text;
+  for (const auto [i, j] : pins.list)
+    text += (text.empty() ? "[" : ", [") + std::to_string(i) + ", " + std::to_string(j) + "]";
+  return "[" + text + "]";
+}
+
+std::string body_text(const Body& body) {
+  std::string text = "{\"shape\": " + json_text(name_of(body.shape));
+  for (const BodyRow& row : body_notation()) {
+    const bool plane_only = row.key == "y", sphere_only = row.key == "c" || row.key == "r";
+    if ((plane_only && body.shape != Body::Shape::plane) || (sphere_only && body.shape != Body::Shape::sphere))
+      continue;
+    text += ", " + json_text(row.key) + ": " + field_text(row, body);
+  }
+  return text + "}";
+}
+
+std::string bodies_text(const std::vector<Body>& bodies) {
+  std::string text;
+  for (const Body& body : bodies) text += (text.empty() ? "\n    " : ",\n    ") + body_text(body);
+  return "[" + text + (bodies.empty() ? "]" : "\n  ]");
+}
+
+std::string section_text(std::string_view section, const Preset& p) {
+  if (section == "bodies") return "  \"bodies\": " + bodies_text(p.bodies);
+  std::string text;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    text += (text.empty() ? "" : ", ") + json_text(key) + ": " + value;
+  };
+  for (const PresetRow& row : notation())
+    if (row.section == section) add(row.key, field_text(row, p));
+  if (section == "cloth") add("pins", pins_text(p.pins));
+  if (section == "solver")
+    add("engine", json_text(name_of(p.engine))), add("precision", json_text(name_of(p.precision)));
+  return "  " + json_text(section) + ": {" + text + "}";
+}
+
+}  // namespace
+
+std::string shortest_number(double v) {
+  std::array<char, 40> text{};
+  const bool plain = v == 0 || (std::abs(v) >= 1e-5 && std::abs(v) < 1e9);
+  const auto end = plain ? std::to_chars(text.data(), text.data() + text.size(), v, std::chars_format::fixed).ptr
+                         : std::to_chars(text.data(), text.data() + text.size(), v).ptr;
+  std::string number(text.data(), end);
+  // 1e+09 and 1e-07 as people write them: 1e9, 1e-7.
+  if (const auto e = number.find('e'); e != std::string::npos) {
+    if (number[e + 1] == '+') number.erase(e + 1, 1);
+    const auto digits = number.find_first_of("0123456789", e);
+    if (number[digits] == '0') number.erase(digits, 1);
+  }
+  return number;
+}
+
+std::string preset_to_json(const Preset& p) {
+  std::string text = "{\n  \"tyglab_preset\": " + std::to_string(preset_version) +
+                     ", \"kind\": " + json_text(name_of(p.kind)) + ",\n  \"name\": " + json_text(p.name) +
+                     ",\n  \"description\": " + json_text(p.description);
+  for (std::string_view section : section_names) text += ",\n" + section_text(section, p);
+  return text + "\n}\n";
+}
+
+std::string preset_hash(const Preset& preset) {
+  Preset scene = preset;
+  scene.name.clear();
+  scene.description.clear();
+  scene.mode = Preset{}.mode;
+  scene.texture.clear();
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c : preset_to_json(scene)) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  std::array<char, 17> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
+  return text.data();
+}
+
+}  // namespace tyglab

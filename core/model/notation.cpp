@@ -1,0 +1,232 @@
+#include "core/model/notation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+using enum Scale;
+using enum Effect;
+
+const std::array<PresetRow, 25> rows{{
+    {"cloth", "rows", "R", "Rows of particles", "Partikelrader", "", &Preset::rows, 2, 4096, logarithmic, rebuild, "",
+     "Particles from top to bottom; a change builds the cloth anew.", false, Kind::cloth, true},
+    {"cloth", "columns", "C", "Columns of particles", "Partikelkolumner", "", &Preset::columns, 1, 4096, logarithmic,
+     rebuild, "", "Particles from left to right; a change builds the cloth anew.", false, Kind::cloth, true},
+    {"cloth", "L", "L", "Rest length of a spring", "Fjäders vilolängd", "m", &Preset::L, 1e-4, 10, logarithmic,
+     constant, "2.5", "Spacing of the lattice: diagonals rest at √2·L, bending springs at 2L.", false, Kind::cloth,
+     true},
+    {"cloth", "m", "m", "Mass of a particle", "Partikelmassa", "kg", &Preset::m, 1e-9, 1e3, logarithmic, constant,
+     "2.1", "A lighter particle moves faster and needs a smaller time step."},
+    {"cloth", "x_0", "x_0", "Original position (middle of the top row)", "Ursprungsposition", "m", &Preset::x_0, -1e3,
+     1e3, linear, start, "2.3", "Where the cloth begins; for the one weight x_0.y is where the spring rests."},
+    {"cloth", "v_0", "v_0", "Original velocity", "Ursprungshastighet", "m/s", &Preset::v_0, -1e3, 1e3, linear, start,
+     "", "The same for all free particles."},
+    {"cloth", "tilt_deg", "θ", "Tilt (90 hangs, 0 lies flat)", "Lutning", "°", &Preset::tilt_deg, -360, 360, linear,
+     start, "", "Angle of the cloth at the start.", false, Kind::cloth, true},
+    {"cloth", "initial_stretch", "s", "Initial stretch (1 at rest length)", "Ursprunglig töjning", "",
+     &Preset::initial_stretch, 0.1, 10, linear, start, "", "Above 1 every spring starts taut.", false, Kind::cloth,
+     true},
+    {"cloth", "offset", "y_start", "Start above the rest position", "Startläge över viloläget", "m", &Preset::offset,
+     -1e3, 1e3, linear, start, "2.3", "Where the one weight is let go.", false, Kind::one_weight, true},
+
+    {"forces", "k_s", "k_s", "Spring constant, stretching", "Fjäderkonstant töjning", "N/m", &Preset::k_s, 0, 1e9,
+     logarithmic, constant, "2.5", "Stiffness against stretching. The higher, the smaller the time step must be.",
+     false, Kind::cloth, true},
+    {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
+     logarithmic, constant, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
+    {"forces", "k_d", "k_d", "Damping constant", "Fjäderkonstant dämpning", "N s/m", &Preset::k_d, 0, 1e6, logarithmic,
+     constant, "2.6", "Resistance to relative motion along stretch springs: from denim (low) to rubber mat (high)."},
+    {"forces", "k", "k", "Spring constant of the one weight", "Fjäderkonstant", "N/m", &Preset::k, 0, 1e9, logarithmic,
+     constant, "2.3", "Hooke's two-sided spring of figure 3.2.", false, Kind::one_weight, true},
+    {"forces", "g", "g", "Gravitational acceleration", "Tyngdacceleration", "m/s²", &Preset::g, -100, 100, linear,
+     constant, "2.2", "Acts along -y: F_g = m·g."},
+    {"forces", "W", "W", "Wind", "Vind", "N", &Preset::W, -1e3, 1e3, linear, constant, "2.16",
+     "Force on each triangle along its normal: N (N·W).", false, Kind::cloth, true},
+    {"forces", "gust", "W_gust", "Strength of gusts, as a part of W", "Vindbyarnas styrka", "", &Preset::gust, 0, 10,
+     linear, constant, "", "The wind swells and falls by up to so many times W; 0 is the report's steady wind.", false,
+     Kind::cloth, true},
+    {"forces", "gust_period", "T_gust", "Period of the gusts", "Vindbyarnas period", "s", &Preset::gust_period, 0.01,
+     1e3, logarithmic, constant, "", "Time from one gust to the next; two shorter swells are laid over it.", false,
+     Kind::cloth, true},
+
+    {"tearing", "F_max", "F_max", "Greatest force that a spring bears", "Maximal fjäderkraft", "N", &Preset::F_max, 0,
+     1e9, logarithmic, constant, "", "A stretch spring whose F_s is larger breaks, for good.", true, Kind::cloth, true},
+    {"tearing", "F_release", "F_release", "Force at which the hand lets go", "Kraft då greppet släpper", "N",
+     &Preset::F_release, 0, 1e9, logarithmic, constant, "", "The held particle is let go above it.", true, Kind::cloth,
+     true},
+
+    {"solver", "integrator", "", "Integrator", "Approximationsmetod", "", &Preset::integrator, 0, 0, linear, solver,
+     "2.10", "How x and ẋ are carried from one time step to the next."},
+    {"solver", "dt", "dt", "Time step", "Tidssteg", "s", &Preset::dt, 1e-7, 1, logarithmic, solver, "2.10",
+     "Too large a step makes the simulation unstable."},
+    {"solver", "tolerance", "tol", "Tolerance of adaptive methods", "Tolerans", "m", &Preset::tolerance, 1e-12, 1,
+     logarithmic, solver, "", "Error allowed in a step by methods that choose their own steps."},
+    {"solver", "iterations", "n_iter", "Most iterations of a step", "Iterationer", "", &Preset::iterations, 1, 1000,
+     logarithmic, solver, "",
+     "Implicit methods: Newton steps of a solve at most, 1 takes a linear one as it is. xpbd: passes over the springs "
+     "in a "
+     "step."},
+
+    {"view", "mode", "", "View", "Vy", "", &Preset::mode, 1, 5, linear, view, "",
+     "1 triangles, 2 connections, 3 both, 4 outlines, 5 points."},
+    {"view", "texture", "", "Texture", "Textur", "", &Preset::texture, 0, 0, linear, view, "",
+     "A shipped texture's name or a PNG, JPEG, BMP or TGA file."},
+}};
+
+const std::array<BodyRow, 5> body_rows{{
+    {"bodies", "c", "c", "Centre of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, constant,
+     "2.9", "Where the sphere stands."},
+    {"bodies", "r", "r", "Radius of a sphere", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, constant, "2.9",
+     "A particle is inside where (x - c)·(x - c) < r²."},
+    {"bodies", "y", "y", "Height of a plane", "Planets höjd", "m", &Body::y, -1e3, 1e3, linear, constant, "",
+     "A horizontal plane; particles stay above it."},
+    {"bodies", "friction", "μ", "Friction", "Friktion", "", &Body::friction, 0, 10, linear, constant, "",
+     "Coulomb's coefficient: tangential velocity lost per normal velocity lost."},
+    {"bodies", "restitution", "e", "Restitution", "Studskoefficient", "", &Body::restitution, 0, 1, linear, constant,
+     "", "0: the inward velocity is removed; 1: it is reversed."},
+}};
+
+const std::array<Variable, 10> variable_rows{{
+    {"F", "F", "Total force", "Total kraft", "N", "2.2", "All forces on the particle."},
+    {"F_s", "F_s", "Stretching force", "Töjningskraft", "N", "2.5", "Sum over the eight stretch springs."},
+    {"F_b", "F_b", "Bending force", "Böjningskraft", "N", "2.7", "Sum over the four bending springs."},
+    {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
+    {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downwards."},
+    {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2", "F_s + F_b + F_d."},
+    {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind and the hand."},
+    {"x", "x", "Position", "Position", "m", "2.4", "Of the particle."},
+    {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Of the particle, at the time of its position."},
+    {"a", "x''", "Acceleration", "Acceleration", "m/s²", "2.1", "F/m; 0 for a pinned particle."},
+}};
+
+/// Capitals count as small letters.
+int edit_distance(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    int diagonal = row[0];
+    row[0] = int(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const int next = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (small(a[i - 1]) != small(b[j - 1]))});
+      diagonal = row[j];
+      row[j] = next;
+    }
+  }
+  return row.back();
+}
+
+template <class T>
+std::string range_text(const Row<T>& row) {
+  return row.max > row.min ? shortest_number(row.min) + " to " + shortest_number(row.max) : std::string("–");
+}
+
+template <class T>
+std::string default_text(const Row<T>& row) {
+  return std::visit(
+      [&](auto field) -> std::string {
+        static const T defaults;
+        const auto& value = defaults.*field;
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::string>)
+          return "`" + value + "`";
+        else if constexpr (std::is_same_v<Value, glm::dvec3>)
+          return "[" + shortest_number(value.x) + ", " + shortest_number(value.y) + ", " + shortest_number(value.z) +
+                 "]";
+        else
+          return row.zero_is_off && value == 0 ? "0 (never)" : shortest_number(double(value));
+      },
+      row.field);
+}
+
+template <class T>
+void table(std::ostringstream& out, std::span<const Row<T>> list) {
+  out << "| Key | Symbol | Quantity | Storhet | Unit | Allowed | Default | Equation | What it does |\n"
+         "|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& row : list)
+    out << "| `" << row.section << '.' << row.key << "` | " << (row.symbol.empty() ? "–" : row.symbol) << " | "
+        << row.quantity << " | " << row.storhet << " | " << (row.unit.empty() ? "–" : row.unit) << " | "
+        << range_text(row) << " | " << default_text(row) << " | " << (row.equation.empty() ? "–" : row.equation)
+        << " | " << row.help << " |\n";
+}
+
+}  // namespace
+
+std::span<const PresetRow> notation() {
+  return rows;
+}
+std::span<const BodyRow> body_notation() {
+  return body_rows;
+}
+std::span<const Variable> variables() {
+  return variable_rows;
+}
+
+const PresetRow* find_row(std::string_view key) {
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const PresetRow& r) { return r.key == key; });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+const BodyRow* find_body_row(std::string_view key) {
+  const auto row = std::find_if(body_rows.begin(), body_rows.end(), [&](const BodyRow& r) { return r.key == key; });
+  return row == body_rows.end() ? nullptr : &*row;
+}
+
+std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known) {
+  // A key longer than any known one by far cannot be a slip of the finger, and would only cost time.
+  if (word.size() > 64) return std::nullopt;
+  std::optional<std::string_view> best;
+  int best_distance = std::max(2, int(word.size()) / 2) + 1;
+  for (std::string_view candidate : known) {
+    const int distance = edit_distance(word, candidate);
+    if (distance < best_distance) best = candidate, best_distance = distance;
+  }
+  return best;
+}
+
+SliderRange slider_range(const PresetRow& row, double preset_value) {
+  const double v = std::abs(preset_value);
+  if (row.scale == Scale::logarithmic) {
+    // With 0 in the preset there is no value to centre on: fall back on the field's default, then on 1.
+    static const Preset defaults{};
+    double centre = v;
+    if (centre == 0)
+      if (const auto* field = std::get_if<double Preset::*>(&row.field)) centre = defaults.**field;
+    if (centre == 0) centre = 1;
+    const double low = row.min == 0 ? 0 : std::max(row.min, centre / 31.6);
+    return {low, std::clamp(centre * 31.6, row.min, row.max)};
+  }
+  const double reach = v > 0 ? 3 * v : 1;
+  return {std::max(row.min, -reach), std::min(row.max, reach)};
+}
+
+std::string notation_markdown() {
+  std::ostringstream out;
+  out << "# Notation\n\nMade from the notation table (`core/model/notation.cpp`) by `tyglab presets notation`; a "
+         "test holds it current. Symbols are those of table B.1 of the report, units are SI, ranges include their "
+         "ends.\n\n"
+         "## Constants of a preset\n\n";
+  table<Preset>(out, rows);
+  out << "\nBeside them: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
+         "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu` or "
+         "`opencl`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of `bodies` has "
+         "a `shape`: `sphere` (c, r) or `plane` (y).\n\n";
+  table<Body>(out, body_rows);
+  out << "\n## Variables\n\nRead out for the picked particle, and plotted.\n\n| Symbol | Quantity | Storhet | Unit | "
+         "Equation | Meaning |\n|---|---|---|---|---|---|\n";
+  for (const Variable& v : variable_rows) {
+    const std::string symbol = v.key == "v" ? "ẋ" : v.key == "a" ? "ẍ" : std::string(v.symbol);
+    out << "| " << symbol << " | " << v.quantity << " | " << v.storhet << " | " << v.unit << " | " << v.equation
+        << " | " << v.help << " |\n";
+  }
+  return out.str();
+}
+
+}  // namespace tyglab

@@ -1,0 +1,86 @@
+// The notation table: one row a constant. Presets, `--set`, panels, tooltips, CSV headers and docs/notation.md read it;
+// a new constant is one field in preset.h and one row in notation.cpp.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+enum class Scale { linear, logarithmic };
+
+/// What a change of the constant asks of a running simulation.
+enum class Effect {
+  constant,  ///< taken at the next step
+  rebuild,   ///< the cloth is built anew (rows, columns, kind)
+  start,     ///< counts at the next restart (where and how the cloth begins)
+  solver,    ///< a change of integrator, dt, engine or precision: velocities are kept
+  view       ///< nothing that is simulated
+};
+
+/// Field of T (Preset or Body) that a row stands for.
+template <class T>
+using FieldOf = std::variant<double T::*, int T::*, glm::dvec3 T::*, std::string T::*>;
+
+template <class T>
+struct Row {
+  std::string_view section;   ///< block of the preset file: "cloth", "forces", …; empty at the top level
+  std::string_view key;       ///< inner key, also that of --set
+  std::string_view symbol;    ///< the report's symbol, subscript after '_': "k_s", "F_max"
+  std::string_view quantity;  ///< English
+  std::string_view storhet;   ///< Swedish, the report's word where it has one
+  std::string_view unit;      ///< SI, empty if dimensionless
+  FieldOf<T> field;
+  double min = 0, max = 0;      ///< allowed range, ends included (numbers alone)
+  Scale scale = Scale::linear;  ///< of its slider
+  Effect effect = Effect::constant;
+  std::string_view equation;  ///< number in the report, empty where it has none
+  std::string_view help;      ///< one sentence: what it does
+  bool zero_is_off = false;   ///< 0 means never
+  Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
+  bool only_one_kind = false;
+};
+
+using PresetRow = Row<Preset>;
+using BodyRow = Row<Body>;
+
+/// All numeric and text constants of a preset in the order of the report and of the panel.
+std::span<const PresetRow> notation();
+/// Constants of a body; `c`, `r` belong to spheres, `y` to planes.
+std::span<const BodyRow> body_notation();
+/// Row with that inner key, or nullptr.
+const PresetRow* find_row(std::string_view key);
+const BodyRow* find_body_row(std::string_view key);
+
+/// A derived variable of table B.1 (F, F_s, …, x, ẋ, ẍ): read out, not set.
+struct Variable {
+  std::string_view key;     ///< "F_s"; ẋ is "v", ẍ is "a"
+  std::string_view symbol;  ///< to typeset: "F_s", "x'" for ẋ, "x''" for ẍ
+  std::string_view quantity;
+  std::string_view storhet;
+  std::string_view unit;
+  std::string_view equation;
+  std::string_view help;
+};
+std::span<const Variable> variables();
+
+/// The nearest of `known` to `word` by edit distance, if any is near enough to be meant.
+std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known);
+
+/// Slider range about three decades round `value` (logarithmic) or round the value (linear), inside the allowed range;
+/// starts at 0 where 0 is allowed.
+struct SliderRange {
+  double min, max;
+};
+SliderRange slider_range(const PresetRow& row, double preset_value);
+
+/// docs/notation.md, generated.
+std::string notation_markdown();
+
+}  // namespace tyglab

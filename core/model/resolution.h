@@ -1,0 +1,13 @@
+// The same cloth with more or fewer particles (docs/model.md, Resolution).
+#pragma once
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// Multiplies R-1 and C-1 by q and keeps size, mass and stretch behaviour of the cloth.
+Preset with_resolution(const Preset& preset, double q);
+/// Of two resolutions of one cloth: the particle in `to` nearest to where `site` lies in `from`.
+Pins::Site site_in_resolution(Pins::Site site, const Preset& from, const Preset& to);
+
+}  // namespace tyglab

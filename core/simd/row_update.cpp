@@ -1,0 +1,171 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/simd/row_update.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "core/simd/row_field.h"
+#include "core/simd/row_update.h"
+#include "core/simd/simd-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace tyglab::cpu::HWY_NAMESPACE {
+
+/// The sum at one vector's place.
+template <int terms, class R>
+HWY_INLINE auto sum_at(const RowSum<R>& s, std::ptrdiff_t at) {
+  using D = hn::ScalableTag<R>;
+  auto sum = hn::Mul(hn::Set(D(), s.factor[0]), hn::Load(D(), s.source[0] + at));
+  for (int n = 1; n < terms; ++n) sum = hn::MulAdd(hn::Set(D(), s.factor[n]), hn::Load(D(), s.source[n] + at), sum);
+  return sum;
+}
+
+template <int terms, class R>
+void sum_of(const RowSum<R>& given, std::ptrdiff_t stride, int columns) {
+  using D = hn::ScalableTag<R>;
+  constexpr int lanes = int(hn::MaxLanes(D()));
+  const RowSum<R> s = given;  // which no store can change
+  for (int c = 0; c < 3; ++c) {
+    std::ptrdiff_t at = c * stride;
+    const std::ptrdiff_t end = at + columns;
+    for (; at + lanes <= end; at += lanes) hn::Store(sum_at<terms>(s, at), D(), s.target + at);
+    if (at < end) hn::BlendedStore(sum_at<terms>(s, at), hn::FirstN(D(), std::size_t(end - at)), D(), s.target + at);
+  }
+}
+
+template <class R, int terms = RowSum<R>::most_terms>
+void sum(const RowSum<R>& s, std::ptrdiff_t stride, int columns) {
+  if (s.terms == terms) return sum_of<terms>(s, stride, columns);
+  if constexpr (terms > 1) sum<R, terms - 1>(s, stride, columns);
+}
+
+template <class R>
+void watch(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, int columns, R* largest) {
+  using D = hn::ScalableTag<R>;
+  constexpr hn::RebindToUnsigned<D> du;
+  constexpr int lanes = int(hn::MaxLanes(D()));
+  const auto by = hn::Set(D(), dt);
+  // Compared as integers, since then NaN and ∞ are larger than every number.
+  auto most = hn::BitCast(du, hn::Load(D(), largest));
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < columns; j += lanes) {
+      const std::ptrdiff_t at = c * stride + j;
+      const auto inside = hn::FirstN(D(), std::size_t(columns - j));
+      const auto way = hn::Abs(hn::Sub(hn::Load(D(), x + at), hn::Load(D(), old + at)));
+      const auto next = hn::Abs(hn::Mul(by, hn::Load(D(), v + at)));
+      const auto larger = hn::Max(hn::BitCast(du, way), hn::BitCast(du, next));
+      most = hn::Max(most, hn::BitCast(du, hn::IfThenElseZero(inside, hn::BitCast(D(), larger))));
+    }
+  hn::Store(hn::BitCast(D(), most), D(), largest);
+}
+
+template <class R>
+RowMeasures measure(const RowEstimate<R>& given, std::ptrdiff_t stride, int columns) {
+  using D = hn::ScalableTag<R>;
+  using L = Lanes<D>;
+  constexpr hn::RebindToUnsigned<D> du;
+  constexpr int lanes = int(hn::MaxLanes(D()));
+  const RowEstimate<R> e = given;
+  const L dt = L::all(double(e.dt));
+  auto error = hn::BitCast(du, hn::Zero(D())), farthest = error;  // as integers: NaN is larger than every number
+  L xx, xv, vv, xa, va;
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < columns; j += lanes) {
+      const std::ptrdiff_t at = c * stride + j;
+      L error_x, error_v, x, v, a;
+      for (int n = 0; n < e.terms; ++n) {
+        const L from = hn::Load(D(), e.source[n] + at);
+        error_x = multiply_add(hn::Set(D(), e.error_x[n]), from, error_x);
+        error_v = multiply_add(hn::Set(D(), e.error_v[n]), from, error_v);
+        x = multiply_add(hn::Set(D(), e.stage_x[n]), from, x);
+        v = multiply_add(hn::Set(D(), e.stage_v[n]), from, v);
+        a = multiply_add(hn::Set(D(), e.stage_a[n]), from, a);
+      }
+      const auto inside = hn::FirstN(D(), std::size_t(columns - j));
+      const auto kept = [&](L value) HWY_ATTR { return L(hn::IfThenElseZero(inside, value.v)); };
+      const auto bits = [&](L value) HWY_ATTR { return hn::BitCast(du, hn::Abs(kept(value).v)); };
+      error = hn::Max(error, hn::Max(bits(error_x), bits(dt * error_v)));
+      farthest = hn::Max(farthest, bits(hn::Load(D(), e.x + at)));
+      x = kept(x), v = kept(v), a = kept(a);
+      xx = multiply_add(x, x, xx), xv = multiply_add(x, v, xv), vv = multiply_add(v, v, vv);
+      xa = multiply_add(x, a, xa), va = multiply_add(v, a, va);
+    }
+  const auto sum = [](L value) HWY_ATTR { return double(hn::GetLane(hn::SumOfLanes(D(), value.v))); };
+  const auto most = [](auto value) HWY_ATTR {
+    alignas(widest_vector) R by_lane[widest_vector / sizeof(R)];
+    hn::Store(hn::BitCast(D(), value), D(), by_lane);
+    double largest = 0;
+    for (int n = 0; n < lanes; ++n) {
+      if (!(by_lane[n] <= std::numeric_limits<R>::max())) return std::numeric_limits<double>::infinity();
+      largest = std::max(largest, double(by_lane[n]));
+    }
+    return largest;
+  };
+  return {most(error), most(farthest), sum(xx), sum(xv), sum(vv), sum(xa), sum(va)};
+}
+
+RowMeasures measure_float(const RowEstimate<float>& e, std::ptrdiff_t stride, int columns) {
+  return measure(e, stride, columns);
+}
+RowMeasures measure_double(const RowEstimate<double>& e, std::ptrdiff_t stride, int columns) {
+  return measure(e, stride, columns);
+}
+void sum_float(const RowSum<float>& s, std::ptrdiff_t stride, int columns) {
+  sum(s, stride, columns);
+}
+void sum_double(const RowSum<double>& s, std::ptrdiff_t stride, int columns) {
+  sum(s, stride, columns);
+}
+void watch_float(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
+                 float* largest) {
+  watch(x, old, v, dt, stride, columns, largest);
+}
+void watch_double(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride, int columns,
+                  double* largest) {
+  watch(x, old, v, dt, stride, columns, largest);
+}
+
+}  // namespace tyglab::cpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tyglab::cpu {
+
+HWY_EXPORT(measure_float);
+HWY_EXPORT(measure_double);
+HWY_EXPORT(sum_float);
+HWY_EXPORT(sum_double);
+HWY_EXPORT(watch_float);
+HWY_EXPORT(watch_double);
+
+template <>
+RowMeasures measure_row(const RowEstimate<float>& e, std::ptrdiff_t stride, int columns) {
+  return HWY_DYNAMIC_DISPATCH(measure_float)(e, stride, columns);
+}
+template <>
+RowMeasures measure_row(const RowEstimate<double>& e, std::ptrdiff_t stride, int columns) {
+  return HWY_DYNAMIC_DISPATCH(measure_double)(e, stride, columns);
+}
+template <>
+void make_sum(const RowSum<float>& s, std::ptrdiff_t stride, int columns) {
+  HWY_DYNAMIC_DISPATCH(sum_float)(s, stride, columns);
+}
+template <>
+void make_sum(const RowSum<double>& s, std::ptrdiff_t stride, int columns) {
+  HWY_DYNAMIC_DISPATCH(sum_double)(s, stride, columns);
+}
+template <>
+void watch_ways(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
+                float* largest) {
+  HWY_DYNAMIC_DISPATCH(watch_float)(x, old, v, dt, stride, columns, largest);
+}
+template <>
+void watch_ways(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride, int columns,
+                double* largest) {
+  HWY_DYNAMIC_DISPATCH(watch_double)(x, old, v, dt, stride, columns, largest);
+}
+
+}  // namespace tyglab::cpu
+#endif

@@ -1,0 +1,39 @@
+// What to do when a run has diverged: a sentence with numbers from the linear theory (docs/model.md, "Words with a
+// meaning").
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/integrators/step_control.h"
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// Largest dt at which the method is stable for any configuration of the cloth, by its linearisation, with
+/// ω² <= (12 k_s + 8 k_b)/m and damping 12 k_d/m; 0 where no dt is. From the method's own table (amplification.h).
+/// One-sided springs switch, so it is advice and no guarantee.
+double stable_dt(const Preset& preset, const std::string& integrator);
+
+/// 0.9 of it, s, in the two digits in which it is said; 0 where no dt is stable, infinity where every one is.
+double advised_dt(const Preset& preset, const std::string& integrator);
+
+/// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
+std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
+
+/// What to change so that the preset does not diverge again.
+std::string advice(const Preset& preset);
+
+/// Whether weight and wind stretch springs to a thousand times their rest length by any method: all that pulls is more
+/// than all springs of a seam across the cloth can hold there, and dt is one that linear theory calls stable.
+bool springs_too_weak(const Preset& preset);
+/// What to change where they do.
+std::string advice_for_weak_springs(const Preset& preset);
+
+/// The preset with the change of integrator and dt that remedy() names first, made; none where it names none.
+std::optional<Preset> suggested_fix(const Preset& preset);
+
+/// The preset with the dt that is advised for its own method; none where it has it already, or none is stable.
+std::optional<Preset> with_advised_dt(const Preset& preset);
+
+}  // namespace tyglab

@@ -1,0 +1,92 @@
+#include "core/theory/amplification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tyglab {
+namespace {
+
+Matrix identity(int size) {
+  Matrix one{size, std::vector<double>(std::size_t(size) * size, 0)};
+  for (int i = 0; i < size; ++i) one.at(i, i) = 1;
+  return one;
+}
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix c{a.size, std::vector<double>(a.elements.size(), 0)};
+  for (int i = 0; i < a.size; ++i)
+    for (int k = 0; k < a.size; ++k)
+      for (int j = 0; j < a.size; ++j) c.at(i, j) += a.at(i, k) * b.at(k, j);
+  return c;
+}
+
+bool stable(const Scheme& scheme, double h, double zeta) {
+  return spectral_radius(amplification(scheme, h, zeta)) <= 1 + 1e-12;
+}
+
+}  // namespace
+
+Matrix amplification(const Scheme& scheme, double h, double zeta) {
+  const int n = scheme.vectors;
+  Matrix now = identity(n);  // row: a vector's coefficients in terms of the vectors at the beginning of the step
+  std::vector<double> force(std::size_t(n), 0);
+  const auto assign = [&](const std::vector<Assignment>& assignments) {
+    for (const Assignment& assignment : assignments) {
+      std::vector<double> sum(std::size_t(n), 0);
+      for (const Term& term : assignment.terms)  // dt = 1: no powers of it
+        for (int k = 0; k < n; ++k)
+          sum[std::size_t(k)] +=
+              term.factor * (term.vector == acceleration ? force[std::size_t(k)] : now.at(term.vector, k));
+      for (int k = 0; k < n; ++k) now.at(assignment.target, k) = sum[std::size_t(k)];
+    }
+  };
+  for (const Sweep& sweep : scheme.sweeps) {
+    assign(sweep.before);
+    if (const double b = sweep.solves; b != 0)
+      for (int k = 0; k < n; ++k) {
+        double &x = now.at(sweep.position, k), &v = now.at(sweep.velocity, k);
+        v = (v - b * h * h * x) / (1 + 2 * b * zeta * h + b * b * h * h);
+        x += b * v;
+      }
+    for (int k = 0; k < n; ++k)
+      force[std::size_t(k)] = -h * h * now.at(sweep.position, k) - 2 * zeta * h * now.at(sweep.velocity, k);
+    assign(sweep.assignments);
+  }
+  return now;
+}
+
+double spectral_radius(const Matrix& matrix) {
+  constexpr int squarings = 48;
+  Matrix power = matrix;
+  double log_radius = 0, weight = 1;
+  for (int n = 0; n < squarings; ++n) {
+    double norm = 0;
+    for (const double e : power.elements) norm = std::max(norm, std::abs(e));
+    if (norm == 0) return 0;
+    for (double& e : power.elements) e /= norm;
+    log_radius += weight * std::log(norm);
+    power = product(power, power);
+    weight /= 2;
+  }
+  return std::exp(log_radius);
+}
+
+double stability_limit(const Scheme& scheme, double zeta) {
+  constexpr double shortest = 1e-5, first = 1e-3, longest = 20, grid = 1.01;
+  double good = first;
+  if (!stable(scheme, good, zeta)) {
+    while (good > shortest && !stable(scheme, good, zeta)) good /= 2;
+    if (good <= shortest) return 0;
+  }
+  double bad = good * grid;
+  while (bad < longest && stable(scheme, bad, zeta)) good = bad, bad *= grid;
+  if (bad >= longest) return std::numeric_limits<double>::infinity();
+  while (bad - good > 1e-9 * good) {
+    const double middle = (good + bad) / 2;
+    (stable(scheme, middle, zeta) ? good : bad) = middle;
+  }
+  return good;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,31 @@
+// What linear theory says of a method on modes of the cloth: at which dt it breaks, at which stiffness, how it grows.
+// From the method's own table (amplification.h).
+#pragma once
+
+#include <span>
+
+#include "core/integrators/scheme.h"
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// One mode u of the cloth, |u| = 1: what it feels of stiffness and damping.
+struct Mode {
+  double stiffness = 0;  ///< ω² = uᵀM⁻¹K u, 1/s²; negative where the cloth would buckle
+  double damping = 0;    ///< 2ζω = uᵀM⁻¹C u, 1/s
+  double omega() const;  ///< √stiffness, 1/s; 0 where it is negative
+};
+
+/// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (one weight: k/m, k_d/m).
+Mode any_configuration(const Preset& preset);
+
+/// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large, or where
+/// linear theory has nothing to say of dt (has_step_limit).
+double dt_crit(const Scheme& scheme, std::span<const Mode> modes);
+/// Factor by which all stiffness could grow before the method breaks at dt; 0 where it is broken at any, infinity where
+/// at none. With k_b = 0 that times k_s is the k_s at which it breaks.
+double stiffness_margin(const Scheme& scheme, std::span<const Mode> modes, double dt);
+/// Growth per step in the long run, as a natural logarithm, of the mode that grows most; below 0 all die out.
+double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double dt);
+
+}  // namespace tyglab
