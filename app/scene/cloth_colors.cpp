@@ -1,23 +1,23 @@
 #include "app/scene/cloth_colors.h"
 
-#include "app/ui/app.h"
+#include "app/scene/scene.h"
 
 namespace tyglab {
 namespace {
 
 /// What distances in the n-th picture are measured from. Overlaid, the original shows how far the first copy is from
 /// it where it is itself the reference.
-Simulation* reference_of(App& app, int tile) {
-  const Copies& copies = app.copies;
+Simulation* reference_of(Scene& scene, int tile) {
+  const Copies& copies = scene.session.copies;
   if (copies.lockstep.empty()) return nullptr;
   const bool itself = copies.reference == Copies::original && tile == 0;
-  return &cloth_of(app, itself && copies.overlaid ? 0 : copies.reference);
+  return &cloth_of(scene.session, itself && copies.overlaid ? 0 : copies.reference);
 }
 
 }  // namespace
 
-bool light_ground(const App& app) {
-  return app.view.palette == light_palette;
+bool light_ground(const Scene& scene) {
+  return scene.view.palette == light_palette;
 }
 
 void ClothColors::choose(std::optional<ParticleField> field) {
@@ -27,15 +27,15 @@ void ClothColors::choose(std::optional<ParticleField> field) {
   pictures_.clear();
 }
 
-void ClothColors::update(App& app, int tile, int every) {
+void ClothColors::update(Scene& scene, int tile, int every) {
   if (pictures_.size() <= std::size_t(tile)) pictures_.resize(std::size_t(tile) + 1);
   Picture& picture = pictures_[std::size_t(tile)];
-  Simulation& cloth = cloth_in_tile(app, tile);
-  Simulation* reference = chosen->field == ParticleField::distance ? reference_of(app, tile) : nullptr;
+  Simulation& cloth = cloth_in_tile(scene, tile);
+  Simulation* reference = chosen->field == ParticleField::distance ? reference_of(scene, tile) : nullptr;
   Source now{&cloth,         cloth.revision(), reference, reference != nullptr ? reference->revision() : 0,
              cloth.preset(), chosen->field,    every};
-  if (now == picture.of || app.building.holds_present()) return;  // then another thread reads the cloth
-  const FrameCosts::Timer timer(app.costs, Part::colors);
+  if (now == picture.of || scene.session.rebuild.holds_present()) return;  // then another thread reads the cloth
+  const FrameCosts::Timer timer(scene.session.costs, Part::colors);
   picture.of = std::move(now);
   picture.sites = {cloth.lattice(), every};
   read_field(chosen->field, cloth, reference, picture.sites, picture.values);
@@ -43,10 +43,10 @@ void ClothColors::update(App& app, int tile, int every) {
   if (!cloth.divergence()) chosen->look(span_of(picture.values));  // what is left of it would take all of the scale
 }
 
-void ClothColors::give(App& app, int tile, ClothRenderer& renderer) {
-  const ColorMap map = chosen->map(light_ground(app));
+void ClothColors::give(Scene& scene, int tile, ClothRenderer& renderer) {
+  const ColorMap map = chosen->map(light_ground(scene));
   if (map_ != map) {
-    app.renderer->set_color_map(map_colors(map, map_size));
+    scene.renderer->set_color_map(map_colors(map, map_size));
     map_ = map;
   }
   Picture& picture = pictures_[std::size_t(tile)];
@@ -68,23 +68,24 @@ std::uint64_t ClothColors::version(int tile) const {
   return std::size_t(tile) < pictures_.size() ? pictures_[std::size_t(tile)].version : 0;
 }
 
-std::string why_not_colored(const App& app, ParticleField field) {
-  if (field == ParticleField::distance && app.copies.lockstep.empty())
+std::string why_not_colored(const Scene& scene, ParticleField field) {
+  if (field == ParticleField::distance && scene.session.copies.lockstep.empty())
     return "There is no copy to measure from; add one first.";
   return {};
 }
 
-const FieldColors* shown_colors(const App& app) {
-  const auto& chosen = app.colors.chosen;
-  if (!chosen || app.preset().kind != Kind::cloth || !why_not_colored(app, chosen->field).empty()) return nullptr;
+const FieldColors* shown_colors(const Scene& scene) {
+  const auto& chosen = scene.colors.chosen;
+  if (!chosen || scene.session.preset().kind != Kind::cloth || !why_not_colored(scene, chosen->field).empty())
+    return nullptr;
   return &*chosen;
 }
 
-std::optional<ParticleField> next_field(const App& app) {
+std::optional<ParticleField> next_field(const Scene& scene) {
   const auto fields = particle_fields();
-  const auto& chosen = app.colors.chosen;
+  const auto& chosen = scene.colors.chosen;
   for (std::size_t k = chosen ? std::size_t(chosen->field) + 1 : 0; k < fields.size(); ++k)
-    if (why_not_colored(app, fields[k].field).empty()) return fields[k].field;
+    if (why_not_colored(scene, fields[k].field).empty()) return fields[k].field;
   return std::nullopt;
 }
 

@@ -10,7 +10,7 @@
 
 namespace tyglab {
 
-struct App;
+struct Scene;
 class ClothRenderer;
 
 class ClothColors {
@@ -21,9 +21,9 @@ class ClothColors {
   /// Takes a field, with an automatic scale, or none.
   void choose(std::optional<ParticleField> field);
   /// Works out what the n-th picture lacks; of all pictures before any is drawn, since they share one scale.
-  void update(App& app, int tile, int every);
+  void update(Scene& scene, int tile, int every);
   /// Hands the renderer of that picture what it lacks.
-  void give(App& app, int tile, ClothRenderer& renderer);
+  void give(Scene& scene, int tile, ClothRenderer& renderer);
   /// The value of a particle in the n-th picture; none where it is not known.
   std::optional<float> value(int tile, Pins::Site site) const;
   /// Counts up whenever values of that picture change.
@@ -56,12 +56,12 @@ class ClothColors {
 };
 
 /// Whether the viewport's ground is light, which asks for other colours.
-bool light_ground(const App& app);
+bool light_ground(const Scene& scene);
 /// Nothing where the cloth can be coloured by that now; otherwise a sentence why not.
-std::string why_not_colored(const App& app, ParticleField field);
+std::string why_not_colored(const Scene& scene, ParticleField field);
 /// What colours the cloth at present; null where it has its own look.
-const FieldColors* shown_colors(const App& app);
+const FieldColors* shown_colors(const Scene& scene);
 /// The field after the present one that can be shown, or after the last none.
-std::optional<ParticleField> next_field(const App& app);
+std::optional<ParticleField> next_field(const Scene& scene);
 
 }  // namespace tyglab

@@ -9,16 +9,16 @@
 
 namespace tyglab {
 
-struct App;
+struct Scene;
 
 class ClothViews {
  public:
   /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window.
-  void draw(App& app, glm::vec2 magnified);
+  void draw(Scene& scene, glm::vec2 magnified);
   /// Copies have been made anew, perhaps where old ones stood, with the same count of changes.
   void forget_copies() { copies_.clear(); }
   /// The texture with the n-th picture of the viewport.
-  unsigned picture(const App& app, int tile) const;
+  unsigned picture(const Scene& scene, int tile) const;
 
  private:
   /// What a picture shows.
@@ -32,11 +32,11 @@ class ClothViews {
     bool operator==(const Drawn&) const = default;
   };
   /// Frames the scene where that is asked for, and, until the camera is taken in hand, for each new size of a picture.
-  void frame_scene(App& app, glm::vec2 shown);
-  bool take_ghosts(App& app, glm::ivec2 size);
+  void frame_scene(Scene& scene, glm::vec2 shown);
+  bool take_ghosts(Scene& scene, glm::ivec2 size);
   /// Returns what it took, ms; 0 where the last picture stays.
-  double draw_picture(App& app, int tile, glm::ivec2 size, bool ghosts_moved);
-  ClothRenderer& renderer(App& app, int tile);
+  double draw_picture(Scene& scene, int tile, glm::ivec2 size, bool ghosts_moved);
+  ClothRenderer& renderer(Scene& scene, int tile);
 
   std::vector<std::unique_ptr<ClothRenderer>> copies_;  ///< of copies; the original's is App::renderer
   std::vector<Drawn> drawn_;                            ///< by picture

@@ -6,8 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "app/ui/app.h"
-#include "app/ui/cards/cards.h"
+#include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
@@ -18,12 +17,12 @@
 namespace tyglab {
 namespace {
 
-void say(App& app, const std::vector<std::string>& gone) {
-  for (const std::string& sentence : gone) app.messages.warning(sentence);
+void say(Session& session, const std::vector<std::string>& gone) {
+  for (const std::string& sentence : gone) session.messages.warning(sentence);
   if (gone.empty()) return;
-  app.copies.reference = Copies::original;
-  app.copies.forget();
-  app.redraw_cloth = true;
+  session.copies.reference = Copies::original;
+  session.copies.forget();
+  ++session.counts.cloths;
 }
 
 /// "k_s = 80", or of a method its title alone.
@@ -56,20 +55,21 @@ bool needs_cpu(const std::vector<std::string>& differences) {
 
 }  // namespace
 
-Simulation& cloth_of(App& app, int n) {
-  return n == Copies::original ? *app.simulation : *app.copies.lockstep[std::size_t(n)].simulation;
+Simulation& cloth_of(const Session& session, int n) {
+  return n == Copies::original ? *session.simulation : *session.copies.lockstep[std::size_t(n)].simulation;
 }
 
-const Simulation& cloth_of(const App& app, int n) {
-  return n == Copies::original ? *app.simulation : *app.copies.lockstep[std::size_t(n)].simulation;
+std::optional<std::size_t> seat_of_cloth(const Session& session, int n) {
+  if (n == Copies::original) return std::nullopt;
+  return session.copies.lockstep[std::size_t(n)].seat;
 }
 
-std::string name_of_cloth(const App& app, int n) {
+std::string name_of_cloth(const Session& session, int n) {
   std::string name;
   const auto add = [&](const std::string& setting) {
     if (!setting.empty()) name += (name.empty() ? "" : ", ") + spoken(setting);
   };
-  const Lockstep& lockstep = app.copies.lockstep;
+  const Lockstep& lockstep = session.copies.lockstep;
   if (n != Copies::original) {
     for (const std::string& difference : lockstep[std::size_t(n)].differences) add(difference);
     return name.empty() ? "equal copy" : name;
@@ -77,21 +77,10 @@ std::string name_of_cloth(const App& app, int n) {
   std::set<std::string> keys{"integrator"};
   for (std::size_t k = 0; k < lockstep.size(); ++k)
     for (const std::string& difference : lockstep[k].differences) keys.insert(parse_setting(difference).key);
-  add(present(app.preset(), "integrator"));
+  add(present(session.preset(), "integrator"));
   for (const std::string& key : keys)
-    if (key != "integrator" && key != "tolerance") add(present(app.preset(), key));
+    if (key != "integrator" && key != "tolerance") add(present(session.preset(), key));
   return name;
-}
-
-CurveStyle style_of_cloth(const App& app, int n) {
-  const Tokens& c = app.theme.colors;
-  static constexpr std::array<ImU32 Tokens::*, Lockstep::most> colors{&Tokens::orange, &Tokens::green, &Tokens::magenta,
-                                                                      &Tokens::yellow, &Tokens::vermilion};
-  static constexpr std::array<LineStyle, Lockstep::most> lines{
-      LineStyle::dashed, LineStyle::long_dash, LineStyle::dotted, LineStyle::dash_dot, LineStyle::sparse_dots};
-  if (n == Copies::original) return {c.sky, LineStyle::solid, 2};
-  const std::size_t seat = app.copies.lockstep[std::size_t(n)].seat;
-  return {c.*colors[seat], lines[seat], 2};
 }
 
 std::vector<CopyChoice> copy_choices(const Preset& preset) {
@@ -115,90 +104,88 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
   return choices;
 }
 
-void add_copy(App& app, const std::vector<std::string>& differences, bool as_reference) {
-  Copies& copies = app.copies;
-  if (app.building.busy()) return app.messages.note("Another cloth is being built; add a copy when it is there.");
+void add_copy(Session& session, const std::vector<std::string>& differences, bool as_reference) {
+  Copies& copies = session.copies;
+  if (session.rebuild.busy())
+    return session.messages.note("Another cloth is being built; add a copy when it is there.");
   try {
-    copies.lockstep.add(*app.simulation, differences, app.threads);
+    copies.lockstep.add(*session.simulation, differences, session.threads);
   } catch (const std::exception& error) {
-    return app.messages.error(error.what());
+    return session.messages.error(error.what());
   }
   if (as_reference) copies.reference = int(copies.lockstep.size()) - 1;
-  copies.t = app.simulation->time();
+  copies.t = session.simulation->time();
   copies.forget();
-  app.tool.kind = Tool::Kind::none;  // all have been loaded anew, and the hand has let go
-  app.settings.layout.folded.erase(card_name::copies);
-  if (!in_front(app, card_name::copies)) app.ui.plots.wanted = card_name::distances;
-  app.redraw_cloth = true;
+  // All have been loaded anew, and the hand has let go.
+  ++session.counts.hands, ++session.counts.cloths, ++session.counts.copies_added;
 }
 
-void remove_copy(App& app, std::size_t n) {
-  Copies& copies = app.copies;
+void remove_copy(Session& session, std::size_t n) {
+  Copies& copies = session.copies;
   if (n >= copies.lockstep.size()) return;
   copies.lockstep.remove(n);
-  app.views.forget_copies();
+  ++session.counts.copies;
   if (copies.reference == int(n)) copies.reference = Copies::original;
   if (copies.reference > int(n)) --copies.reference;
   copies.forget();
-  app.tool.kind = Tool::Kind::none;
-  app.redraw_cloth = true;
+  ++session.counts.hands, ++session.counts.cloths;
 }
 
-bool put_away_copies(App& app) {
-  Copies& copies = app.copies;
+bool put_away_copies(Session& session) {
+  Copies& copies = session.copies;
   if (copies.lockstep.empty()) return false;
   copies.lockstep.clear();
-  app.views.forget_copies();
+  ++session.counts.copies;
   copies.reference = Copies::original;
   copies.forget();
-  app.tool.kind = Tool::Kind::none;
-  return app.redraw_cloth = true;
+  ++session.counts.hands, ++session.counts.cloths;
+  return true;
 }
 
-void copies_apply(App& app, const Edit& edit) {
-  Copies& copies = app.copies;
+void copies_apply(Session& session, const Edit& edit) {
+  Copies& copies = session.copies;
   if (copies.lockstep.empty()) return;
-  say(app, copies.lockstep.apply(*app.simulation, edit));
+  say(session, copies.lockstep.apply(*session.simulation, edit));
   if (!std::holds_alternative<edit::Restart>(edit)) return;
-  copies.t = app.simulation->time();
+  copies.t = session.simulation->time();
   copies.forget();
 }
 
-void copies_resume(App& app) {
-  if (app.copies.lockstep.empty()) return;
-  app.views.forget_copies();
-  say(app, app.copies.lockstep.resume(*app.simulation, app.threads));
-  app.copies.t = app.simulation->time();
-  app.copies.forget();
+void copies_resume(Session& session) {
+  if (session.copies.lockstep.empty()) return;
+  ++session.counts.copies;
+  say(session, session.copies.lockstep.resume(*session.simulation, session.threads));
+  session.copies.t = session.simulation->time();
+  session.copies.forget();
 }
 
-void copies_follow(App& app, double wall_s) {
-  Copies& copies = app.copies;
+void copies_follow(Session& session, double wall_s) {
+  Copies& copies = session.copies;
   if (copies.lockstep.empty()) return;
-  const double t = app.simulation->time();
+  const double t = session.simulation->time();
   copies.cost.add(t - copies.t, wall_s);
   copies.t = t;
   copies.lockstep.follow(t);
 }
 
-int copies_go_on(App& app, int steps) {
-  const double dt = app.preset().dt;
+int copies_go_on(Session& session, int steps) {
+  const double dt = session.preset().dt;
   const auto start = std::chrono::steady_clock::now();
-  app.copies.t += steps * dt;
-  app.copies.lockstep.follow(app.copies.t);
-  app.pacing.made(steps, dt, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  session.copies.t += steps * dt;
+  session.copies.lockstep.follow(session.copies.t);
+  session.pacing.made(steps, dt, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return steps;
 }
 
-void sample_copies(App& app) {
-  Copies& copies = app.copies;
+void sample_copies(Session& session) {
+  Copies& copies = session.copies;
   if (copies.lockstep.empty()) return;
   std::array<double, 1 + Lockstep::most> distance, energy;
   distance.fill(std::numeric_limits<double>::quiet_NaN());
   energy.fill(std::numeric_limits<double>::quiet_NaN());
-  Simulation& reference = cloth_of(app, copies.reference);
+  Simulation& reference = cloth_of(session, copies.reference);
   for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) {
-    Simulation& cloth = cloth_of(app, n);
+    Simulation& cloth = cloth_of(session, n);
     if (cloth.divergence()) continue;
     distance[std::size_t(n + 1)] = rms_distance(cloth, reference);
     energy[std::size_t(n + 1)] = cloth.energy().energy.total();

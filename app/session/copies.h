@@ -1,17 +1,17 @@
 // The copies that move beside the cloth, as they are seen: side by side or overlaid, measured against one of them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/session/series.h"
-#include "app/ui/kit/curve_plot.h"
 #include "core/lockstep.h"
 
 namespace tyglab {
 
-struct App;
+struct Session;
 
 struct Copies {
   enum class Quantity { distance, energy };
@@ -21,7 +21,6 @@ struct Copies {
   Lockstep::Cost cost;                    ///< the original's
   bool overlaid = false;                  ///< drawn as lines over the original; otherwise side by side
   int reference = original;               ///< what distances are measured from
-  bool shown = false;                     ///< the card is open: only then data is collected
   Quantity plotted = Quantity::distance;  ///< by the card
   Series distance{1 + Lockstep::most};    ///< m, of the original and the copies
   Series energy{1 + Lockstep::most};      ///< J, of all the cloth
@@ -34,12 +33,11 @@ struct Copies {
 };
 
 /// The n-th cloth: the original (n = Copies::original) or a copy.
-Simulation& cloth_of(App& app, int n);
-const Simulation& cloth_of(const App& app, int n);
+Simulation& cloth_of(const Session& session, int n);
+/// Its seat among the copies, which decides how it is drawn; none: the original.
+std::optional<std::size_t> seat_of_cloth(const Session& session, int n);
 /// How it is called: what tells it from the original, "k_s = 80, rk4"; or of the original what the copies change.
-std::string name_of_cloth(const App& app, int n);
-/// Its colour and line style, in plots, labels and as an overlay.
-CurveStyle style_of_cloth(const App& app, int n);
+std::string name_of_cloth(const Session& session, int n);
 
 /// What a copy may be made with: a row of the card's menu, and of the palette.
 struct CopyChoice {
@@ -51,17 +49,17 @@ struct CopyChoice {
 std::vector<CopyChoice> copy_choices(const Preset& preset);
 
 /// Adds a copy with these settings ("k_s=80"), or says why not.
-void add_copy(App& app, const std::vector<std::string>& differences, bool as_reference);
-void remove_copy(App& app, std::size_t n);
+void add_copy(Session& session, const std::vector<std::string>& differences, bool as_reference);
+void remove_copy(Session& session, std::size_t n);
 /// Removes all of them; returns whether there were any.
-bool put_away_copies(App& app);
+bool put_away_copies(Session& session);
 /// What the original has been given or become, the copies are given or become.
-void copies_apply(App& app, const Edit& edit);
-void copies_resume(App& app);
+void copies_apply(Session& session, const Edit& edit);
+void copies_resume(Session& session);
 /// The copies make the steps that the original has made; `wall_s` is what those took.
-void copies_follow(App& app, double wall_s);
+void copies_follow(Session& session, double wall_s);
 /// The original has diverged: the copies go on by themselves, for so many of its steps. Returns them.
-int copies_go_on(App& app, int steps);
-void sample_copies(App& app);
+int copies_go_on(Session& session, int steps);
+void sample_copies(Session& session);
 
 }  // namespace tyglab

@@ -1,8 +1,9 @@
 #include "app/session/document.h"
 
 #include "app/base/data_files.h"
-#include "app/ui/app.h"
-#include "app/ui/frame/dialogs.h"
+#include "app/base/settings.h"
+#include "app/session/edits.h"
+#include "app/session/session.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "core/model/readable.h"
@@ -15,40 +16,23 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
-void take_picture(App& app, const FoundPicture& picture) {
-  app.redraw_cloth = true;
-  if (const auto* why = std::get_if<std::string>(&picture)) return app.messages.error(*why);
-  if (const auto problem = app.renderer->set_texture(std::get<ClothPicture>(picture))) app.messages.error(*problem);
-}
-
 /// The middle of the cloth, so that there is something to read at once.
-std::optional<Pins::Site> first_pick(const App& app) {
-  const Lattice& lattice = app.simulation->lattice();
+std::optional<Pins::Site> first_pick(const Session& session) {
+  const Lattice& lattice = session.simulation->lattice();
   return Pins::Site{lattice.rows / 2, lattice.columns / 2};
 }
 
 }  // namespace
 
-FoundPicture find_picture(const Preset& preset) {
-  try {
-    return read_picture(texture_file(preset.texture));
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-}
-
-void begin_document(App& app, const Document& document, const FoundPicture& picture) {
-  app.document = document;
-  take_picture(app, picture);
-  app.history.clear(), app.rewind.clear(), app.figure.clear(), app.auto_dt.reset();
-  app.picked = first_pick(app);
-  app.tool = Tool{};
-  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
-  app.ui.slider = SliderState{};
-  app.ui.wind_arrow.reset();
-  app.ui.constants_to_top = true;
-  app.pacing.forget_cost(), app.pacing.restart_measure();
-  app.wants_framing = true;
+void begin_document(Session& session, const Document& document) {
+  session.document = document;
+  if (session.show_texture)
+    if (const auto problem = session.show_texture(session.preset().texture)) session.messages.error(*problem);
+  session.history.clear(), session.rewind.clear(), session.curves.clear(), session.auto_dt.reset();
+  session.picked = first_pick(session);
+  session.recorded.clear();
+  session.pacing.forget_cost(), session.pacing.restart_measure();
+  ++session.counts.documents;
 }
 
 std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, std::string& fallback) {
@@ -61,42 +45,37 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
   }
 }
 
-void take_built(App& app, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
-  const Preset before = app.preset();
-  swap_in(app, std::move(simulation));
-  if (order.document) return begin_document(app, *order.document, find_picture(app.preset()));
-  follow_up(app, before);
+void take_built(Session& session, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
+  const Preset before = session.preset();
+  swap_in(session, std::move(simulation));
+  if (order.document) return begin_document(session, *order.document);
+  follow_up(session, before);
   if (!order.fresh) return;
-  app.ui.plots.forces.clear(), app.ui.plots.height.clear();
-  app.pacing.restart_measure();
+  session.recorded.clear();
+  session.pacing.restart_measure();
 }
 
-void open_document(App& app, const std::filesystem::path& file, bool shipped,
+void open_document(Session& session, const std::filesystem::path& file, bool shipped,
                    const std::vector<std::string>& settings) {
   try {
     const Preset preset = with_settings(load_preset(file), settings);
     const Document document{preset, file.stem().string(), shipped ? std::filesystem::path() : file};
-    if (takes_long(app, preset) && preset.engine == EngineKind::cpu)
-      return app.building.order(app, {preset, true, false, document}, app.history);
+    if (takes_long(session, preset) && preset.engine == EngineKind::cpu)
+      return session.rebuild.order(session, {preset, true, false, document}, session.history);
     std::string fallback;
-    auto simulation = make_simulation(preset, app.threads, fallback);
-    if (!fallback.empty()) app.messages.warning(fallback);
-    app.building.drop();
-    take_built(app, std::move(simulation), {preset, true, false, document});
+    auto simulation = make_simulation(preset, session.threads, fallback);
+    if (!fallback.empty()) session.messages.warning(fallback);
+    session.rebuild.drop();
+    take_built(session, std::move(simulation), {preset, true, false, document});
   } catch (const std::bad_alloc&) {
-    app.messages.error("There is not enough memory for " + file.string() + ". The old cloth stays.");
+    session.messages.error("There is not enough memory for " + file.string() + ". The old cloth stays.");
   } catch (const std::exception& error) {
-    app.messages.error(error.what());
+    session.messages.error(error.what());
   }
 }
 
-void save_document(App& app) {
-  if (app.document.file.empty()) return open_dialog(app, Dialog::Kind::save);
-  save_document_as(app, app.document.file, app.preset().name);
-}
-
-bool save_document_as(App& app, const std::filesystem::path& file, const std::string& name) {
-  Preset preset = app.preset();
+bool save_document_as(Session& session, const std::filesystem::path& file, const std::string& name) {
+  Preset preset = session.preset();
   preset.name = name;
   try {
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
@@ -108,14 +87,15 @@ bool save_document_as(App& app, const std::filesystem::path& file, const std::st
       throw OutputError("The folder " + folder.string() + " is not there; make it first, or choose another.");
     save_preset(preset, file);
   } catch (const std::exception& error) {
-    show_save_problem(app, file, name, error.what());
+    session.not_saved = SaveProblem{file, name, error.what()};
     return false;
   }
-  app.building.rename(name);
-  if (!app.building.holds_present()) apply_to_all(app, edit::Change{preset});
-  if (app.labs.opened == app.document.label) app.labs.opened = file.stem().string();  // it is the lab's cloth still
-  app.document = {preset, file.stem().string(), file};
-  app.messages.note("Saved " + file.string());
+  session.rebuild.rename(name);
+  if (!session.rebuild.holds_present()) apply_to_all(session, edit::Change{preset});
+  if (session.labs.opened == session.document.label)
+    session.labs.opened = file.stem().string();  // it is the lab's cloth still
+  session.document = {preset, file.stem().string(), file};
+  session.messages.note("Saved " + file.string());
   return true;
 }
 

@@ -1,11 +1,11 @@
 #include "app/session/rebuild.h"
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/session/document.h"
-#include "app/ui/app.h"
+#include "app/session/edits.h"
+#include "app/session/session.h"
 #include "core/io/preset_io.h"
 
 namespace tyglab {
@@ -36,51 +36,55 @@ Preset rebased(const Preset& before, const Preset& after, const Preset& present)
   return next;
 }
 
-bool needs_programs(const App& app, const Preset& preset) {
-  if (preset.engine != EngineKind::opencl || app.scripted) return false;
-  const bool same_device = app.preset().engine == EngineKind::opencl && app.preset().device == preset.device;
-  return !same_device || (app.building.prepare_programs && !app.simulation->engine().ready_for(preset));
+bool needs_programs(const Session& session, const Preset& preset) {
+  if (preset.engine != EngineKind::opencl || session.scripted) return false;
+  const bool same_device = session.preset().engine == EngineKind::opencl && session.preset().device == preset.device;
+  return !same_device || (session.rebuild.prepare_programs && !session.simulation->engine().ready_for(preset));
 }
 
-bool takes_long(const App& app, const Preset& preset) {
-  return !app.scripted && (particles(preset) >= many_particles || needs_programs(app, preset));
+bool takes_long(const Session& session, const Preset& preset) {
+  return !session.scripted && (particles(preset) >= many_particles || needs_programs(session, preset));
 }
 
-bool takes_long(const App& app, const Edit& edit) {
+bool takes_long(const Session& session, const Edit& edit) {
   const auto* change = std::get_if<edit::Change>(&edit);
-  const Preset& preset = change != nullptr ? change->preset : app.preset();
-  return app.simulation->rebuilds(edit) ? takes_long(app, preset) : change != nullptr && needs_programs(app, preset);
+  const Preset& preset = change != nullptr ? change->preset : session.preset();
+  return session.simulation->rebuilds(edit) ? takes_long(session, preset)
+                                            : change != nullptr && needs_programs(session, preset);
 }
 
-void swap_in(App& app, std::unique_ptr<Simulation> simulation) {
-  app.simulation.swap(simulation);
-  copies_resume(app);
-  if (simulation != nullptr) app.building.dispose(std::move(simulation));
-  app.sleep = Sleep{};
-  app.redraw_cloth = true;  // its count of changes may be that of the last one
+void swap_in(Session& session, std::unique_ptr<Simulation> simulation) {
+  std::shared_ptr<Simulation> last = std::exchange(session.simulation, std::move(simulation));
+  copies_resume(session);
+  session.rebuild.dispose(std::move(last));
+  session.sleep = Sleep{};
+  ++session.counts.cloths;  // its count of changes may be that of the last one
 }
 
-void BackgroundRebuild::order(const App& app, BuildOrder order, History before) {
+void BackgroundRebuild::order(const Session& session, BuildOrder order, History before) {
   next_ = std::move(order);
   if (busy()) return;  // a cloth cannot be left half built: the next one follows it
   before_ = std::move(before);
-  start(app);
+  start(session);
 }
 
-void BackgroundRebuild::start(const App& app) {
+void BackgroundRebuild::start(const Session& session) {
   making_ = std::move(*next_);
   next_.reset();
   dropped_ = false;
-  const auto prepare = needs_programs(app, making_->target) ? prepare_programs : nullptr;
-  const bool ledger = app.simulation->ledger().has_value();
-  work_ = std::async(std::launch::async,
-                     [prepare, ledger, order = *making_, present = app.simulation.get(),
-                      threads = app.threads]() -> std::unique_ptr<Simulation> {
-                       if (prepare) prepare(order.target, ledger);
-                       if (order.programs) return nullptr;
-                       if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
-                       return present->rebuilt(edit::Change{order.target});
-                     });
+  const auto prepare = needs_programs(session, making_->target) ? prepare_programs : nullptr;
+  const bool ledger = session.simulation->ledger().has_value();
+  // It owns the present cloth as long as it reads it, whatever the session shows by then.
+  std::shared_ptr<const Simulation> present = making_->fresh ? nullptr : session.simulation;
+  work_.start(Priority::normal,
+              [prepare, ledger, order = *making_, present = std::move(present), before = before_reading,
+               threads = session.threads](const JobControl&) -> std::unique_ptr<Simulation> {
+                if (prepare) prepare(order.target, ledger);
+                if (order.programs) return nullptr;
+                if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
+                if (before) before();
+                return present->rebuilt(edit::Change{order.target});
+              });
 }
 
 void BackgroundRebuild::rename(const std::string& name) {
@@ -88,27 +92,34 @@ void BackgroundRebuild::rename(const std::string& name) {
     if (*order) (*order)->target.name = name;
 }
 
-void BackgroundRebuild::poll(App& app) {
+void BackgroundRebuild::poll(Session& session) {
   if (!busy()) return;
   ++frames_beside_;
-  if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  try {
-    finish(app);
-  } catch (const std::bad_alloc&) {
-    give_up(app, "There is not enough memory for that. Nothing was changed; try fewer rows and columns.");
-  } catch (const std::exception& error) {
-    give_up(app, error.what());
+  if (!work_.ready()) return;
+  auto outcome = work_.take();
+  if (const auto* failure = std::get_if<JobError>(&outcome)) {
+    give_up(session, *failure);
+  } else {
+    try {
+      finish(session, std::move(std::get<0>(outcome)));
+    } catch (const std::bad_alloc&) {
+      give_up(session, {.what = {}, .out_of_memory = true});
+    } catch (const std::exception& error) {
+      give_up(session, {error.what()});
+    }
   }
   if (busy()) return;
   const std::vector<Edit> deferred = std::move(deferred_);
   deferred_.clear();
-  for (const Edit& edit : deferred) apply_edit(app, edit);
+  for (const Edit& edit : deferred) apply_edit(session, edit);
 }
 
-void BackgroundRebuild::give_up(App& app, const std::string& why) {
+void BackgroundRebuild::give_up(Session& session, const JobError& why) {
   making_.reset(), next_.reset();
-  app.history = std::move(before_);
-  app.messages.error(why);
+  session.history = std::move(before_);
+  session.messages.error(why.out_of_memory
+                             ? "There is not enough memory for that. Nothing was changed; try fewer rows and columns."
+                             : why.what);
 }
 
 /// Whether what has been made is what is wanted, or on the way to it.
@@ -119,60 +130,64 @@ bool BackgroundRebuild::available(const BuildOrder& made) const {
   return alike && !made.document && !next_->document && (made.fresh || !next_->fresh);
 }
 
-void BackgroundRebuild::finish(App& app) {
-  std::unique_ptr<Simulation> made = work_.get();
+void BackgroundRebuild::finish(Session& session, std::unique_ptr<Simulation> made) {
   const BuildOrder order = *std::exchange(making_, std::nullopt);
   const bool use = available(order);
   dropped_ = false;
   if (!use) {
     dispose(std::move(made));
-    if (next_) start(app);
+    if (next_) start(session);
     return;
   }
-  take(app, std::move(made), order);
-  if (next_) go_on(app);
+  take(session, std::move(made), order);
+  if (next_) go_on(session);
 }
 
-void BackgroundRebuild::take(App& app, std::unique_ptr<Simulation> made, const BuildOrder& order) {
+void BackgroundRebuild::take(Session& session, std::unique_ptr<Simulation> made, const BuildOrder& order) {
   const edit::Change change{order.target};
   if (order.programs) {
-    const Preset before = app.preset();
-    apply_to_all(app, change);
-    follow_up(app, before);
+    const Preset before = session.preset();
+    apply_to_all(session, change);
+    follow_up(session, before);
     return;
   }
   if (!(order.target == made->preset())) made->apply(change);  // it has been renamed
-  take_built(app, std::move(made), order);
+  take_built(session, std::move(made), order);
 }
 
 /// From what has just been taken to what has been asked for since.
-void BackgroundRebuild::go_on(App& app) {
+void BackgroundRebuild::go_on(Session& session) {
   const edit::Change change{next_->target};
-  if (change.preset == app.preset()) return next_.reset();
-  next_->programs = !app.simulation->rebuilds(change);
+  if (change.preset == session.preset()) return next_.reset();
+  next_->programs = !session.simulation->rebuilds(change);
   next_->fresh = next_->programs;
-  if (!next_->programs || needs_programs(app, change.preset)) return start(app);
+  if (!next_->programs || needs_programs(session, change.preset)) return start(session);
   next_.reset();
-  const Preset before = app.preset();
-  apply_to_all(app, change);
-  follow_up(app, before);
+  const Preset before = session.preset();
+  apply_to_all(session, change);
+  follow_up(session, before);
 }
 
-bool BackgroundRebuild::ledger_ready(const App& app) {
-  if (ledger_programs_.valid()) {
-    if (ledger_programs_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-    ledger_programs_.get();
+bool BackgroundRebuild::ledger_ready(const Session& session) {
+  if (ledger_programs_.busy()) {
+    if (!ledger_programs_.ready()) return false;
+    ledger_programs_.take();
     return true;  // from disk, or built here where that did not work
   }
-  if (app.scripted || !prepare_programs || app.simulation->engine().ready_for_contacts()) return true;
-  ledger_programs_ =
-      std::async(std::launch::async, [prepare = prepare_programs, preset = app.preset()] { prepare(preset, true); });
+  if (session.scripted || !prepare_programs || session.simulation->engine().ready_for_contacts()) return true;
+  ledger_programs_.start(Priority::normal, [prepare = prepare_programs, preset = session.preset()](const JobControl&) {
+    prepare(preset, true);
+    return std::monostate();
+  });
   return false;
 }
 
-void BackgroundRebuild::dispose(std::unique_ptr<Simulation> simulation) {
+void BackgroundRebuild::dispose(std::shared_ptr<Simulation> simulation) {
   if (simulation == nullptr || simulation->lattice().size() < many_particles) return;
-  disposal_ = std::async(std::launch::async, [gone = std::move(simulation)]() mutable { gone.reset(); });
+  disposal_.start(Priority::normal, [gone = std::move(simulation)](const JobControl&) mutable {
+    gone.reset();
+    return std::monostate();
+  });
 }
 
 }  // namespace tyglab

@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/session/history.h"
+#include "app/studies/job.h"
 #include "core/simulation.h"
 
 namespace tyglab {
 
-struct App;
+struct Session;
 
 /// The preset that was opened or saved last: what "unsaved" and every reset compare with.
 struct Document {
@@ -38,6 +38,8 @@ class BackgroundRebuild {
   /// Builds the programs that the preset's device needs, beside the frames. None: they are built when they are needed.
   /// `ledger`: those of steps that note what bodies stop.
   std::function<void(const Preset&, bool ledger)> prepare_programs;
+  /// Called by the worker before it reads the present cloth: tests hold it there.
+  std::function<void()> before_reading;
 
   bool busy() const { return making_.has_value(); }
   /// Whether the present cloth is being read, so that it may neither step nor change.
@@ -57,7 +59,7 @@ class BackgroundRebuild {
   bool opens() const { return wish() != nullptr && wish()->document.has_value(); }
 
   /// Builds that; what is in work is not wanted any more. `before`: the history to return to if it cannot be built.
-  void order(const App& app, BuildOrder order, History before);
+  void order(const Session& session, BuildOrder order, History before);
   /// What has been asked for is not wanted any more.
   void drop() { next_.reset(), dropped_ = busy(); }
   /// Keeps an edit for the cloth in work.
@@ -65,41 +67,41 @@ class BackgroundRebuild {
   /// The cloth in work gets another name.
   void rename(const std::string& name);
   /// Called in every frame: takes the cloth that is ready, if one is.
-  void poll(App& app);
+  void poll(Session& session);
   /// Whether the ledger can be kept from now on without waiting for a compiler. Otherwise its program is being built.
-  bool ledger_ready(const App& app);
-  /// Frees a cloth beside the frame: that takes a while too.
-  void dispose(std::unique_ptr<Simulation> simulation);
+  bool ledger_ready(const Session& session);
+  /// Frees a large cloth beside the frame, since that takes a while too.
+  void dispose(std::shared_ptr<Simulation> simulation);
 
  private:
   const BuildOrder* wish() const { return next_ ? &*next_ : making_ && !dropped_ ? &*making_ : nullptr; }
   bool available(const BuildOrder& made) const;
-  void start(const App& app);
-  void finish(App& app);
-  void take(App& app, std::unique_ptr<Simulation> made, const BuildOrder& order);
-  void go_on(App& app);
-  void give_up(App& app, const std::string& why);
+  void start(const Session& session);
+  void finish(Session& session, std::unique_ptr<Simulation> made);
+  void take(Session& session, std::unique_ptr<Simulation> made, const BuildOrder& order);
+  void go_on(Session& session);
+  void give_up(Session& session, const JobError& why);
 
   std::optional<BuildOrder> making_, next_;
   bool dropped_ = false;  ///< what is being made is not wanted
   std::vector<Edit> deferred_;
   History before_;
   std::int64_t frames_beside_ = 0;
-  std::future<std::unique_ptr<Simulation>> work_;
-  std::future<void> disposal_, ledger_programs_;
+  Job<std::unique_ptr<Simulation>> work_;
+  Job<std::monostate> disposal_, ledger_programs_;
 };
 
 /// Of the preset's cloth.
 double particles(const Preset& preset);
 /// Whether an OpenCL device must build programs before the present cloth has these constants.
-bool needs_programs(const App& app, const Preset& preset);
+bool needs_programs(const Session& session, const Preset& preset);
 /// Whether an edit takes so long that it is to be built beside the frames.
-bool takes_long(const App& app, const Edit& edit);
+bool takes_long(const Session& session, const Edit& edit);
 /// The same of a preset that is opened.
-bool takes_long(const App& app, const Preset& preset);
+bool takes_long(const Session& session, const Preset& preset);
 /// What was changed from `before` to `after`, changed in `present`.
 Preset rebased(const Preset& before, const Preset& after, const Preset& present);
 /// Takes a simulation in place of the present one.
-void swap_in(App& app, std::unique_ptr<Simulation> simulation);
+void swap_in(Session& session, std::unique_ptr<Simulation> simulation);
 
 }  // namespace tyglab

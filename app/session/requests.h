@@ -1,5 +1,5 @@
-// What panels, keys and menus ask for. They change nothing themselves: requests.cpp applies what they ask, in one
-// place.
+// What panels, keys, menus and labs ask of a session. They change nothing themselves: requests.cpp applies what they
+// ask, in one place.
 #pragma once
 
 #include <filesystem>
@@ -9,69 +9,8 @@
 #include <vector>
 
 #include "core/edit.h"
-#include "core/fields/particle_field.h"
 
 namespace tyglab {
-
-enum class Command {
-  restart,           ///< motion only; constants stay
-  reset_constants,   ///< to the preset's, motion stays
-  reset_everything,  ///< the preset, its start, the camera
-  undo_and_restart,
-  rewind,         ///< a second back
-  toggle_auto,    ///< dt chosen and watched by the program
-  choose_engine,  ///< measured by the program
-  toggle_play,
-  step,
-  undo,
-  redo,
-  frame_cloth,
-  open_dialog,
-  save,
-  save_as,
-  load_texture_dialog,
-  export_forces,
-  export_height,
-  toggle_help,
-  open_palette,
-  choose_lab,
-  leave_lab,
-  start_tour,
-  toggle_panels,
-  toggle_map,  ///< its card comes to the front, or closes where it stands there
-  toggle_inside,
-  show_forces,  ///< cards of the plots' column
-  show_height,
-  show_distances,
-  show_copies,
-  show_stability,
-  show_accuracy,
-  show_energy,
-  show_performance,
-  toggle_cut_path,    ///< cuts run along the pointer's path, or upwards
-  toggle_wind_arrow,  ///< shown, or not
-  toggle_slow_hand,   ///< slow motion while the hand is in the cloth, or not
-  export_map,
-  export_map_picture,
-  export_copies,
-  full_screen,
-  larger_text,
-  smaller_text,
-  normal_text,
-  next_theme,
-  next_color,
-  export_values,
-  export_mesh,
-  export_state,
-  measure_convergence,
-  export_convergence,
-  toggle_effects,
-  save_picture,
-  quit,
-};
-
-/// What can be written to a file (exports.h), in its order.
-enum class ExportSource { forces, height, map, copies, values, convergence, map_picture, mesh, state };
 
 namespace request {
 /// An edit of the simulation. Edits of one gesture (a drag of a slider) are undone together; 0 stands alone.
@@ -79,9 +18,6 @@ struct Apply {
   Edit edit;
   unsigned gesture = 0;
   bool confirmed = false;  ///< the user has agreed to a very large cloth
-};
-struct Do {
-  Command command;
 };
 /// A second back, and on from there with these constants.
 struct Retry {
@@ -99,15 +35,6 @@ struct SavePreset {
   std::filesystem::path file;
   std::string name;
 };
-struct WriteExport {
-  std::filesystem::path file;
-  ExportSource source = ExportSource::forces;
-};
-/// A PNG of the window, or of the viewport with what its colours mean and without buttons.
-struct SavePicture {
-  std::filesystem::path file;
-  bool whole_window = false;
-};
 struct LoadTexture {
   std::string name;  ///< shipped name or path
 };
@@ -119,28 +46,29 @@ struct AddCopy {
 struct RemoveCopy {
   std::size_t index;
 };
-/// What colours the cloth: none, its own look.
-struct ColorBy {
-  std::optional<ParticleField> field;
-};
 struct Quit {
   bool confirmed = false;
 };
 }  // namespace request
 
-using Request = std::variant<request::Apply, request::Do, request::Open, request::SavePreset, request::WriteExport,
-                             request::LoadTexture, request::Retry, request::AddCopy, request::RemoveCopy,
-                             request::ColorBy, request::SavePicture, request::Quit>;
+using Request = std::variant<request::Apply, request::Retry, request::Open, request::SavePreset, request::LoadTexture,
+                             request::AddCopy, request::RemoveCopy, request::Quit>;
 
-struct App;
-/// Applies all requests since the last frame, in order. Errors become messages and leave everything as it was.
-void apply_requests(App& app);
-/// While dt is automatic: halves it if the ledger finds that the method makes energy.
-void watch_dt(App& app);
+/// A question that the user must answer before the session goes on with a request.
+struct Question {
+  enum class About { unsaved_changes, large_cloth };
+  About about;
+  std::string text;
+  Request then;  ///< what follows a yes
+};
+
+struct Session;
+/// Applies all requests since the last update, in order. Errors become messages and leave everything as it was.
+void apply_requests(Session& session);
 /// Whether the present constants differ from those of the file (the view apart).
-bool unsaved(const App& app);
+bool unsaved(const Session& session);
 /// Whether the motion has diverged, and constants of its model have been changed since.
-bool changed_since_divergence(const App& app);
+bool changed_since_divergence(const Session& session);
 /// Whether both say the same of the motion: they may differ in name, picture, engine and precision.
 bool same_model(Preset a, const Preset& b);
 

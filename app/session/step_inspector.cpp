@@ -1,8 +1,6 @@
 #include "app/session/step_inspector.h"
 
-#include <algorithm>
-
-#include "app/ui/app.h"
+#include "app/session/session.h"
 
 namespace tyglab {
 namespace {
@@ -11,22 +9,17 @@ constexpr double moving_pause = 0.25;  // s between two looks at a moving cloth
 
 }  // namespace
 
-const StepTrace* StepInspector::look(App& app) {
-  const Simulation& simulation = *app.simulation;
-  const bool there = app.picked && app.preset().kind == Kind::cloth && !simulation.divergence() &&
-                     !app.building.holds_present() && simulation.lattice().size() <= largest;
-  if (!there) {
-    drop();
-    return nullptr;
-  }
-  const bool other = !trace_ || trace_->i != app.picked->i || trace_->j != app.picked->j;
+void StepInspector::update(const Session& session) {
+  const Simulation& simulation = *session.simulation;
+  const bool there = session.picked && session.preset().kind == Kind::cloth && !simulation.divergence() &&
+                     !session.rebuild.holds_present() && simulation.lattice().size() <= largest;
+  if (!there) return drop();
+  const bool other = !trace_ || trace_->i != session.picked->i || trace_->j != session.picked->j;
   const bool moved = revision_ != simulation.revision();
-  if (!other && !moved) return &*trace_;
-  if (!other && app.pacing.playing && app.ui.now < looked_ + moving_pause) return &*trace_;
-  trace_ = trace_step(simulation, app.picked->i, app.picked->j);
+  if (!other && (!moved || (session.pacing.playing && session.now < looked_ + moving_pause))) return;
+  trace_ = trace_step(simulation, session.picked->i, session.picked->j);
   revision_ = simulation.revision();
-  looked_ = app.ui.now;
-  return &*trace_;
+  looked_ = session.now;
 }
 
 }  // namespace tyglab

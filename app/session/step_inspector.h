@@ -1,4 +1,4 @@
-// The picked particle's next step, written out while a panel shows it.
+// The picked particle's next step, written out while somebody wants it.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,23 @@
 
 namespace tyglab {
 
-struct App;
+struct Session;
 
 class StepInspector {
  public:
   static constexpr int largest = 256 * 256;  ///< particles of a cloth whose step is written out
 
-  /// Called in every frame that shows it. The step that the cloth would make next; of a moving cloth the one of some
-  /// frames ago, since nobody could read it faster. nullptr where there is none to show.
-  const StepTrace* look(App& app);
-  /// The one looked at last; nullptr once nothing shows it.
+  /// Called in every update in which it is wanted. The step that the cloth would make next; of a moving cloth the one
+  /// of some updates ago, since nobody could read it faster.
+  void update(const Session& session);
+  /// The one worked out last; nullptr where there is none to show.
   const StepTrace* shown() const { return trace_ ? &*trace_ : nullptr; }
   void drop() { trace_.reset(), revision_ = ~0ull; }
 
  private:
   std::optional<StepTrace> trace_;
   std::uint64_t revision_ = ~0ull;
-  double looked_ = -1;  ///< s, as the window counts
+  double looked_ = -1;  ///< s on the session's clock
 };
 
 }  // namespace tyglab

@@ -1,47 +1,65 @@
 #include "app/shell/start.h"
 
+#include "app/base/data_files.h"
+#include "app/process/kernel_prebuild.h"
+#include "app/session/document.h"
+#include "core/engines/opencl/opencl_devices.h"
 #include "core/io/files.h"
 
 namespace tyglab {
-namespace {
 
-Settings settings_for(const SandboxOptions& options, App& app) {
+Settings settings_for(const SandboxOptions& options, Messages& messages) {
   std::string problem;
   if (options.frames > 0) return {};
   Settings settings = load_settings(problem);
   if (!problem.empty()) {
-    app.messages.warning(problem);
+    messages.warning(problem);
     return settings;
   }
   try {
     save_settings(settings);  // now, while there is somebody to read that it does not work
   } catch (const OutputError& error) {
-    app.messages.warning(std::string(error.what()) +
-                         ". This session's settings will not be remembered. Make the folder writable, or name another "
-                         "one in TYGLAB_CONFIG_DIR.");
+    messages.warning(std::string(error.what()) +
+                     ". This session's settings will not be remembered. Make the folder writable, or name another "
+                     "one in TYGLAB_CONFIG_DIR.");
   }
   return settings;
 }
 
-}  // namespace
-
-App start_app(const SandboxOptions& options) {
-  App app;
-  app.scripted = options.frames > 0;
-  app.threads = options.threads;
-  app.settings = settings_for(options, app);
+void take_options(const SandboxOptions& options, Ui& ui) {
+  Session& session = ui.session;
+  Scene& scene = ui.scene;
+  session.scripted = options.frames > 0;
+  session.threads = options.threads;
+  session.labs.progress = ui.settings.labs;
   // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
-  if (app.scripted) app.settings.width = 2560, app.settings.height = 1440;
-  app.ui.plots.log = app.settings.plot_log;
-  const bool all = app.scripted || app.settings.all_effects;  // the same frames come on every machine
-  app.effects.mode = options.effects.value_or(all ? Effects::Mode::all : Effects::Mode::automatic);
-  app.colors.choose(options.color ? options.color : field_called(app.settings.color));
+  if (session.scripted) ui.settings.width = 2560, ui.settings.height = 1440;
+  ui.plots.log = ui.settings.plot_log;
+  const bool all = session.scripted || ui.settings.all_effects;  // the same frames come on every machine
+  scene.effects.mode = options.effects.value_or(all ? Effects::Mode::all : Effects::Mode::automatic);
+  scene.colors.choose(options.color ? options.color : field_called(ui.settings.color));
   if (options.color)
-    if (const std::string why = why_not_colored(app, *options.color); !why.empty())
-      app.messages.note("The cloth is not coloured yet. " + why);
-  app.costs.started(StartPart::settings);
-  if (!options.session_report.empty()) app.report = std::make_unique<SessionReport>(options.session_report);
-  return app;
+    if (const std::string why = why_not_colored(scene, *options.color); !why.empty())
+      session.messages.note("The cloth is not coloured yet. " + why);
+}
+
+FoundPicture find_picture(const std::string& texture) {
+  try {
+    return read_picture(texture_file(texture));
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+First build_first(const Preset& preset, int threads) {
+  First first;
+  const bool needs_window = preset.engine == EngineKind::opencl && opencl_offers_gl_sharing(preset.device);
+  if (!needs_window) {
+    first.simulation = make_simulation(preset, threads, first.fallback);
+    run_programs_once(first.simulation->preset(), false);  // the first frames do not wait
+  }
+  first.picture = find_picture(preset.texture);
+  return first;
 }
 
 }  // namespace tyglab

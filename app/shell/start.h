@@ -1,12 +1,35 @@
-// What the sandbox begins with, before there is a window.
+// What a window begins with: settings, options, the first cloth and its picture.
 #pragma once
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "app/base/settings.h"
+#include "app/render/cloth_texture.h"
 #include "app/shell/sandbox.h"
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
-/// The settings, which size the window, and what the command line says.
-App start_app(const SandboxOptions& options);
+/// The settings of earlier sessions; what is wrong with them becomes a message.
+Settings settings_for(const SandboxOptions& options, Messages& messages);
+/// Puts what the options and settings say into session, scene and panels.
+void take_options(const SandboxOptions& options, Ui& ui);
+
+/// The picture that a preset's cloth shows, or a sentence about what is wrong with it.
+using FoundPicture = std::variant<ClothPicture, std::string>;
+FoundPicture find_picture(const std::string& texture);
+
+/// The cloth that is shown first.
+struct First {
+  std::shared_ptr<Simulation> simulation;
+  std::string fallback;  ///< why it runs on another engine than it asks for; empty: it does not
+  FoundPicture picture;
+};
+/// Builds it while the window opens. A device that shares buffers with OpenGL needs the window first: then there is no
+/// simulation yet.
+First build_first(const Preset& preset, int threads);
 
 }  // namespace tyglab

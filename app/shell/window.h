@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/base/input.h"
+#include "app/base/settings.h"
 #include "app/render/image.h"
-#include "app/session/settings.h"
 #include "core/engines/opencl/gl_context.h"
 
 namespace tyglab {

@@ -1,5 +1,5 @@
 // How large the errors of the present settings are: short runs of the present motion, finer ones and those of other
-// methods, made beside the frames at low priority while the accuracy card is open, and dropped when it closes.
+// methods, made beside the frames at low priority while somebody wants to know, and dropped afterwards.
 #pragma once
 
 #include <memory>
@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "app/studies/background.h"
+#include "app/studies/job.h"
+#include "app/studies/moment.h"
 #include "core/analysis/error_study.h"
 
 namespace tyglab {
-
-struct App;
 
 /// Constants without what no motion depends on.
 Preset moving(Preset preset);
@@ -33,22 +32,22 @@ class AccuracyWatch {
   static constexpr int largest = 256 * 256;  ///< particles that are judged beside the window
   static constexpr double window = 0.25;     ///< s of motion, where it does not take too long
 
-  /// Called in every frame that shows the card: begins a study where constants have changed, or the cloth has moved on
-  /// since the last.
-  void poll(App& app);
-  /// The card is closed: what is in work is stopped and forgotten.
+  /// Called in every frame in which it is wanted: begins a study where constants have changed, or the cloth has moved
+  /// on since the last.
+  void poll(StudyMoment& moment);
+  /// Nobody wants it any more: what is in work is stopped and forgotten.
   void drop();
   /// A copy of what is known; none while nothing is.
   std::optional<AccuracyStudy> study() const;
 
  private:
-  using Work = Background<AccuracyStudy>;
-  void begin(App& app);
-  static void work(Work::Shared& shared, const StudyStart& start);
+  using Work = Study<AccuracyStudy>;
+  void begin(StudyMoment& moment);
+  static void work(Work::Shared& shared, const StudyStart& start, const JobControl& control);
 
   Work work_;
   std::shared_ptr<Work::Shared> shown_;  ///< the last that has something to show
-  double begun_ = -1;                    ///< s, as the window counts
+  double begun_ = -1;                    ///< s on the session's clock
   double changed_ = -1;                  ///< when the constants last differed from those of the study
 };
 

@@ -1,13 +1,10 @@
 #include "app/studies/convergence_watch.h"
 
-#include <algorithm>
-
-#include "app/ui/app.h"
+#include "app/studies/accuracy_watch.h"
 
 namespace tyglab {
 namespace {
 
-constexpr double calm = 0.3;  // s after the last change of constants
 constexpr StudyEffort convergence_effort{.reference = 2e8, .point = 1e8};
 
 }  // namespace
@@ -18,40 +15,40 @@ void ConvergenceWatch::drop() {
 }
 
 std::optional<Convergence> ConvergenceWatch::study() const {
-  return work_.shared() ? std::optional(work_.shared()->findings()) : std::nullopt;
+  return work_.findings();
 }
 
-void ConvergenceWatch::begin(App& app) {
+void ConvergenceWatch::begin(StudyMoment& moment) {
   drop();
   Convergence first;
-  first.of = app.preset(), first.t = app.simulation->time();
-  StudyStart start{app.preset(), app.simulation->snapshot()};
-  work_.begin(std::move(first), [start = std::move(start)](Background<Convergence>::Shared& shared) {
+  first.of = moment.preset(), first.t = moment.simulation.time();
+  StudyStart start{moment.preset(), moment.simulation.snapshot()};
+  using Shared = Study<Convergence>::Shared;
+  work_.begin(std::move(first), [start = std::move(start)](Shared& shared, const JobControl& control) {
     try {
       measure_convergence(
-          start, window, convergence_effort, [&] { return shared.stopped(); },
-          [&](const Convergence& now) { shared.tell([&](Convergence& study) { study = now; }); });
+          start, window, convergence_effort, [&] { return control.cancelled(); },
+          [&](const Convergence& now) { shared.update([&](Convergence& study) { study = now; }); });
     } catch (const Stopped&) {
     } catch (const std::exception& error) {
-      shared.tell([&](Convergence& study) { study.problem = error.what(), study.done = true; });
+      shared.update([&](Convergence& study) { study.problem = error.what(), study.done = true; });
     }
   });
 }
 
-void ConvergenceWatch::poll(App& app) {
-  const auto soon = [&](double wait) { app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + wait); };
+void ConvergenceWatch::poll(StudyMoment& moment) {
   const auto known = study();
-  const bool changed = known && moving(known->of) != moving(app.preset());
+  const bool changed = known && moving(known->of) != moving(moment.preset());
   if (changed) {
-    work_.stop();
-    if (changed_ < 0) changed_ = app.ui.now;
+    work_.cancel();
+    if (changed_ < 0) changed_ = moment.now;
   }
-  if (work_.busy()) return soon(0.1);
+  if (work_.working()) return moment.ask_again_in(0.1);
   if (known && !changed) return;
-  if (app.simulation->divergence() || app.simulation->held() || app.building.holds_present()) return;
-  if (changed && app.ui.now < std::max(changed_, app.ui.last_change) + calm) return soon(0.1);
-  begin(app);
-  soon(0.1);
+  if (moment.simulation.divergence() || moment.simulation.held() || !moment.readable) return;
+  if (changed && !moment.settled(changed_)) return moment.ask_again_in(0.1);
+  begin(moment);
+  moment.ask_again_in(0.1);
 }
 
 }  // namespace tyglab

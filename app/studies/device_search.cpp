@@ -1,15 +1,17 @@
 #include "app/studies/device_search.h"
 
-#include <chrono>
-
 namespace tyglab {
 
 void DeviceSearch::begin() {
-  if (!found_ && !busy()) work_ = std::async(std::launch::async, opencl_devices);
+  if (!found_ && !busy()) work_.start(Priority::normal, [](const JobControl&) { return opencl_devices(); });
 }
 
 const OpenClInventory* DeviceSearch::found() {
-  if (busy() && work_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) found_ = work_.get();
+  if (work_.ready()) {
+    auto outcome = work_.take();
+    auto* inventory = std::get_if<OpenClInventory>(&outcome);
+    found_ = inventory != nullptr ? std::move(*inventory) : OpenClInventory{{}, std::get<JobError>(outcome).what};
+  }
   return found_ ? &*found_ : nullptr;
 }
 

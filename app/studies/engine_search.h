@@ -1,24 +1,24 @@
-// The engine menu's "Automatic": measures beside the frames which engine is quickest with the present scene.
+// The engine menu's "Automatic": measures beside the frames which engine is fastest with the present scene.
 #pragma once
 
-#include <future>
+#include <optional>
+#include <variant>
 
+#include "app/studies/job.h"
 #include "core/analysis/engine_choice.h"
 
 namespace tyglab {
 
-struct App;
-
 class EngineSearch {
  public:
-  /// Begins to measure, unless it is doing so. The cloth stands still meanwhile, since its steps would be in the way.
-  void begin(const App& app);
-  bool busy() const { return work_.valid(); }
-  /// Called in every frame: once it is known, asks for the engine and says why.
-  void poll(App& app);
+  /// Begins to measure, unless it is doing so. The cloth must stand still meanwhile: its steps would be in the way.
+  void begin(const Preset& preset, int threads);
+  bool busy() const { return work_.busy(); }
+  /// The choice, once, when it is known; what went wrong otherwise.
+  std::optional<std::variant<EngineChoice, JobError>> take();
 
  private:
-  std::future<EngineChoice> work_;
+  Job<EngineChoice> work_;
 };
 
 }  // namespace tyglab

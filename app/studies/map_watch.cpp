@@ -1,13 +1,9 @@
 #include "app/studies/map_watch.h"
 
-#include <algorithm>
-
-#include "app/ui/app.h"
+#include "app/studies/accuracy_watch.h"
 
 namespace tyglab {
 namespace {
-
-constexpr double map_settles = 0.3;  // s after the last change of constants
 
 /// Constants without what the map has on its axes, and without what no motion depends on.
 Preset mapped(Preset preset) {
@@ -21,19 +17,19 @@ bool holds(const MapGrid& grid, const Preset& preset) {
          preset.dt <= grid.most_dt;
 }
 
-void fill(Background<MapFindings>::Shared& shared) {
+void fill(Study<MapFindings>::Shared& shared, const JobControl& control) {
   const MapFindings begun = shared.findings();
   try {
     MapBoundary boundary = map_boundary(begun.of, begun.grid);
-    shared.tell([&](MapFindings& map) { map.boundary = std::move(boundary); });
+    shared.update([&](MapFindings& map) { map.boundary = std::move(boundary); });
     for (const int n : coarse_first(begun.grid)) {
       const MapCell cell = measure_cell(begun.of, begun.grid, n % begun.grid.columns, n / begun.grid.columns,
-                                        [&] { return shared.stopped(); });
-      shared.tell([&](MapFindings& map) { map.cells.push_back(cell); });
+                                        [&] { return control.cancelled(); });
+      shared.update([&](MapFindings& map) { map.cells.push_back(cell); });
     }
   } catch (const Stopped&) {
   } catch (const std::exception& error) {
-    shared.tell([&](MapFindings& map) { map.problem = error.what(); });
+    shared.update([&](MapFindings& map) { map.problem = error.what(); });
   }
 }
 
@@ -45,28 +41,26 @@ void MapWatch::drop() {
 }
 
 std::optional<MapFindings> MapWatch::findings() const {
-  return work_.shared() ? std::optional(work_.shared()->findings()) : std::nullopt;
+  return work_.findings();
 }
 
-void MapWatch::begin(App& app) {
+void MapWatch::begin(const StudyMoment& moment) {
   changed_ = -1;
-  work_.begin({app.preset(), map_grid(app.preset(), columns, rows), {}, {}, {}}, fill);
+  work_.begin({moment.preset(), map_grid(moment.preset(), columns, rows), {}, {}, {}}, fill);
 }
 
-void MapWatch::poll(App& app) {
-  const auto soon = [&](double wait) { app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + wait); };
-  if (app.simulation->lattice().size() > largest) return drop();
+void MapWatch::poll(StudyMoment& moment) {
+  if (moment.simulation.lattice().size() > largest) return drop();
   const auto known = findings();
-  const bool fits = known && mapped(known->of) == mapped(app.preset()) && holds(known->grid, app.preset());
+  const bool fits = known && mapped(known->of) == mapped(moment.preset()) && holds(known->grid, moment.preset());
   if (fits) {
     changed_ = -1;
-    return work_.busy() ? soon(0.15) : void();
+    return work_.working() ? moment.ask_again_in(0.15) : void();
   }
-  work_.stop();
-  if (changed_ < 0) changed_ = app.ui.now;
-  const bool settled = !known || app.ui.now >= std::max(changed_, app.ui.last_change) + map_settles;
-  if (!work_.busy() && settled && app.ui.slider.dragged == 0) begin(app);
-  soon(0.1);
+  work_.cancel();
+  if (changed_ < 0) changed_ = moment.now;
+  if (!work_.working() && (!known || moment.settled(changed_)) && !moment.dragging) begin(moment);
+  moment.ask_again_in(0.1);
 }
 
 }  // namespace tyglab

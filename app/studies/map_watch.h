@@ -1,15 +1,14 @@
-// The map of stiffness against dt, filled by short runs beside the frames while its card is shown.
+// The map of stiffness against dt, filled by short runs beside the frames while somebody wants it.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "app/studies/background.h"
+#include "app/studies/job.h"
+#include "app/studies/moment.h"
 #include "core/analysis/stability_map.h"
 
 namespace tyglab {
-
-struct App;
 
 /// What is known of a map.
 struct MapFindings {
@@ -25,21 +24,21 @@ class MapWatch {
   static constexpr int columns = 28, rows = 20;
   static constexpr int largest = 128 * 128;  ///< particles of a cloth that is mapped
 
-  /// Called in every frame that shows the map: begins one where there is none, or where constants other than stiffness
-  /// and dt have changed or these have left it.
-  void poll(App& app);
-  /// The card is closed: what is in work is stopped and forgotten.
+  /// Called in every frame in which the map is wanted: begins one where there is none, or where constants other than
+  /// stiffness and dt have changed or these have left it.
+  void poll(StudyMoment& moment);
+  /// Nobody wants it any more: what is in work is stopped and forgotten.
   void drop();
   /// A copy of what is known; none while nothing is.
   std::optional<MapFindings> findings() const;
-  bool busy() const { return work_.busy(); }
+  bool working() const { return work_.working(); }
 
  private:
-  using Work = Background<MapFindings>;
-  void begin(App& app);
+  using Work = Study<MapFindings>;
+  void begin(const StudyMoment& moment);
 
   Work work_;
-  double changed_ = -1;  ///< s, as the window counts; when the constants last differed from the map's
+  double changed_ = -1;  ///< s on the session's clock; when the constants last differed from the map's
 };
 
 }  // namespace tyglab

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <utility>
 
-#include "app/ui/app.h"
 #include "core/analysis/frequency.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/amplification.h"
@@ -63,23 +61,22 @@ GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h
   return curve;
 }
 
-void StabilityWatch::poll(App& app) {
-  if (work_.valid()) {
-    if (work_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-      app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + 0.03);  // what is ready soon is to be seen
-      return;
-    }
-    limits_ = work_.get();
-  }
-  const Simulation& simulation = *app.simulation;
+void StabilityWatch::poll(StudyMoment& moment) {
+  constexpr double soon = 0.03;  // s: what is ready soon is to be seen
+  if (work_.working()) return moment.ask_again_in(soon);
+  if (work_.ready())
+    if (auto outcome = work_.take(); auto* limits = std::get_if<StabilityLimits>(&outcome))
+      limits_ = std::move(*limits);
+  const Simulation& simulation = moment.simulation;
   const bool new_constants = looked_for_ != simulation.preset(), moved = looked_at_ != simulation.time();
-  if (!new_constants && (!moved || app.ui.now < begun_ + between_looks)) return;
-  begun_ = app.ui.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
+  if (!new_constants && (!moved || moment.now < begun_ + between_looks)) return;
+  begun_ = moment.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;
   if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);
-  work_ = std::async(std::launch::async,
-                     [preset = simulation.preset(), cloth = std::move(cloth)] { return work_out(preset, cloth); });
-  app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + 0.03);
+  work_.start(Priority::normal, [preset = simulation.preset(), cloth = std::move(cloth)](const JobControl&) {
+    return work_out(preset, cloth);
+  });
+  moment.ask_again_in(soon);
 }
 
 }  // namespace tyglab

@@ -1,21 +1,21 @@
-// How large dt may be for the cloth as it is: worked out beside the frames while a panel shows it, at most twice a
+// How large dt may be for the cloth as it is: worked out beside the frames while somebody wants it, at most twice a
 // second.
 #pragma once
 
 #include <functional>
-#include <future>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/studies/job.h"
+#include "app/studies/moment.h"
 #include "core/model/preset.h"
 #include "core/theory/modes.h"
 #include "core/theory/zones.h"
 
 namespace tyglab {
 
-struct App;
 struct Scheme;
 
 /// Growth of a mode per step, as a spectral radius, over ω·dt; ends where it grows by a quarter a step.
@@ -41,15 +41,15 @@ struct StabilityLimits {
 
 class StabilityWatch {
  public:
-  /// Called in every frame that shows the limits: takes what is ready and begins what is due.
-  void poll(App& app);
+  /// Called in every frame in which the limits are wanted: takes what is ready and begins what is due.
+  void poll(StudyMoment& moment);
   /// The newest limits; none before the first are ready.
   const std::optional<StabilityLimits>& limits() const { return limits_; }
 
  private:
-  std::future<StabilityLimits> work_;
+  Job<StabilityLimits> work_;
   std::optional<StabilityLimits> limits_;
-  double begun_ = -1;      ///< s, as the window counts; when the last look began
+  double begun_ = -1;      ///< s on the session's clock; when the last look began
   double looked_at_ = -1;  ///< simulated time of it
   std::optional<Preset> looked_for_;
 };

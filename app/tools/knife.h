@@ -7,15 +7,14 @@
 
 namespace tyglab {
 
-struct App;
+struct Tools;
 
 /// Cuts what the pointer has passed since the last call.
-void use_knife(App& app);
+void use_knife(Tools& tools);
 /// Whether it cuts at the pointer once a step, since the cloth moves under it between two frames. A cut along the path
 /// is over with the frame whose path it is.
-bool cuts_between_steps(const App& app);
-void cut_between_steps(App& app);
+bool cuts_between_steps(const Tools& tools);
 /// The springs that a nick at the pointer would cut, if it is free over the viewport.
-std::vector<SpringSite> springs_under_pointer(App& app);
+std::vector<SpringSite> springs_under_pointer(Tools& tools);
 
 }  // namespace tyglab

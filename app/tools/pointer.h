@@ -13,40 +13,8 @@
 
 namespace tyglab {
 
-struct App;
+struct Tools;
 class Simulation;
-
-/// Where the viewport is in the window, and what lies over it.
-struct Viewport {
-  struct Box {
-    glm::vec2 lo{0}, hi{0};
-    bool contains(glm::vec2 p) const { return p.x >= lo.x && p.y >= lo.y && p.x < hi.x && p.y < hi.y; }
-  };
-  Box box;
-  int columns = 1, rows = 1;  ///< pictures of one camera side by side: the cloth's, then its copies', row by row
-  float buttons = 0;          ///< so much of each picture's height lies under the view's buttons, pixels
-  std::vector<Box> covers;    ///< buttons and banners over it: presses there are theirs
-  bool blocked = false;       ///< a menu or dialog is open: every press is its own
-  glm::vec2 whole() const { return box.hi - box.lo; }
-  /// Of one picture.
-  glm::vec2 size() const { return whole() / glm::vec2(columns, rows); }
-  /// Where the n-th picture begins, pixels in the window.
-  glm::vec2 origin(int tile) const { return box.lo + size() * glm::vec2(tile % columns, tile / columns); }
-  /// Where one more picture than those would begin; none where they take all places.
-  std::optional<glm::vec2> free_place(int pictures) const {
-    return pictures < columns * rows ? std::optional(origin(pictures)) : std::nullopt;
-  }
-  /// The picture under a pixel of the window; the nearest one where none is.
-  int tile_at(glm::vec2 p) const;
-  /// Divides the viewport for so many pictures.
-  void divide(int pictures);
-  bool takes(glm::vec2 p) const {
-    if (blocked || !box.contains(p)) return false;
-    for (const Box& cover : covers)
-      if (cover.contains(p)) return false;
-    return true;
-  }
-};
 
 /// What the pointer is doing in the viewport.
 struct Tool {
@@ -87,20 +55,16 @@ struct Tool {
 };
 
 /// Handles the frame's pointer events and what a held tool does every frame.
-void handle_pointer(App& app);
+void handle_pointer(Tools& tools);
 /// The particle that a press would take, if the pointer is free over the viewport: of the cloth in the picture there.
-std::optional<Pins::Site> particle_under_pointer(App& app);
-/// The cloth whose picture stands there: the original's is 0.
-Simulation& cloth_in_tile(App& app, int tile);
+std::optional<Pins::Site> particle_under_pointer(Tools& tools);
 /// Whether a left press would take a body.
-bool body_under_pointer(App& app);
+bool body_under_pointer(Tools& tools);
 /// Whether a left press would take the wind's arrow by its tip.
-bool wind_under_pointer(const App& app);
+bool wind_under_pointer(const Tools& tools);
 /// How near to the pointer a particle is taken, pixels.
-float pointer_reach(const App& app);
+float pointer_reach(const Tools& tools);
 /// Whether the pointer grabs or cuts now.
-bool hand_in_cloth(const App& app);
-/// Sends the hand to the pointer over the next `steps` steps.
-void move_hand(App& app, int steps);
+bool hand_in_cloth(const Tools& tools);
 
 }  // namespace tyglab

@@ -3,9 +3,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <glm/geometric.hpp>
 #include <thread>
 
-#include "app/ui/app.h"
+#include "app/session/edits.h"
+#include "app/session/session.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
@@ -13,11 +15,11 @@ namespace tyglab::building_test {
 
 constexpr int large = 400;  // rows and columns: above what is built within a frame
 
-App app_with(const Preset& preset) {
-  App app;
-  app.simulation = std::make_unique<Simulation>(preset);
-  app.document.saved = preset;
-  return app;
+Session session_with(const Preset& preset) {
+  Session session;
+  session.simulation = std::make_shared<Simulation>(preset);
+  session.document.saved = preset;
+  return session;
 }
 
 Preset changed(Preset preset, int rows) {
@@ -26,120 +28,120 @@ Preset changed(Preset preset, int rows) {
 }
 
 /// Frames pass until nothing is in work.
-void wait(App& app) {
-  for (int n = 0; n < 20000 && app.building.busy(); ++n) {
+void wait(Session& session) {
+  for (int n = 0; n < 20000 && session.rebuild.busy(); ++n) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    app.building.poll(app);
+    session.rebuild.poll(session);
   }
-  REQUIRE_FALSE(app.building.busy());
+  REQUIRE_FALSE(session.rebuild.busy());
 }
 
 TEST_CASE("a small cloth is changed at once, a large one beside the frames") {
-  App app = app_with(test::cloth(20, large));
-  CHECK(apply_edit(app, edit::Change{changed(app.preset(), 30)}));
-  CHECK_FALSE(app.building.busy());
-  CHECK(app.preset().rows == 30);
-  app.simulation->advance(3);
-  CHECK(apply_edit(app, edit::Change{changed(app.preset(), large)}));
-  CHECK(app.building.busy());
-  CHECK_FALSE(app.building.holds_present());
-  CHECK(app.preset().rows == 30);
-  CHECK(app.requested_preset().rows == large);
-  CHECK(app.building.lattice() == Lattice{large, large});
-  app.simulation->advance(1);  // the present one goes on
-  CHECK(app.simulation->steps() == 4);
-  wait(app);
-  CHECK(app.preset().rows == large);
-  CHECK(app.simulation->steps() == 0);
-  CHECK(app.history.undo(app.preset())->rows == 30);
+  Session session = session_with(test::cloth(20, large));
+  CHECK(apply_edit(session, edit::Change{changed(session.preset(), 30)}));
+  CHECK_FALSE(session.rebuild.busy());
+  CHECK(session.preset().rows == 30);
+  session.simulation->advance(3);
+  CHECK(apply_edit(session, edit::Change{changed(session.preset(), large)}));
+  CHECK(session.rebuild.busy());
+  CHECK_FALSE(session.rebuild.holds_present());
+  CHECK(session.preset().rows == 30);
+  CHECK(session.requested_preset().rows == large);
+  CHECK(session.rebuild.lattice() == Lattice{large, large});
+  session.simulation->advance(1);  // the present one goes on
+  CHECK(session.simulation->steps() == 4);
+  wait(session);
+  CHECK(session.preset().rows == large);
+  CHECK(session.simulation->steps() == 0);
+  CHECK(session.history.undo(session.preset())->rows == 30);
 }
 
 TEST_CASE("what is changed meanwhile is felt at once and by the cloth in work") {
-  App app = app_with(test::cloth(20, large));
-  app.simulation->advance(3);
-  apply_edit(app, edit::Change{changed(app.preset(), large)});
-  Preset stiff = app.requested_preset();
+  Session session = session_with(test::cloth(20, large));
+  session.simulation->advance(3);
+  apply_edit(session, edit::Change{changed(session.preset(), large)});
+  Preset stiff = session.requested_preset();
   stiff.k_s = 77;
-  apply_edit(app, edit::Change{stiff});
-  CHECK(app.preset().k_s == 77);
-  CHECK(app.preset().rows == 20);
-  CHECK(app.requested_preset() == stiff);
-  wait(app);
-  CHECK(app.preset() == stiff);
-  CHECK(app.history.undo(app.preset())->rows == large);
-  CHECK(app.history.undo(app.preset())->rows == 20);
+  apply_edit(session, edit::Change{stiff});
+  CHECK(session.preset().k_s == 77);
+  CHECK(session.preset().rows == 20);
+  CHECK(session.requested_preset() == stiff);
+  wait(session);
+  CHECK(session.preset() == stiff);
+  CHECK(session.history.undo(session.preset())->rows == large);
+  CHECK(session.history.undo(session.preset())->rows == 20);
 }
 
 TEST_CASE("a newer wish replaces one in work, and going back to the present cloth drops it") {
-  App app = app_with(test::cloth(20, large));
-  const Preset small = app.preset();
-  apply_edit(app, edit::Change{changed(small, large)});
-  apply_edit(app, edit::Change{changed(small, large + 10)});
-  wait(app);
-  CHECK(app.preset().rows == large + 10);
-  app.simulation = std::make_unique<Simulation>(small);
-  apply_edit(app, edit::Change{changed(small, large)});
-  apply_edit(app, edit::Change{small});
-  CHECK(app.requested_preset() == small);
-  wait(app);
-  CHECK(app.preset() == small);
+  Session session = session_with(test::cloth(20, large));
+  const Preset small = session.preset();
+  apply_edit(session, edit::Change{changed(small, large)});
+  apply_edit(session, edit::Change{changed(small, large + 10)});
+  wait(session);
+  CHECK(session.preset().rows == large + 10);
+  session.simulation = std::make_shared<Simulation>(small);
+  apply_edit(session, edit::Change{changed(small, large)});
+  apply_edit(session, edit::Change{small});
+  CHECK(session.requested_preset() == small);
+  wait(session);
+  CHECK(session.preset() == small);
 }
 
 TEST_CASE("a switch of precision keeps state and time, and lets no edit be lost") {
   Preset quick = test::cloth(large, large);
   quick.precision = Precision::float_;
-  App app = app_with(quick);
-  app.simulation->advance(5);
-  apply_edit(app, edit::Cut{{{200, 200}}});
-  const glm::dvec3 x = app.simulation->positions().at(300, 300);
+  Session session = session_with(quick);
+  session.simulation->advance(5);
+  apply_edit(session, edit::Cut{{{200, 200}}});
+  const glm::dvec3 x = session.simulation->positions().at(300, 300);
   Preset exact = quick;
   exact.precision = Precision::double_;
-  apply_edit(app, edit::Change{exact});
-  CHECK(app.building.holds_present());
-  CHECK(apply_edit(app, edit::Cut{{{100, 100}}}));
-  CHECK_FALSE(apply_edit(app, edit::Grab{300, 300}));
-  CHECK(app.simulation->tears().torn_count() == 3);
-  wait(app);
-  CHECK(app.preset().precision == Precision::double_);
-  CHECK(app.simulation->steps() == 5);
-  CHECK(app.simulation->tears().torn_count() == 6);
-  CHECK(glm::length(app.simulation->positions().at(300, 300) - x) == 0);
+  apply_edit(session, edit::Change{exact});
+  CHECK(session.rebuild.holds_present());
+  CHECK(apply_edit(session, edit::Cut{{{100, 100}}}));
+  CHECK_FALSE(apply_edit(session, edit::Grab{300, 300}));
+  CHECK(session.simulation->tears().torn_count() == 3);
+  wait(session);
+  CHECK(session.preset().precision == Precision::double_);
+  CHECK(session.simulation->steps() == 5);
+  CHECK(session.simulation->tears().torn_count() == 6);
+  CHECK(glm::length(session.simulation->positions().at(300, 300) - x) == 0);
 }
 
 TEST_CASE("a restart is built beside the frames too, and an engine that is not there leaves everything as it was") {
-  App app = app_with(test::cloth(large, large));
-  app.simulation->advance(4);
-  apply_edit(app, edit::Restart{});
-  CHECK(app.simulation->steps() == 4);
-  wait(app);
-  CHECK(app.simulation->steps() == 0);
-  const Preset before = app.preset();
+  Session session = session_with(test::cloth(large, large));
+  session.simulation->advance(4);
+  apply_edit(session, edit::Restart{});
+  CHECK(session.simulation->steps() == 4);
+  wait(session);
+  CHECK(session.simulation->steps() == 0);
+  const Preset before = session.preset();
   Preset other = before;
   other.engine = EngineKind::opencl, other.device = 99;
-  apply_edit(app, edit::Change{other});
-  wait(app);
-  CHECK(app.preset() == before);
-  CHECK_FALSE(app.history.can_undo());
-  CHECK(app.messages.list().size() == 1);
+  apply_edit(session, edit::Change{other});
+  wait(session);
+  CHECK(session.preset() == before);
+  CHECK_FALSE(session.history.can_undo());
+  CHECK(session.messages.list().size() == 1);
 }
 
 /// A cloth on an OpenCL device whose compiler waits until it may go on.
 struct SlowCompiler {
-  explicit SlowCompiler(const Preset& preset) : app(app_with(preset)) {
-    app.building.prepare_programs = [this](const Preset&, bool) {
+  explicit SlowCompiler(const Preset& preset) : session(session_with(preset)) {
+    session.rebuild.prepare_programs = [this](const Preset&, bool) {
       ++builds;
       while (!may_go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     };
-    app.simulation->advance(3);
+    session.simulation->advance(3);
   }
   void change(double Preset::*constant, double to) {
-    Preset next = app.requested_preset();
+    Preset next = session.requested_preset();
     next.*constant = to;
-    apply_edit(app, edit::Change{next});
+    apply_edit(session, edit::Change{next});
   }
   std::atomic<bool> may_go_on = false;
   std::atomic<int> builds = 0;
-  App app;
+  Session session;
 };
 
 TEST_CASE("the ledger is kept once the program that notes contacts has been built beside the frames") {
@@ -148,22 +150,22 @@ TEST_CASE("the ledger is kept once the program that notes contacts has been buil
   preset.engine = EngineKind::opencl;
   preset.bodies = {Body{}};
   SlowCompiler slow(preset);
-  App& app = slow.app;
-  CHECK_FALSE(app.building.ledger_ready(app));
-  CHECK_FALSE(app.building.ledger_ready(app));  // it is not ordered twice
-  app.simulation->advance(2);
+  Session& session = slow.session;
+  CHECK_FALSE(session.rebuild.ledger_ready(session));
+  CHECK_FALSE(session.rebuild.ledger_ready(session));  // it is not ordered twice
+  session.simulation->advance(2);
   slow.may_go_on = true;
-  while (!app.building.ledger_ready(app)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!session.rebuild.ledger_ready(session)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   CHECK(slow.builds == 1);
-  app.simulation->enable_ledger(true);
-  app.simulation->advance(1);
-  app.simulation->enable_ledger(false);
-  CHECK(app.building.ledger_ready(app));  // the program is there now
+  session.simulation->enable_ledger(true);
+  session.simulation->advance(1);
+  session.simulation->enable_ledger(false);
+  CHECK(session.rebuild.ledger_ready(session));  // the program is there now
   CHECK(slow.builds == 1);
   Preset bare = test::cloth(20, 20);
   bare.engine = EngineKind::opencl;
   SlowCompiler other(bare);  // without bodies no other program is needed
-  CHECK(other.app.building.ledger_ready(other.app));
+  CHECK(other.session.rebuild.ledger_ready(other.session));
 }
 
 TEST_CASE("a feature that a device builds a program for is switched on beside the frames") {
@@ -172,28 +174,28 @@ TEST_CASE("a feature that a device builds a program for is switched on beside th
   without.engine = EngineKind::opencl;
   without.k_b = 0, without.k_d = 0;
   SlowCompiler slow(without);
-  App& app = slow.app;
+  Session& session = slow.session;
   slow.change(&Preset::k_b, 1);
-  CHECK(app.building.programs());
-  CHECK_FALSE(app.building.holds_present());
-  CHECK(app.preset().k_b == 0);
-  CHECK(app.requested_preset().k_b == 1);
-  app.simulation->advance(2);  // the old program goes on
+  CHECK(session.rebuild.programs());
+  CHECK_FALSE(session.rebuild.holds_present());
+  CHECK(session.preset().k_b == 0);
+  CHECK(session.requested_preset().k_b == 1);
+  session.simulation->advance(2);  // the old program goes on
   slow.change(&Preset::k_s, 77);
   slow.change(&Preset::k_b, 2);
-  CHECK(app.preset().k_s == 77);  // which needs no program
-  CHECK(app.preset().k_b == 0);
+  CHECK(session.preset().k_s == 77);  // which needs no program
+  CHECK(session.preset().k_b == 0);
   slow.may_go_on = true;
-  wait(app);
-  CHECK(app.preset().k_b == 2);
-  CHECK(app.preset().k_s == 77);
+  wait(session);
+  CHECK(session.preset().k_b == 2);
+  CHECK(session.preset().k_s == 77);
   CHECK(slow.builds == 1);
-  CHECK(app.simulation->steps() == 5);
-  app.simulation->advance(1);
+  CHECK(session.simulation->steps() == 5);
+  session.simulation->advance(1);
   for (const double k_b : {0.0, 3.0}) {  // both programs are there now
     slow.change(&Preset::k_b, k_b);
-    CHECK_FALSE(app.building.busy());
-    CHECK(app.preset().k_b == k_b);
+    CHECK_FALSE(session.rebuild.busy());
+    CHECK(session.preset().k_b == k_b);
   }
 }
 
@@ -203,19 +205,19 @@ TEST_CASE("who takes the feature back meanwhile waits for nothing, and two featu
   without.engine = EngineKind::opencl;
   without.k_b = 0, without.k_d = 0;
   SlowCompiler slow(without);
-  App& app = slow.app;
+  Session& session = slow.session;
   slow.change(&Preset::k_b, 1);
   slow.change(&Preset::k_b, 0);
-  CHECK(app.building.requested_preset() == nullptr);
-  CHECK(app.preset() == without);
+  CHECK(session.rebuild.requested_preset() == nullptr);
+  CHECK(session.preset() == without);
   slow.change(&Preset::k_b, 1);
   slow.change(&Preset::k_d, 0.001);
-  CHECK(app.preset() == without);
+  CHECK(session.preset() == without);
   slow.may_go_on = true;
-  wait(app);
-  CHECK(app.preset().k_b == 1);
-  CHECK(app.preset().k_d == 0.001);
-  CHECK(app.simulation->steps() == 3);
+  wait(session);
+  CHECK(session.preset().k_b == 1);
+  CHECK(session.preset().k_d == 0.001);
+  CHECK(session.simulation->steps() == 3);
 }
 
 TEST_CASE("a change is carried over to other constants alone") {
@@ -226,6 +228,69 @@ TEST_CASE("a change is carried over to other constants alone") {
   Preset expected = present;
   expected.k_s = 9, expected.bodies.resize(2);
   CHECK(rebased(before, after, present) == expected);
+}
+
+/// The cloth that is built beside the frames is read from the present one. A worker that is held here, while the
+/// session goes on without that cloth, must find it alive when it goes on.
+struct HeldWorker {
+  HeldWorker() {
+    Preset quick = test::cloth(300, 400);
+    quick.precision = Precision::float_;
+    session = session_with(quick);
+    session.simulation->advance(5);
+    session.rebuild.before_reading = [this] {
+      reached = true;
+      while (!may_go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    Preset exact = session.preset();
+    exact.precision = Precision::double_;
+    REQUIRE(apply_edit(session, edit::Change{exact}));
+    REQUIRE(session.rebuild.holds_present());
+    while (!reached) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  void open_small() {
+    session.rebuild.drop();
+    take_built(session, std::make_unique<Simulation>(test::cloth(5, 5)), {.target = {}, .document = Document{}});
+  }
+  void let_go() { may_go_on = true; }
+  ~HeldWorker() { let_go(); }
+  std::atomic<bool> reached = false, may_go_on = false;
+  Session session;
+};
+
+TEST_CASE("a worker that reads the present cloth keeps it alive, whatever is opened, restarted or quit meanwhile") {
+  {
+    HeldWorker held;
+    held.open_small();
+    held.let_go();
+    wait(held.session);
+    CHECK(held.session.simulation->lattice() == Lattice{5, 5});
+  }
+  {
+    HeldWorker held;
+    held.open_small();
+    apply_edit(held.session, edit::Restart{});
+    held.let_go();
+    wait(held.session);
+    CHECK(held.session.simulation->lattice() == Lattice{5, 5});
+  }
+  {
+    HeldWorker held;
+    apply_edit(held.session, edit::Restart{});  // the large cloth's, which follows the one being built
+    held.open_small();
+    held.let_go();
+    wait(held.session);
+    CHECK(held.session.simulation->lattice() == Lattice{5, 5});
+  }
+  {
+    HeldWorker held;
+    held.open_small();
+    held.let_go();  // and the session ends while the worker reads
+  }
+  {
+    HeldWorker held;
+    held.let_go();
+  }
 }
 
 }  // namespace tyglab::building_test

@@ -10,9 +10,9 @@
 #include "app/render/drawn_cloth.h"
 #include "app/render/field_colors.h"
 #include "app/render/headless_context.h"
-#include "app/ui/app.h"
 #include "app/ui/cards/performance.h"
 #include "app/ui/kit/color_legend.h"
+#include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::color_test {
@@ -162,46 +162,44 @@ TEST_CASE("values colour the cloth from one end of the map to the other, in ever
 }
 
 TEST_CASE("colours are skipped where nothing is coloured, and distance asks for a copy") {
-  App app;
-  app.simulation = std::make_unique<Simulation>(test::cloth(6, 6));
+  test::Desk desk(test::cloth(6, 6));
   const auto activity = [&] {
-    for (const FeatureRow& row : feature_rows(app))
+    for (const FeatureRow& row : feature_rows(desk.ui))
       if (row.name == "colours") return row.activity;
     return Activity::asleep;
   };
   CHECK(activity() == Activity::skipped);
-  CHECK(next_field(app) == ParticleField::tension);
-  app.colors.choose(ParticleField::speed);
+  CHECK(next_field(desk.scene) == ParticleField::tension);
+  desk.scene.colors.choose(ParticleField::speed);
   CHECK(activity() == Activity::on);
-  CHECK(next_field(app) == ParticleField::kinetic);
-  app.colors.choose(ParticleField::distance);
+  CHECK(next_field(desk.scene) == ParticleField::kinetic);
+  desk.scene.colors.choose(ParticleField::distance);
   CHECK(activity() == Activity::skipped);
-  CHECK(shown_colors(app) == nullptr);
-  CHECK(why_not_colored(app, ParticleField::distance).find("no copy") != std::string::npos);
-  app.copies.lockstep.add(*app.simulation, {});
-  CHECK(shown_colors(app) != nullptr);
-  CHECK_FALSE(next_field(app).has_value());
+  CHECK(shown_colors(desk.scene) == nullptr);
+  CHECK(why_not_colored(desk.scene, ParticleField::distance).find("no copy") != std::string::npos);
+  desk.session.copies.lockstep.add(*desk.session.simulation, {});
+  CHECK(shown_colors(desk.scene) != nullptr);
+  CHECK_FALSE(next_field(desk.scene).has_value());
 }
 
 TEST_CASE("values are worked out once for a state, and again when it moves or a constant changes") {
-  App app;
-  app.simulation = std::make_unique<Simulation>(test::cloth(6, 6));
-  app.colors.choose(ParticleField::tension);
-  app.colors.update(app, 0, 1);
-  const auto first = app.colors.version(0);
-  app.colors.update(app, 0, 1);
-  CHECK(app.colors.version(0) == first);
-  app.simulation->advance(5);
-  app.colors.update(app, 0, 1);
-  CHECK(app.colors.version(0) == first + 1);
-  const float before = *app.colors.value(0, {0, 0});
+  test::Desk desk(test::cloth(6, 6));
+  desk.scene.colors.choose(ParticleField::tension);
+  desk.scene.colors.update(desk.scene, 0, 1);
+  const auto first = desk.scene.colors.version(0);
+  desk.scene.colors.update(desk.scene, 0, 1);
+  CHECK(desk.scene.colors.version(0) == first);
+  desk.session.simulation->advance(5);
+  desk.scene.colors.update(desk.scene, 0, 1);
+  CHECK(desk.scene.colors.version(0) == first + 1);
+  const float before = *desk.scene.colors.value(0, {0, 0});
   CHECK(before > 0);
-  Preset stiffer = app.preset();
+  Preset stiffer = desk.session.preset();
   stiffer.k_s *= 2;
-  app.simulation->apply(edit::Change{stiffer});
-  app.colors.update(app, 0, 1);
-  CHECK(*app.colors.value(0, {0, 0}) == doctest::Approx(2 * before));
-  CHECK_FALSE(app.colors.value(0, {9, 0}).has_value());
+  desk.session.simulation->apply(edit::Change{stiffer});
+  desk.scene.colors.update(desk.scene, 0, 1);
+  CHECK(*desk.scene.colors.value(0, {0, 0}) == doctest::Approx(2 * before));
+  CHECK_FALSE(desk.scene.colors.value(0, {9, 0}).has_value());
 }
 
 }  // namespace tyglab::color_test

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/integrators/scheme.h"
+#include "tests/app/desk.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
@@ -21,21 +22,14 @@ OpenClDevice device_called(const char* name, bool processor, bool fp64) {
   return device;
 }
 
-App app_with(const Preset& preset) {
-  App app;
-  app.simulation = std::make_unique<Simulation>(preset);
-  app.document.saved = preset;
-  return app;
-}
-
 /// Asks as panels do, and lets frames pass until it is there.
-void act(App& app) {
-  apply_requests(app);
-  for (int n = 0; n < 20000 && app.building.busy(); ++n) {
+void act(test::Desk& desk) {
+  desk.act();
+  for (int n = 0; n < 20000 && desk.session.rebuild.busy(); ++n) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    app.building.poll(app);
+    desk.session.rebuild.poll(desk.session);
   }
-  REQUIRE_FALSE(app.building.busy());
+  REQUIRE_FALSE(desk.session.rebuild.busy());
 }
 
 Preset on_opencl() {
@@ -84,25 +78,25 @@ TEST_CASE("a method of the CPU engine alone brings it along: one change, one und
   if (!test::device_there()) return;
   for (const char* method : {"xpbd", "dopri5"}) {
     CAPTURE(std::string(method));
-    App app = app_with(on_opencl());
-    Preset next = app.preset();
+    test::Desk desk(on_opencl());
+    Preset next = desk.session.preset();
     next.integrator = method;
-    app.propose(next);
-    act(app);
-    CHECK(app.preset().integrator == method);
-    CHECK(app.preset().engine == EngineKind::cpu);
-    REQUIRE(app.messages.list().size() == 1);
-    CHECK(app.messages.list().front().text ==
+    desk.session.propose(next);
+    act(desk);
+    CHECK(desk.session.preset().integrator == method);
+    CHECK(desk.session.preset().engine == EngineKind::cpu);
+    REQUIRE(desk.session.messages.list().size() == 1);
+    CHECK(desk.session.messages.list().front().text ==
           std::string(scheme(method).title) + " runs on the CPU engine alone, so that was taken.");
-    app.command(Command::undo);
-    act(app);
-    CHECK(app.preset() == on_opencl());
-    CHECK_FALSE(app.history.can_undo());
-    for (const CopyChoice& choice : copy_choices(app.preset()))
+    desk.ui.command("undo");
+    act(desk);
+    CHECK(desk.session.preset() == on_opencl());
+    CHECK_FALSE(desk.session.history.can_undo());
+    for (const CopyChoice& choice : copy_choices(desk.session.preset()))
       if (!choice.differences.empty() && choice.differences.front() == "integrator=" + std::string(method)) {
-        add_copy(app, choice.differences, choice.reference);
-        CHECK_FALSE(app.copies.lockstep.empty());
-        app.copies.lockstep.clear();
+        add_copy(desk.session, choice.differences, choice.reference);
+        CHECK_FALSE(desk.session.copies.lockstep.empty());
+        desk.session.copies.lockstep.clear();
       }
   }
 }

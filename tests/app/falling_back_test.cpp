@@ -38,22 +38,22 @@ class LostEngine final : public Engine {
   int left_;
 };
 
-App app_that_loses_its_device(const Preset& preset, int calls) {
-  App app;
-  app.simulation = std::make_unique<Simulation>(preset);
-  app.simulation->wrap_engine(
+Session app_that_loses_its_device(const Preset& preset, int calls) {
+  Session session;
+  session.simulation = std::make_shared<Simulation>(preset);
+  session.simulation->wrap_engine(
       [&](std::unique_ptr<Engine> engine) { return std::make_unique<LostEngine>(std::move(engine), calls); });
-  return app;
+  return session;
 }
 
 /// Frames of ten steps until an engine gives up; what follows is the CPU engine's.
-void run(App& app, int frames) {
+void run(Session& session, int frames) {
   for (int n = 0; n < frames; ++n) {
-    app.rewind.look(*app.simulation);
+    session.rewind.look(*session.simulation);
     try {
-      app.simulation->advance(10);
+      session.simulation->advance(10);
     } catch (const EngineError& error) {
-      fall_back(app, error.what());
+      fall_back(session, error.what());
     }
   }
 }
@@ -66,42 +66,42 @@ Preset on_device() {
 
 TEST_CASE("a device that is lost: the CPU engine goes on from the last state that was kept, cuts and pins too") {
   if (!test::device_there()) return;
-  App app = app_that_loses_its_device(on_device(), 25);
-  app.simulation->apply(edit::Cut{{{10, 10}, {10, 11}}});
-  app.simulation->apply(edit::Pin{5, 5, true});
-  const int torn = app.simulation->tears().torn_count();
-  app.simulation->apply(edit::Grab{15, 15});
-  app.tool.kind = Tool::Kind::grab;
-  run(app, 25);
-  REQUIRE(app.preset().engine == EngineKind::opencl);
-  const Snapshot kept = *app.rewind.before(*app.simulation, app.simulation->time(), 0);
+  Session session = app_that_loses_its_device(on_device(), 25);
+  session.simulation->apply(edit::Cut{{{10, 10}, {10, 11}}});
+  session.simulation->apply(edit::Pin{5, 5, true});
+  const int torn = session.simulation->tears().torn_count();
+  session.simulation->apply(edit::Grab{15, 15});
+  const auto hands = session.counts.hands;
+  run(session, 25);
+  REQUIRE(session.preset().engine == EngineKind::opencl);
+  const Snapshot kept = *session.rewind.before(*session.simulation, session.simulation->time(), 0);
   CHECK(kept.t == doctest::Approx(0.2));
-  run(app, 1);
-  CHECK(app.preset().engine == EngineKind::cpu);
-  CHECK(app.simulation->time() == kept.t);
-  CHECK(app.simulation->steps() == kept.steps);
-  CHECK(app.simulation->tears().torn_count() == torn);
-  CHECK(test::identical(app.simulation->read(), kept.state));
-  CHECK(app.tool.kind == Tool::Kind::none);
-  CHECK_FALSE(app.simulation->held());
-  REQUIRE(app.messages.list().size() == 1);
-  const std::string said = app.messages.list().front().text;
+  run(session, 1);
+  CHECK(session.preset().engine == EngineKind::cpu);
+  CHECK(session.simulation->time() == kept.t);
+  CHECK(session.simulation->steps() == kept.steps);
+  CHECK(session.simulation->tears().torn_count() == torn);
+  CHECK(test::identical(session.simulation->read(), kept.state));
+  CHECK(session.counts.hands == hands + 1);  // every tool lets go
+  CHECK_FALSE(session.simulation->held());
+  REQUIRE(session.messages.list().size() == 1);
+  const std::string said = session.messages.list().front().text;
   CHECK(said.find("the device is not available") != std::string::npos);
   CHECK(said.find("The CPU engine goes on from t = 0.2") != std::string::npos);
-  run(app, 3);
-  CHECK(app.simulation->steps() == kept.steps + 30);
-  CHECK(test::all_finite(app.simulation->read()));
+  run(session, 3);
+  CHECK(session.simulation->steps() == kept.steps + 30);
+  CHECK(test::all_finite(session.simulation->read()));
 }
 
 TEST_CASE(
     "a device that is lost before anything was kept: the CPU engine begins anew; and it is never its own rescue") {
   if (!test::device_there()) return;
-  App app = app_that_loses_its_device(on_device(), 0);
-  CHECK_THROWS_AS(app.simulation->advance(1), EngineError);
-  fall_back(app, "Lost.");
-  CHECK(app.preset().engine == EngineKind::cpu);
-  CHECK(app.simulation->steps() == 0);
-  CHECK_THROWS_AS(fall_back(app, "Lost."), EngineError);
+  Session session = app_that_loses_its_device(on_device(), 0);
+  CHECK_THROWS_AS(session.simulation->advance(1), EngineError);
+  fall_back(session, "Lost.");
+  CHECK(session.preset().engine == EngineKind::cpu);
+  CHECK(session.simulation->steps() == 0);
+  CHECK_THROWS_AS(fall_back(session, "Lost."), EngineError);
 }
 
 }  // namespace tyglab::falling_back_test

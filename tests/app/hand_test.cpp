@@ -9,8 +9,8 @@
 
 #include "app/render/spring_picking.h"
 #include "app/tools/wind_arrow.h"
-#include "app/ui/app.h"
 #include "app/ui/overlay/overlay.h"
+#include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::hand_test {
@@ -30,22 +30,23 @@ Camera from_the_front(const Preset& preset) {
   return camera;
 }
 
-struct Scene {
-  explicit Scene(Preset preset) : simulation(preset), camera(from_the_front(preset)) {}
+struct Front {
+  explicit Front(Preset preset) : simulation(preset), camera(from_the_front(preset)) {}
   glm::vec2 at(double i, double j) const {
     const glm::dvec3 a = simulation.positions().at(0, 0), b = simulation.positions().at(8, 8);
     return *camera.project({a.x + (b.x - a.x) * j / 8, a.y + (b.y - a.y) * i / 8, a.z}, size);
   }
   std::vector<SpringSite> across(glm::vec2 from, glm::vec2 to) const { return across(std::array{Stroke{from, to}}); }
   std::vector<SpringSite> across(std::span<const Stroke> strokes) const {
-    return springs_across(simulation.positions(), simulation.tears(), camera, simulation.preset().bodies, strokes, size);
+    return springs_across(simulation.positions(), simulation.tears(), camera, simulation.preset().bodies, strokes,
+                          size);
   }
   Simulation simulation;
   Camera camera;
 };
 
 TEST_CASE("a level stroke between two rows meets the springs between them and no other") {
-  const Scene scene(upright());
+  const Front scene(upright());
   const auto met = scene.across(scene.at(3.5, -1), scene.at(3.5, 9));
   CHECK(met.size() == 9 + 8 + 8);
   for (const SpringSite& spring : met) {
@@ -59,14 +60,14 @@ TEST_CASE("a level stroke between two rows meets the springs between them and no
 }
 
 TEST_CASE("an upright stroke meets the springs between two columns") {
-  const Scene scene(upright());
+  const Front scene(upright());
   const auto met = scene.across(scene.at(-1, 5.5), scene.at(9, 5.5));
   CHECK(met.size() == 9 + 8 + 8);
   for (const SpringSite& spring : met) CHECK(spring.direction != 1);
 }
 
 TEST_CASE("a slanting stroke parts the cloth: nothing whole is left between its two sides") {
-  const Scene scene(upright());
+  const Front scene(upright());
   const glm::vec2 from = scene.at(-0.7, 1.3), to = scene.at(8.9, 6.1);
   const auto met = scene.across(from, to);
   const auto beyond = [&](int i, int j) {
@@ -87,7 +88,7 @@ TEST_CASE("a slanting stroke parts the cloth: nothing whole is left between its 
 }
 
 TEST_CASE("a way made of many short strokes meets what one long one meets, each spring once") {
-  const Scene scene(upright());
+  const Front scene(upright());
   const auto whole = scene.across(scene.at(2, -1), scene.at(6, 9));  // through particles
   std::vector<SpringSite> pieces;
   for (int n = 0; n < 50; ++n) {
@@ -99,20 +100,20 @@ TEST_CASE("a way made of many short strokes meets what one long one meets, each 
 }
 
 TEST_CASE("torn springs are not met, nor what a sphere hides; through another layer the stroke goes") {
-  Scene scene(upright());
+  Front scene(upright());
   scene.simulation.apply(edit::CutSprings{{{1, 3, 4}}});
   CHECK(scene.across(scene.at(3.5, -1), scene.at(3.5, 9)).size() == 24);
   Preset hidden = upright();
   Body sphere;
   sphere.c = glm::dvec3(scene.simulation.positions().at(4, 4)) + glm::dvec3(0, 0, 0.6), sphere.r = 0.25;
   hidden.bodies.push_back(sphere);
-  const Scene behind(hidden);
+  const Front behind(hidden);
   const auto met = behind.across(behind.at(3.5, -1), behind.at(3.5, 9));
   CHECK(met.size() < 20);
   CHECK(met.size() >= 4);
   for (const SpringSite& spring : met) CHECK((spring.j <= 2 || spring.j >= 5));
   hidden.bodies[0].c.z -= 1.2;  // behind the cloth
-  const Scene before(hidden);
+  const Front before(hidden);
   CHECK(before.across(before.at(3.5, -1), before.at(3.5, 9)).size() == 25);
   const glm::vec2 from = scene.at(2.5, -1), to = scene.at(2.5, 9);
   State folded = scene.simulation.read();
@@ -126,22 +127,20 @@ TEST_CASE("torn springs are not met, nor what a sphere hides; through another la
   CHECK(std::any_of(both.begin(), both.end(), [](const SpringSite& s) { return s.i == 5; }));
 }
 
-/// A sandbox with that scene, whose pointer is moved.
-struct Desk {
-  explicit Desk(const Preset& preset) {
-    app.simulation = std::make_unique<Simulation>(preset);
-    app.document.saved = preset;
-    app.viewport.box = {{0, 0}, size};
-    app.camera = from_the_front(preset);
+/// A desk with that scene, whose pointer is moved.
+struct Hand : test::Desk {
+  explicit Hand(const Preset& preset) : Desk(preset) {
+    scene.viewport.box = {{0, 0}, size};
+    scene.camera = from_the_front(preset);
   }
   void event(PointerEvent::Type type, glm::vec2 at, int mods = 0) {
     PointerEvent event{type};
-    event.button = GLFW_MOUSE_BUTTON_LEFT, event.at = at, event.mods = mods, event.time = app.ui.now;
-    app.input.at = at, app.input.mods = mods;
-    app.input.pointer = {event};
-    handle_pointer(app);
-    app.input.pointer.clear();
-    apply_requests(app);
+    event.button = GLFW_MOUSE_BUTTON_LEFT, event.at = at, event.mods = mods, event.time = tools.now;
+    input.at = at, input.mods = mods;
+    input.pointer = {event};
+    handle_pointer(tools);
+    input.pointer.clear();
+    act();
   }
   void drag(glm::vec2 from, glm::vec2 to, int mods = 0) {
     event(PointerEvent::Type::press, from, mods);
@@ -149,15 +148,14 @@ struct Desk {
     event(PointerEvent::Type::move, to, mods);
     event(PointerEvent::Type::release, to, mods);
   }
-  App app;
 };
 
 TEST_CASE("the same drag cuts upwards, or along its path") {
-  const Scene scene(upright());
-  Desk upwards(upright()), along(upright());
-  along.app.settings.handling.cut_along_path = true;
-  for (Desk* desk : {&upwards, &along}) desk->drag(scene.at(-0.8, 3.5), scene.at(8.8, 3.5));
-  const Tears &up = upwards.app.simulation->tears(), &path = along.app.simulation->tears();
+  const Front scene(upright());
+  Hand upwards(upright()), along(upright());
+  along.settings.handling.cut_along_path = true;
+  for (Hand* desk : {&upwards, &along}) desk->drag(scene.at(-0.8, 3.5), scene.at(8.8, 3.5));
+  const Tears &up = upwards.session.simulation->tears(), &path = along.session.simulation->tears();
   CHECK(path.torn_count() == 25);
   for (int i = 0; i < 9; ++i) {
     CHECK_FALSE(path.whole(0, i, 3));  // across the path
@@ -165,81 +163,81 @@ TEST_CASE("the same drag cuts upwards, or along its path") {
     CHECK(up.whole(0, i, 3));
   }
   CHECK_FALSE((up.whole(1, 3, 3) && up.whole(1, 3, 4)));
-  CHECK(along.app.tool.stroke.size() == 4);
-  Desk still(upright());
-  still.app.settings.handling.cut_along_path = true;
+  CHECK(along.tools.tool.stroke.size() == 4);
+  Hand still(upright());
+  still.settings.handling.cut_along_path = true;
   still.drag(scene.at(3.5, 4), scene.at(3.5, 4));
-  CHECK(still.app.simulation->tears().untorn());
+  CHECK(still.session.simulation->tears().untorn());
 }
 
-glm::vec2 tip(const App& app) {
-  return *app.camera.project(wind_arrow(app, app.requested_preset().W).tip, app.viewport.size());
+glm::vec2 tip(const test::Desk& desk) {
+  return *desk.scene.camera.project(wind_arrow(desk.tools, desk.session.requested_preset().W).tip,
+                                    desk.scene.viewport.size());
 }
 
 TEST_CASE("the wind's arrow is shown while there is wind, or as it is asked for") {
   Preset calm = upright(), windy = upright();
   windy.W = {0.004, 0, 0};
-  Desk a(calm), b(windy);
-  CHECK_FALSE(wind_arrow_shown(a.app));
-  CHECK(wind_arrow_shown(b.app));
-  a.app.command(Command::toggle_wind_arrow), b.app.command(Command::toggle_wind_arrow);
-  apply_requests(a.app), apply_requests(b.app);
-  CHECK(wind_arrow_shown(a.app));
-  CHECK_FALSE(wind_arrow_shown(b.app));
+  Hand a(calm), b(windy);
+  CHECK_FALSE(wind_arrow_shown(a.tools));
+  CHECK(wind_arrow_shown(b.tools));
+  a.ui.command("toggle_wind_arrow"), b.ui.command("toggle_wind_arrow");
+  a.act(), b.act();
+  CHECK(wind_arrow_shown(a.tools));
+  CHECK_FALSE(wind_arrow_shown(b.tools));
 }
 
 TEST_CASE("its tip is dragged in the camera's plane, and one undo takes the drag back") {
   Preset preset = upright();
   preset.W = {0.004, 0, 0.0004};
-  Desk desk(preset);
-  const glm::vec2 from = tip(desk.app);
+  Hand desk(preset);
+  const glm::vec2 from = tip(desk);
   desk.drag(from, from + glm::vec2(0, -80));
   // 80 pixels are the wind as it was opened; upwards is y.
-  CHECK(desk.app.preset().W.x == doctest::Approx(0.004).epsilon(0.02));
-  CHECK(desk.app.preset().W.y == doctest::Approx(glm::length(preset.W)).epsilon(0.02));
-  CHECK(desk.app.preset().W.z == doctest::Approx(0.0004).epsilon(0.02));
-  CHECK(glm::distance(tip(desk.app), from + glm::vec2(0, -80)) < 3);
-  CHECK(desk.app.tool.kind == Tool::Kind::none);
-  CHECK(desk.app.simulation->tears().untorn());
-  desk.app.command(Command::undo);
-  apply_requests(desk.app);
-  CHECK(desk.app.preset().W == preset.W);
+  CHECK(desk.session.preset().W.x == doctest::Approx(0.004).epsilon(0.02));
+  CHECK(desk.session.preset().W.y == doctest::Approx(glm::length(preset.W)).epsilon(0.02));
+  CHECK(desk.session.preset().W.z == doctest::Approx(0.0004).epsilon(0.02));
+  CHECK(glm::distance(tip(desk), from + glm::vec2(0, -80)) < 3);
+  CHECK(desk.tools.tool.kind == Tool::Kind::none);
+  CHECK(desk.session.simulation->tears().untorn());
+  desk.ui.command("undo");
+  desk.act();
+  CHECK(desk.session.preset().W == preset.W);
 }
 
 TEST_CASE("Shift drags along the view, Ctrl snaps to an axis, and at its foot the wind is calm") {
   Preset preset = upright();
   preset.W = {0.004, 0.001, 0};
-  Desk depth(preset);
-  glm::vec2 from = tip(depth.app);
+  Hand depth(preset);
+  glm::vec2 from = tip(depth);
   depth.drag(from, from + glm::vec2(3, -40), GLFW_MOD_SHIFT);
-  CHECK(depth.app.preset().W.x == doctest::Approx(0.004));
-  CHECK(depth.app.preset().W.z == doctest::Approx(-0.5 * glm::length(preset.W)).epsilon(0.02));
-  Desk axis(preset);
+  CHECK(depth.session.preset().W.x == doctest::Approx(0.004));
+  CHECK(depth.session.preset().W.z == doctest::Approx(-0.5 * glm::length(preset.W)).epsilon(0.02));
+  Hand axis(preset);
   axis.drag(from, from + glm::vec2(-10, 4), GLFW_MOD_CONTROL);
-  CHECK(axis.app.preset().W.x > 0);
-  CHECK(axis.app.preset().W.y == 0);
-  CHECK(axis.app.preset().W.z == 0);
-  Desk calm(preset);
-  const glm::vec2 foot = *calm.app.camera.project(wind_arrow(calm.app, preset.W).base, size);
+  CHECK(axis.session.preset().W.x > 0);
+  CHECK(axis.session.preset().W.y == 0);
+  CHECK(axis.session.preset().W.z == 0);
+  Hand calm(preset);
+  const glm::vec2 foot = *calm.scene.camera.project(wind_arrow(calm.tools, preset.W).base, size);
   calm.drag(from, foot + glm::vec2(2, 1));
-  CHECK(calm.app.preset().W == glm::dvec3(0));
-  CHECK(wind_arrow_shown(calm.app));
+  CHECK(calm.session.preset().W == glm::dvec3(0));
+  CHECK(wind_arrow_shown(calm.tools));
 }
 
 TEST_CASE("an arrow that would leave its picture is cut short at its edge, any other is left as it is") {
-  Desk desk(upright());
-  App& app = desk.app;
-  app.viewport.box = {{100, 50}, {740, 530}};
+  Hand desk(upright());
+  desk.scene.viewport.box = {{100, 50}, {740, 530}};
   const ImVec2 from{300, 200};
   for (const ImVec2 goal : {ImVec2{2000, 200}, {-500, -900}, {310, 4000}, {739, 529}}) {
     ImVec2 to = goal;
-    CHECK(keep_in_picture(app, 0, from, to));
+    CHECK(keep_in_picture(desk.ui, 0, from, to));
     CHECK((to.x > 100 && to.x < 740 && to.y > 50 && to.y < 530));
     // On the way to where it was to go.
     CHECK((to.x - from.x) * (goal.y - from.y) == doctest::Approx((to.y - from.y) * (goal.x - from.x)));
   }
   ImVec2 inside{400, 300};
-  CHECK_FALSE(keep_in_picture(app, 0, from, inside));
+  CHECK_FALSE(keep_in_picture(desk.ui, 0, from, inside));
   CHECK((inside.x == 400 && inside.y == 300));
 }
 

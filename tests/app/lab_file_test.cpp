@@ -5,9 +5,10 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "app/session/edits.h"
 #include "app/session/labs/lab_state.h"
 #include "app/session/labs/observables.h"
-#include "app/ui/app.h"
+#include "app/session/session.h"
 #include "tests/support/files.h"
 
 namespace tyglab::lab_file_test {
@@ -148,35 +149,35 @@ TEST_CASE("labs are found in the user's folder too, beside their own presets, an
   test::write_file(folder / "labs/mine.md", head + "open: mine.json\n```\n");
   test::write_file(folder / "labs/wrong.md", "# A lab\n");
   test::write_file(folder / "labs/README.md", "No lab at all.\n");
-  App app;
-  const std::vector<Lab>& labs = find_labs(app);
+  Session session;
+  const std::vector<Lab>& labs = find_labs(session);
   CHECK(labs.back().label == "mine");
   CHECK(labs.back().steps[0].open->preset == (folder / "labs/mine.json").string());
-  REQUIRE(app.labs.problems.size() == 1);
-  CHECK(says(app.labs.problems[0], "wrong.md:2: a lab has at least one step"));
-  CHECK(app.messages.list().size() == 1);
+  REQUIRE(session.labs.problems.size() == 1);
+  CHECK(says(session.labs.problems[0], "wrong.md:2: a lab has at least one step"));
+  CHECK(session.messages.list().size() == 1);
   unsetenv("TYGLAB_CONFIG_DIR");
 }
 
 TEST_CASE("every observable has a name of its own, and can be asked of any scene") {
-  App app;
+  Session session;
   for (const Kind kind : {Kind::cloth, Kind::one_weight}) {
     Preset preset;
     preset.kind = kind;
-    app.simulation = std::make_unique<Simulation>(preset);
-    app.picked = Pins::Site{0, 0};
+    session.simulation = std::make_shared<Simulation>(preset);
+    session.picked = Pins::Site{0, 0};
     for (const std::string_view name : observable_names()) {
       CAPTURE(std::string(name));
       if (is_word(name)) {
-        CHECK_FALSE(observe_word(app, name).empty());
-      } else if (const auto value = observe(app, name)) {
+        CHECK_FALSE(observe_word(session, name).empty());
+      } else if (const auto value = observe(session, name)) {
         CHECK(std::isfinite(*value));
       } else if (const Observable* row = find_observable(name)) {
-        CHECK_FALSE(row->suggested_fix.empty());
+        CHECK_FALSE(row->hint.empty());
       }
     }
   }
-  CHECK(observe(app, "W.x") == 0.0);
+  CHECK(observe(session, "W.x") == 0.0);
   CHECK_FALSE(is_observable("W"));
   CHECK_FALSE(is_observable("texture"));
 }
@@ -193,20 +194,20 @@ TEST_CASE("the list of observables in docs/labs/README.md is current") {
 }
 
 TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset") {
-  App app;
-  app.simulation = std::make_unique<Simulation>(Preset{});
-  app.settings.labs["01_hooke"] = 1;
-  begin_lab(app, "01_hooke");
-  CHECK(app.labs.run->step == 0);  // the second step goes on with the first one's weight
-  app.settings.labs["01_hooke"] = 2;
-  begin_lab(app, "01_hooke");
-  CHECK(app.labs.run->step == 2);
-  CHECK(steps_done(app, app.labs.run->lab) == 2);
-  app.settings.labs["01_hooke"] = 3;
-  begin_lab(app, "01_hooke");
-  CHECK(app.labs.run->step == 0);
-  begin_lab(app, "99_none");
-  CHECK(app.messages.list().size() == 1);
+  Session session;
+  session.simulation = std::make_shared<Simulation>(Preset{});
+  session.labs.progress["01_hooke"] = 1;
+  begin_lab(session, "01_hooke");
+  CHECK(session.labs.run->step == 0);  // the second step goes on with the first one's weight
+  session.labs.progress["01_hooke"] = 2;
+  begin_lab(session, "01_hooke");
+  CHECK(session.labs.run->step == 2);
+  CHECK(steps_done(session, session.labs.run->lab) == 2);
+  session.labs.progress["01_hooke"] = 3;
+  begin_lab(session, "01_hooke");
+  CHECK(session.labs.run->step == 0);
+  begin_lab(session, "99_none");
+  CHECK(session.messages.list().size() == 1);
 }
 
 }  // namespace tyglab::lab_file_test

@@ -4,6 +4,7 @@
 #include "app/session/labs/observables.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/io/preset_io.h"
+#include "tests/app/desk.h"
 #include "tests/app/lab_player.h"
 
 namespace tyglab::lab_play_test {
@@ -48,23 +49,23 @@ TEST_CASE("lab: why Euler gains energy") {
   play.run(0.5);
   CHECK_FALSE(play.done());
   play.run(10);
-  CHECK(play.app().simulation->time() == doctest::Approx(1));  // it stopped by itself
+  CHECK(play.session().simulation->time() == doctest::Approx(1));  // it stopped by itself
   finish(play);
-  CHECK(*observe(play.app(), "energy") / 0.2 == doctest::Approx(2.7048).epsilon(1e-3));
+  CHECK(*observe(play.session(), "energy") / 0.2 == doctest::Approx(2.7048).epsilon(1e-3));
   play.next();
   play.choose(1);
   play.set("integrator=euler");
   play.run(10);
   CHECK_FALSE(play.done());
-  set_up_step(play.app());
-  CHECK(play.app().requests.size() == 1);
-  play.take_requests();
+  set_up_step(play.session());
+  CHECK(play.session().requests.size() == 1);
+  play.update();
   play.run(10);
   finish(play);
   play.next();
   play.choose(1);
   play.run(20);
-  CHECK(play.app().simulation->time() == doctest::Approx(10));
+  CHECK(play.session().simulation->time() == doctest::Approx(10));
   finish(play);
 }
 
@@ -75,9 +76,9 @@ TEST_CASE("lab: k_s and the critical time step") {
   CHECK_FALSE(play.done());
   play.set("k_s=300");
   play.run(1);
-  CHECK(play.app().simulation->divergence());
+  CHECK(play.session().simulation->divergence());
   CHECK_FALSE(play.done());  // far above the limit shows no limit
-  play.app().simulation->apply(edit::Restart{});
+  play.session().simulation->apply(edit::Restart{});
   play.set("k_s=195");
   play.run(5);
   finish(play);
@@ -85,7 +86,7 @@ TEST_CASE("lab: k_s and the critical time step") {
   play.choose(0);
   play.run(3);
   CHECK_FALSE(play.done());  // k_s is not near
-  play.app().simulation->apply(edit::Restart{});
+  play.session().simulation->apply(edit::Restart{});
   play.set("k_s=180");
   play.run(3);
   finish(play);
@@ -113,7 +114,7 @@ TEST_CASE("lab: what damping does to the limit") {
   play.set("k_d=0.1");
   play.run(1);
   CHECK_FALSE(play.done());  // it explodes, but not near the limit
-  play.app().simulation->apply(edit::Restart{});
+  play.session().simulation->apply(edit::Restart{});
   play.set("k_d=0.055");
   play.run(5);
   finish(play);
@@ -168,8 +169,8 @@ TEST_CASE("lab: float against double") {
   play.set("precision=double");
   play.run(1);
   CHECK_FALSE(play.done());
-  set_up_step(play.app());
-  play.take_requests();
+  set_up_step(play.session());
+  play.update();
   play.run(1);
   finish(play);
   play.next();
@@ -177,8 +178,8 @@ TEST_CASE("lab: float against double") {
   play.set("dt=0.0005");
   play.run(1);
   CHECK_FALSE(play.done());  // the same run as before
-  set_up_step(play.app());
-  play.take_requests();
+  set_up_step(play.session());
+  play.update();
   play.run(1);
   finish(play);
 }
@@ -224,9 +225,9 @@ TEST_CASE("lab: chaos, and what an error can mean") {
   play.set("k_s=50");
   play.run(4);
   CHECK_FALSE(play.done());  // the same constants lead to the same bits
-  CHECK(*observe(play.app(), "apart") == 0);
-  set_up_step(play.app());
-  play.take_requests();
+  CHECK(*observe(play.session(), "apart") == 0);
+  set_up_step(play.session());
+  play.update();
   play.run(4);
   finish(play);
   play.next();
@@ -254,20 +255,20 @@ TEST_CASE("lab: tearing a cloth on purpose") {
   CHECK_FALSE(play.done());
   std::vector<Pins::Site> across;
   for (int j = 0; j < 40; ++j) across.push_back({20, j});
-  play.app().simulation->apply(edit::Cut{across});
+  play.session().simulation->apply(edit::Cut{across});
   play.run(0.1);
   finish(play);
 }
 
 TEST_CASE("a lab begins with the cloth's own look, and what coloured it before is remembered") {
-  App app;
-  app.simulation = std::make_unique<Simulation>(Preset{});
-  app.colors.choose(ParticleField::speed);
-  app.settings.color = "speed";
-  begin_lab(app, "01_hooke");
-  REQUIRE(app.labs.run.has_value());
-  CHECK_FALSE(app.colors.chosen);
-  CHECK(app.settings.color == "speed");
+  test::Desk desk;
+  desk.scene.colors.choose(ParticleField::speed);
+  desk.settings.color = "speed";
+  begin_lab(desk.session, "01_hooke");
+  desk.follow();
+  REQUIRE(desk.session.labs.run.has_value());
+  CHECK_FALSE(desk.scene.colors.chosen);
+  CHECK(desk.settings.color == "speed");
 }
 
 TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
@@ -277,23 +278,23 @@ TEST_CASE("lab: CPU against OpenCL, with a device and without one") {
   play.next();
   play.choose(1);
   if (opencl_devices().devices.empty()) {
-    CHECK(cannot_be_done(play.app()));
+    CHECK(cannot_be_done(play.session()));
   } else {
     play.set("engine=cpu");
     play.run(1);
     CHECK_FALSE(play.done());
-    set_up_step(play.app());
-    play.take_requests();
+    set_up_step(play.session());
+    play.update();
     play.run(1);
     finish(play);
   }
   play.run(0);
   CHECK(play.done());
   LabPlayer without("10_opencl");
-  without.app().labs.opencl = false;
+  without.session().labs.opencl = false;
   without.run(1);
   without.next();
-  CHECK(cannot_be_done(without.app()));
+  CHECK(cannot_be_done(without.session()));
   without.run(0);
   CHECK_FALSE(without.done());  // the answer is not given away
   without.choose(1);
@@ -313,8 +314,8 @@ TEST_CASE("lab: what bending springs do") {
   play.set("k_b=10");
   play.run(3);
   CHECK_FALSE(play.done());  // these are other springs
-  set_up_step(play.app());
-  play.take_requests();
+  set_up_step(play.session());
+  play.update();
   play.run(10);
   finish(play);
   play.next();
@@ -355,7 +356,7 @@ TEST_CASE("lab: wind, gusts and a swinging sheet") {
   play.predict("1.6");
   play.run(8);
   CHECK_FALSE(play.done());  // gusts that are too fast
-  play.app().simulation->apply(edit::Restart{});
+  play.session().simulation->apply(edit::Restart{});
   play.set("gust_period=1.6");
   play.run(15);
   finish(play);
@@ -363,24 +364,25 @@ TEST_CASE("lab: wind, gusts and a swinging sheet") {
 
 TEST_CASE("a lab waits while another preset is open, and goes on with its own") {
   LabPlayer play("12_wind");
-  App& app = play.app();
+  Session& session = play.session();
   play.predict("0.00085");
-  CHECK_FALSE(lab_waits(app));
-  app.document.label = "flag";
-  CHECK(lab_waits(app));
-  app.simulation->apply(edit::Change{with_settings(app.preset(), {"W=[0,0,0.00095]"})});
+  CHECK_FALSE(lab_waits(session));
+  session.document.label = "flag";
+  CHECK(lab_waits(session));
+  session.simulation->apply(edit::Change{with_settings(session.preset(), {"W=[0,0,0.00095]"})});
   play.run(12);
   CHECK_FALSE(play.done());  // whatever the checks would say
-  resume_lab(app);
-  REQUIRE(app.requests.size() == 1);
-  play.take_requests();
-  CHECK_FALSE(lab_waits(app));
+  resume_lab(session);
+  REQUIRE(session.requests.size() == 1);
+  std::get<request::Open>(session.requests[0]).confirmed = true;  // the user agrees to lose what was changed
+  play.update();
+  CHECK_FALSE(lab_waits(session));
 }
 
 TEST_CASE("every shipped lab is read, and what it opens is there") {
-  App app;
-  CHECK(find_labs(app).size() >= 12);
-  for (const std::string& problem : app.labs.problems) FAIL_CHECK(problem);
+  Session session;
+  CHECK(find_labs(session).size() >= 12);
+  for (const std::string& problem : session.labs.problems) FAIL_CHECK(problem);
 }
 
 }  // namespace tyglab::lab_play_test

@@ -1,17 +1,17 @@
-// Plays a lab without a window: what a student would do, with the frames that pass meanwhile.
+// Plays a lab without a window: what a student would do, with the updates of the session that pass meanwhile.
 #pragma once
 
 #include <string>
 
-#include "app/ui/app.h"
+#include "app/session/session.h"
 
 namespace tyglab::test {
 
 class LabPlayer {
  public:
   explicit LabPlayer(const std::string& label);
-  App& app() { return app_; }
-  const LabRun& lab() const { return *app_.labs.run; }
+  Session& session() { return session_; }
+  const LabRun& lab() const { return *session_.labs.run; }
   bool done() const { return lab().record().done; }
   bool right() const { return lab().record().right; }
 
@@ -22,17 +22,16 @@ class LabPlayer {
   void set(const std::string& setting);
   /// Runs until it has lasted so many simulated seconds more, the step stops it, it diverges, or the step is done.
   void run(double seconds);
-  /// A frame in which nothing is done, once the limits and the study (of those that are open) are there.
+  /// Updates in which nothing is done, until the limits and the study (of those that are open) are there.
   void look();
   bool accuracy_open = false;
   /// The next step, which opens its preset.
   void next();
-  /// Opens what the lab has asked for.
-  void take_requests();
+  /// One update, in which what was asked for is done.
+  void update(double seconds = 0);
 
  private:
-  void frame(int steps);
-  App app_;
+  Session session_;
 };
 
 }  // namespace tyglab::test

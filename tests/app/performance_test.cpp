@@ -5,56 +5,56 @@
 #include <nlohmann/json.hpp>
 
 #include "app/ui/cards/performance.h"
+#include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::performance_test {
 
-FeatureRow row(const App& app, std::string_view name) {
-  for (const FeatureRow& row : feature_rows(app))
+FeatureRow row(const test::Desk& desk, std::string_view name) {
+  for (const FeatureRow& row : feature_rows(desk.ui))
     if (row.name == name) return row;
   FAIL("no row " << std::string(name));
   return {};
 }
 
 TEST_CASE("features that a scene needs are on, the others are skipped") {
-  App app;
+  test::Desk desk;
   Preset preset = test::quiet_cloth(6, 6);
-  app.simulation = std::make_unique<Simulation>(preset);
+  desk.session.simulation = std::make_shared<Simulation>(preset);
   for (const char* name : {"bending", "damping", "wind", "bodies", "tearing", "tear masks", "plot data"})
-    CHECK_MESSAGE(row(app, name).activity == Activity::skipped, std::string(name));
-  CHECK(row(app, "divergence watch").activity == Activity::on);
-  CHECK(row(app, "normals").activity == Activity::on);
-  app.view.mode = 5;
-  CHECK(row(app, "normals").activity == Activity::skipped);
+    CHECK_MESSAGE(row(desk, name).activity == Activity::skipped, std::string(name));
+  CHECK(row(desk, "divergence watch").activity == Activity::on);
+  CHECK(row(desk, "normals").activity == Activity::on);
+  desk.scene.view.mode = 5;
+  CHECK(row(desk, "normals").activity == Activity::skipped);
   preset.k_b = 1, preset.k_d = 0.001, preset.W = {0, 0, 1}, preset.F_max = 5, preset.bodies.resize(1);
-  app.simulation->apply(edit::Change{preset});
-  app.simulation->apply(edit::Cut{{{3, 3}}});
-  app.ui.plots.forces_shown = true;
+  desk.session.simulation->apply(edit::Change{preset});
+  desk.session.simulation->apply(edit::Cut{{{3, 3}}});
+  desk.session.wants.forces = true;
   for (const char* name : {"bending", "damping", "wind", "bodies", "tearing", "tear masks", "plot data"})
-    CHECK_MESSAGE(row(app, name).activity == Activity::on, std::string(name));
-  CHECK_FALSE(row(app, "bending").ms.has_value());
-  CHECK(row(app, "plot data").ms.has_value());
-  app.pacing.playing = false;
-  CHECK(row(app, "bending").activity == Activity::skipped);
+    CHECK_MESSAGE(row(desk, name).activity == Activity::on, std::string(name));
+  CHECK_FALSE(row(desk, "bending").ms.has_value());
+  CHECK(row(desk, "plot data").ms.has_value());
+  desk.session.pacing.playing = false;
+  CHECK(row(desk, "bending").activity == Activity::skipped);
 }
 
 TEST_CASE("the facts name the engine and the memory of the solver's arrays") {
-  App app;
-  app.simulation = std::make_unique<Simulation>(test::cloth(32, 32));
-  const auto facts = performance_facts(app);
+  test::Desk desk(test::cloth(32, 32));
+  const auto facts = performance_facts(desk.ui);
   CHECK(facts[0].value.find("CPU") != std::string::npos);
   CHECK(std::any_of(facts.begin(), facts.end(),
                     [](const auto& fact) { return fact.value.find("B/particle") != std::string::npos; }));
   const auto value = [&](std::string_view name) {
-    for (const PerformanceFact& fact : performance_facts(app))
+    for (const PerformanceFact& fact : performance_facts(desk.ui))
       if (fact.name == name) return fact.value;
     return std::string();
   };
   CHECK(value("masks and read-outs") == "1 kB");
-  app.simulation->forces(Reduction::sum);  // reads the whole state: six doubles a particle
+  desk.session.simulation->forces(Reduction::sum);  // reads the whole state: six doubles a particle
   CHECK(value("masks and read-outs") == "50 kB");
   CHECK(value("undo") == "0 kB");
-  for (int n = 0; n < 10; ++n) app.history.record(app.preset(), 0);
+  for (int n = 0; n < 10; ++n) desk.session.history.record(desk.session.preset(), 0);
   CHECK(value("undo") != "0 kB");
 }
 

@@ -6,12 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "app/base/messages.h"
 #include "app/base/numbers.h"
+#include "app/base/settings.h"
 #include "app/session/history.h"
-#include "app/session/messages.h"
 #include "app/session/pacing.h"
 #include "app/session/series.h"
-#include "app/session/settings.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/plot.h"
 #include "app/ui/kit/symbol.h"
@@ -104,7 +104,7 @@ TEST_CASE("settings come back, and a broken file gives a sentence and the defaul
   settings.layout.right = false;
   settings.handling.cut_along_path = settings.handling.slow_hand = true;
   settings.handling.arrows = {"F", "v"};
-  settings.session = Session{with_k_s(77), with_k_s(76), "denim", "/a/b.json"};
+  settings.session = LastSession{with_k_s(77), with_k_s(76), "denim", "/a/b.json"};
   save_settings(settings);
   const Settings again = load_settings(problem);
   CHECK(problem.empty());

@@ -8,21 +8,23 @@
 #include <limits>
 #include <thread>
 
-#include "app/ui/app.h"
 #include "app/ui/constants/stability_row.h"
+#include "app/ui/ui.h"
 #include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::stability_watch_test {
 
 /// Polls as frames do until limits for these constants are there.
-StabilityLimits limits_of(App& app) {
-  for (int n = 0; n < 5000; ++n) {
-    app.stability.poll(app);
-    if (app.stability.limits() && app.stability.limits()->of == app.preset()) return *app.stability.limits();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+StabilityLimits limits_of(Simulation& simulation) {
+  StabilityWatch watch;
+  StudyMoment moment{simulation};
+  for (int n = 0; n < 2000; ++n) {
+    watch.poll(moment);
+    if (watch.limits() && watch.limits()->of == simulation.preset()) return *watch.limits();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  FAIL("no limits within five seconds");
+  FAIL("no limits came");
   return {};
 }
 
@@ -31,17 +33,16 @@ bool says(const std::string& text, const char* what) {
 }
 
 TEST_CASE("the limits are those of linear theory, and follow the constants") {
-  App app;
   Preset preset = test::cloth(12, 12);
   preset.initial_stretch = 1.05;
-  app.simulation = std::make_unique<Simulation>(preset);
-  const StabilityLimits soft = limits_of(app);
+  Simulation simulation(preset);
+  const StabilityLimits soft = limits_of(simulation);
   CHECK(soft.any == doctest::Approx(stable_dt(preset, preset.integrator)).epsilon(1e-3));
   REQUIRE(soft.now.has_value());
   CHECK(*soft.now > soft.any);
   preset.k_s *= 100, preset.k_b *= 100;
-  app.simulation->apply(edit::Change{preset});
-  const StabilityLimits stiff = limits_of(app);
+  simulation.apply(edit::Change{preset});
+  const StabilityLimits stiff = limits_of(simulation);
   CHECK(stiff.any < soft.any / 8);
   CHECK(stability_text(stiff, 2 * stiff.any) == "2.00");
   const std::string words = stability_words(stiff, 2 * stiff.any);
@@ -50,22 +51,20 @@ TEST_CASE("the limits are those of linear theory, and follow the constants") {
 }
 
 TEST_CASE("methods without a limit, and those that no dt makes stable, are named so") {
-  App app;
   Preset preset = test::cloth(8, 8, "implicit_euler");
-  app.simulation = std::make_unique<Simulation>(preset);
-  CHECK(stability_text(limits_of(app), preset.dt) == "no limit");
+  Simulation simulation(preset);
+  CHECK(stability_text(limits_of(simulation), preset.dt) == "no limit");
   preset.integrator = "euler", preset.k_d = 0;
-  app.simulation->apply(edit::Change{preset});
-  const StabilityLimits euler = limits_of(app);
+  simulation.apply(edit::Change{preset});
+  const StabilityLimits euler = limits_of(simulation);
   CHECK(stability_text(euler, preset.dt) == "always above");
   CHECK(says(stability_words(euler, preset.dt), "No dt is stable"));
 }
 
 TEST_CASE("a cloth too large to look at while it moves has the limit of any configuration alone") {
-  App app;
   Preset preset = test::cloth(200, 200);
-  app.simulation = std::make_unique<Simulation>(preset);
-  const StabilityLimits limits = limits_of(app);
+  Simulation simulation(preset);
+  const StabilityLimits limits = limits_of(simulation);
   CHECK(limits.any > 0);
   CHECK_FALSE(limits.now.has_value());
 }

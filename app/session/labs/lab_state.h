@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "app/session/labs/lab.h"
+#include "app/studies/studies.h"
 #include "core/cloth/state.h"
 
 namespace tyglab {
 
-struct App;
+struct Session;
 
 /// What is known at the moment at which a step was completed: what later steps call `before`.
-struct Moment {
+struct StepOutcome {
   std::map<std::string, double, std::less<>> values;
   std::optional<State> state;  ///< where a later step asks how far apart the cloth is from it
 };
@@ -31,7 +32,7 @@ struct StepRecord {
   bool done = false;               ///< all held at once, at least once
   bool right = false;              ///< the prediction, once it is done
   double answer = 0;               ///< the right number then
-  Moment moment;
+  StepOutcome outcome;
 };
 
 struct LabRun {
@@ -51,7 +52,7 @@ struct LabState {
   std::optional<LabRun> run;
   std::optional<bool> opencl;  ///< whether there is a device; none: nobody has asked yet
   std::string opened;          ///< label of the preset that a step opened last
-  bool enter = false;          ///< Enter was pressed in the prediction's field
+  std::map<std::string, int> progress;  ///< by its name: how many of a lab's steps are done
 };
 
 /// A file, or else the lab of that name: one that comes with the program or of the user's folder. Throws LabError; an
@@ -61,34 +62,36 @@ std::filesystem::path find_lab_file(const std::string& name_or_file);
 std::vector<Lab> read_labs(std::vector<std::string>& problems);
 
 /// The same, read at the first call; what is wrong in one is said in a message.
-const std::vector<Lab>& find_labs(App& app);
+const std::vector<Lab>& find_labs(Session& session);
 /// How many of the lab's steps are done, as it is remembered.
-int steps_done(const App& app, const Lab& lab);
+int steps_done(const Session& session, const Lab& lab);
 
 /// Begins a lab where it was left, at a step that opens a preset.
-void begin_lab(App& app, std::string_view label);
+void begin_lab(Session& session, std::string_view label);
 /// Goes to a step, and opens its preset, paused.
-void enter_step(App& app, std::size_t step);
+void enter_step(Session& session, std::size_t step);
 /// One step back, to be read; nothing is opened.
-void back_step(App& app);
+void back_step(Session& session);
 /// Opens the step's preset once more, where it has one.
-void set_up_step(App& app);
-void leave_lab(App& app);
+void set_up_step(Session& session);
+void leave_lab(Session& session);
 
 /// Takes what was typed or chosen as the prediction. False where there is nothing yet, or no number.
-bool predict(App& app);
+bool predict(Session& session);
 /// Whether the machine lacks what the step needs, so that it can only be read.
-bool cannot_be_done(App& app);
+bool cannot_be_done(Session& session);
 
 /// Whether another preset has been opened than the step's: the lab then waits, and looks at nothing.
-bool lab_waits(const App& app);
+bool lab_waits(const Session& session);
 /// Puts the lab's cloth back: at the step in work, or the last one before it that opens one.
-void resume_lab(App& app);
+void resume_lab(Session& session);
 
-/// Called in every frame: looks which checks hold, and whether the step is done.
-void watch_lab(App& app);
+/// What the checks of the step in work need to be worked out.
+Wants lab_wants(const Session& session);
+/// Called in every update: looks which checks hold, and whether the step is done.
+void watch_lab(Session& session);
 /// Of the steps that are due, those up to where the step stops the motion; pauses it there.
-int up_to_stop(const App& app, int due);
-void pause_at_stop(App& app);
+int up_to_stop(const Session& session, int due);
+void pause_at_stop(Session& session);
 
 }  // namespace tyglab

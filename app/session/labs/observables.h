@@ -7,18 +7,21 @@
 #include <string_view>
 #include <vector>
 
+#include "app/studies/studies.h"
+
 namespace tyglab {
 
-struct App;
+struct Session;
 
 struct Observable {
   std::string_view name;
-  std::string_view unit;           ///< SI, empty if it has none
-  std::string_view meaning;        ///< a sentence
-  std::string_view suggested_fix;  ///< what to do where it is not known, empty where it always is
+  std::string_view unit;     ///< SI, empty if it has none
+  std::string_view meaning;  ///< a sentence
+  std::string_view hint;     ///< what to do where it is not known, empty where it always is
   /// Its value, none while it is not known; null for words.
-  std::optional<double> (*number)(App&) = nullptr;
-  std::string_view (*word)(const App&) = nullptr;
+  std::optional<double> (*number)(Session&) = nullptr;
+  bool Wants::*needs = nullptr;  ///< the study that works it out, if one does; not those that somebody opens on purpose
+  std::string_view (*word)(const Session&) = nullptr;
   std::span<const std::string_view> (*words)() = nullptr;  ///< those it can be
 };
 
@@ -34,8 +37,8 @@ std::string_view unit_of(std::string_view name);
 std::vector<std::string_view> observable_names();
 
 /// Its value; none while it is not known.
-std::optional<double> observe(App& app, std::string_view name);
-std::string_view observe_word(const App& app, std::string_view name);
+std::optional<double> observe(Session& session, std::string_view name);
+std::string_view observe_word(const Session& session, std::string_view name);
 
 /// The table of docs/labs/README.md.
 std::string observables_markdown();

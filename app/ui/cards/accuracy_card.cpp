@@ -21,19 +21,18 @@ constexpr const char* accuracy_heading = card_name::accuracy;
 constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
 
 /// Words over a chart, in what the card's height leaves.
-void words_and_chart(App& app, float height, const std::string& words, const Chart* chart,
-                     float room_at_1 = words_at_1) {
+void words_and_chart(Ui& ui, float height, const std::string& words, const Chart* chart, float room_at_1 = words_at_1) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = card_width(app);
-  const ImFont& font = *app.fonts.small;
+  const float width = card_width(ui);
+  const ImFont& font = *ui.fonts.small;
   const std::string lines = in_lines(font, words, width);
-  const float tall = font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.c_str()).y + app.theme.px(6);
-  const float line = std::max(app.theme.px(room_at_1), tall);
-  draw_text(*ImGui::GetWindowDrawList(), font, lo, app.theme.colors.text, lines);
+  const float tall = font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.c_str()).y + ui.theme.px(6);
+  const float line = std::max(ui.theme.px(room_at_1), tall);
+  draw_text(*ImGui::GetWindowDrawList(), font, lo, ui.theme.colors.text, lines);
   ImGui::Dummy({width, line});
-  const float rest = height - app.theme.px(card::head + card::foot) - line;
-  if (chart == nullptr || rest < app.theme.px(100)) return;
-  draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, {lo.x, lo.y + line}, {width, rest}, *chart);
+  const float rest = height - ui.theme.px(card::head + card::foot) - line;
+  if (chart == nullptr || rest < ui.theme.px(100)) return;
+  draw_chart({*ImGui::GetWindowDrawList(), ui.theme, ui.fonts}, {lo.x, lo.y + line}, {width, rest}, *chart);
   ImGui::Dummy({width, rest});
 }
 
@@ -124,84 +123,79 @@ Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
   return chart;
 }
 
-float stability_card_height(const App& app) {
-  return card_height(app, stability_heading, words_at_1 + chart_at_1);
+float stability_card_height(const Ui& ui) {
+  return card_height(ui, stability_heading, words_at_1 + chart_at_1);
 }
 
-void stability_card(App& app, float height) {
-  if (begin_card(app, stability_heading, height)) {
-    app.stability.poll(app);
-    if (const auto& limits = app.stability.limits()) {
+void stability_card(Ui& ui, float height) {
+  if (begin_card(ui, stability_heading, height)) {
+    if (const auto& limits = ui.session.studies.stability.limits()) {
       const Scheme& method = scheme(limits->of.integrator);
       const bool drawn = has_step_limit(method);
-      const Chart chart = drawn ? stability_chart(app.theme.colors, *limits) : Chart{};
-      words_and_chart(app, height, stability_sentence(*limits), drawn ? &chart : nullptr);
+      const Chart chart = drawn ? stability_chart(ui.theme.colors, *limits) : Chart{};
+      words_and_chart(ui, height, stability_sentence(*limits), drawn ? &chart : nullptr);
     }
   }
-  end_card(app);
+  end_card(ui);
 }
 
-float accuracy_card_height(const App& app) {
-  const float words = app.convergence.shown ? convergence_words_at_1 : words_at_1 + 50;
-  return card_height(app, accuracy_heading, ways_at_1 + words + chart_at_1);
+float accuracy_card_height(const Ui& ui) {
+  const float words = ui.plots.convergence ? convergence_words_at_1 : words_at_1 + 50;
+  return card_height(ui, accuracy_heading, ways_at_1 + words + chart_at_1);
 }
 
 namespace {
 
 /// Errors of several methods, or the order of the present one; of that what else can be done with it.
-void accuracy_ways(App& app) {
+void accuracy_ways(Ui& ui) {
   static constexpr const char* ways[] = {"Errors", "Convergence"};
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  if (const int k = segments(app, "accuracy ways", ways, 2, app.convergence.shown); k >= 0)
-    app.convergence.shown = k == 1;
-  tooltip(app, gui::item_id(), "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on.");
+  if (const int k = segments(ui, "accuracy ways", ways, 2, ui.plots.convergence); k >= 0) ui.plots.convergence = k == 1;
+  tooltip(ui, gui::item_id(), "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on.");
   const auto at_right = [&](int n) {
-    ImGui::SetCursorScreenPos({lo.x + card_width(app) - app.theme.px(26.f * float(n + 1)), lo.y + app.theme.px(2)});
+    ImGui::SetCursorScreenPos({lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)), lo.y + ui.theme.px(2)});
   };
-  if (app.convergence.shown) {
+  if (ui.plots.convergence) {
     at_right(0);
-    if (quiet_button(app, "csv_convergence", icon::download, "CSV", "Write the convergence as a CSV file…"))
-      app.command(Command::export_convergence);
+    if (quiet_button(ui, "csv_convergence", icon::download, "CSV", "Write the convergence as a CSV file…"))
+      ui.command("export_convergence");
     at_right(1);
-    if (quiet_button(app, "again", icon::restart, "again", "Measure again, from the present moment on"))
-      app.command(Command::measure_convergence);
+    if (quiet_button(ui, "again", icon::restart, "again", "Measure again, from the present moment on"))
+      ui.command("measure_convergence");
   }
-  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(ways_at_1)});
+  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(ways_at_1)});
 }
 
-void errors_shown(App& app, float height) {
-  app.accuracy.poll(app);
-  const auto study = app.accuracy.study();
-  if (!study) return words_and_chart(app, height, "Measuring…", nullptr);
-  const Chart chart = accuracy_chart(app.theme.colors, *study);
-  words_and_chart(app, height, accuracy_words(*study), study->present ? &chart : nullptr);
+void errors_shown(Ui& ui, float height) {
+  const auto study = ui.session.studies.accuracy.study();
+  if (!study) return words_and_chart(ui, height, "Measuring…", nullptr);
+  const Chart chart = accuracy_chart(ui.theme.colors, *study);
+  words_and_chart(ui, height, accuracy_words(*study), study->present ? &chart : nullptr);
 }
 
-void convergence_shown(App& app, float height) {
-  app.convergence.poll(app);
-  const auto study = app.convergence.study();
+void convergence_shown(Ui& ui, float height) {
+  const auto study = ui.session.studies.convergence.study();
   const std::string over = study ? " Over the " + short_number(rounded(study->seconds, 2)) +
                                        " s from t = " + time_number(study->t, study->of.dt) + " s, in double."
                                  : "";
-  const Chart chart = study ? convergence_chart(app.theme.colors, *study) : Chart{};
-  words_and_chart(app, height, !study || !study->done ? "Measuring…" : convergence_words(*study) + over,
+  const Chart chart = study ? convergence_chart(ui.theme.colors, *study) : Chart{};
+  words_and_chart(ui, height, !study || !study->done ? "Measuring…" : convergence_words(*study) + over,
                   chart.series.empty() ? nullptr : &chart, convergence_words_at_1);
 }
 
 }  // namespace
 
-void accuracy_card(App& app, float height) {
-  if (begin_card(app, accuracy_heading, height)) {
-    app.ui.accuracy_shown = true;
-    if (app.simulation->lattice().size() > AccuracyWatch::largest) {
-      words_and_chart(app, height, "This cloth is too large to be judged beside the window.", nullptr);
+void accuracy_card(Ui& ui, float height) {
+  if (begin_card(ui, accuracy_heading, height)) {
+    if (ui.session.simulation->lattice().size() > AccuracyWatch::largest) {
+      words_and_chart(ui, height, "This cloth is too large to be judged beside the window.", nullptr);
     } else {
-      accuracy_ways(app);
-      const float rest = height - app.theme.px(ways_at_1);
-      app.convergence.shown ? convergence_shown(app, rest) : errors_shown(app, rest);
+      accuracy_ways(ui);
+      const float rest = height - ui.theme.px(ways_at_1);
+      ui.plots.convergence ? convergence_shown(ui, rest) : errors_shown(ui, rest);
     }
   }
-  end_card(app);
+  end_card(ui);
 }
 
 }  // namespace tyglab

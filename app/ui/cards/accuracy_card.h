@@ -3,18 +3,18 @@
 
 #include <string>
 
-#include "app/ui/app.h"
 #include "app/ui/kit/chart.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
 /// Growth of an oscillation per step over ω·dt, with the cloth's fastest modes marked.
-void stability_card(App& app, float height);
-float stability_card_height(const App& app);
+void stability_card(Ui& ui, float height);
+float stability_card_height(const Ui& ui);
 
 /// Error of the present settings and of other methods over their run time.
-void accuracy_card(App& app, float height);
-float accuracy_card_height(const App& app);
+void accuracy_card(Ui& ui, float height);
+float accuracy_card_height(const Ui& ui);
 
 /// The chart of a study: error over cost, a line for each method, the present settings as a disc of their own.
 Chart accuracy_chart(const Tokens& colors, const AccuracyStudy& study);

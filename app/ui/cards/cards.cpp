@@ -2,27 +2,32 @@
 
 #include <algorithm>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
-bool in_front(const App& app, std::string_view name) {
-  const Plots& plots = app.ui.plots;
+bool in_front(const Ui& ui, std::string_view name) {
+  const Plots& plots = ui.plots;
   return plots.tab == name && std::find(plots.cards.begin(), plots.cards.end(), name) != plots.cards.end();
 }
 
-void show_card(App& app, std::string_view name) {
-  Layout& layout = app.settings.layout;
-  layout.right = app.ui.panels = app.ui.side_plots = true;
-  app.ui.side_cloth = false;
-  layout.folded.erase(std::string(name));
-  app.ui.plots.wanted = name;
+bool in_sight(const Ui& ui, std::string_view name) {
+  const Wants& wants = ui.wants;
+  return name == card_name::map ? wants.map : name == card_name::step ? wants.step : in_front(ui, name);
 }
 
-void toggle_card(App& app, std::string_view name, bool Layout::*there, bool seen) {
-  bool& open = app.settings.layout.*there;
-  open = !(open && seen);
-  if (open) show_card(app, name);
+void show_card(Ui& ui, std::string_view name) {
+  Layout& layout = ui.settings.layout;
+  layout.right = ui.panels = ui.side_plots = true;
+  ui.side_cloth = false;
+  layout.folded.erase(std::string(name));
+  ui.plots.wanted = name;
+}
+
+void toggle_card(Ui& ui, std::string_view name, bool Layout::*there) {
+  bool& open = ui.settings.layout.*there;
+  open = !(open && in_sight(ui, name));
+  if (open) show_card(ui, name);
 }
 
 }  // namespace tyglab

@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-#include "app/session/settings.h"
+#include "app/base/settings.h"
 
 namespace tyglab {
 
-struct App;
+struct Ui;
 
 namespace card_name {
 inline constexpr const char *height = "Height", *forces = "Forces", *distances = "Distances", *map = "Map",
@@ -16,10 +16,12 @@ inline constexpr const char *height = "Height", *forces = "Forces", *distances =
 }
 
 /// Whether it is the card whose tab is chosen.
-bool in_front(const App& app, std::string_view name);
+bool in_front(const Ui& ui, std::string_view name);
 /// Brings a card into sight: the column, its tab where it is one, what stands under its heading.
-void show_card(App& app, std::string_view name);
-/// Of a card that is not always there: brings it into sight, or closes it where it is `seen` already.
-void toggle_card(App& app, std::string_view name, bool Layout::*there, bool seen);
+void show_card(Ui& ui, std::string_view name);
+/// Whether it was drawn in the last frame, of cards that are not always there.
+bool in_sight(const Ui& ui, std::string_view name);
+/// Of a card that is not always there: brings it into sight, or closes it where it is in sight already.
+void toggle_card(Ui& ui, std::string_view name, bool Layout::*there);
 
 }  // namespace tyglab

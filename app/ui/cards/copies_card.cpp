@@ -6,6 +6,8 @@
 
 #include "app/base/numbers.h"
 #include "app/ui/cards/cards.h"
+#include "app/ui/cards/time_plot.h"
+#include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/plot.h"
 #include "app/ui/kit/plot_card.h"
@@ -27,33 +29,34 @@ constexpr const char* add_label = "Add a copy with…";
 constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
 
 /// Width of what stands in the card, before it has begun.
-float copies_inner_width(const App& app) {
-  return plot_card_inner_width(app, app.ui.plots.width);
+float copies_inner_width(const Ui& ui) {
+  return plot_card_inner_width(ui, ui.plots.width);
 }
 
-bool costs_shown(const App& app) {
-  return copies_inner_width(app) >= app.theme.px(costs_from_at_1);
+bool costs_shown(const Ui& ui) {
+  return copies_inner_width(ui) >= ui.theme.px(costs_from_at_1);
 }
 
 /// Whether the two buttons have no room in one row.
-bool buttons_wrap(const App& app) {
-  const float add = text_width(*app.fonts.text, add_label) + 2 * ImGui::GetStyle().FramePadding.x;
-  return add + app.theme.px(10) + segments_size(app, copies_ways.data(), 2).x > copies_inner_width(app);
+bool buttons_wrap(const Ui& ui) {
+  const float add = text_width(*ui.fonts.text, add_label) + 2 * ImGui::GetStyle().FramePadding.x;
+  return add + ui.theme.px(10) + segments_size(ui, copies_ways.data(), 2).x > copies_inner_width(ui);
 }
 
-float explanation_height(const App& app) {
-  const ImFont& font = *app.fonts.text;
-  return font.CalcTextSizeA(font.FontSize, 1e9f, copies_inner_width(app), copies_explanation).y;
+float explanation_height(const Ui& ui) {
+  const ImFont& font = *ui.fonts.text;
+  return font.CalcTextSizeA(font.FontSize, 1e9f, copies_inner_width(ui), copies_explanation).y;
 }
 
 /// What a copy may be made with; constants offer the same in their own menus.
-void copy_menu(App& app) {
-  if (!begin_menu(app, "copy menu")) return;
+void copy_menu(Ui& ui) {
+  if (!begin_menu(ui, "copy menu")) return;
   int group = 0;
-  for (const CopyChoice& choice : copy_choices(app.preset())) {
+  for (const CopyChoice& choice : copy_choices(ui.session.preset())) {
     if (std::exchange(group, choice.group) != choice.group) ImGui::Separator();
-    if (ImGui::MenuItem(choice.label.c_str())) app.request(request::AddCopy{choice.differences, choice.reference});
-    report_control(app, choice.label);
+    if (ImGui::MenuItem(choice.label.c_str()))
+      ui.session.request(request::AddCopy{choice.differences, choice.reference});
+    report_control(ui, choice.label);
   }
   end_menu();
 }
@@ -63,24 +66,24 @@ struct Columns {
   float cost, apart, whole;
 };
 
-Columns columns_of(const App& app) {
-  const float whole = card_width(app), apart = whole - app.theme.px(remove_at_1);
-  return {apart - app.theme.px(apart_at_1), apart, whole};
+Columns columns_of(const Ui& ui) {
+  const float whole = card_width(ui), apart = whole - ui.theme.px(remove_at_1);
+  return {apart - ui.theme.px(apart_at_1), apart, whole};
 }
 
-void right_aligned(App& app, const ImFont& font, float x, float middle, ImU32 color, const std::string& text) {
-  draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x - text_width(font, text), baseline_at(app.fonts, middle)},
+void right_aligned(Ui& ui, const ImFont& font, float x, float middle, ImU32 color, const std::string& text) {
+  draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x - text_width(font, text), baseline_at(ui.fonts, middle)},
                    color, text);
 }
 
-void head(App& app) {
+void head(Ui& ui) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const Columns at = columns_of(app);
-  const float middle = lo.y + app.theme.px(card::line) / 2;
-  const Tokens& c = app.theme.colors;
-  if (costs_shown(app)) right_aligned(app, *app.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
-  right_aligned(app, *app.fonts.small, lo.x + at.apart, middle, c.quiet, "apart, m");
-  ImGui::Dummy({at.whole, app.theme.px(card::line)});
+  const Columns at = columns_of(ui);
+  const float middle = lo.y + ui.theme.px(card::line) / 2;
+  const Tokens& c = ui.theme.colors;
+  if (costs_shown(ui)) right_aligned(ui, *ui.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
+  right_aligned(ui, *ui.fonts.small, lo.x + at.apart, middle, c.quiet, "apart, m");
+  ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }
 
 std::string number_or_dash(double value) {
@@ -89,120 +92,118 @@ std::string number_or_dash(double value) {
 
 /// A cloth: its line, its name, what a simulated second costs, how far it is from the reference. A click makes it the
 /// reference.
-void cloth_line(App& app, int n) {
-  Copies& copies = app.copies;
-  const Tokens& c = app.theme.colors;
+void cloth_line(Ui& ui, int n) {
+  Copies& copies = ui.session.copies;
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const Columns at = columns_of(app);
-  const float height = app.theme.px(line_at_1), middle = std::round(lo.y + height / 2), sample = app.theme.px(22);
+  const Columns at = columns_of(ui);
+  const float height = ui.theme.px(line_at_1), middle = std::round(lo.y + height / 2), sample = ui.theme.px(22);
   ImGui::PushID(n);
   if (ImGui::InvisibleButton("cloth", {at.apart, height}) && copies.reference != n)
     copies.reference = n, copies.forget();
-  report_control(app, n == Copies::original ? "original" : "copy" + std::to_string(n));
+  report_control(ui, n == Copies::original ? "original" : "copy" + std::to_string(n));
   const bool hovered = ImGui::IsItemHovered();
-  tooltip(app, gui::item_id(),
+  tooltip(ui, gui::item_id(),
           copies.reference == n ? "The reference: distances are measured from here."
                                 : "Click to measure distances from this one.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, app.theme.px(4));
+  if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, ui.theme.px(4));
   const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
-  draw_styled_line(draw, ends, 2, style_of_cloth(app, n), app.theme.scale);
-  const bool diverged = cloth_of(app, n).divergence().has_value();
-  const float left = lo.x + sample + app.theme.px(6),
-              room = lo.x + at.cost - (costs_shown(app) ? app.theme.px(cost_at_1) : 0) - left;
-  draw_on_baseline(draw, *app.fonts.small, {left, baseline_at(app.fonts, middle)}, diverged ? c.danger : c.text,
-                   fitted(*app.fonts.small, name_of_cloth(app, n), room));
+  draw_styled_line(draw, ends, 2, copy_style(ui.theme.colors, seat_of_cloth(ui.session, n)), ui.theme.scale);
+  const bool diverged = cloth_of(ui.session, n).divergence().has_value();
+  const float left = lo.x + sample + ui.theme.px(6),
+              room = lo.x + at.cost - (costs_shown(ui) ? ui.theme.px(cost_at_1) : 0) - left;
+  draw_on_baseline(draw, *ui.fonts.small, {left, baseline_at(ui.fonts, middle)}, diverged ? c.danger : c.text,
+                   fitted(*ui.fonts.small, name_of_cloth(ui.session, n), room));
   const Lockstep::Cost& cost = n == Copies::original ? copies.cost : copies.lockstep[std::size_t(n)].cost;
-  if (costs_shown(app))
-    right_aligned(app, *app.fonts.mono, lo.x + at.cost, middle, c.text,
+  if (costs_shown(ui))
+    right_aligned(ui, *ui.fonts.mono, lo.x + at.cost, middle, c.text,
                   cost.per_second() > 0 && !diverged ? number_or_dash(cost.per_second()) : "–");
   const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
-  right_aligned(app, *app.fonts.mono, lo.x + at.apart, middle, diverged ? c.danger : c.text,
+  right_aligned(ui, *ui.fonts.mono, lo.x + at.apart, middle, diverged ? c.danger : c.text,
                 diverged                ? "diverged"
                 : n == copies.reference ? "reference"
                                         : number_or_dash(apart));
   if (n != Copies::original) {
-    ImGui::SetCursorScreenPos({lo.x + at.whole - app.theme.px(22), lo.y + app.theme.px(1)});
-    if (quiet_button(app, "remove", icon::close, "×", "Remove this copy"))
-      app.request(request::RemoveCopy{std::size_t(n)});
-    report_control(app, "remove" + std::to_string(n));
+    ImGui::SetCursorScreenPos({lo.x + at.whole - ui.theme.px(22), lo.y + ui.theme.px(1)});
+    if (quiet_button(ui, "remove", icon::close, "×", "Remove this copy"))
+      ui.session.request(request::RemoveCopy{std::size_t(n)});
+    report_control(ui, "remove" + std::to_string(n));
   }
   ImGui::PopID();
   ImGui::SetCursorScreenPos({lo.x, lo.y + height});
 }
 
-void buttons(App& app, bool any) {
+void buttons(Ui& ui, bool any) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(3)});
-  if (text_button(app, add_label, !any)) ImGui::OpenPopup("copy menu");
-  report_control(app, "add");
-  copy_menu(app);
+  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(3)});
+  if (text_button(ui, add_label, !any)) ImGui::OpenPopup("copy menu");
+  report_control(ui, "add");
+  copy_menu(ui);
   if (any) {
-    const float right = ImGui::GetItemRectMax().x + app.theme.px(10);
-    ImGui::SetCursorScreenPos(buttons_wrap(app) ? ImVec2(lo.x, lo.y + app.theme.px(buttons_at_1 + 3))
-                                                : ImVec2(right, lo.y + app.theme.px(4)));
-    if (const int k = segments(app, "ways", copies_ways.data(), 2, app.copies.overlaid);
-        k >= 0 && (k == 1) != app.copies.overlaid) {
-      app.copies.overlaid = k == 1;
-      app.redraw_cloth = true;
+    const float right = ImGui::GetItemRectMax().x + ui.theme.px(10);
+    ImGui::SetCursorScreenPos(buttons_wrap(ui) ? ImVec2(lo.x, lo.y + ui.theme.px(buttons_at_1 + 3))
+                                               : ImVec2(right, lo.y + ui.theme.px(4)));
+    if (const int k = segments(ui, "ways", copies_ways.data(), 2, ui.session.copies.overlaid);
+        k >= 0 && (k == 1) != ui.session.copies.overlaid) {
+      ui.session.copies.overlaid = k == 1;
+      ui.scene.redraw = true;
     }
-    report_control(app, "ways");
+    report_control(ui, "ways");
   }
-  ImGui::SetCursorScreenPos({lo.x, lo.y + app.theme.px(any && buttons_wrap(app) ? 2 * buttons_at_1 : buttons_at_1)});
+  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(any && buttons_wrap(ui) ? 2 * buttons_at_1 : buttons_at_1)});
 }
 
 }  // namespace
 
-void copies_plot(App& app, ImVec2 size) {
-  Copies& copies = app.copies;
-  copies.shown = true;
+void copies_plot(Ui& ui, ImVec2 size) {
+  Copies& copies = ui.session.copies;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   static constexpr const char* quantities[] = {"Distance", "Energy"};
   const bool energy = copies.plotted == Copies::Quantity::energy;
-  if (const int k = segments(app, "plotted", quantities, 2, energy); k >= 0) copies.plotted = Copies::Quantity(k);
-  report_control(app, "plotted");
+  if (const int k = segments(ui, "plotted", quantities, 2, energy); k >= 0) copies.plotted = Copies::Quantity(k);
+  report_control(ui, "plotted");
   const Series& series = energy ? copies.energy : copies.distance;
   std::vector<std::string> names;
   std::vector<PlotCurve> curves;
-  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) names.push_back(name_of_cloth(app, n));
+  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) names.push_back(name_of_cloth(ui.session, n));
   for (int n = Copies::original; n < int(copies.lockstep.size()); ++n)
     if (energy || n != copies.reference)
-      curves.push_back(
-          {names[std::size_t(n + 1)], style_of_cloth(app, n), series.t(), series.column(std::size_t(n + 1))});
+      curves.push_back({names[std::size_t(n + 1)], copy_style(ui.theme.colors, seat_of_cloth(ui.session, n)),
+                        series.t(), series.column(std::size_t(n + 1))});
   for (PlotCurve& curve : curves) curve.gaps = series.gaps();
-  PlotFrame frame = time_frame(app, series, !energy, energy ? "J" : "m", why_empty(app));
+  PlotFrame frame = time_frame(ui, series, !energy, energy ? "J" : "m", why_empty(ui));
   frame.from_zero = false;
-  const float used = app.theme.px(34);
-  if (size.y - used < app.theme.px(40)) return;
+  const float used = ui.theme.px(34);
+  if (size.y - used < ui.theme.px(40)) return;
   ImGui::SetCursorScreenPos({lo.x, lo.y + used});
-  zoom_time(app, frame, draw_plot(app, "plot", {size.x, size.y - used}, curves, frame));
+  zoom_time(ui, frame, draw_plot(ui, "plot", {size.x, size.y - used}, curves, frame));
 }
 
-float copies_card_height(const App& app) {
-  const std::size_t copies = app.copies.lockstep.size();
+float copies_card_height(const Ui& ui) {
+  const std::size_t copies = ui.session.copies.lockstep.size();
   if (copies == 0)
-    return card_height(app, heading, explanation_height(app) / app.theme.scale + under_words_at_1 + buttons_at_1);
-  const float buttons = buttons_wrap(app) ? 2 * buttons_at_1 : buttons_at_1;
-  return card_height(app, heading, card::line + line_at_1 * float(copies + 1) + buttons);
+    return card_height(ui, heading, explanation_height(ui) / ui.theme.scale + under_words_at_1 + buttons_at_1);
+  const float buttons = buttons_wrap(ui) ? 2 * buttons_at_1 : buttons_at_1;
+  return card_height(ui, heading, card::line + line_at_1 * float(copies + 1) + buttons);
 }
 
-void copies_card(App& app, float height) {
-  if (begin_card(app, heading, height)) {
-    Copies& copies = app.copies;
-    copies.shown = true;
+void copies_card(Ui& ui, float height) {
+  if (begin_card(ui, heading, height)) {
+    Copies& copies = ui.session.copies;
     const bool any = !copies.lockstep.empty();
     if (any) {
-      head(app);
-      for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) cloth_line(app, n);
+      head(ui);
+      for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) cloth_line(ui, n);
     } else {
-      ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + card_width(app));
-      wrapped(app, copies_explanation, app.theme.colors.text);
+      ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + card_width(ui));
+      wrapped(ui, copies_explanation, ui.theme.colors.text);
       ImGui::PopTextWrapPos();
-      ImGui::Dummy({0, app.theme.px(6)});
+      ImGui::Dummy({0, ui.theme.px(6)});
     }
-    buttons(app, any);
+    buttons(ui, any);
   }
-  end_card(app);
+  end_card(ui);
 }
 
 }  // namespace tyglab

@@ -1,15 +1,15 @@
 // The copies in lockstep as a card: which there are, what each costs, how far apart they are.
 #pragma once
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
 /// How far apart the cloths are, or their energies, over time, at the cursor.
-void copies_plot(App& app, ImVec2 size);
+void copies_plot(Ui& ui, ImVec2 size);
 
 /// The card in the plots column, closed unless the user has opened it or added a copy, and its height (pixels).
-void copies_card(App& app, float height);
-float copies_card_height(const App& app);
+void copies_card(Ui& ui, float height);
+float copies_card_height(const Ui& ui);
 
 }  // namespace tyglab

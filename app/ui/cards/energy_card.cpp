@@ -21,37 +21,37 @@ ImU32 color_of(const Tokens& c, double share) {
 }
 
 /// From the middle of the bar: to the right what the cloth has or gained, to the left what it lost.
-void draw_bar(App& app, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
+void draw_bar(Ui& ui, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float middle = std::round((lo.x + hi.x) / 2);
   const float end = middle + float(std::clamp(part, -1.0, 1.0)) * (hi.x - middle);
-  draw.AddRectFilled({std::min(middle, end), lo.y}, {std::max(middle, end), hi.y}, color, app.theme.px(2));
-  draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, app.theme.colors.line);
+  draw.AddRectFilled({std::min(middle, end), lo.y}, {std::max(middle, end), hi.y}, color, ui.theme.px(2));
+  draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, ui.theme.colors.line);
 }
 
-void energy_line(App& app, const EnergyRow& row, const LedgerReading& reading, double largest, float width) {
-  const Tokens& c = app.theme.colors;
+void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double largest, float width) {
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(card::line), middle = std::round(lo.y + height / 2);
-  const float baseline = baseline_at(app.fonts, middle);
+  const float height = ui.theme.px(card::line), middle = std::round(lo.y + height / 2);
+  const float baseline = baseline_at(ui.fonts, middle);
   const bool judged = row.kind == EnergyKind::unexplained;
   const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
   ImGui::InvisibleButton("energy", {width, height});
-  report_control(app, "line");
-  tooltip(app, gui::item_id(), std::string(row.help) + (judged ? " Now " + share_text(reading) + "." : ""));
+  report_control(ui, "line");
+  tooltip(ui, gui::item_id(), std::string(row.help) + (judged ? " Now " + share_text(reading) + "." : ""));
   ImGui::PopID();
   const ImU32 ink = row.joule == 0 && !judged ? c.quiet : c.text;
   const ImU32 color = judged ? color_of(c, part) : row.kind == EnergyKind::has ? c.accent : c.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, judged ? color : ink, row.name);
-  const float value = app.theme.px(96), bar = app.theme.px(4), left = lo.x + app.theme.px(128);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, judged ? color : ink, row.name);
+  const float value = ui.theme.px(96), bar = ui.theme.px(4), left = lo.x + ui.theme.px(128);
   // Height counts from wherever y = 0 is: its size says nothing beside the others.
-  if (row.name != height_row && left + app.theme.px(24) < lo.x + width - value)
-    draw_bar(app, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
+  if (row.name != height_row && left + ui.theme.px(24) < lo.x + width - value)
+    draw_bar(ui, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
              faded(color, 0.8f));
   const std::string text = short_number(row.joule, 3) + " J";
-  const ImFont& mono = *app.fonts.mono;
+  const ImFont& mono = *ui.fonts.mono;
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, judged ? color : ink, text);
 }
 
@@ -79,26 +79,26 @@ std::string share_text(const LedgerReading& reading) {
          " J";
 }
 
-float energy_card_height(const App& app) {
-  return card_height(app, energy_heading, float(energy_rows({}).size()) * card::line + 2 * gap_at_1);
+float energy_card_height(const Ui& ui) {
+  return card_height(ui, energy_heading, float(energy_rows({}).size()) * card::line + 2 * gap_at_1);
 }
 
-void energy_card(App& app, float height) {
-  app.ui.energy_shown = begin_card(app, energy_heading, height);
-  if (const auto reading = app.simulation->ledger(); app.ui.energy_shown && reading) {
-    const float width = card_width(app);
+void energy_card(Ui& ui, float height) {
+  const bool open = begin_card(ui, energy_heading, height);
+  if (const auto reading = ui.session.simulation->ledger(); open && reading) {
+    const float width = card_width(ui);
     EnergyKind last = EnergyKind::has;
     const std::vector<EnergyRow> rows = energy_rows(*reading);
     double largest = 0;
     for (const EnergyRow& row : rows)
       if (row.name != height_row) largest = std::max(largest, std::abs(row.joule));
     for (const EnergyRow& row : rows) {
-      if (row.kind != last) ImGui::Dummy({width, app.theme.px(gap_at_1)});
+      if (row.kind != last) ImGui::Dummy({width, ui.theme.px(gap_at_1)});
       last = row.kind;
-      energy_line(app, row, *reading, largest, width);
+      energy_line(ui, row, *reading, largest, width);
     }
   }
-  end_card(app);
+  end_card(ui);
 }
 
 }  // namespace tyglab

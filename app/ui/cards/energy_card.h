@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 #include "core/energy/ledger.h"
 
 namespace tyglab {
@@ -24,7 +24,7 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& reading);
 std::string share_text(const LedgerReading& reading);
 
 /// The card in the plots column, closed unless the user has opened it, and its height (pixels).
-void energy_card(App& app, float height);
-float energy_card_height(const App& app);
+void energy_card(Ui& ui, float height);
+float energy_card_height(const Ui& ui);
 
 }  // namespace tyglab

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "app/ui/cards/time_plot.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/plot.h"
@@ -19,29 +20,29 @@ constexpr float height_legend_at_1 = 22, height_under_legend_at_1 = 6,
                 height_least_plot_at_1 = 120;  // pixels at scale 1
 
 /// The report's curves beside the weight's own, which is drawn thicker; a click hides one.
-void figure_legend(App& app, const Region& place) {
-  Plots& plots = app.ui.plots;
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.small;
-  const float sample = app.theme.px(14), gap = app.theme.px(10);
+void figure_legend(Ui& ui, const Region& place) {
+  Plots& plots = ui.plots;
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.small;
+  const float sample = ui.theme.px(14), gap = ui.theme.px(10);
   float x = place.at.x;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (std::size_t k = 0; k < ReferenceCurves::curves.size(); ++k) {
-    const float width = sample + app.theme.px(4) + text_width(font, ReferenceCurves::titles[k]);
+    const float width = sample + ui.theme.px(4) + text_width(font, ReferenceCurves::titles[k]);
     if (x + width > place.at.x + place.size.x) break;
     ImGui::SetCursorScreenPos({x, place.at.y});
     ImGui::PushID(int(k));
     if (ImGui::InvisibleButton("figure", {width, place.size.y})) plots.figure_hidden[k] = !plots.figure_hidden[k];
-    report_control(app, ReferenceCurves::titles[k]);
+    report_control(ui, ReferenceCurves::titles[k]);
     const float opacity = plots.figure_hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
     CurveStyle style = integrator_style(c, ReferenceCurves::curves[k]);
     style.color = faded(style.color, opacity);
     const float middle = std::round(place.at.y + place.size.y / 2);
     const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
-    draw_styled_line(draw, ends, 2, style, app.theme.scale);
-    draw_on_baseline(draw, font, {x + sample + app.theme.px(4), baseline_at(app.fonts, middle)}, faded(c.text, opacity),
+    draw_styled_line(draw, ends, 2, style, ui.theme.scale);
+    draw_on_baseline(draw, font, {x + sample + ui.theme.px(4), baseline_at(ui.fonts, middle)}, faded(c.text, opacity),
                      ReferenceCurves::titles[k]);
-    tooltip(app, gui::item_id(), "As in figure 3.2: the same start, constants and dt by this method",
+    tooltip(ui, gui::item_id(), "As in figure 3.2: the same start, constants and dt by this method",
             plots.figure_hidden[k] ? "Click to show" : "Click to hide");
     ImGui::PopID();
     x += width + gap;
@@ -50,42 +51,41 @@ void figure_legend(App& app, const Region& place) {
 
 }  // namespace
 
-float height_card_least(const App& app, float) {
-  return plot_card_height(app, app.theme.px(height_legend_at_1 + height_under_legend_at_1 + height_least_plot_at_1));
+float height_card_least(const Ui& ui, float) {
+  return plot_card_height(ui, ui.theme.px(height_legend_at_1 + height_under_legend_at_1 + height_least_plot_at_1));
 }
 
-void height_card(App& app, float height) {
-  Plots& plots = app.ui.plots;
-  plots.height_shown = true;
-  const PlotCard card(app, "height", "Height of the weight, y(t)", "m", height);
+void height_card(Ui& ui, float height) {
+  Plots& plots = ui.plots;
+  const PlotCard card(ui, "height", "Height of the weight, y(t)", "m", height);
   const Region& inner = card.inner();
-  const float side = app.theme.px(height_legend_at_1);
+  const float side = ui.theme.px(height_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});
-  if (quiet_button(app, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
-    app.command(Command::export_height);
-  figure_legend(app, {inner.at, {inner.size.x - side, side}});
-  const std::span<const double> t = plots.height.t();
+  if (quiet_button(ui, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
+    ui.command("export_height");
+  figure_legend(ui, {inner.at, {inner.size.x - side, side}});
+  const std::span<const double> t = ui.session.recorded.height.t();
   std::vector<PlotCurve> curves;
   for (std::size_t k = 0; k < ReferenceCurves::curves.size(); ++k)
     if (!plots.figure_hidden[k]) {
-      CurveStyle style = integrator_style(app.theme.colors, ReferenceCurves::curves[k]);
+      CurveStyle style = integrator_style(ui.theme.colors, ReferenceCurves::curves[k]);
       style.width = 1.2f;
-      curves.push_back({ReferenceCurves::titles[k], style, t, plots.height.column(k + 1)});
+      curves.push_back({ReferenceCurves::titles[k], style, t, ui.session.recorded.height.column(k + 1)});
     }
   const std::size_t companions = curves.size();
-  for (const auto& [since, method] : plots.height_methods) {
+  for (const auto& [since, method] : ui.session.recorded.height_methods) {
     const auto from = std::size_t(std::lower_bound(t.begin(), t.end(), since) - t.begin());
     if (curves.size() > companions) curves.back().to = from + 1;  // up to where the next one begins
-    curves.push_back({"y", integrator_style(app.theme.colors, method), t, plots.height.column(0)});
+    curves.push_back({"y", integrator_style(ui.theme.colors, method), t, ui.session.recorded.height.column(0)});
     curves.back().from = from;
     curves.back().style.width = 2.4f;
   }
-  for (PlotCurve& curve : curves) curve.gaps = plots.height.gaps();
-  const float head = side + app.theme.px(height_under_legend_at_1);
+  for (PlotCurve& curve : curves) curve.gaps = ui.session.recorded.height.gaps();
+  const float head = side + ui.theme.px(height_under_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  PlotFrame frame = time_frame(app, plots.height, false, "m", why_empty(app));
+  PlotFrame frame = time_frame(ui, ui.session.recorded.height, false, "m", why_empty(ui));
   frame.from_zero = false;
-  zoom_time(app, frame, draw_plot(app, "plot", {inner.size.x, inner.size.y - head}, curves, frame));
+  zoom_time(ui, frame, draw_plot(ui, "plot", {inner.size.x, inner.size.y - head}, curves, frame));
 }
 
 }  // namespace tyglab

@@ -1,12 +1,12 @@
 // The height of the one weight over time, beside the curves of figure 3.2.
 #pragma once
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
 /// The card, and the height below which its curves could not be read (px, of a card of that width).
-void height_card(App& app, float height);
-float height_card_least(const App& app, float width);
+void height_card(Ui& ui, float height);
+float height_card_least(const Ui& ui, float width);
 
 }  // namespace tyglab

@@ -46,41 +46,41 @@ std::string scale_text(const TracedTerm& term) {
   return factor + (factor.empty() || dt.empty() ? "" : " ") + dt;
 }
 
-void line(App& app, const std::string& name, const std::string& text, ImU32 color) {
+void line(Ui& ui, const std::string& name, const std::string& text, ImU32 color) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(text_line_at_1), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  const float height = ui.theme.px(text_line_at_1), baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, app.theme.colors.quiet, name);
-  draw_on_baseline(draw, *app.fonts.mono, {lo.x + app.theme.px(name_at_1), baseline}, color, text);
-  ImGui::Dummy({app.theme.px(name_at_1) + text_width(*app.fonts.mono, text), height});
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, ui.theme.colors.quiet, name);
+  draw_on_baseline(draw, *ui.fonts.mono, {lo.x + ui.theme.px(name_at_1), baseline}, color, text);
+  ImGui::Dummy({ui.theme.px(name_at_1) + text_width(*ui.fonts.mono, text), height});
 }
 
-void words(App& app, const std::string& text, ImU32 color) {
-  ImGui::PushFont(app.fonts.small);
+void words(Ui& ui, const std::string& text, ImU32 color) {
+  ImGui::PushFont(ui.fonts.small);
   ImGui::PushTextWrapPos(0);
-  wrapped(app, text, color);
+  wrapped(ui, text, color);
   ImGui::PopTextWrapPos();
   ImGui::PopFont();
 }
 
 /// A symbol of table B.1 with its colour, and its value.
-void force_line(App& app, std::string_view key, const glm::dvec3& value) {
+void force_line(Ui& ui, std::string_view key, const glm::dvec3& value) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(text_line_at_1), middle = std::round(lo.y + height / 2), sample = app.theme.px(18);
+  const float height = ui.theme.px(text_line_at_1), middle = std::round(lo.y + height / 2), sample = ui.theme.px(18);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
-  draw_styled_line(draw, ends, 2, curve_style(app.theme.colors, key), app.theme.scale);
-  draw_symbol(draw, app.fonts, {lo.x + sample + app.theme.px(6), baseline_at(app.fonts, middle)}, key,
-              app.theme.colors.text);
+  draw_styled_line(draw, ends, 2, curve_style(ui.theme.colors, key), ui.theme.scale);
+  draw_symbol(draw, ui.fonts, {lo.x + sample + ui.theme.px(6), baseline_at(ui.fonts, middle)}, key,
+              ui.theme.colors.text);
   const std::string text = steady_vector(value) + " N";
-  draw_on_baseline(draw, *app.fonts.mono, {lo.x + app.theme.px(name_at_1), baseline_at(app.fonts, middle)},
-                   app.theme.colors.text, text);
-  ImGui::Dummy({app.theme.px(name_at_1) + text_width(*app.fonts.mono, text), height});
+  draw_on_baseline(draw, *ui.fonts.mono, {lo.x + ui.theme.px(name_at_1), baseline_at(ui.fonts, middle)},
+                   ui.theme.colors.text, text);
+  ImGui::Dummy({ui.theme.px(name_at_1) + text_width(*ui.fonts.mono, text), height});
 }
 
 /// Every spring: where to, how far it is stretched, what it does.
-void springs(App& app, const TracedStage& stage) {
-  const Tokens& c = app.theme.colors;
+void springs(Ui& ui, const TracedStage& stage) {
+  const Tokens& c = ui.theme.colors;
   for (const SpringForce& spring : stage.springs) {
     std::array<char, 120> text;
     const double percent = 100 * (spring.length / spring.rest - 1);
@@ -88,65 +88,65 @@ void springs(App& app, const TracedStage& stage) {
                   steady_number(glm::length(spring.F)).c_str());
     const bool acts = glm::length(spring.F) > 0;
     const ImU32 color = acts ? curve_style(c, spring.bending ? "F_b" : "F_s").color : c.quiet;
-    line(app, "to " + site(spring.i, spring.j), text.data(), color);
+    line(ui, "to " + site(spring.i, spring.j), text.data(), color);
   }
 }
 
-void forces(App& app, const TracedStage& stage, double m) {
+void forces(Ui& ui, const TracedStage& stage, double m) {
   const ParticleForces& F = stage.forces;
   const std::pair<std::string_view, glm::dvec3> kinds[] = {{"F_s", F.F_s},       {"F_b", F.F_b},
                                                            {"F_d", F.F_d},       {"F_g", F.F_g},
                                                            {"F_ext", F.F_ext()}, {"F", F.F_int() + F.F_ext()}};
   for (const auto& [key, value] : kinds) {
     const bool same = key == "F_ext" && F.F_wind == glm::dvec3(0);  // gravity alone, told already
-    if (!same) force_line(app, key, value);
+    if (!same) force_line(ui, key, value);
   }
-  line(app, "a = F/m", steady_vector(stage.a) + " m/s²", app.theme.colors.text);
-  words(app, "with m = " + short_number(m) + " kg", app.theme.colors.quiet);
+  line(ui, "a = F/m", steady_vector(stage.a) + " m/s²", ui.theme.colors.text);
+  words(ui, "with m = " + short_number(m) + " kg", ui.theme.colors.quiet);
 }
 
-void assignment(App& app, const Scheme& method, const TracedAssignment& what) {
-  const Tokens& c = app.theme.colors;
+void assignment(Ui& ui, const Scheme& method, const TracedAssignment& what) {
+  const Tokens& c = ui.theme.colors;
   const std::string target = vector_name(method, what.target);
-  ImGui::Dummy({0, app.theme.px(4)});
-  line(app, target + " ←", formula_of(method, what), c.accent);
+  ImGui::Dummy({0, ui.theme.px(4)});
+  line(ui, target + " ←", formula_of(method, what), c.accent);
   for (const TracedTerm& term : what.terms) {
     const std::string scale = scale_text(term);
-    line(app, scale.empty() ? "" : scale + " ·", steady_vector(term.value), c.quiet);
+    line(ui, scale.empty() ? "" : scale + " ·", steady_vector(term.value), c.quiet);
   }
-  line(app, "=", steady_vector(what.result), c.text);
+  line(ui, "=", steady_vector(what.result), c.text);
 }
 
-void stage_text(App& app, const StepTrace& trace, std::size_t n) {
-  const Tokens& c = app.theme.colors;
+void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
+  const Tokens& c = ui.theme.colors;
   const Scheme& method = scheme(trace.integrator);
   const TracedStage& stage = trace.stages[n];
-  ImGui::PushFont(app.fonts.title);
-  wrapped(app,
+  ImGui::PushFont(ui.fonts.title);
+  wrapped(ui,
           trace.stages.size() > 1 ? "Evaluation " + std::to_string(n + 1) + " of " + std::to_string(trace.stages.size())
                                   : "Forces",
           c.text);
   ImGui::PopFont();
-  line(app, "x", steady_vector(stage.x) + " m", c.text);
-  line(app, method.lags ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
-  if (method.lags) words(app, "what the damping sees: the velocity between two steps, or a prediction", c.quiet);
-  springs(app, stage);
-  forces(app, stage, app.preset().m);
+  line(ui, "x", steady_vector(stage.x) + " m", c.text);
+  line(ui, method.lags ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
+  if (method.lags) words(ui, "what the damping sees: the velocity between two steps, or a prediction", c.quiet);
+  springs(ui, stage);
+  forces(ui, stage, ui.session.preset().m);
   if (!trace.whole) return;
-  for (const TracedAssignment& what : stage.assignments) assignment(app, method, what);
-  ImGui::Dummy({0, app.theme.px(8)});
+  for (const TracedAssignment& what : stage.assignments) assignment(ui, method, what);
+  ImGui::Dummy({0, ui.theme.px(8)});
 }
 
-void result(App& app, const StepTrace& trace) {
-  const Tokens& c = app.theme.colors;
+void result(Ui& ui, const StepTrace& trace) {
+  const Tokens& c = ui.theme.colors;
   if (!trace.whole)
-    words(app,
+    words(ui,
           "This method solves equations, projects, or chooses its own steps, so its step is no sum of these numbers. "
           "It leads to:",
           c.quiet);
-  line(app, "x, new", steady_vector(trace.x_after) + " m", c.text);
+  line(ui, "x, new", steady_vector(trace.x_after) + " m", c.text);
   if (trace.whole)
-    words(app,
+    words(ui,
           "Worked out in double from the method's own table. The engine rounds each sum to the precision that is set, "
           "and bodies correct position and velocity after it.",
           c.quiet);
@@ -171,26 +171,26 @@ std::string formula_of(const Scheme& method, const TracedAssignment& assignment)
   return text;
 }
 
-void inside_step(App& app, ImVec2 size) {
-  app.ui.inside_shown = true;
-  const StepTrace* trace = app.inside.look(app);
+void inside_step(Ui& ui, ImVec2 size) {
+  const StepTrace* trace = ui.session.inspector.shown();
   if (trace == nullptr) {
-    const bool large = app.simulation->lattice().size() > StepInspector::largest;
-    return words(app,
-                 app.preset().kind == Kind::one_weight ? "Open a cloth to look inside a step of one of its particles."
-                 : app.simulation->divergence()        ? "Restart to look inside a step."
+    const bool large = ui.session.simulation->lattice().size() > StepInspector::largest;
+    return words(ui,
+                 ui.session.preset().kind == Kind::one_weight
+                     ? "Open a cloth to look inside a step of one of its particles."
+                 : ui.session.simulation->divergence() ? "Restart to look inside a step."
                  : large                               ? "This cloth is too large to be looked into beside the window."
                                                        : "Right-click a particle to look inside its step.",
-                 app.theme.colors.text);
+                 ui.theme.colors.text);
   }
   gui::begin_child("step", size);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, app.theme.px(1)));
-  words(app, step_heading(*trace), app.theme.colors.text);
-  if (app.pacing.playing) words(app, "Space pauses, then → makes one step at a time.", app.theme.colors.quiet);
-  if (trace->fixed) words(app, "It is pinned or held: no force moves it.", app.theme.colors.warning);
-  ImGui::Dummy({0, app.theme.px(4)});
-  for (std::size_t n = 0; n < trace->stages.size(); ++n) stage_text(app, *trace, n);
-  result(app, *trace);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, ui.theme.px(1)));
+  words(ui, step_heading(*trace), ui.theme.colors.text);
+  if (ui.session.pacing.playing) words(ui, "Space pauses, then → makes one step at a time.", ui.theme.colors.quiet);
+  if (trace->fixed) words(ui, "It is pinned or held: no force moves it.", ui.theme.colors.warning);
+  ImGui::Dummy({0, ui.theme.px(4)});
+  for (std::size_t n = 0; n < trace->stages.size(); ++n) stage_text(ui, *trace, n);
+  result(ui, *trace);
   ImGui::PopStyleVar();
   ImGui::EndChild();
 }

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
 /// Writes it at the cursor, in so much room; it scrolls.
-void inside_step(App& app, ImVec2 size);
+void inside_step(Ui& ui, ImVec2 size);
 
 /// "d + dt² a", as the method's table says it.
 std::string formula_of(const Scheme& method, const TracedAssignment& assignment);

@@ -25,43 +25,43 @@ const MapCell* cell_at(const MapFindings& map, ImVec2 place) {
   return found == map.cells.end() ? nullptr : &*found;
 }
 
-void take_place(App& app, const MapGrid& grid, ImVec2 place) {
-  Preset next = at_place(app.requested_preset(), rounded(grid.stiffness(place.x), 2), rounded(grid.dt(place.y), 2));
-  app.propose(std::move(next));
+void take_place(Ui& ui, const MapGrid& grid, ImVec2 place) {
+  Preset next =
+      at_place(ui.session.requested_preset(), rounded(grid.stiffness(place.x), 2), rounded(grid.dt(place.y), 2));
+  ui.session.propose(std::move(next));
 }
 
-void words_alone(App& app, const std::string& words) {
-  wrapped(app, words, app.theme.colors.text);
+void words_alone(Ui& ui, const std::string& words) {
+  wrapped(ui, words, ui.theme.colors.text);
 }
 
 }  // namespace
 
-void stability_map(App& app, ImVec2 size) {
-  app.ui.map_shown = true;
-  app.map.poll(app);
-  if (app.simulation->lattice().size() > MapWatch::largest)
-    return words_alone(app, "This cloth is too large to be mapped beside the window.");
-  const auto map = app.map.findings();
+void stability_map(Ui& ui, ImVec2 size) {
+  if (ui.session.simulation->lattice().size() > MapWatch::largest)
+    return words_alone(ui, "This cloth is too large to be mapped beside the window.");
+  const auto map = ui.session.studies.map.findings();
   if (!map) return;
-  if (!map->problem.empty()) return words_alone(app, "The map ends here: " + map->problem);
-  const Preset present = at_place(map->of, stiffness_of(app.requested_preset()), app.requested_preset().dt);
-  Chart chart = map_chart(app.theme.colors, present, map->grid, map->boundary, map->cells);
+  if (!map->problem.empty()) return words_alone(ui, "The map ends here: " + map->problem);
+  const Preset present =
+      at_place(map->of, stiffness_of(ui.session.requested_preset()), ui.session.requested_preset().dt);
+  Chart chart = map_chart(ui.theme.colors, present, map->grid, map->boundary, map->cells);
   chart.padding = 0;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const PlotAxes axes = draw_chart({*ImGui::GetWindowDrawList(), app.theme, app.fonts}, lo, size, chart);
+  const PlotAxes axes = draw_chart({*ImGui::GetWindowDrawList(), ui.theme, ui.fonts}, lo, size, chart);
   ImGui::SetCursorScreenPos(axes.lo);
   const bool clicked =
       ImGui::InvisibleButton("map", {std::max(axes.hi.x - axes.lo.x, 1.f), std::max(axes.hi.y - axes.lo.y, 1.f)});
-  report_control(app, "map");
+  report_control(ui, "map");
   const auto place = place_at(axes, map->grid, ImGui::GetIO().MousePos);
   if (!place || !ImGui::IsItemHovered()) return;
-  if (clicked) take_place(app, map->grid, *place);
-  begin_tooltip_at_pointer(app);
+  if (clicked) take_place(ui, map->grid, *place);
+  begin_tooltip_at_pointer(ui);
   const MapCell* cell = cell_at(*map, *place);
-  wrapped(app, cell != nullptr ? cell_words(map->of, *cell) + "." : "This run has not been made yet.",
-          app.theme.colors.text);
-  wrapped(app, "Click to take these values.", app.theme.colors.quiet);
-  end_tooltip(app);
+  wrapped(ui, cell != nullptr ? cell_words(map->of, *cell) + "." : "This run has not been made yet.",
+          ui.theme.colors.text);
+  wrapped(ui, "Click to take these values.", ui.theme.colors.quiet);
+  end_tooltip(ui);
 }
 
 }  // namespace tyglab

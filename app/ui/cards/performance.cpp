@@ -15,11 +15,11 @@ namespace {
 
 constexpr const char* performance_heading = card_name::performance;
 
-bool cloth(const App& app) {
-  return app.preset().kind == Kind::cloth;
+bool cloth(const Ui& ui) {
+  return ui.session.preset().kind == Kind::cloth;
 }
-bool stepping(const App& app) {
-  return app.pacing.playing && !app.simulation->divergence();
+bool stepping(const Ui& ui) {
+  return ui.session.pacing.playing && !ui.session.simulation->divergence();
 }
 
 /// Where a feature's time is spent.
@@ -29,22 +29,22 @@ enum class Spent {
 };
 
 /// Whether the engine needs the feature of that name for the present scene.
-bool stepped(const App& app, std::string_view name) {
-  const auto all = app.simulation->engine().features();
+bool stepped(const Ui& ui, std::string_view name) {
+  const auto all = ui.session.simulation->engine().features();
   return std::any_of(all.begin(), all.end(), [&](const StepFeature& f) { return f.name == name && f.on; });
 }
 
 /// One row a feature: whether the scene and what is shown need it. What belongs to the step sleeps with it.
 struct Feature {
   std::string_view name, help;
-  bool (*needed)(const App&);  ///< null: the engine says, under the same name
+  bool (*needed)(const Ui&);  ///< null: the engine says, under the same name
   Spent spent;
   Part part = Part::simulate;
 };
 
 constexpr Feature features[] = {
     {"all steps", "Everything that the cloth's motion takes; the features below, down to the ledger, are done in it.",
-     [](const App&) { return true; }, Spent::frame, Part::simulate},
+     [](const Ui&) { return true; }, Spent::frame, Part::simulate},
     {"bending", "Springs over two particles: k_b > 0.", nullptr, Spent::step},
     {"damping", "k_d > 0.", nullptr, Spent::step},
     {"wind", "W is not 0.", nullptr, Spent::step},
@@ -52,24 +52,24 @@ constexpr Feature features[] = {
     {"tearing", "F_max > 0: springs are measured when one may have grown enough.", nullptr, Spent::step},
     {"pins", "Particles that keep their place.", nullptr, Spent::step},
     {"hand", "The particle that follows the pointer.", nullptr, Spent::step},
-    {"tear masks", "Only once a spring is torn.", [](const App& a) { return !a.simulation->tears().untorn(); },
+    {"tear masks", "Only once a spring is torn.", [](const Ui& u) { return !u.session.simulation->tears().untorn(); },
      Spent::step},
     {"divergence watch", "Always on: how far particles moved, and whether all is finite.",
-     [](const App&) { return true; }, Spent::step},
+     [](const Ui&) { return true; }, Spent::step},
     {"energy ledger", "Only while its card is open or dt is automatic: every step is looked at.",
-     [](const App& a) { return a.simulation->ledger().has_value(); }, Spent::step},
+     [](const Ui& u) { return u.session.simulation->ledger().has_value(); }, Spent::step},
     {"plot data", "Collected only for plots that are seen, and while the cloth moves.",
-     [](const App& a) { return (a.ui.plots.forces_shown || a.ui.plots.height_shown) && !a.ui.plots.paused; },
+     [](const Ui& u) { return (u.session.wants.forces || u.session.wants.height) && !u.session.recorded.paused; },
      Spent::frame, Part::sample},
     {"colours", "What colours the cloth: worked out only where it is shown, when something moved.",
-     [](const App& a) { return shown_colors(a) != nullptr; }, Spent::frame, Part::colors},
-    {"normals", "Only views 1 and 3 have light.", [](const App& a) { return cloth(a) && a.view.lit(); }, Spent::frame,
-     Part::normals},
+     [](const Ui& u) { return shown_colors(u.scene) != nullptr; }, Spent::frame, Part::colors},
+    {"normals", "Only views 1 and 3 have light.", [](const Ui& u) { return cloth(u) && u.scene.view.lit(); },
+     Spent::frame, Part::normals},
     {"upload",
      "Positions (and normals) are copied for drawing when something moved; where the device writes them into "
      "OpenGL's buffer or memory, nothing is.",
-     [](const App& a) { return cloth(a); }, Spent::frame, Part::upload},
-    {"shadow", "Drawn anew when something moved.", [](const App& a) { return a.view.shadows; }, Spent::frame,
+     [](const Ui& u) { return cloth(u); }, Spent::frame, Part::upload},
+    {"shadow", "Drawn anew when something moved.", [](const Ui& u) { return u.scene.view.shadows; }, Spent::frame,
      Part::shadow},
 };
 
@@ -101,39 +101,39 @@ ImU32 color_of(const Tokens& c, Activity activity) {
 }
 
 /// Name, state, milliseconds a frame.
-void feature_line(App& app, const FeatureRow& row, float width) {
-  const Tokens& c = app.theme.colors;
+void feature_line(Ui& ui, const FeatureRow& row, float width) {
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(card::line), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  const float height = ui.theme.px(card::line), baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
   ImGui::InvisibleButton("feature", {width, height});
-  tooltip(app, gui::item_id(), row.help);
+  tooltip(ui, gui::item_id(), row.help);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 ink = row.activity == Activity::on ? c.text : c.quiet;
-  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, ink, row.name);
-  draw_on_baseline(draw, *app.fonts.small, {lo.x + app.theme.px(130), baseline}, color_of(c, row.activity),
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, ink, row.name);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(130), baseline}, color_of(c, row.activity),
                    name_of(row.activity));
-  const ImFont& font = row.ms ? *app.fonts.mono : *app.fonts.small;
+  const ImFont& font = row.ms ? *ui.fonts.mono : *ui.fonts.small;
   const std::string time = row.activity != Activity::on ? "–" : row.ms ? text("%.3f ms", *row.ms) : "in the steps";
   draw_on_baseline(draw, font, {lo.x + width - text_width(font, time), baseline}, ink, time);
 }
 
-void fact_line(App& app, const PerformanceFact& fact, float width) {
-  const Tokens& c = app.theme.colors;
+void fact_line(Ui& ui, const PerformanceFact& fact, float width) {
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = app.theme.px(card::line), baseline = baseline_at(app.fonts, std::round(lo.y + height / 2));
+  const float height = ui.theme.px(card::line), baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
   ImGui::PushID(fact.name.data(), fact.name.data() + fact.name.size());
   ImGui::InvisibleButton("fact", {width, height});
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *app.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
-  const ImFont& mono = *app.fonts.mono;
-  const float room = width - text_width(*app.fonts.small, fact.name) - app.theme.px(16);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
+  const ImFont& mono = *ui.fonts.mono;
+  const float room = width - text_width(*ui.fonts.small, fact.name) - ui.theme.px(16);
   const std::string value = fitted(mono, fact.value, room);  // devices have long names
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, value), baseline}, c.text, value);
   const std::string cut = value == fact.value ? "" : fact.value;
-  if (const std::string& said = fact.help.empty() ? cut : fact.help; !said.empty()) tooltip(app, gui::item_id(), said);
+  if (const std::string& said = fact.help.empty() ? cut : fact.help; !said.empty()) tooltip(ui, gui::item_id(), said);
 }
 
 }  // namespace
@@ -150,40 +150,40 @@ std::string_view name_of(Activity activity) {
   return "asleep";
 }
 
-std::vector<FeatureRow> feature_rows(const App& app) {
+std::vector<FeatureRow> feature_rows(const Ui& ui) {
   std::vector<FeatureRow> rows;
   for (const Feature& feature : features) {
     FeatureRow row{feature.name, feature.help, Activity::skipped, std::nullopt};
-    const bool needed = feature.needed != nullptr ? feature.needed(app) : stepped(app, feature.name);
-    const bool runs = needed && stepping(app);
-    if (runs) row.activity = app.asleep() ? Activity::asleep : Activity::on;
-    if (feature.spent == Spent::frame) row.ms = app.costs.recent_ms(feature.part);
+    const bool needed = feature.needed != nullptr ? feature.needed(ui) : stepped(ui, feature.name);
+    const bool runs = needed && stepping(ui);
+    if (runs) row.activity = ui.session.asleep() ? Activity::asleep : Activity::on;
+    if (feature.spent == Spent::frame) row.ms = ui.session.costs.recent_ms(feature.part);
     rows.push_back(row);
   }
   return rows;
 }
 
-std::vector<PerformanceFact> performance_facts(const App& app) {
-  Engine& engine = app.simulation->engine();
-  const double particles = app.simulation->lattice().size();
+std::vector<PerformanceFact> performance_facts(const Ui& ui) {
+  Engine& engine = ui.session.simulation->engine();
+  const double particles = ui.session.simulation->lattice().size();
   const double arrays = double(engine.bytes());
-  const double buffers = app.renderer != nullptr ? double(app.renderer->bytes()) : 0;
-  const double plots = double(app.ui.plots.forces.bytes() + app.ui.plots.height.bytes() + app.copies.distance.bytes() +
-                              app.copies.energy.bytes());
+  const double buffers = ui.scene.renderer != nullptr ? double(ui.scene.renderer->bytes()) : 0;
+  const double plots = double(ui.session.recorded.forces.bytes() + ui.session.recorded.height.bytes() +
+                              ui.session.copies.distance.bytes() + ui.session.copies.energy.bytes());
   std::vector<PerformanceFact> facts;
   facts.push_back({"engine", engine.name()});
   // The pace counts the copies' steps too; their card has measured the original's alone.
-  const double step =
-      app.copies.lockstep.empty() ? app.pacing.step_cost_s() : app.copies.cost.per_second() * app.preset().dt;
+  const double step = ui.session.copies.lockstep.empty() ? ui.session.pacing.step_cost_s()
+                                                         : ui.session.copies.cost.per_second() * ui.session.preset().dt;
   facts.push_back({"per particle and step", text("%.2f ns", 1e9 * step / particles)});
   if (const SolveCounts solves = engine.solves(); solves.newton > 0) {
-    const auto steps = double(std::max<std::int64_t>(1, app.simulation->steps()));
+    const auto steps = double(std::max<std::int64_t>(1, ui.session.simulation->steps()));
     facts.push_back({"Newton, CG a step",
                      text("%.1f, ", double(solves.newton) / steps) + text("%.0f", double(solves.linear) / steps)});
     facts.push_back({"solves unconverged", std::to_string(solves.unconverged)});
   }
   if (const InnerSteps inner = engine.inner_steps(); inner.accepted > 0) {
-    const auto steps = double(std::max<std::int64_t>(1, app.simulation->steps()));
+    const auto steps = double(std::max<std::int64_t>(1, ui.session.simulation->steps()));
     const auto share = [&](std::int64_t part) { return text("%.0f %%", 100 * double(part) / double(inner.accepted)); };
     facts.push_back(
         {"inner steps, rejected", short_number(double(inner.accepted) / steps, 2) + " a dt, " + share(inner.rejected)});
@@ -191,37 +191,39 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
     facts.push_back({"by accuracy, by dt", share(inner.by_accuracy) + ", " + share(inner.by_dt)});
     facts.push_back({"tolerance missed", std::to_string(inner.too_short + inner.below_digits)});
   }
-  facts.push_back({"steps a frame", std::to_string(app.pacing.steps_per_frame())});
-  facts.push_back({"a frame in all", text("%.2f ms", app.costs.recent_ms(Part::frame))});
-  const std::string without = app.effects.words();
+  facts.push_back({"steps a frame", std::to_string(ui.session.pacing.steps_per_frame())});
+  facts.push_back({"a frame in all", text("%.2f ms", ui.session.costs.recent_ms(Part::frame))});
+  const std::string without = ui.scene.effects.words();
   facts.push_back({"left out of the picture", without.empty() ? "nothing" : without});
-  const std::string& why = app.costs.why_copied();
-  facts.push_back({"positions are drawn from", drawn_from(app.costs.way()), why.empty() ? "" : "Copied, since " + why});
-  const std::size_t copied = app.costs.last_copied();
+  const std::string& why = ui.session.costs.why_copied();
+  facts.push_back(
+      {"positions are drawn from", drawn_from(ui.session.costs.way()), why.empty() ? "" : "Copied, since " + why});
+  const std::size_t copied = ui.session.costs.last_copied();
   facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B"});
-  if (engine.copied() > 0) facts.push_back({"read by others", megabytes(app.costs.recent_read()) + " a frame"});
+  if (engine.copied() > 0) facts.push_back({"read by others", megabytes(ui.session.costs.recent_read()) + " a frame"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
-  facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
+  facts.push_back(
+      {"masks and read-outs", megabytes(double(ui.session.simulation->bytes() + ui.session.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});
   facts.push_back({"plots' history", megabytes(plots)});
-  if (!app.copies.lockstep.empty())
-    facts.push_back({"copies, without pictures", megabytes(double(app.copies.lockstep.bytes()))});
-  facts.push_back({"past, for rewinding", megabytes(double(app.rewind.bytes()))});
-  facts.push_back({"undo", megabytes(double(app.history.bytes()))});
+  if (!ui.session.copies.lockstep.empty())
+    facts.push_back({"copies, without pictures", megabytes(double(ui.session.copies.lockstep.bytes()))});
+  facts.push_back({"past, for rewinding", megabytes(double(ui.session.rewind.bytes()))});
+  facts.push_back({"undo", megabytes(double(ui.session.history.bytes()))});
   return facts;
 }
 
-float performance_card_height(const App& app) {
-  return card_height(app, performance_heading, float(std::size(features) + performance_facts(app).size()) * card::line);
+float performance_card_height(const Ui& ui) {
+  return card_height(ui, performance_heading, float(std::size(features) + performance_facts(ui).size()) * card::line);
 }
 
-void performance_card(App& app, float height) {
-  if (begin_card(app, performance_heading, height)) {
-    const float width = card_width(app);
-    for (const PerformanceFact& fact : performance_facts(app)) fact_line(app, fact, width);
-    for (const FeatureRow& row : feature_rows(app)) feature_line(app, row, width);
+void performance_card(Ui& ui, float height) {
+  if (begin_card(ui, performance_heading, height)) {
+    const float width = card_width(ui);
+    for (const PerformanceFact& fact : performance_facts(ui)) fact_line(ui, fact, width);
+    for (const FeatureRow& row : feature_rows(ui)) feature_line(ui, row, width);
   }
-  end_card(app);
+  end_card(ui);
 }
 
 }  // namespace tyglab

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
@@ -18,17 +18,17 @@ struct FeatureRow {
   Activity activity;
   std::optional<double> ms;  ///< a frame; none where the step's one pass does it, which has a row of its own
 };
-std::vector<FeatureRow> feature_rows(const App& app);
+std::vector<FeatureRow> feature_rows(const Ui& ui);
 
 /// A number of the whole: name and value with its unit, and what is to be said of it, which may be nothing.
 struct PerformanceFact {
   std::string_view name;
   std::string value, help = {};
 };
-std::vector<PerformanceFact> performance_facts(const App& app);
+std::vector<PerformanceFact> performance_facts(const Ui& ui);
 
 /// The card at the foot of the plots column, closed unless the user has opened it, and its height (pixels).
-void performance_card(App& app, float height);
-float performance_card_height(const App& app);
+void performance_card(Ui& ui, float height);
+float performance_card_height(const Ui& ui);
 
 }  // namespace tyglab

@@ -24,8 +24,8 @@ bool belongs(const BodyRow& row, Body::Shape shape) {
   return true;
 }
 
-void add_body(App& app, Body::Shape shape) {
-  Preset next = app.requested_preset();
+void add_body(Ui& ui, Body::Shape shape) {
+  Preset next = ui.session.requested_preset();
   Body body;
   body.shape = shape;
   // Below the middle of the cloth, where it will be met.
@@ -34,27 +34,27 @@ void add_body(App& app, Body::Shape shape) {
   body.r = std::clamp(0.25 * size, 1e-3, 100.0);
   body.y = next.x_0.y - 1.6 * size;
   next.bodies.push_back(body);
-  app.propose(std::move(next));
+  ui.session.propose(std::move(next));
 }
 
-void remove_body(App& app, int index) {
-  Preset next = app.requested_preset();
+void remove_body(Ui& ui, int index) {
+  Preset next = ui.session.requested_preset();
   next.bodies.erase(next.bodies.begin() + index);
-  app.propose(std::move(next));
+  ui.session.propose(std::move(next));
 }
 
-void body_block(App& app, int index) {
-  const Body& body = app.requested_preset().bodies[index];
-  const float side = app.theme.px(22);
+void body_block(Ui& ui, int index) {
+  const Body& body = ui.session.requested_preset().bodies[index];
+  const float side = ui.theme.px(22);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = app.ui.row_width;
+  const float width = ui.row_width;
   char title[48];
   std::snprintf(title, sizeof title, "%s %d", body.shape == Body::Shape::sphere ? "Sphere" : "Plane", index + 1);
-  draw_text(*ImGui::GetWindowDrawList(), *app.fonts.text, {lo.x, lo.y + app.theme.px(3)}, app.theme.colors.text, title);
+  draw_text(*ImGui::GetWindowDrawList(), *ui.fonts.text, {lo.x, lo.y + ui.theme.px(3)}, ui.theme.colors.text, title);
   ImGui::SetCursorScreenPos({lo.x + width - side, lo.y});
-  if (quiet_button(app, "remove", icon::trash, "remove", "Remove this body")) remove_body(app, index);
+  if (quiet_button(ui, "remove", icon::trash, "remove", "Remove this body")) remove_body(ui, index);
   for (const BodyRow& row : body_notation())
-    if (belongs(row, body.shape)) body_row(app, row, index);
+    if (belongs(row, body.shape)) body_row(ui, row, index);
 }
 
 std::vector<std::string> shipped_textures() {
@@ -69,80 +69,79 @@ std::vector<std::string> shipped_textures() {
 }
 
 /// How the pointer's tools work.
-void tool_rows(App& app) {
-  const ToolSettings& handling = app.settings.handling;
-  labelled_row(app, "cut", [&](float) {
+void tool_rows(Ui& ui) {
+  const ToolSettings& handling = ui.settings.handling;
+  labelled_row(ui, "cut", [&](float) {
     static constexpr const char* ways[] = {"upwards", "along the path"};
     const int now = handling.cut_along_path ? 1 : 0;
-    if (const int k = segments(app, "cut", ways, 2, now); k >= 0 && k != now) app.command(Command::toggle_cut_path);
-    tooltip(app, gui::item_id(),
+    if (const int k = segments(ui, "cut", ways, 2, now); k >= 0 && k != now) ui.command("toggle_cut_path");
+    tooltip(ui, gui::item_id(),
             "What a left drag cuts: the springs upwards of each particle near it, as in the report, or every spring "
             "and edge of a triangle that it crosses, through all layers.",
-            row_of(Command::toggle_cut_path).keys);
+            row_of("toggle_cut_path").keys);
   });
-  labelled_row(app, "hand", [&](float) {
-    if (check(app, "slow motion", handling.slow_hand)) app.command(Command::toggle_slow_hand);
-    tooltip(app, gui::item_id(), "A quarter of the speed while you grab or cut.",
-            row_of(Command::toggle_slow_hand).keys);
-    ImGui::SameLine(0, app.theme.px(16));
-    if (check(app, "wind arrow", wind_arrow_shown(app))) app.command(Command::toggle_wind_arrow);
-    tooltip(app, gui::item_id(), "The wind W as an arrow in the picture: drag its tip.",
-            row_of(Command::toggle_wind_arrow).keys);
+  labelled_row(ui, "hand", [&](float) {
+    if (check(ui, "slow motion", handling.slow_hand)) ui.command("toggle_slow_hand");
+    tooltip(ui, gui::item_id(), "A quarter of the speed while you grab or cut.", row_of("toggle_slow_hand").keys);
+    ImGui::SameLine(0, ui.theme.px(16));
+    if (check(ui, "wind arrow", wind_arrow_shown(ui.tools))) ui.command("toggle_wind_arrow");
+    tooltip(ui, gui::item_id(), "The wind W as an arrow in the picture: drag its tip.",
+            row_of("toggle_wind_arrow").keys);
   });
 }
 
-void texture_row(App& app) {
-  labelled_row(app, "texture", [&](float width) {
-    const std::string now = std::filesystem::path(app.requested_preset().texture).filename().string();
-    if (!begin_combo(app, "##texture", now.c_str(), width)) return;
+void texture_row(Ui& ui) {
+  labelled_row(ui, "texture", [&](float width) {
+    const std::string now = std::filesystem::path(ui.session.requested_preset().texture).filename().string();
+    if (!begin_combo(ui, "##texture", now.c_str(), width)) return;
     for (const std::string& name : shipped_textures())
-      if (ImGui::Selectable(name.c_str(), name == app.requested_preset().texture) &&
-          name != app.requested_preset().texture)
-        app.request(request::LoadTexture{name});
+      if (ImGui::Selectable(name.c_str(), name == ui.session.requested_preset().texture) &&
+          name != ui.session.requested_preset().texture)
+        ui.session.request(request::LoadTexture{name});
     ImGui::Separator();
-    if (ImGui::Selectable("Other file…")) app.command(Command::load_texture_dialog);
+    if (ImGui::Selectable("Other file…")) ui.command("load_texture_dialog");
     end_combo();
   });
 }
 
 }  // namespace
 
-void view_section(App& app) {
-  if (!section(app, "View")) return;
-  const bool cloth = app.requested_preset().kind == Kind::cloth;
-  if (cloth) texture_row(app);
-  labelled_row(app, "show", [&](float) {
+void view_section(Ui& ui) {
+  if (!section(ui, "View")) return;
+  const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
+  if (cloth) texture_row(ui);
+  labelled_row(ui, "show", [&](float) {
     if (!cloth) {
-      if (check(app, "shadows", app.view.shadows)) app.view.shadows = !app.view.shadows;
+      if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
       return;
     }
-    if (check(app, "arrows", app.ui.arrows)) app.ui.arrows = !app.ui.arrows;
-    tooltip(app, gui::item_id(),
+    if (check(ui, "arrows", ui.arrows)) ui.arrows = !ui.arrows;
+    tooltip(ui, gui::item_id(),
             "Of the variables that are ticked under “Picked particle”, in the colours of their curves.");
-    ImGui::SameLine(0, app.theme.px(16));
-    if (check(app, "shadows", app.view.shadows)) app.view.shadows = !app.view.shadows;
+    ImGui::SameLine(0, ui.theme.px(16));
+    if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
   });
-  labelled_row(app, "effects", [&](float) {
-    if (check(app, "all, however slow", app.effects.mode == Effects::Mode::all)) app.command(Command::toggle_effects);
+  labelled_row(ui, "effects", [&](float) {
+    if (check(ui, "all, however slow", ui.scene.effects.mode == Effects::Mode::all)) ui.command("toggle_effects");
     tooltip(
-        app, gui::item_id(),
+        ui, gui::item_id(),
         "Where drawing takes longer than 20 ms, soft edges of shadows are left out, then smooth edges, then shadows; "
         "the status bar says so.");
   });
-  if (cloth) tool_rows(app);
+  if (cloth) tool_rows(ui);
 }
 
-void body_sections(App& app) {
-  if (!section(app, "Bodies")) return;
-  for (int k = 0; k < int(app.requested_preset().bodies.size()); ++k) {
+void body_sections(Ui& ui) {
+  if (!section(ui, "Bodies")) return;
+  for (int k = 0; k < int(ui.session.requested_preset().bodies.size()); ++k) {
     ImGui::PushID(k);
-    body_block(app, k);
+    body_block(ui, k);
     ImGui::PopID();
   }
-  const bool room = app.requested_preset().bodies.size() < most_bodies;
-  if (text_button(app, "Add sphere", false, room)) add_body(app, Body::Shape::sphere);
+  const bool room = ui.session.requested_preset().bodies.size() < most_bodies;
+  if (text_button(ui, "Add sphere", false, room)) add_body(ui, Body::Shape::sphere);
   ImGui::SameLine();
-  if (text_button(app, "Add plane", false, room)) add_body(app, Body::Shape::plane);
+  if (text_button(ui, "Add plane", false, room)) add_body(ui, Body::Shape::plane);
 }
 
 }  // namespace tyglab

@@ -91,12 +91,12 @@ int preset_is_off(const Line& line, const SliderScale& scale) {
 }
 
 /// A small arrowhead at that end of the slider.
-void draw_off_mark(App& app, int side, ImVec2 lo, ImVec2 hi) {
+void draw_off_mark(Ui& ui, int side, ImVec2 lo, ImVec2 hi) {
   if (side == 0) return;
-  const float size = app.theme.px(4), x = side < 0 ? lo.x - app.theme.px(1) : hi.x + app.theme.px(1),
+  const float size = ui.theme.px(4), x = side < 0 ? lo.x - ui.theme.px(1) : hi.x + ui.theme.px(1),
               middle = std::round((lo.y + hi.y) / 2), tip = float(side) * size;
   ImGui::GetWindowDrawList()->AddTriangleFilled({x + tip, middle}, {x, middle - size}, {x, middle + size},
-                                                app.theme.colors.warning);
+                                                ui.theme.colors.warning);
 }
 
 std::string value_text(const Line& line, double value) {
@@ -109,22 +109,22 @@ std::string all_values(const Line& line, const double* values) {
   return text;
 }
 
-bool in_range(App& app, const Line& line, double value) {
+bool in_range(Ui& ui, const Line& line, double value) {
   if (value >= line.min && value <= line.max && (!line.integer || value == std::round(value))) return true;
   const std::string unit = line.unit.empty() ? "" : " " + std::string(line.unit);
-  app.messages.error(std::string(line.symbol) + " goes from " + short_number(line.min) + " to " +
-                     short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
-                     short_number(value) + " was not taken.");
+  ui.session.messages.error(std::string(line.symbol) + " goes from " + short_number(line.min) + " to " +
+                            short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
+                            short_number(value) + " was not taken.");
   return false;
 }
 
-void take(App& app, const Line& line, int k, const SliderResult& result, unsigned gesture) {
+void take(Ui& ui, const Line& line, int k, const SliderResult& result, unsigned gesture) {
   // A change that builds the cloth anew waits for the end of the drag.
   const bool due = line.effect == Effect::rebuild ? result.finished : result.changed;
   double next[3] = {line.value[0], line.value[1], line.value[2]};
   if (result.reset && !std::isnan(line.saved[k])) {
     next[k] = line.saved[k];
-  } else if (due && result.value != line.value[k] && in_range(app, line, result.value)) {
+  } else if (due && result.value != line.value[k] && in_range(ui, line, result.value)) {
     next[k] = result.value;
   } else {
     return;
@@ -132,208 +132,208 @@ void take(App& app, const Line& line, int k, const SliderResult& result, unsigne
   line.set(next, gesture);
 }
 
-void row_tooltip(App& app, const Line& line) {
-  const Tokens& c = app.theme.colors;
-  begin_tooltip(app);
+void row_tooltip(Ui& ui, const Line& line) {
+  const Tokens& c = ui.theme.colors;
+  begin_tooltip(ui);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = symbol_width(app.fonts, line.symbol) + app.theme.px(10);
-  draw_symbol(*ImGui::GetWindowDrawList(), app.fonts, {at.x, at.y + app.fonts.title->Ascent}, line.symbol, c.text);
-  ImGui::Dummy({width, app.fonts.title->FontSize});
+  const float width = symbol_width(ui.fonts, line.symbol) + ui.theme.px(10);
+  draw_symbol(*ImGui::GetWindowDrawList(), ui.fonts, {at.x, at.y + ui.fonts.title->Ascent}, line.symbol, c.text);
+  ImGui::Dummy({width, ui.fonts.title->FontSize});
   ImGui::SameLine(0, 0);
-  ImGui::PushFont(app.fonts.title);
-  wrapped(app, std::string(line.quantity) + " · " + std::string(line.storhet), c.text);
+  ImGui::PushFont(ui.fonts.title);
+  wrapped(ui, std::string(line.quantity) + " · " + std::string(line.storhet), c.text);
   ImGui::PopFont();
-  wrapped(app, line.help, c.text);
+  wrapped(ui, line.help, c.text);
   std::string facts = short_number(line.min) + " to " + short_number(line.max);
   if (!line.unit.empty()) facts += " " + std::string(line.unit);
   if (line.zero_is_off) facts += ", 0 is off";
   if (!line.equation.empty()) facts += " · equation (" + std::string(line.equation) + ")";
-  wrapped(app, facts, c.quiet);
-  if (const auto& limits = app.stability.limits())
-    if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(app, words, c.text);
+  wrapped(ui, facts, c.quiet);
+  if (const auto& limits = ui.session.studies.stability.limits())
+    if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);
   if (const SliderScale scale = scale_of(line, 0); preset_is_off(line, scale) != 0)
-    wrapped(app,
+    wrapped(ui,
             "The slider has moved with the value: it goes from " + short_number(scale.min) + " to " +
                 short_number(scale.max) + " now, and the preset's " + short_number(line.saved[0]) +
                 " lies off its end. Double-click goes back.",
             c.warning);
-  if (line.effect == Effect::start) wrapped(app, "Counts at the next restart (R).", c.warning);
-  ImGui::PushFont(app.fonts.small);
-  wrapped(app,
+  if (line.effect == Effect::start) wrapped(ui, "Counts at the next restart (R).", c.warning);
+  ImGui::PushFont(ui.fonts.small);
+  wrapped(ui,
           line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
                                : "Drag (Shift: finer) or use the arrow keys. Double-click the number to type, the "
                                  "slider to reset. Right-click for more.",
           c.quiet);
   ImGui::PopFont();
-  end_tooltip(app);
+  end_tooltip(ui);
 }
 
 /// "Add a copy with k_s = …": half, double, or what is typed.
-void copy_items(App& app, const Line& line) {
+void copy_items(Ui& ui, const Line& line) {
   if (line.components != 1 || line.effect == Effect::rebuild || line.effect == Effect::start ||
       line.effect == Effect::view)
     return;
   const auto add = [&](double value) {
     char text[40];
     std::snprintf(text, sizeof text, "=%.17g", rounded(value, 6));
-    app.request(request::AddCopy{{line.key + text}});
+    ui.session.request(request::AddCopy{{line.key + text}});
   };
   ImGui::Separator();
   for (const double factor : {0.5, 2.0}) {
     const double value = line.integer ? std::round(factor * line.value[0]) : factor * line.value[0];
     if (value == line.value[0] || value < line.min || value > line.max) continue;
     if (ImGui::MenuItem(("Add a copy with " + line.key + " = " + short_number(value)).c_str())) add(value);
-    report_control(app, factor < 1 ? "copy_half" : "copy_double");
+    report_control(ui, factor < 1 ? "copy_half" : "copy_double");
   }
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(("Add a copy with " + line.key + " =").c_str());
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(app.theme.px(88));
+  ImGui::SetNextItemWidth(ui.theme.px(88));
   char typed[40] = "";
   if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
-    if (const auto value = typed_number(typed, line.unit); value && in_range(app, line, *value)) add(*value);
+    if (const auto value = typed_number(typed, line.unit); value && in_range(ui, line, *value)) add(*value);
     if (*typed != 0 && !typed_number(typed, line.unit))
-      app.messages.error(std::string("“") + typed + "” is not a number, so there is no copy with it.");
+      ui.session.messages.error(std::string("“") + typed + "” is not a number, so there is no copy with it.");
     ImGui::CloseCurrentPopup();
   }
-  report_control(app, "copy_value");
+  report_control(ui, "copy_value");
 }
 
-void row_menu(App& app, const Line& line, ImVec2 lo, ImVec2 hi) {
+void row_menu(Ui& ui, const Line& line, ImVec2 lo, ImVec2 hi) {
   if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(lo, hi) && ImGui::IsMouseClicked(ImGuiMouseButton_Right))
     ImGui::OpenPopup("row menu");
-  if (!begin_menu(app, "row menu")) return;
+  if (!begin_menu(ui, "row menu")) return;
   if (!std::isnan(line.saved[0]) &&
       ImGui::MenuItem(("Reset to the preset's " + all_values(line, line.saved)).c_str(), "double-click"))
     line.set(line.saved, 0);
   if (ImGui::MenuItem(("To the default " + all_values(line, line.standard)).c_str())) line.set(line.standard, 0);
-  copy_items(app, line);
+  copy_items(ui, line);
   end_menu();
 }
 
 /// The symbol; a double click on it resets, and a dot before it says that the value differs from the preset's.
-void symbol_cell(App& app, const Line& line, const RowColumns& columns) {
-  const Tokens& c = app.theme.colors;
+void symbol_cell(Ui& ui, const Line& line, const RowColumns& columns) {
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("symbol", {columns.symbol, columns.height});
-  if (ImGui::IsItemActive() && app.input.double_click && !std::isnan(line.saved[0])) line.set(line.saved, 0);
+  if (ImGui::IsItemActive() && ui.input.double_click && !std::isnan(line.saved[0])) line.set(line.saved, 0);
   bool changed = false;
   for (int k = 0; k < line.components; ++k) changed |= !std::isnan(line.saved[k]) && line.saved[k] != line.value[k];
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float middle = lo.y + columns.height / 2;
-  if (changed) draw.AddCircleFilled({lo.x - app.theme.px(7), std::round(middle)}, app.theme.px(2.5f), c.warning, 12);
-  draw_symbol(draw, app.fonts, {lo.x, baseline_at(app.fonts, middle)}, line.symbol, c.text);
+  if (changed) draw.AddCircleFilled({lo.x - ui.theme.px(7), std::round(middle)}, ui.theme.px(2.5f), c.warning, 12);
+  draw_symbol(draw, ui.fonts, {lo.x, baseline_at(ui.fonts, middle)}, line.symbol, c.text);
 }
 
 /// The palette asked for this constant: its slider, which is drawn next, takes the focus.
-void take_wanted_focus(App& app, const std::string& key) {
-  SliderState& state = app.ui.slider;
+void take_wanted_focus(Ui& ui, const std::string& key) {
+  SliderState& state = ui.slider;
   if (state.wanted_key != key) return;
   state.wanted_key.clear();
   state.wanted_order = state.order;
 }
 
-void vector_cells(App& app, const Line& line, const RowColumns& columns, float slider_width) {
+void vector_cells(Ui& ui, const Line& line, const RowColumns& columns, float slider_width) {
   const float width = slider_width + columns.gap + columns.value;
-  const float cell = std::floor((width - 2 * app.theme.px(4)) / 3);
+  const float cell = std::floor((width - 2 * ui.theme.px(4)) / 3);
   const char* names[3] = {"x", "y", "z"};
-  take_wanted_focus(app, line.key);
+  take_wanted_focus(ui, line.key);
   for (int k = 0; k < 3; ++k) {
-    if (k > 0) ImGui::SameLine(0, app.theme.px(4));
+    if (k > 0) ImGui::SameLine(0, ui.theme.px(4));
     const SliderResult result =
-        drag_cell(app, names[k], scale_of(line, k), line.value[k], cell, columns.height, line.unit);
-    if (app.report) report_control(app, line.key + "." + names[k]);
-    take(app, line, k, result, ImGui::GetID(names[k]));
+        drag_cell(ui, names[k], scale_of(line, k), line.value[k], cell, columns.height, line.unit);
+    if (ui.controls) report_control(ui, line.key + "." + names[k]);
+    take(ui, line, k, result, ImGui::GetID(names[k]));
   }
 }
 
-void draw_line(App& app, const Line& line) {
-  const RowColumns columns = row_columns(app);
+void draw_line(Ui& ui, const Line& line) {
+  const RowColumns columns = row_columns(ui);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = app.ui.row_width;
+  const float width = ui.row_width;
   const float slider_width = width - columns.symbol - columns.value - columns.unit - 2 * columns.gap;
   ImGui::BeginGroup();
-  symbol_cell(app, line, columns);
+  symbol_cell(ui, line, columns);
   ImGui::SameLine(0, 0);
   if (line.components == 3) {
-    vector_cells(app, line, columns, slider_width);
+    vector_cells(ui, line, columns, slider_width);
   } else {
     const unsigned gesture = ImGui::GetID("slider");
-    take_wanted_focus(app, line.key);
+    take_wanted_focus(ui, line.key);
     const SliderScale scale = scale_of(line, 0);
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const SliderResult slid = slider(app, scale, line.value[0], slider_width, columns.height);
-    draw_zones(app, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
-    draw_off_mark(app, preset_is_off(line, scale), at, {at.x + slider_width, at.y + columns.height});
-    if (app.report) report_control(app, line.key + ".slider");
-    take(app, line, 0, slid, gesture);
+    const SliderResult slid = slider(ui, scale, line.value[0], slider_width, columns.height);
+    draw_zones(ui, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
+    draw_off_mark(ui, preset_is_off(line, scale), at, {at.x + slider_width, at.y + columns.height});
+    if (ui.controls) report_control(ui, line.key + ".slider");
+    take(ui, line, 0, slid, gesture);
     ImGui::SameLine(0, columns.gap);
-    const bool dragging = app.ui.slider.dragged == gesture;
-    const double shown = dragging ? app.ui.slider.value : line.value[0];
-    take(app, line, 0,
-         value_cell(app, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.unit), 0);
-    if (app.report) report_control(app, line.key + ".value");
+    const bool dragging = ui.slider.dragged == gesture;
+    const double shown = dragging ? ui.slider.value : line.value[0];
+    take(ui, line, 0,
+         value_cell(ui, "value", line.value[0], value_text(line, shown), columns.value, columns.height, line.unit), 0);
+    if (ui.controls) report_control(ui, line.key + ".value");
   }
-  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
-                   {lo.x + width - columns.unit + app.theme.px(2), baseline_at(app.fonts, lo.y + columns.height / 2)},
-                   app.theme.colors.quiet, line.unit);
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,
+                   {lo.x + width - columns.unit + ui.theme.px(2), baseline_at(ui.fonts, lo.y + columns.height / 2)},
+                   ui.theme.colors.quiet, line.unit);
   ImGui::EndGroup();
-  if (tooltip_due(app, ImGui::GetID("row"))) row_tooltip(app, line);
-  row_menu(app, line, lo, {lo.x + width, lo.y + columns.height});
+  if (tooltip_due(ui, ImGui::GetID("row"))) row_tooltip(ui, line);
+  row_menu(ui, line, lo, {lo.x + width, lo.y + columns.height});
 }
 
 }  // namespace
 
-RowColumns row_columns(const App& app) {
-  return {app.theme.px(26), app.theme.px(56), app.theme.px(64), app.theme.px(44), app.theme.px(4)};
+RowColumns row_columns(const Ui& ui) {
+  return {ui.theme.px(26), ui.theme.px(56), ui.theme.px(64), ui.theme.px(44), ui.theme.px(4)};
 }
 
-void constant_row(App& app, const PresetRow& row) {
+void constant_row(Ui& ui, const PresetRow& row) {
   Line line = describe(row);
   classify(row.field, line);
-  read(row.field, app.requested_preset(), line.value);
-  read(row.field, app.document.saved, line.saved);
+  read(row.field, ui.session.requested_preset(), line.value);
+  read(row.field, ui.session.document.saved, line.saved);
   read(row.field, Preset{}, line.standard);
-  line.set = [&app, &row](const double* value, unsigned gesture) {
-    Preset next = app.requested_preset();
+  line.set = [&ui, &row](const double* value, unsigned gesture) {
+    Preset next = ui.session.requested_preset();
     write(row.field, next, value);
-    app.propose(std::move(next), gesture);
+    ui.session.propose(std::move(next), gesture);
   };
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
-  draw_line(app, line);
+  draw_line(ui, line);
   ImGui::PopID();
 }
 
-void body_row(App& app, const BodyRow& row, int index) {
+void body_row(Ui& ui, const BodyRow& row, int index) {
   Line line = describe(row);
   line.key = "bodies[" + std::to_string(index) + "]." + line.key;
   classify(row.field, line);
-  read(row.field, app.requested_preset().bodies[index], line.value);
-  if (std::size_t(index) < app.document.saved.bodies.size() &&
-      app.document.saved.bodies[index].shape == app.requested_preset().bodies[index].shape)
-    read(row.field, app.document.saved.bodies[index], line.saved);
+  read(row.field, ui.session.requested_preset().bodies[index], line.value);
+  if (std::size_t(index) < ui.session.document.saved.bodies.size() &&
+      ui.session.document.saved.bodies[index].shape == ui.session.requested_preset().bodies[index].shape)
+    read(row.field, ui.session.document.saved.bodies[index], line.saved);
   read(row.field, Body{}, line.standard);
-  line.set = [&app, &row, index](const double* value, unsigned gesture) {
-    Preset next = app.requested_preset();
+  line.set = [&ui, &row, index](const double* value, unsigned gesture) {
+    Preset next = ui.session.requested_preset();
     write(row.field, next.bodies[index], value);
-    app.propose(std::move(next), gesture);
+    ui.session.propose(std::move(next), gesture);
   };
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
-  draw_line(app, line);
+  draw_line(ui, line);
   ImGui::PopID();
 }
 
-void labelled_row(App& app, const char* label, const std::function<void(float)>& content) {
-  const RowColumns columns = row_columns(app);
+void labelled_row(Ui& ui, const char* label, const std::function<void(float)>& content) {
+  const RowColumns columns = row_columns(ui);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = app.ui.row_width;
-  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
-                   {lo.x, baseline_at(app.fonts, lo.y + app.theme.px(15))}, app.theme.colors.quiet, label);
+  const float width = ui.row_width;
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small, {lo.x, baseline_at(ui.fonts, lo.y + ui.theme.px(15))},
+                   ui.theme.colors.quiet, label);
   ImGui::SetCursorScreenPos({lo.x + columns.symbol, lo.y});
   content(width - columns.symbol);
   // A control that is drawn last on the line ends it; whatever its height, the next row keeps clear of it.
-  const float bottom = std::max(ImGui::GetItemRectMax().y, lo.y + app.theme.px(30));
-  ImGui::SetCursorScreenPos({lo.x, bottom + app.theme.px(4)});
+  const float bottom = std::max(ImGui::GetItemRectMax().y, lo.y + ui.theme.px(30));
+  ImGui::SetCursorScreenPos({lo.x, bottom + ui.theme.px(4)});
 }
 
 }  // namespace tyglab

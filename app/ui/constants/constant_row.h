@@ -4,23 +4,23 @@
 #include <functional>
 #include <string_view>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 #include "core/model/notation.h"
 
 namespace tyglab {
 
 /// Draws the row of a constant of the preset; changes become requests. Rows without a slider (text) are not for here.
-void constant_row(App& app, const PresetRow& row);
+void constant_row(Ui& ui, const PresetRow& row);
 /// The same for body `index`.
-void body_row(App& app, const BodyRow& row, int index);
+void body_row(Ui& ui, const BodyRow& row, int index);
 
 /// A line whose slider column `content` fills (combos, buttons): a plain label stands where symbols do.
-void labelled_row(App& app, const char* label, const std::function<void(float width)>& content);
+void labelled_row(Ui& ui, const char* label, const std::function<void(float width)>& content);
 
 /// Height of a row and width of its columns, at the present scale.
 struct RowColumns {
   float height, symbol, value, unit, gap;
 };
-RowColumns row_columns(const App& app);
+RowColumns row_columns(const Ui& ui);
 
 }  // namespace tyglab

@@ -77,67 +77,67 @@ void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle,
   draw_styled_line(draw, ends, 2, style, theme.scale);
 }
 
-void integrator_row(App& app) {
-  const Tokens& c = app.theme.colors;
-  const Scheme& now = scheme(app.requested_preset().integrator);
-  const float width = app.ui.row_width;
+void integrator_row(Ui& ui) {
+  const Tokens& c = ui.theme.colors;
+  const Scheme& now = scheme(ui.session.requested_preset().integrator);
+  const float width = ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const std::string room = "         ", label = room + label_of(now);
-  const bool open = begin_combo(app, "##integrator", label.c_str(), width);
+  const bool open = begin_combo(ui, "##integrator", label.c_str(), width);
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (!open) {
-    draw_sample(app.theme, draw, lo.x + app.theme.px(10), middle, now);
+    draw_sample(ui.theme, draw, lo.x + ui.theme.px(10), middle, now);
     const std::string order = order_text(now);
-    const float x = lo.x + width - app.theme.px(34) - text_width(*app.fonts.small, order);
-    if (x > lo.x + text_width(*app.fonts.text, label) + app.theme.px(16))
-      draw_text(draw, *app.fonts.small, {x, middle - app.fonts.small->FontSize / 2}, c.quiet, order);
-    tooltip(app, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
+    const float x = lo.x + width - ui.theme.px(34) - text_width(*ui.fonts.small, order);
+    if (x > lo.x + text_width(*ui.fonts.text, label) + ui.theme.px(16))
+      draw_text(draw, *ui.fonts.small, {x, middle - ui.fonts.small->FontSize / 2}, c.quiet, order);
+    tooltip(ui, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
     return;
   }
   for (const Scheme& choice : schemes()) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const std::string name = room + label_of(choice);
     const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
-    draw_sample(app.theme, *ImGui::GetWindowDrawList(), at.x + app.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
+    draw_sample(ui.theme, *ImGui::GetWindowDrawList(), at.x + ui.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
                 choice);
     if (chosen && choice.name != now.name) {
-      Preset next = app.requested_preset();
+      Preset next = ui.session.requested_preset();
       next.integrator = choice.name;
-      app.propose(std::move(next));
+      ui.session.propose(std::move(next));
     }
-    report_control(app, choice.name);
-    tooltip(app, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
+    report_control(ui, choice.name);
+    tooltip(ui, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
   }
   end_combo();
 }
 
-void scale_resolution(App& app, double q) {
-  app.propose(with_resolution(app.requested_preset(), q));
+void scale_resolution(Ui& ui, double q) {
+  ui.session.propose(with_resolution(ui.session.requested_preset(), q));
 }
 
-void resolution_row(App& app) {
+void resolution_row(Ui& ui) {
   static constexpr const char* tip =
       "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, "
       "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
       "Tears are mended.";
-  labelled_row(app, "divide", [&](float) {
-    const Preset& preset = app.requested_preset();
-    const float gap = app.theme.px(6);
+  labelled_row(ui, "divide", [&](float) {
+    const Preset& preset = ui.session.requested_preset();
+    const float gap = ui.theme.px(6);
     const bool coarser = preset.rows >= 3 && (preset.columns >= 3 || preset.columns == 1);
-    if (text_button(app, "÷ 2", false, coarser)) scale_resolution(app, 0.5);
-    tooltip(app, gui::item_id(), tip);
+    if (text_button(ui, "÷ 2", false, coarser)) scale_resolution(ui, 0.5);
+    tooltip(ui, gui::item_id(), tip);
     ImGui::SameLine(0, gap);
     const bool finer = preset.rows * 2 - 1 <= 4096 && preset.columns * 2 - 1 <= 4096;
-    if (text_button(app, "× 2", false, finer)) scale_resolution(app, 2);
-    tooltip(app, gui::item_id(), tip);
-    ImGui::SameLine(0, app.theme.px(12));
+    if (text_button(ui, "× 2", false, finer)) scale_resolution(ui, 2);
+    tooltip(ui, gui::item_id(), tip);
+    ImGui::SameLine(0, ui.theme.px(12));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     char text[64];
     std::snprintf(text, sizeof text, "%d particles", preset.rows * preset.columns);
-    draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.small,
-                     {at.x, baseline_at(app.fonts, at.y + app.theme.px(15))}, app.theme.colors.quiet, text);
-    ImGui::Dummy({text_width(*app.fonts.small, text), app.theme.px(30)});
+    draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,
+                     {at.x, baseline_at(ui.fonts, at.y + ui.theme.px(15))}, ui.theme.colors.quiet, text);
+    ImGui::Dummy({text_width(*ui.fonts.small, text), ui.theme.px(30)});
   });
 }
 
@@ -152,28 +152,28 @@ std::string pins_text(const Pins& pins) {
   return it != names.end() ? it->second : "own list (" + std::to_string(pins.list.size()) + ")";
 }
 
-void pins_row(App& app) {
-  labelled_row(app, "pins", [&](float width) {
-    const Pins& pins = app.requested_preset().pins;
-    const bool open = begin_combo(app, "##pins", pins_text(pins).c_str(), width);
+void pins_row(Ui& ui) {
+  labelled_row(ui, "pins", [&](float width) {
+    const Pins& pins = ui.session.requested_preset().pins;
+    const bool open = begin_combo(ui, "##pins", pins_text(pins).c_str(), width);
     if (!open) {
-      tooltip(app, gui::item_id(), "Particles that never move.", "Right double-click a particle to pin or unpin it");
+      tooltip(ui, gui::item_id(), "Particles that never move.", "Right double-click a particle to pin or unpin it");
       return;
     }
     for (Pins::Mode mode : {Pins::Mode::none, Pins::Mode::top_row, Pins::Mode::top_corners, Pins::Mode::four_corners,
                             Pins::Mode::left_column, Pins::Mode::boundary}) {
       if (!ImGui::Selectable(pins_text({mode, {}}).c_str(), pins.mode == mode) || pins.mode == mode) continue;
-      Preset next = app.requested_preset();
+      Preset next = ui.session.requested_preset();
       next.pins = {mode, {}};
-      app.propose(std::move(next));
+      ui.session.propose(std::move(next));
     }
     end_combo();
   });
 }
 
-void rows(App& app, const Section& wanted) {
+void rows(Ui& ui, const Section& wanted) {
   for (const PresetRow* row : rows_of(wanted))
-    if (applies(*row, app.requested_preset())) constant_row(app, *row);
+    if (applies(*row, ui.session.requested_preset())) constant_row(ui, *row);
 }
 
 bool empty(const Section& wanted, const Preset& preset) {
@@ -193,68 +193,68 @@ bool applies(const PresetRow& row, const Preset& preset) {
   return !row.only_one_kind || row.only == preset.kind;
 }
 
-void show_constant(App& app, std::string_view key) {
-  app.ui.panels = app.settings.layout.left = true, app.ui.side_plots = app.ui.side_cloth = false;
-  app.ui.slider.wanted_key = key;
+void show_constant(Ui& ui, std::string_view key) {
+  ui.panels = ui.settings.layout.left = true, ui.side_plots = ui.side_cloth = false;
+  ui.slider.wanted_key = key;
   for (const Section& wanted : sections()) {
     const auto list = rows_of(wanted);
     if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;
-    app.settings.layout.folded.erase(wanted.name);
-    if (std::string_view(wanted.name) == "Cloth") app.settings.layout.folded.erase("Weight");
+    ui.settings.layout.folded.erase(wanted.name);
+    if (std::string_view(wanted.name) == "Cloth") ui.settings.layout.folded.erase("Weight");
   }
 }
 
-void constants_sections(App& app) {
-  const bool cloth = app.requested_preset().kind == Kind::cloth;
+void constants_sections(Ui& ui) {
+  const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
   for (const Section& wanted : sections()) {
-    if (empty(wanted, app.requested_preset())) continue;
+    if (empty(wanted, ui.session.requested_preset())) continue;
     const std::string_view name = wanted.name;
-    if (name == "Cloth" && cloth) body_sections(app);
-    if (!section(app, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
-    if (name == "Integrator") integrator_row(app);
-    rows(app, wanted);
-    if (name == "Integrator") stability_row(app);
-    if (name == "Cloth" && cloth) resolution_row(app), pins_row(app);
+    if (name == "Cloth" && cloth) body_sections(ui);
+    if (!section(ui, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
+    if (name == "Integrator") integrator_row(ui);
+    rows(ui, wanted);
+    if (name == "Integrator") stability_row(ui);
+    if (name == "Cloth" && cloth) resolution_row(ui), pins_row(ui);
   }
 }
 
 /// Height of eight rows of constants with the heads of their sections: less is too little of the list.
-float least_list(const App& app) {
-  return app.theme.px(372);
+float least_list(const Ui& ui) {
+  return ui.theme.px(372);
 }
 
 /// What goes on below the lower edge of the list fades out there instead of being cut through.
-void fade_lower_edge(App& app) {
+void fade_lower_edge(Ui& ui) {
   if (ImGui::GetScrollY() >= ImGui::GetScrollMaxY() - 1) return;
   const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
   const ImVec2 hi{lo.x + size.x - ImGui::GetStyle().ScrollbarSize, lo.y + size.y};
-  const ImU32 solid = app.theme.colors.panel, clear = faded(solid, 0);
-  const float begin = hi.y - app.theme.px(34), full = hi.y - app.theme.px(6);
+  const ImU32 solid = ui.theme.colors.panel, clear = faded(solid, 0);
+  const float begin = hi.y - ui.theme.px(34), full = hi.y - ui.theme.px(6);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilledMultiColor({lo.x, begin}, {hi.x, full}, clear, clear, solid, solid);
   draw.AddRectFilled({lo.x, full}, hi, solid);
 }
 
-void constants_panel(App& app, const Region& region) {
-  const float padding = app.theme.px(16);
-  if (!begin_region("constants", region, app.theme.colors.panel, {padding, app.theme.px(6)})) return end_region();
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(2)));
+void constants_panel(Ui& ui, const Region& region) {
+  const float padding = ui.theme.px(16);
+  if (!begin_region("constants", region, ui.theme.colors.panel, {padding, ui.theme.px(6)})) return end_region();
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(2)));
   // The picked particle stays in sight below the rows; where the window is too low it scrolls with them.
-  const float particle = particle_panel_height(app);
-  const bool fixed = ImGui::GetContentRegionAvail().y - particle > least_list(app);
+  const float particle = particle_panel_height(ui);
+  const bool fixed = ImGui::GetContentRegionAvail().y - particle > least_list(ui);
   const float below = fixed ? particle : 0;
   // The scrollbar stands in the margin, so that rows are as wide as the particle's read-outs below.
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  app.ui.row_width = room.x;
-  gui::begin_child("rows", {room.x + padding - app.theme.px(3), room.y - below});
-  if (std::exchange(app.ui.constants_to_top, false)) ImGui::SetScrollY(0);
-  constants_sections(app);
-  view_section(app);
-  if (!fixed) particle_panel(app);
-  ImGui::Dummy({0, app.theme.px(4)});
-  fade_lower_edge(app);
+  ui.row_width = room.x;
+  gui::begin_child("rows", {room.x + padding - ui.theme.px(3), room.y - below});
+  if (std::exchange(ui.constants_to_top, false)) ImGui::SetScrollY(0);
+  constants_sections(ui);
+  view_section(ui);
+  if (!fixed) particle_panel(ui);
+  ImGui::Dummy({0, ui.theme.px(4)});
+  fade_lower_edge(ui);
   ImGui::EndChild();
-  if (fixed) particle_panel(app);
+  if (fixed) particle_panel(ui);
   ImGui::PopStyleVar();
   end_region();
 }

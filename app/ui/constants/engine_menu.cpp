@@ -21,8 +21,8 @@ const OpenClDevice* device_of(const Preset& preset, const OpenClInventory* devic
   return number < int(all.size()) ? &all[std::size_t(number)] : nullptr;
 }
 
-void mode_choices(App& app, const OpenClInventory* devices) {
-  const Preset& preset = app.requested_preset();
+void mode_choices(Ui& ui, const OpenClInventory* devices) {
+  const Preset& preset = ui.session.requested_preset();
   for (const EngineMode& mode : engine_modes()) {
     const bool now = mode.engine == preset.engine && mode.precision == preset.precision;
     const std::string obstacle = now ? "" : why_not(mode, preset, devices);
@@ -30,28 +30,28 @@ void mode_choices(App& app, const OpenClInventory* devices) {
     if (ImGui::Selectable(mode.label, now, flags) && !now) {
       Preset next = preset;
       next.engine = mode.engine, next.precision = mode.precision;
-      app.propose(std::move(next));
+      ui.session.propose(std::move(next));
     }
-    report_control(app, mode.name);
-    tooltip(app, gui::item_id(), obstacle.empty() ? words_of(mode, preset, devices) : obstacle);
+    report_control(ui, mode.name);
+    tooltip(ui, gui::item_id(), obstacle.empty() ? words_of(mode, preset, devices) : obstacle);
   }
 }
 
 /// Where there are several, while one of them is in use.
-void device_choices(App& app, const OpenClInventory& inventory) {
+void device_choices(Ui& ui, const OpenClInventory& inventory) {
   if (inventory.devices.size() < 2) return;
   ImGui::Separator();
   for (int n = 0; n < int(inventory.devices.size()); ++n) {
     const OpenClDevice& device = inventory.devices[std::size_t(n)];
     ImGui::PushID(n);
-    if (ImGui::Selectable(device.name.c_str(), app.requested_preset().device == n)) {
-      Preset next = app.requested_preset();
+    if (ImGui::Selectable(device.name.c_str(), ui.session.requested_preset().device == n)) {
+      Preset next = ui.session.requested_preset();
       next.device = n;
-      app.propose(std::move(next));
+      ui.session.propose(std::move(next));
     }
     ImGui::PopID();
-    report_control(app, "device_" + std::to_string(n));
-    tooltip(app, gui::item_id(),
+    report_control(ui, "device_" + std::to_string(n));
+    tooltip(ui, gui::item_id(),
             "OpenCL device " + std::to_string(n) + ": " + device.name + " of " + device.platform + ", " +
                 std::to_string(device.compute_units) + " compute units.");
   }
@@ -90,24 +90,24 @@ std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClI
                                                       : ", in double: numbers of 16 digits, and twice the memory.");
 }
 
-void engine_menu(App& app, float width) {
-  const Preset& preset = app.requested_preset();
+void engine_menu(Ui& ui, float width) {
+  const Preset& preset = ui.session.requested_preset();
   const auto modes = engine_modes();
   const auto now = std::find_if(modes.begin(), modes.end(), [&](const EngineMode& mode) {
     return mode.engine == preset.engine && mode.precision == preset.precision;
   });
-  if (!begin_combo(app, "##engine", now->label, width)) {
-    tooltip(app, gui::item_id(), "Engine and precision. Now: " + app.simulation->engine().name());
+  if (!begin_combo(ui, "##engine", now->label, width)) {
+    tooltip(ui, gui::item_id(), "Engine and precision. Now: " + ui.session.simulation->engine().name());
     return;
   }
-  app.device_search.begin();
-  const OpenClInventory* devices = app.device_search.found();
-  if (devices == nullptr) app.ui.draw_by = std::min(app.ui.draw_by, app.ui.now + looks_again);
-  mode_choices(app, devices);
-  if (ImGui::Selectable("Automatic")) app.command(Command::choose_engine);
-  report_control(app, "automatic_engine");
-  tooltip(app, gui::item_id(), "Takes the engine that is quickest with this scene, in this precision: by short runs.");
-  if (preset.engine == EngineKind::opencl && devices != nullptr) device_choices(app, *devices);
+  ui.session.studies.devices.begin();
+  const OpenClInventory* devices = ui.session.studies.devices.found();
+  if (devices == nullptr) ui.draw_by = std::min(ui.draw_by, ui.now + looks_again);
+  mode_choices(ui, devices);
+  if (ImGui::Selectable("Automatic")) ui.command("choose_engine");
+  report_control(ui, "automatic_engine");
+  tooltip(ui, gui::item_id(), "Takes the engine that is quickest with this scene, in this precision: by short runs.");
+  if (preset.engine == EngineKind::opencl && devices != nullptr) device_choices(ui, *devices);
   end_combo();
 }
 

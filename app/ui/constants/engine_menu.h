@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
@@ -25,6 +25,6 @@ std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClIn
 std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices);
 
 /// The menu, as a combo box of that width.
-void engine_menu(App& app, float width);
+void engine_menu(Ui& ui, float width);
 
 }  // namespace tyglab

@@ -20,8 +20,8 @@ constexpr std::array<std::string_view, 7> forces{"F_s", "F_b", "F_d", "F_g", "F_
 constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
 
 /// Whether the variable can be drawn at the particle: a position is a place, not an arrow, and the one weight has none.
-bool has_arrow(const App& app, std::string_view key) {
-  return app.preset().kind == Kind::cloth && key != "x";
+bool has_arrow(const Ui& ui, std::string_view key) {
+  return ui.session.preset().kind == Kind::cloth && key != "x";
 }
 
 /// Whether a body's contact, which no formula gives, is missing from what is shown.
@@ -29,28 +29,28 @@ bool lacks_contact(const ParticleReadout* readout, std::string_view key) {
   return readout != nullptr && readout->on_body && (key == "F" || key == "a");
 }
 
-void variable_tooltip(App& app, ImGuiID id, const Variable& what, const glm::dvec3& value, bool without_contact) {
-  if (!tooltip_due(app, id)) return;
-  const Tokens& c = app.theme.colors;
-  begin_tooltip(app);
-  ImGui::PushFont(app.fonts.title);
-  wrapped(app, std::string(what.quantity) + " · " + std::string(what.storhet), c.text);
+void variable_tooltip(Ui& ui, ImGuiID id, const Variable& what, const glm::dvec3& value, bool without_contact) {
+  if (!tooltip_due(ui, id)) return;
+  const Tokens& c = ui.theme.colors;
+  begin_tooltip(ui);
+  ImGui::PushFont(ui.fonts.title);
+  wrapped(ui, std::string(what.quantity) + " · " + std::string(what.storhet), c.text);
   ImGui::PopFont();
-  wrapped(app, what.help, c.text);
-  wrapped(app, steady_vector(value) + " " + std::string(what.unit), c.text);
+  wrapped(ui, what.help, c.text);
+  wrapped(ui, steady_vector(value) + " " + std::string(what.unit), c.text);
   if (without_contact)
     wrapped(
-        app,
+        ui,
         "The particle lies on a body. Its contact corrects position and velocity after each step and is no force of "
         "the model, so it is in neither F nor the acceleration.",
         c.warning);
-  wrapped(app, "equation (" + std::string(what.equation) + ")", c.quiet);
-  if (has_arrow(app, what.key)) wrapped(app, "Click: its arrow at the particle, on or off", c.quiet);
-  end_tooltip(app);
+  wrapped(ui, "equation (" + std::string(what.equation) + ")", c.quiet);
+  if (has_arrow(ui, what.key)) wrapped(ui, "Click: its arrow at the particle, on or off", c.quiet);
+  end_tooltip(ui);
 }
 
-float line_height(const App& app) {
-  return app.theme.px(20);
+float line_height(const Ui& ui) {
+  return ui.theme.px(20);
 }
 
 /// Where numbers end, from the left of the panel: one grid for forces (two to a line) and motion (three to a line).
@@ -59,159 +59,161 @@ struct Grid {
   float second_start;                     ///< of the right force
 };
 
-Grid grid(const App& app) {
-  const float newton = app.theme.px(18), gap = app.theme.px(8);
-  const float last = app.ui.row_width - app.theme.px(34), first = std::floor((last - newton - gap) / 2);
+Grid grid(const Ui& ui) {
+  const float newton = ui.theme.px(18), gap = ui.theme.px(8);
+  const float last = ui.row_width - ui.theme.px(34), first = std::floor((last - newton - gap) / 2);
   return {first, std::floor((first + last) / 2), last, first + newton + gap};
 }
 
 /// After the symbol of what lacks the contact: refers to the note beside F.
-void contact_mark(App& app, ImVec2 symbol_at, std::string_view symbol) {
-  const float x = symbol_at.x + symbol_width(app.fonts, symbol) + app.theme.px(3);
-  draw_on_baseline(*ImGui::GetWindowDrawList(), *app.fonts.text, {x, symbol_at.y}, app.theme.colors.warning, "*");
+void contact_mark(Ui& ui, ImVec2 symbol_at, std::string_view symbol) {
+  const float x = symbol_at.x + symbol_width(ui.fonts, symbol) + ui.theme.px(3);
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.text, {x, symbol_at.y}, ui.theme.colors.warning, "*");
 }
 
-void contact_note(App& app, ImVec2 at) {
-  const float baseline = baseline_at(app.fonts, std::round(at.y + line_height(app) / 2));
+void contact_note(Ui& ui, ImVec2 at) {
+  const float baseline = baseline_at(ui.fonts, std::round(at.y + line_height(ui) / 2));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *app.fonts.text, {at.x, baseline}, app.theme.colors.warning, "*");
-  draw_on_baseline(draw, *app.fonts.small, {at.x + app.theme.px(10), baseline}, app.theme.colors.quiet,
+  draw_on_baseline(draw, *ui.fonts.text, {at.x, baseline}, ui.theme.colors.warning, "*");
+  draw_on_baseline(draw, *ui.fonts.small, {at.x + ui.theme.px(10), baseline}, ui.theme.colors.quiet,
                    "without the body's contact");
 }
 
 constexpr float tick_side = 9, sample_at = 13, sample_length = 14, symbol_at = 31;  // at scale 1
 
-void toggle_arrow(App& app, std::string_view key) {
-  std::set<std::string>& arrows = app.settings.handling.arrows;
+void toggle_arrow(Ui& ui, std::string_view key) {
+  std::set<std::string>& arrows = ui.settings.handling.arrows;
   const std::string name(key);
-  const bool drawn = app.ui.arrows && arrows.count(name) > 0;
+  const bool drawn = ui.arrows && arrows.count(name) > 0;
   if (drawn) return void(arrows.erase(name));
   arrows.insert(name);
-  app.ui.arrows = true;
+  ui.arrows = true;
 }
 
 /// The tick that shows the variable's arrow. The item before is what a click takes.
-void draw_tick(App& app, std::string_view key, float left, float middle) {
-  const Tokens& c = app.theme.colors;
-  const bool on = app.ui.arrows && app.settings.handling.arrows.count(std::string(key)) > 0;
+void draw_tick(Ui& ui, std::string_view key, float left, float middle) {
+  const Tokens& c = ui.theme.colors;
+  const bool on = ui.arrows && ui.settings.handling.arrows.count(std::string(key)) > 0;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float side = app.theme.px(tick_side), line = std::max(1.f, app.theme.px(1.2f));
+  const float side = ui.theme.px(tick_side), line = std::max(1.f, ui.theme.px(1.2f));
   const ImVec2 lo{left, std::round(middle - side / 2)}, hi{lo.x + side, lo.y + side};
   const ImU32 edge = ImGui::IsItemHovered() ? c.text : on ? c.accent : c.quiet;
-  if (on) draw.AddRectFilled(lo, hi, c.accent, app.theme.px(2));
-  draw.AddRect(lo, hi, edge, app.theme.px(2), 0, line);
+  if (on) draw.AddRectFilled(lo, hi, c.accent, ui.theme.px(2));
+  draw.AddRect(lo, hi, edge, ui.theme.px(2), 0, line);
   if (!on) return;
   const ImVec2 check[3] = {{lo.x + side * 0.22f, lo.y + side * 0.52f},
                            {lo.x + side * 0.42f, lo.y + side * 0.74f},
                            {lo.x + side * 0.8f, lo.y + side * 0.26f}};
-  draw.AddPolyline(check, 3, c.on_accent, 0, app.theme.scale * 1.4f);
+  draw.AddPolyline(check, 3, c.on_accent, 0, ui.theme.scale * 1.4f);
 }
 
 /// A tick where there is an arrow to show, and the colour and line of what is drawn or plotted.
-void tick_and_sample(App& app, std::string_view key, float left, float middle) {
-  const bool arrow = has_arrow(app, key), plotted = key.front() == 'F';
-  if (arrow) draw_tick(app, key, left, middle);
+void tick_and_sample(Ui& ui, std::string_view key, float left, float middle) {
+  const bool arrow = has_arrow(ui, key), plotted = key.front() == 'F';
+  if (arrow) draw_tick(ui, key, left, middle);
   if (!arrow && !plotted) return;
-  const ImVec2 sample[2] = {{left + app.theme.px(sample_at), middle},
-                            {left + app.theme.px(sample_at + sample_length), middle}};
-  draw_styled_line(*ImGui::GetWindowDrawList(), sample, 2, curve_style(app.theme.colors, key), app.theme.scale);
+  const ImVec2 sample[2] = {{left + ui.theme.px(sample_at), middle},
+                            {left + ui.theme.px(sample_at + sample_length), middle}};
+  draw_styled_line(*ImGui::GetWindowDrawList(), sample, 2, curve_style(ui.theme.colors, key), ui.theme.scale);
 }
 
 /// Symbol with the sample of its curve, magnitude, unit. The number ends `end` after the cell's left edge.
-void force_cell(App& app, std::string_view key, const ParticleReadout* readout, float end) {
-  const Tokens& c = app.theme.colors;
+void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end) {
+  const Tokens& c = ui.theme.colors;
   const Variable& what = variable(key);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = end + app.theme.px(18);
-  const float height = line_height(app), middle = std::round(lo.y + height / 2);
+  const float width = end + ui.theme.px(18);
+  const float height = line_height(ui), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(app, key)) toggle_arrow(app, key);
-  report_control(app, key);
-  tick_and_sample(app, key, lo.x, middle);
+  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
+  report_control(ui, key);
+  tick_and_sample(ui, key, lo.x, middle);
   const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
-  variable_tooltip(app, gui::item_id(), what, value, lacks_contact(readout, key));
+  variable_tooltip(ui, gui::item_id(), what, value, lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 symbol{lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)};
-  draw_symbol(draw, app.fonts, symbol, what.symbol, c.text);
-  if (lacks_contact(readout, key)) contact_mark(app, symbol, what.symbol);
+  const ImVec2 symbol{lo.x + ui.theme.px(symbol_at), baseline_at(ui.fonts, middle)};
+  draw_symbol(draw, ui.fonts, symbol, what.symbol, c.text);
+  if (lacks_contact(readout, key)) contact_mark(ui, symbol, what.symbol);
   const std::string text = readout != nullptr ? steady_number(glm::length(value)) : "–";
-  const ImFont& mono = *app.fonts.mono;
-  const float baseline = baseline_at(app.fonts, middle);
+  const ImFont& mono = *ui.fonts.mono;
+  const float baseline = baseline_at(ui.fonts, middle);
   draw_on_baseline(draw, mono, {lo.x + end - text_width(mono, text), baseline}, c.text, text);
-  draw_on_baseline(draw, *app.fonts.small, {lo.x + end + app.theme.px(5), baseline}, c.quiet, what.unit);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + end + ui.theme.px(5), baseline}, c.quiet, what.unit);
 }
 
 /// Symbol, three components, unit.
-void motion_line(App& app, std::string_view key, const ParticleReadout* readout) {
-  const Tokens& c = app.theme.colors;
+void motion_line(Ui& ui, std::string_view key, const ParticleReadout* readout) {
+  const Tokens& c = ui.theme.colors;
   const Variable& what = variable(key);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = app.ui.row_width, height = line_height(app), middle = std::round(lo.y + height / 2);
+  const float width = ui.row_width, height = line_height(ui), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(app, key)) toggle_arrow(app, key);
-  report_control(app, key);
-  tick_and_sample(app, key, lo.x, middle);
+  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
+  report_control(ui, key);
+  tick_and_sample(ui, key, lo.x, middle);
   const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
-  variable_tooltip(app, gui::item_id(), what, value, lacks_contact(readout, key));
+  variable_tooltip(ui, gui::item_id(), what, value, lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 symbol{lo.x + app.theme.px(symbol_at), baseline_at(app.fonts, middle)};
-  draw_symbol(draw, app.fonts, symbol, what.symbol, c.text);
-  if (lacks_contact(readout, key)) contact_mark(app, symbol, what.symbol);
-  const ImFont& mono = *app.fonts.mono;
-  const float baseline = baseline_at(app.fonts, middle);
-  const Grid columns = grid(app);
+  const ImVec2 symbol{lo.x + ui.theme.px(symbol_at), baseline_at(ui.fonts, middle)};
+  draw_symbol(draw, ui.fonts, symbol, what.symbol, c.text);
+  if (lacks_contact(readout, key)) contact_mark(ui, symbol, what.symbol);
+  const ImFont& mono = *ui.fonts.mono;
+  const float baseline = baseline_at(ui.fonts, middle);
+  const Grid columns = grid(ui);
   const float ends[3] = {columns.first_end, columns.middle_end, columns.last_end};
   for (int k = 0; k < 3; ++k) {
     const std::string text = readout != nullptr ? steady_number(value[k]) : "–";
     draw_on_baseline(draw, mono, {lo.x + ends[k] - text_width(mono, text), baseline}, c.text, text);
   }
-  draw_on_baseline(draw, *app.fonts.small, {lo.x + columns.last_end + app.theme.px(5), baseline}, c.quiet, what.unit);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + columns.last_end + ui.theme.px(5), baseline}, c.quiet, what.unit);
 }
 
 constexpr const char* card_title = "Picked particle";
 
 }  // namespace
 
-float particle_panel_height(const App& app) {
-  const float spacing = app.theme.px(2), title = app.theme.px(2) + app.theme.px(22) + 2 * spacing;
-  const bool open = app.settings.layout.folded.count(card_title) == 0;
+float particle_panel_height(const Ui& ui) {
+  const float spacing = ui.theme.px(2), title = ui.theme.px(2) + ui.theme.px(22) + 2 * spacing;
+  const bool open = ui.settings.layout.folded.count(card_title) == 0;
   const int lines = open ? int(forces.size() + 1) / 2 + int(motion.size()) : 0;
-  return title + float(lines) * (line_height(app) + spacing) + app.theme.px(8);
+  return title + float(lines) * (line_height(ui) + spacing) + ui.theme.px(8);
 }
 
-void particle_panel(App& app) {
-  const Tokens& c = app.theme.colors;
+void particle_panel(Ui& ui) {
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool open = section(app, card_title);
+  const bool open = section(ui, card_title);
   char where[64] = "none: right-click one";
-  if (app.picked) {
-    const bool pinned = app.simulation->pinned(app.picked->i, app.picked->j);
-    std::snprintf(where, sizeof where, "(%d, %d)%s", app.picked->i, app.picked->j, pinned ? ", pinned" : "");
+  if (ui.session.picked) {
+    const bool pinned = ui.session.simulation->pinned(ui.session.picked->i, ui.session.picked->j);
+    std::snprintf(where, sizeof where, "(%d, %d)%s", ui.session.picked->i, ui.session.picked->j,
+                  pinned ? ", pinned" : "");
   }
-  if (app.preset().kind == Kind::one_weight) std::snprintf(where, sizeof where, "the weight");
-  const ImFont& small = *app.fonts.small;
-  const float x = lo.x + app.theme.px(118);
-  const float y = lo.y + app.theme.px(4) + std::round((app.theme.px(22) - small.FontSize) / 2);
+  if (ui.session.preset().kind == Kind::one_weight) std::snprintf(where, sizeof where, "the weight");
+  const ImFont& small = *ui.fonts.small;
+  const float x = lo.x + ui.theme.px(118);
+  const float y = lo.y + ui.theme.px(4) + std::round((ui.theme.px(22) - small.FontSize) / 2);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float end = x + text_width(small, where) + app.theme.px(8);
-  draw.AddRectFilled({x - app.theme.px(6), y}, {end, y + small.FontSize + 2}, c.panel);
+  const float end = x + text_width(small, where) + ui.theme.px(8);
+  draw.AddRectFilled({x - ui.theme.px(6), y}, {end, y + small.FontSize + 2}, c.panel);
   draw_text(draw, small, {x, y}, c.text, where);
   if (!open) return;
   ParticleReadout readout;
   const ParticleReadout* shown = nullptr;
-  if (app.picked) readout = app.simulation->particle(app.picked->i, app.picked->j), shown = &readout;
-  const Grid columns = grid(app);
+  if (ui.session.picked)
+    readout = ui.session.simulation->particle(ui.session.picked->i, ui.session.picked->j), shown = &readout;
+  const Grid columns = grid(ui);
   for (std::size_t k = 0; k < forces.size(); ++k) {
     const bool right = k % 2 == 1;
     if (right)
       ImGui::SameLine(0, 0), ImGui::SetCursorScreenPos({lo.x + columns.second_start, ImGui::GetCursorScreenPos().y});
-    force_cell(app, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end);
+    force_cell(ui, forces[k], shown, right ? columns.last_end - columns.second_start : columns.first_end);
   }
   // F stands alone on the last line of the forces.
-  if (lacks_contact(shown, "F")) contact_note(app, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});
-  for (std::string_view key : motion) motion_line(app, key, shown);
+  if (lacks_contact(shown, "F")) contact_note(ui, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});
+  for (std::string_view key : motion) motion_line(ui, key, shown);
 }
 
 }  // namespace tyglab

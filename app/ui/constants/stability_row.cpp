@@ -27,44 +27,44 @@ std::string two_digits(double value) {
   return text;
 }
 
-void draw_gauge(App& app, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
-  const Tokens& c = app.theme.colors;
-  const double part = app.requested_preset().dt / limits.any;
-  const float rounding = app.theme.px(3), width = hi.x - lo.x;
+void draw_gauge(Ui& ui, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
+  const Tokens& c = ui.theme.colors;
+  const double part = ui.session.requested_preset().dt / limits.any;
+  const float rounding = ui.theme.px(3), width = hi.x - lo.x;
   const auto at = [&](double of) { return lo.x + width * float(std::clamp(of / full, 0.0, 1.0)); };
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(lo, hi, c.field, rounding);
   draw.AddRectFilled(lo, {std::max(at(part), lo.x + 2 * rounding), hi.y}, color_of(c, part), rounding);
-  const float reach = app.theme.px(3), line = app.theme.px(2);
+  const float reach = ui.theme.px(3), line = ui.theme.px(2);
   draw.AddLine({at(1), lo.y - reach}, {at(1), hi.y + reach}, c.text, line);
   if (limits.now && *limits.now > 0 && *limits.now < full * limits.any)
-    draw.AddCircleFilled({at(*limits.now / limits.any), (lo.y + hi.y) / 2}, app.theme.px(3), c.text, 16);
+    draw.AddCircleFilled({at(*limits.now / limits.any), (lo.y + hi.y) / 2}, ui.theme.px(3), c.text, 16);
 }
 
 /// "auto" where other rows have their unit: dt follows the constants.
-void auto_toggle(App& app, ImVec2 at, float width, float height) {
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.small;
-  const bool on = app.auto_dt.has_value();
+void auto_toggle(Ui& ui, ImVec2 at, float width, float height) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.small;
+  const bool on = ui.session.auto_dt.has_value();
   const ImVec2 after = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos(at);
-  if (ImGui::InvisibleButton("auto", {width, height})) app.command(Command::toggle_auto);
-  report_control(app, "auto");
+  if (ImGui::InvisibleButton("auto", {width, height})) ui.command("toggle_auto");
+  report_control(ui, "auto");
   const bool hovered = ImGui::IsItemHovered();
-  tooltip(app, gui::item_id(),
+  tooltip(ui, gui::item_id(),
           on ? "dt is chosen by the program: 0.8 of what is stable in any configuration, less where the ledger finds "
                "that the method makes energy. Click to keep it as it is."
              : "Let the program choose dt, and watch it: 0.8 of what is stable in any configuration, less where the "
                "ledger finds that the method makes energy.");
-  const float inset = std::round((height - app.theme.px(20)) / 2);
+  const float inset = std::round((height - ui.theme.px(20)) / 2);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + inset}, {at.x + width, at.y + height - inset},
                      on        ? c.accent
                      : hovered ? c.field_hover
                                : c.field,
-                     app.theme.px(4));
+                     ui.theme.px(4));
   const float x = at.x + (width - text_width(font, "auto")) / 2;
-  draw_on_baseline(draw, font, {x, baseline_at(app.fonts, at.y + height / 2)}, on ? c.on_accent : c.quiet, "auto");
+  draw_on_baseline(draw, font, {x, baseline_at(ui.fonts, at.y + height / 2)}, on ? c.on_accent : c.quiet, "auto");
   ImGui::SetCursorScreenPos(after);
 }
 
@@ -92,34 +92,33 @@ std::string stability_words(const StabilityLimits& limits, double dt) {
   return text + " One-sided springs switch, so this is advice and no promise.";
 }
 
-void stability_row(App& app) {
-  app.stability.poll(app);
-  const auto& limits = app.stability.limits();
-  labelled_row(app, "limit", [&](float width) {
-    const RowColumns columns = row_columns(app);
+void stability_row(Ui& ui) {
+  const auto& limits = ui.session.studies.stability.limits();
+  labelled_row(ui, "limit", [&](float width) {
+    const RowColumns columns = row_columns(ui);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const float height = app.theme.px(30);  // as the labels of such rows are placed
+    const float height = ui.theme.px(30);  // as the labels of such rows are placed
     ImGui::Dummy({width, height});
-    report_control(app, "stability");
-    const bool wants_words = tooltip_due(app, ImGui::GetID("stability"));
-    auto_toggle(app, {lo.x + width - columns.unit, lo.y}, columns.unit, height);
+    report_control(ui, "stability");
+    const bool wants_words = tooltip_due(ui, ImGui::GetID("stability"));
+    auto_toggle(ui, {lo.x + width - columns.unit, lo.y}, columns.unit, height);
     if (!limits) return;
-    const Tokens& c = app.theme.colors;
-    const double dt = app.requested_preset().dt;
+    const Tokens& c = ui.theme.colors;
+    const double dt = ui.session.requested_preset().dt;
     const bool bounded = limits->any > 0 && std::isfinite(limits->any);
     const float bar = width - columns.value - columns.unit - 2 * columns.gap, middle = lo.y + height / 2;
-    const float half = app.theme.px(4);
+    const float half = ui.theme.px(4);
     const std::string text = stability_text(*limits, dt);
     const float right = lo.x + bar + columns.gap + columns.value;
-    if (bounded) draw_gauge(app, *limits, {lo.x, middle - half}, {lo.x + bar, middle + half});
-    const ImFont& font = bounded ? *app.fonts.mono : *app.fonts.small;
-    const float x = bounded ? right - app.theme.px(6) - text_width(font, text) : lo.x;
-    draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x, baseline_at(app.fonts, middle)},
+    if (bounded) draw_gauge(ui, *limits, {lo.x, middle - half}, {lo.x + bar, middle + half});
+    const ImFont& font = bounded ? *ui.fonts.mono : *ui.fonts.small;
+    const float x = bounded ? right - ui.theme.px(6) - text_width(font, text) : lo.x;
+    draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x, baseline_at(ui.fonts, middle)},
                      bounded            ? color_of(c, dt / limits->any)
                      : limits->any == 0 ? c.danger
                                         : c.quiet,
                      text);
-    if (wants_words) tooltip(app, ImGui::GetID("stability"), stability_words(*limits, dt));
+    if (wants_words) tooltip(ui, ImGui::GetID("stability"), stability_words(*limits, dt));
   });
 }
 

@@ -7,10 +7,10 @@
 
 namespace tyglab {
 
-struct App;
+struct Ui;
 
 /// dt over dt_crit in any configuration, as a bar with a number; a mark where the limit of the cloth as it hangs lies.
-void stability_row(App& app);
+void stability_row(Ui& ui);
 
 /// The gauge's number: "0.57", "no limit", "always above".
 std::string stability_text(const StabilityLimits& limits, double dt);

@@ -14,18 +14,17 @@ ImU32 zone_color(const Tokens& c, Zone zone) {
 }
 
 /// Colour is never the only sign: what is unstable is hatched and thicker.
-void draw_span(App& app, Zone zone, ImVec2 lo, ImVec2 hi) {
+void draw_span(Ui& ui, Zone zone, ImVec2 lo, ImVec2 hi) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImU32 color = zone_color(app.theme.colors, zone);
+  const ImU32 color = zone_color(ui.theme.colors, zone);
   if (zone != Zone::unstable) {
-    draw.AddRectFilled(lo, {hi.x, lo.y + app.theme.px(2)}, faded(color, zone == Zone::stable ? 0.7f : 1));
+    draw.AddRectFilled(lo, {hi.x, lo.y + ui.theme.px(2)}, faded(color, zone == Zone::stable ? 0.7f : 1));
     return;
   }
   draw.PushClipRect(lo, hi, true);
   draw.AddRectFilled(lo, hi, faded(color, 0.55f));
-  const float tall = hi.y - lo.y, apart = app.theme.px(5);
-  for (float x = lo.x - tall; x < hi.x; x += apart)
-    draw.AddLine({x, hi.y}, {x + tall, lo.y}, color, app.theme.px(1.6f));
+  const float tall = hi.y - lo.y, apart = ui.theme.px(5);
+  for (float x = lo.x - tall; x < hi.x; x += apart) draw.AddLine({x, hi.y}, {x + tall, lo.y}, color, ui.theme.px(1.6f));
   draw.PopClipRect();
 }
 
@@ -41,18 +40,18 @@ std::string no_part_of_it(std::string_view key) {
 
 }  // namespace
 
-void draw_zones(App& app, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi) {
-  const auto& limits = app.stability.limits();
-  if (!limits || app.auto_dt) return;
+void draw_zones(Ui& ui, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi) {
+  const auto& limits = ui.session.studies.stability.limits();
+  if (!limits || ui.session.auto_dt) return;
   const auto zones = limits->zones.find(key);
   if (zones == limits->zones.end() || std::isinf(limits->any)) return;
-  const float top = std::round((lo.y + hi.y) / 2 + app.theme.px(9)), foot = top + app.theme.px(4);
+  const float top = std::round((lo.y + hi.y) / 2 + ui.theme.px(9)), foot = top + ui.theme.px(4);
   for (const ZoneSpan& span : zones->second) {
     const auto at = [&](double value) {
       return std::round(lo.x + float(std::clamp(slider_position(scale, value), 0.0, 1.0)) * (hi.x - lo.x));
     };
     const float from = at(span.from), to = at(span.to);
-    if (to > from) draw_span(app, span.zone, {from, top}, {to, foot});
+    if (to > from) draw_span(ui, span.zone, {from, top}, {to, foot});
   }
 }
 

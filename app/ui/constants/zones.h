@@ -6,12 +6,13 @@
 
 #include "app/studies/stability_watch.h"
 #include "app/ui/kit/slider.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
 /// A strip under the slider at `lo` to `hi`, for constants that have zones; nothing while dt is automatic, since it
 /// then follows.
-void draw_zones(App& app, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi);
+void draw_zones(Ui& ui, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi);
 
 /// "Verlet breaks above k_s = 412 N/m; implicit Euler does not." Empty for a constant without zones, and for methods
 /// that no dt makes unstable.

@@ -1,191 +1,487 @@
 #include "app/ui/frame/commands.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
+#include <imgui.h>
 #include <algorithm>
-#include <array>
+#include <stdexcept>
+
+#include "app/base/glfw_keys.h"
+#include "app/session/document.h"
+#include "app/session/motion.h"
+#include "app/tools/wind_arrow.h"
+#include "app/ui/cards/cards.h"
+#include "app/ui/frame/dialogs.h"
+#include "app/ui/frame/palette.h"
+#include "app/ui/frame/tour.h"
+#include "core/model/notation.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
 
 constexpr int control = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
 
-}  // namespace
+template <void (*action)(Session&)>
+void of_session(Ui& ui) {
+  action(ui.session);
+}
+template <bool Ui::*flag>
+void toggle(Ui& ui) {
+  ui.*flag = !(ui.*flag);
+}
+template <Dialog::Kind kind>
+void dialog(Ui& ui) {
+  open_dialog(ui, kind);
+}
+template <const char* const& name>
+void show(Ui& ui) {
+  show_card(ui, name);
+}
+template <const char* const& name, bool Layout::*there>
+void toggle_card_of(Ui& ui) {
+  toggle_card(ui, name, there);
+}
 
-std::span<const CommandRow> command_rows() {
-  static const std::array<CommandRow, 54> rows{{
-      {Command::toggle_play, "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop"},
-      {Command::step,
+void toggle_play(Ui& ui) {
+  Pacing& pacing = ui.session.pacing;
+  pacing.playing = !pacing.playing;
+  pacing.restart_measure();
+}
+
+void step_once(Ui& ui) {
+  single_step(ui.session, ui.tools.session_input().hand);
+}
+
+std::string nothing_earlier(const Ui& ui) {
+  const Simulation& simulation = *ui.session.simulation;
+  const bool there = ui.session.rewind.before(simulation, simulation.time(), 1) != nullptr;
+  return there && !ui.session.rebuild.holds_present() ? "" : "There is nothing earlier to go back to.";
+}
+
+void rewind_a_second(Ui& ui) {
+  ui.session.pacing.playing &= !ui.session.simulation->divergence();
+  rewind(ui.session);
+}
+
+void frame_cloth(Ui& ui) {
+  ui.scene.wants_framing = true;
+}
+
+std::string palette_is_open(const Ui& ui) {
+  return ui.palette.open ? "The list of commands is open." : "";
+}
+
+void find_command(Ui& ui) {
+  open_palette(ui);
+}
+
+void choose_lab(Ui& ui) {
+  open_palette(ui, true);
+}
+
+std::string no_lab(const Ui& ui) {
+  return ui.session.labs.run ? "" : "There is no lab in progress.";
+}
+
+std::string no_weight(const Ui& ui) {
+  return ui.session.preset().kind == Kind::one_weight ? "" : "That belongs to the mass on a spring; this is a cloth.";
+}
+
+std::string no_cloth(const Ui& ui) {
+  return ui.session.preset().kind == Kind::cloth ? "" : "Only a cloth can be colored, and this is one weight.";
+}
+
+std::string no_copies(const Ui& ui) {
+  return ui.session.copies.lockstep.empty() ? "There is no copy to measure; add one first." : "";
+}
+
+void next_color(Ui& ui) {
+  color_by(ui, next_field(ui.scene));
+}
+
+/// Opens the card that shows it, where it is measured from the present moment on.
+void show_convergence(Ui& ui) {
+  show_card(ui, card_name::accuracy);
+  ui.session.studies.convergence.drop();
+  ui.plots.convergence = true;
+}
+
+/// All effects however long they take, or as many as the machine draws in time.
+void toggle_effects(Ui& ui) {
+  Effects& effects = ui.scene.effects;
+  const bool all = effects.mode != Effects::Mode::all;
+  effects.mode = all ? Effects::Mode::all : Effects::Mode::automatic;
+  ui.settings.all_effects = all;
+}
+
+void toggle_cut_path(Ui& ui) {
+  bool& along = ui.settings.handling.cut_along_path;
+  along = !along;
+  ui.messages.note(along ? "A left drag cuts every spring that its path crosses."
+                         : "A left drag cuts the springs upwards of the particles near it, as in the report.");
+}
+
+void toggle_wind_arrow(Ui& ui) {
+  ui.tools.wind_arrow = !wind_arrow_shown(ui.tools);
+}
+
+void toggle_slow_hand(Ui& ui) {
+  bool& slow = ui.settings.handling.slow_hand;
+  slow = !slow;
+  ui.messages.note(slow ? "While you grab or cut, time goes at a quarter of its speed."
+                        : "Time goes at its speed while you grab or cut.");
+}
+
+void toggle_full_screen(Ui& ui) {
+  ui.toggle_full_screen = true;
+}
+
+void save(Ui& ui) {
+  const Document& document = ui.session.document;
+  if (document.file.empty()) return open_dialog(ui, Dialog::Kind::save);
+  save_document_as(ui.session, document.file, ui.session.preset().name);
+}
+
+std::string nothing_to_undo(const Ui& ui) {
+  return ui.session.history.can_undo() ? "" : "There is nothing to undo.";
+}
+
+std::string nothing_to_redo(const Ui& ui) {
+  return ui.session.history.can_redo() ? "" : "There is nothing to redo.";
+}
+
+void undo(Ui& ui) {
+  take_from_history(ui.session, true);
+}
+
+void redo(Ui& ui) {
+  take_from_history(ui.session, false);
+}
+
+void undo_and_restart(Ui& ui) {
+  take_from_history(ui.session, true);
+  restart(ui.session);
+}
+
+std::string nothing_changed(const Ui& ui) {
+  return unsaved(ui.session) ? "" : "The constants are those of the preset.";
+}
+
+void reset_constants(Ui& ui) {
+  take_back(ui.session, ui.session.document.saved);
+}
+
+void reset_all(Ui& ui) {
+  reset_everything(ui.session);
+  ui.scene.wants_framing = true;
+}
+
+void choose_fastest_engine(Ui& ui) {
+  ui.session.studies.engine.begin(ui.session.requested_preset(), ui.session.threads);
+}
+
+/// "--set k_s=80" for each constant, so that a command line makes the same scene.
+void copy_as_options(Ui& ui) {
+  const Preset preset = ui.session.requested_preset();
+  std::string text;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    text += (text.empty() ? "--set " : " --set ") + std::string(key) + "=" + value;
+  };
+  for (const PresetRow& row : notation()) {
+    if (row.effect == Effect::view || (row.only_one_kind && row.only != preset.kind)) continue;
+    if (const auto* number = std::get_if<double Preset::*>(&row.field)) add(row.key, shortest_number(preset.**number));
+    if (const auto* count = std::get_if<int Preset::*>(&row.field)) add(row.key, std::to_string(preset.**count));
+    if (const auto* word = std::get_if<std::string Preset::*>(&row.field)) add(row.key, preset.**word);
+    if (const auto* vector = std::get_if<glm::dvec3 Preset::*>(&row.field)) {
+      const glm::dvec3& v = preset.**vector;
+      add(row.key, "[" + shortest_number(v.x) + "," + shortest_number(v.y) + "," + shortest_number(v.z) + "]");
+    }
+  }
+  ImGui::SetClipboardText(text.c_str());
+  ui.messages.note("Copied the constants as --set options.");
+}
+
+void scale_text(Ui& ui, double scale) {
+  ui.settings.ui_scale = std::clamp(scale, 0.5, 3.0);
+  ui.scale_changed = true;
+}
+void larger_text(Ui& ui) {
+  scale_text(ui, ui.settings.ui_scale * 1.1);
+}
+void smaller_text(Ui& ui) {
+  scale_text(ui, ui.settings.ui_scale / 1.1);
+}
+void normal_text(Ui& ui) {
+  scale_text(ui, 1);
+}
+
+/// Dark, light, projector, and again.
+void next_theme(Ui& ui) {
+  const auto all = looks();
+  const auto now = std::size_t(&look(ui.settings.theme) - all.data());
+  ui.settings.theme = all[(now + 1) % all.size()].name;
+  ui.scale_changed = ui.scene.redraw = true;
+}
+
+void request_quit(Ui& ui) {
+  ui.session.request(request::Quit{});
+}
+
+std::vector<CommandRow> all_rows() {
+  std::vector<CommandRow> rows{
+      {"toggle_play", "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop", toggle_play},
+      {"step",
        "One step of dt",
        "→ or O",
        {{GLFW_KEY_RIGHT, 0, true}, {GLFW_KEY_O, 0, true}},
        "makes one step of dt",
-       "single"},
-      {Command::rewind, "Rewind a second", "←", {{GLFW_KEY_LEFT, 0, true}}, "goes a second back", "back"},
-      {Command::restart,
+       "single",
+       step_once},
+      {"rewind",
+       "Rewind a second",
+       "←",
+       {{GLFW_KEY_LEFT, 0, true}},
+       "goes a second back",
+       "back",
+       rewind_a_second,
+       nothing_earlier},
+      {"restart",
        "Restart the motion",
        "R or Backspace",
        {{GLFW_KEY_R, 0}, {GLFW_KEY_BACKSPACE, 0}},
        "restarts the motion, keeps the constants",
-       "begin again"},
-      {Command::frame_cloth, "Frame the cloth", "F", {{GLFW_KEY_F, 0}}, "frames the cloth", "camera zoom view"},
-      {Command::open_palette,
+       "begin again",
+       of_session<restart>},
+      {"frame_cloth", "Frame the cloth", "F", {{GLFW_KEY_F, 0}}, "frames the cloth", "camera zoom view", frame_cloth},
+      {"open_palette",
        "Find a command…",
        "Ctrl+P",
        {{GLFW_KEY_P, control}},
-       "finds commands, presets, labs and constants"},
-      {Command::toggle_help, "Mouse and keys", "F1", {{GLFW_KEY_F1, 0}}, "this help", "help shortcuts"},
-      {Command::start_tour, "Take the tour", "", {}, "", "help introduction welcome"},
-      {Command::choose_lab, "Labs…", "Ctrl+L", {{GLFW_KEY_L, control}}, "chooses a lab", "lessons exercises course"},
-      {Command::leave_lab, "Leave the lab", "", {}, "", "quit end"},
-      {Command::toggle_panels, "All panels", "Tab", {{GLFW_KEY_TAB, 0}}, "hides the panels", "show"},
-      {Command::toggle_map,
+       "finds commands, presets, labs and constants",
+       "",
+       find_command,
+       palette_is_open},
+      {"toggle_help", "Mouse and keys", "F1", {{GLFW_KEY_F1, 0}}, "this help", "help shortcuts", toggle<&Ui::help>},
+      {"start_tour", "Take the tour", "", {}, "", "help introduction welcome", start_tour},
+      {"choose_lab",
+       "Labs…",
+       "Ctrl+L",
+       {{GLFW_KEY_L, control}},
+       "chooses a lab",
+       "lessons exercises course",
+       choose_lab},
+      {"leave_lab", "Leave the lab", "", {}, "", "quit end", of_session<leave_lab>, no_lab},
+      {"toggle_panels", "All panels", "Tab", {{GLFW_KEY_TAB, 0}}, "hides the panels", "show", toggle<&Ui::panels>},
+      {"toggle_map",
        "Map of k_s and dt",
        "M",
        {{GLFW_KEY_M, 0}},
        "maps which k_s and dt are stable",
-       "stability card"},
-      {Command::toggle_inside,
+       "stability card",
+       toggle_card_of<card_name::map, &Layout::map>},
+      {"toggle_inside",
        "Inside a step",
        "I",
        {{GLFW_KEY_I, 0}},
        "looks inside a step of the picked particle",
-       "formula springs particle"},
-      {Command::show_forces, "Forces card", "", {}, "", "plot curves particle"},
-      {Command::show_height, "Height card", "", {}, "", "plot curve weight figure"},
-      {Command::show_copies, "Copies card", "", {}, "", "compare lockstep beside add a copy"},
-      {Command::show_distances, "Distances of the copies", "", {}, "", "plot card compare lockstep apart"},
-      {Command::show_stability, "Stability card", "", {}, "", "growth spectral radius limit dt"},
-      {Command::show_accuracy, "Accuracy card", "", {}, "", "error reference cost"},
-      {Command::show_energy, "Energy card", "", {}, "", "ledger work kinetic potential"},
-      {Command::show_performance, "Performance card", "", {}, "", "speed memory frame cost features"},
-      {Command::next_color,
+       "formula springs particle",
+       toggle_card_of<card_name::step, &Layout::inside>},
+      {"show_forces", "Forces card", "", {}, "", "plot curves particle", show<card_name::forces>},
+      {"show_height", "Height card", "", {}, "", "plot curve weight figure", show<card_name::height>, no_weight},
+      {"show_copies", "Copies card", "", {}, "", "compare lockstep beside add a copy", show<card_name::copies>},
+      {"show_distances",
+       "Distances of the copies",
+       "",
+       {},
+       "",
+       "plot card compare lockstep apart",
+       show<card_name::distances>,
+       no_copies},
+      {"show_stability", "Stability card", "", {}, "", "growth spectral radius limit dt", show<card_name::stability>},
+      {"show_accuracy", "Accuracy card", "", {}, "", "error reference cost", show<card_name::accuracy>},
+      {"show_energy", "Energy card", "", {}, "", "ledger work kinetic potential", show<card_name::energy>},
+      {"show_performance",
+       "Performance card",
+       "",
+       {},
+       "",
+       "speed memory frame cost features",
+       show<card_name::performance>},
+      {"next_color",
        "Next colouring of the cloth",
        "K",
        {{GLFW_KEY_K, 0}},
        "colours the cloth by tension, strain, speed, …",
-       "colors heat map"},
-      {Command::measure_convergence, "Order of convergence", "", {}, "", "accuracy error dt slope measured"},
-      {Command::toggle_effects,
+       "colors heat map",
+       next_color,
+       no_cloth},
+      {"measure_convergence", "Order of convergence", "", {}, "", "accuracy error dt slope measured", show_convergence},
+      {"toggle_effects",
        "All effects, however slow to draw",
        "",
        {},
        "",
-       "shadows smooth edges quality graphics"},
-      {Command::save_picture,
+       "shadows smooth edges quality graphics",
+       toggle_effects},
+      {"save_picture",
        "Save a picture…",
        "Ctrl+Shift+P",
        {{GLFW_KEY_P, control | shift}},
        "saves a picture of the cloth",
-       "png screenshot image export"},
-      {Command::toggle_cut_path,
+       "png screenshot image export",
+       dialog<Dialog::Kind::picture>},
+      {"toggle_cut_path",
        "Cut along the path, or upwards",
        "C",
        {{GLFW_KEY_C, 0}},
        "cuts along the pointer's path, or upwards",
-       "knife scissors tool mode springs"},
-      {Command::toggle_wind_arrow,
+       "knife scissors tool mode springs",
+       toggle_cut_path},
+      {"toggle_wind_arrow",
        "Wind arrow",
        "W",
        {{GLFW_KEY_W, 0}},
        "shows the wind as an arrow to drag",
-       "gust blow"},
-      {Command::toggle_slow_hand,
+       "gust blow",
+       toggle_wind_arrow},
+      {"toggle_slow_hand",
        "Slow motion in the hand, on or off",
        "H",
        {{GLFW_KEY_H, 0}},
        "slow motion while you grab or cut",
-       "speed quarter grab"},
-      {Command::full_screen, "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window"},
-      {Command::open_dialog, "Open…", "Ctrl+O", {{GLFW_KEY_O, control}}, "opens a preset", "file load"},
-      {Command::save, "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write"},
-      {Command::save_as,
+       "speed quarter grab",
+       toggle_slow_hand},
+      {"full_screen", "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window", toggle_full_screen},
+      {"open_dialog",
+       "Open…",
+       "Ctrl+O",
+       {{GLFW_KEY_O, control}},
+       "opens a preset",
+       "file load",
+       dialog<Dialog::Kind::open>},
+      {"save", "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write", save},
+      {"save_as",
        "Save as…",
        "Ctrl+Shift+S",
        {{GLFW_KEY_S, control | shift}},
        "saves it under another name",
-       "file write"},
-      {Command::undo, "Undo", "Ctrl+Z", {{GLFW_KEY_Z, control, true}}, "takes back a change of constants"},
-      {Command::redo,
+       "file write",
+       dialog<Dialog::Kind::save>},
+      {"undo",
+       "Undo",
+       "Ctrl+Z",
+       {{GLFW_KEY_Z, control, true}},
+       "takes back a change of constants",
+       "",
+       undo,
+       nothing_to_undo},
+      {"redo",
        "Redo",
        "Ctrl+Shift+Z",
        {{GLFW_KEY_Z, control | shift, true}, {GLFW_KEY_Y, control, true}},
-       "makes it again"},
-      {Command::undo_and_restart, "Undo and restart", "", {}, ""},
-      {Command::reset_constants,
+       "makes it again",
+       "",
+       redo,
+       nothing_to_redo},
+      {"undo_and_restart", "Undo and restart", "", {}, "", "", undo_and_restart, nothing_to_undo},
+      {"reset_constants",
        "Reset all constants to the preset",
        "Ctrl+R",
        {{GLFW_KEY_R, control}},
-       "constants back to the preset"},
-      {Command::reset_everything,
+       "constants back to the preset",
+       "",
+       reset_constants,
+       nothing_changed},
+      {"reset_everything",
        "Reset everything",
        "Ctrl+Shift+R",
        {{GLFW_KEY_R, control | shift}},
-       "everything back to the preset"},
-      {Command::toggle_auto, "dt chosen by the program", "", {}, "", "automatic time step"},
-      {Command::choose_engine, "Engine chosen by the program", "", {}, "", "automatic opencl cpu fastest"},
-      {Command::load_texture_dialog, "Take a picture as texture…", "", {}, "", "image cloth"},
-      {Command::export_forces, "Write the forces as CSV…", "", {}, "", "export plot series"},
-      {Command::export_height, "Write the height of the weight as CSV…", "", {}, "", "export plot series"},
-      {Command::export_map, "Write the map as CSV…", "", {}, "", "export stability"},
-      {Command::export_map_picture, "Write the map as PNG…", "", {}, "", "export stability picture"},
-      {Command::export_copies, "Write the copies' distances as CSV…", "", {}, "", "export lockstep"},
-      {Command::export_values,
-       "Write every particle's values as CSV…",
+       "everything back to the preset",
+       "",
+       reset_all},
+      {"toggle_auto", "dt chosen by the program", "", {}, "", "automatic time step", of_session<toggle_auto_dt>},
+      {"choose_engine",
+       "Engine chosen by the program",
        "",
        {},
        "",
-       "export tension strain speed energy"},
-      {Command::export_mesh,
-       "Write the cloth as OBJ…",
-       "Ctrl+E",
-       {{GLFW_KEY_E, control}},
-       "writes the cloth as a mesh",
-       "export wavefront blender 3d geometry"},
-      {Command::export_state,
-       "Write the state as CSV…",
-       "",
-       {},
-       "",
-       "export every particle's position velocity coordinates"},
-      {Command::export_convergence, "Write the convergence as CSV…", "", {}, "", "export accuracy order"},
-      {Command::larger_text,
-       "Larger text",
-       "Ctrl++",
-       // "+" of Swedish keyboards is elsewhere.
-       {{GLFW_KEY_EQUAL, control, true},
-        {GLFW_KEY_EQUAL, control | shift, true},
-        {GLFW_KEY_KP_ADD, control, true},
-        {GLFW_KEY_RIGHT_BRACKET, control, true}},
-       "larger text",
-       "scale size"},
-      {Command::smaller_text,
-       "Smaller text",
-       "Ctrl+-",
-       {{GLFW_KEY_MINUS, control, true}, {GLFW_KEY_KP_SUBTRACT, control, true}, {GLFW_KEY_SLASH, control, true}},
-       "smaller text",
-       "scale size"},
-      {Command::normal_text,
-       "Normal text",
-       "Ctrl+0",
-       {{GLFW_KEY_0, control}, {GLFW_KEY_KP_0, control}},
-       "normal text",
-       "scale size"},
-      {Command::next_theme,
-       "Next theme: dark, light, projector",
-       "Ctrl+T",
-       {{GLFW_KEY_T, control}},
-       "dark, light or projector theme",
-       "colours look contrast"},
-      {Command::quit, "Quit", "Ctrl+Q", {{GLFW_KEY_Q, control}}, "quits", "end close exit"},
-  }};
+       "automatic opencl cpu fastest",
+       choose_fastest_engine},
+      {"load_texture_dialog", "Take a picture as texture…", "", {}, "", "image cloth", dialog<Dialog::Kind::texture>}};
+  for (CommandRow& row : export_rows()) rows.push_back(std::move(row));
+  for (CommandRow& row : std::vector<CommandRow>{
+           {"copy_options",
+            "Copy the present constants as --set options",
+            "",
+            {},
+            "",
+            "command line clipboard share export",
+            copy_as_options},
+           {"larger_text",
+            "Larger text",
+            "Ctrl++",  // "+" of Swedish keyboards is elsewhere.
+            {{GLFW_KEY_EQUAL, control, true},
+             {GLFW_KEY_EQUAL, control | shift, true},
+             {GLFW_KEY_KP_ADD, control, true},
+             {GLFW_KEY_RIGHT_BRACKET, control, true}},
+            "larger text",
+            "scale size",
+            larger_text},
+           {"smaller_text",
+            "Smaller text",
+            "Ctrl+-",
+            {{GLFW_KEY_MINUS, control, true}, {GLFW_KEY_KP_SUBTRACT, control, true}, {GLFW_KEY_SLASH, control, true}},
+            "smaller text",
+            "scale size",
+            smaller_text},
+           {"normal_text",
+            "Normal text",
+            "Ctrl+0",
+            {{GLFW_KEY_0, control}, {GLFW_KEY_KP_0, control}},
+            "normal text",
+            "scale size",
+            normal_text},
+           {"next_theme",
+            "Next theme: dark, light, projector",
+            "Ctrl+T",
+            {{GLFW_KEY_T, control}},
+            "dark, light or projector theme",
+            "colours look contrast",
+            next_theme},
+           {"quit", "Quit", "Ctrl+Q", {{GLFW_KEY_Q, control}}, "quits", "end close exit", request_quit}})
+    rows.push_back(std::move(row));
   return rows;
 }
 
-const CommandRow& row_of(Command command) {
+}  // namespace
+
+std::span<const CommandRow> command_rows() {
+  static const std::vector<CommandRow> rows = all_rows();
+  return rows;
+}
+
+const CommandRow& row_of(std::string_view id) {
   const auto rows = command_rows();
-  return *std::find_if(rows.begin(), rows.end(), [&](const CommandRow& row) { return row.command == command; });
+  const auto row = std::find_if(rows.begin(), rows.end(), [&](const CommandRow& r) { return r.id == id; });
+  if (row == rows.end()) throw std::logic_error("there is no command " + std::string(id));
+  return *row;
+}
+
+std::string why_not(const Ui& ui, const CommandRow& row) {
+  return row.why_not != nullptr ? row.why_not(ui) : std::string();
+}
+
+void color_by(Ui& ui, std::optional<ParticleField> field) {
+  ui.scene.colors.choose(field);
+  ui.settings.color = field ? info(*field).name : "";
+}
+
+void Ui::command(std::string_view id) {
+  act([&row = row_of(id)](Ui& ui) {
+    if (std::string why = why_not(ui, row); !why.empty()) return ui.messages.note(std::move(why));
+    if (row.action != nullptr) return row.action(ui);
+    ui.dialog.exporting = &row;
+    open_dialog(ui, Dialog::Kind::write_export);
+  });
 }
 
 }  // namespace tyglab

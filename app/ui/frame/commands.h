@@ -1,11 +1,15 @@
-// The commands: one row each, with its name and its keys. Keys, help, menus and the palette read it.
+// The commands: one row each, with its name, its keys, what it does and when it can be done. Keys, help, menus and the
+// palette read it; a new command is one row here, and nothing else.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/session/requests.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
@@ -15,16 +19,37 @@ struct Chord {
   bool repeats = false;
 };
 
-struct CommandRow {
-  Command command;
-  const char* name;           ///< "Restart the motion"
-  const char* keys;           ///< as people call them, empty where there are none
-  std::vector<Chord> chords;  ///< all that lead to it
-  const char* help;           ///< what they do, in the list of keys; empty: the name says it
-  const char* also = "";      ///< words under which the palette finds it too
+/// What a command writes to a file that a dialog asks for.
+struct Export {
+  const char* title;  ///< of the dialog
+  const char* holds;  ///< a sentence
+  const char* file;   ///< proposed
+  /// Throws OutputError, GraphicsError.
+  void (*write)(Ui& ui, const std::filesystem::path& file);
 };
 
+struct CommandRow {
+  const char* id;                                  ///< "restart"
+  const char* name;                                ///< "Restart the motion"
+  const char* keys;                                ///< as people call them, empty where there are none
+  std::vector<Chord> chords;                       ///< all that lead to it
+  const char* help;                                ///< what they do, in the list of keys; empty: the name says it
+  const char* also;                                ///< words under which the palette finds it too
+  void (*action)(Ui& ui);                          ///< null where it writes a file
+  std::string (*why_not)(const Ui& ui) = nullptr;  ///< a sentence where it cannot be done now; empty or null: it can
+  std::optional<Export> writes = {};
+};
+
+/// All of them, in the order of the palette and of the list of keys.
 std::span<const CommandRow> command_rows();
-const CommandRow& row_of(Command command);
+/// Those that write a file.
+std::vector<CommandRow> export_rows();
+/// Throws std::logic_error where there is no such command.
+const CommandRow& row_of(std::string_view id);
+/// Why it cannot be done now, a sentence; empty: it can.
+std::string why_not(const Ui& ui, const CommandRow& row);
+
+/// What colours the cloth from now on; none: its own look. Remembered for the next session.
+void color_by(Ui& ui, std::optional<ParticleField> field);
 
 }  // namespace tyglab

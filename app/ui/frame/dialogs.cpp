@@ -9,7 +9,7 @@
 #include "app/base/data_files.h"
 #include "app/base/preset_files.h"
 #include "app/session/document.h"
-#include "app/ui/frame/exports.h"
+#include "app/ui/frame/commands.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
@@ -67,43 +67,43 @@ std::string file_name_for(const std::string& name) {
   return (file.empty() ? std::string("preset") : file) + ".json";
 }
 
-void close(App& app) {
-  app.ui.dialog.kind = DialogKind::none;
-  app.ui.dialog.then.reset();
+void close(Ui& ui) {
+  ui.dialog.kind = DialogKind::none;
+  ui.dialog.then.reset();
   ImGui::CloseCurrentPopup();
 }
 
-void title(App& app, const char* text) {
-  ImGui::PushFont(app.fonts.brand);
-  wrapped(app, text, app.theme.colors.text);
+void title(Ui& ui, const char* text) {
+  ImGui::PushFont(ui.fonts.brand);
+  wrapped(ui, text, ui.theme.colors.text);
   ImGui::PopFont();
-  ImGui::Dummy({0, app.theme.px(2)});
+  ImGui::Dummy({0, ui.theme.px(2)});
 }
 
-void label(App& app, const char* text) {
-  ImGui::PushFont(app.fonts.small);
-  wrapped(app, text, app.theme.colors.quiet);
+void label(Ui& ui, const char* text) {
+  ImGui::PushFont(ui.fonts.small);
+  wrapped(ui, text, ui.theme.colors.quiet);
   ImGui::PopFont();
 }
 
 /// Returns whether the text changed.
 template <std::size_t N>
-bool text_field(App& app, const char* id, char (&field)[N], bool focus, bool select = false) {
+bool text_field(Ui& ui, const char* id, char (&field)[N], bool focus, bool select = false) {
   if (focus) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(7)));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
   const bool changed = ImGui::InputText(id, field, N, select ? ImGuiInputTextFlags_AutoSelectAll : 0);
   ImGui::PopStyleVar();
-  report_control(app, id);
+  report_control(ui, id);
   return changed;
 }
 
 /// The field of the file's path. After a refusal it takes keys again, all of its text selected. Returns whether the
 /// text changed.
-bool path_field(App& app, bool focus = false) {
-  Dialog& dialog = app.ui.dialog;
+bool path_field(Ui& ui, bool focus = false) {
+  Dialog& dialog = ui.dialog;
   const bool select = dialog.selecting || dialog.refused;
-  const bool changed = text_field(app, "##path", dialog.path, focus || dialog.refused, select);
+  const bool changed = text_field(ui, "##path", dialog.path, focus || dialog.refused, select);
   dialog.selecting = select && !ImGui::IsItemActive();  // it gets the focus in the frame after the one that asks
   dialog.refused = false;
   return changed;
@@ -114,39 +114,39 @@ void refuse(Dialog& dialog, std::string reason) {
   dialog.refused = true;
 }
 
-void problem(App& app) {
-  if (!app.ui.dialog.problem.empty()) wrapped(app, app.ui.dialog.problem, app.theme.colors.warning);
+void problem(Ui& ui) {
+  if (!ui.dialog.problem.empty()) wrapped(ui, ui.dialog.problem, ui.theme.colors.warning);
 }
 
-void entry_line(App& app, int k, bool& open) {
-  Dialog& dialog = app.ui.dialog;
+void entry_line(Ui& ui, int k, bool& open) {
+  Dialog& dialog = ui.dialog;
   const Dialog::Entry& entry = dialog.entries[k];
-  const Tokens& c = app.theme.colors;
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, padding = app.theme.px(10);
+  const float width = ImGui::GetContentRegionAvail().x, padding = ui.theme.px(10);
   const std::string& below = entry.problem.empty() ? entry.description : entry.problem;
-  const ImFont& small = *app.fonts.small;
+  const ImFont& small = *ui.fonts.small;
   const float text_height =
       below.empty() ? 0
-                    : small.CalcTextSizeA(small.FontSize, 1e9f, width - 2 * padding, below.c_str()).y + app.theme.px(3);
-  const float height = app.fonts.title->FontSize + text_height + app.theme.px(14);
+                    : small.CalcTextSizeA(small.FontSize, 1e9f, width - 2 * padding, below.c_str()).y + ui.theme.px(3);
+  const float height = ui.fonts.title->FontSize + text_height + ui.theme.px(14);
   ImGui::PushID(k);
   if (ImGui::InvisibleButton("entry", {width, height})) {
     dialog.selected = k;
     set(dialog.path, entry.file.string());
   }
-  if (ImGui::IsItemHovered() && app.input.double_click) open = true;
-  report_control(app, "entry." + entry.label);
+  if (ImGui::IsItemHovered() && ui.input.double_click) open = true;
+  report_control(ui, "entry." + entry.label);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const bool chosen = dialog.selected == k;
   if (chosen || ImGui::IsItemHovered())
     draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, chosen ? mixed(c.field, c.accent, 0.25f) : c.field,
-                       app.theme.px(5));
-  draw_text(draw, *app.fonts.title, {lo.x + padding, lo.y + app.theme.px(7)}, c.text, entry.name);
+                       ui.theme.px(5));
+  draw_text(draw, *ui.fonts.title, {lo.x + padding, lo.y + ui.theme.px(7)}, c.text, entry.name);
   const float label_width = text_width(small, entry.label);
-  draw_text(draw, small, {lo.x + width - padding - label_width, lo.y + app.theme.px(9)}, c.quiet, entry.label);
-  draw.AddText(&small, small.FontSize, {lo.x + padding, lo.y + app.theme.px(10) + app.fonts.title->FontSize},
+  draw_text(draw, small, {lo.x + width - padding - label_width, lo.y + ui.theme.px(9)}, c.quiet, entry.label);
+  draw.AddText(&small, small.FontSize, {lo.x + padding, lo.y + ui.theme.px(10) + ui.fonts.title->FontSize},
                entry.problem.empty() ? c.quiet : c.warning, below.c_str(), nullptr, width - 2 * padding);
 }
 
@@ -155,24 +155,24 @@ bool is_shipped(const fs::path& file) {
   return fs::equivalent(file.parent_path(), data_folder() / "presets", ignored);
 }
 
-void open_presets(App& app) {
-  Dialog& dialog = app.ui.dialog;
-  title(app, "Open a preset");
+void open_presets(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Open a preset");
   bool open = false;
-  gui::begin_child("list", {0, std::min(app.theme.px(420), ImGui::GetIO().DisplaySize.y - app.theme.px(260))});
+  gui::begin_child("list", {0, std::min(ui.theme.px(420), ImGui::GetIO().DisplaySize.y - ui.theme.px(260))});
   for (int k = 0; k < int(dialog.entries.size()); ++k) {
     const bool shipped = dialog.entries[k].shipped;
-    if (k == 0 || dialog.entries[k - 1].shipped != shipped) label(app, shipped ? "SHIPPED" : "YOURS");
-    entry_line(app, k, open);
+    if (k == 0 || dialog.entries[k - 1].shipped != shipped) label(ui, shipped ? "SHIPPED" : "YOURS");
+    entry_line(ui, k, open);
   }
   ImGui::EndChild();
-  label(app, "File");
-  if (path_field(app, ImGui::IsWindowAppearing())) dialog.problem.clear();
-  problem(app);
+  label(ui, "File");
+  if (path_field(ui, ImGui::IsWindowAppearing())) dialog.problem.clear();
+  problem(ui);
   open |= dialog.enter;
-  open |= text_button(app, "Open", true, dialog.path[0] != 0);
+  open |= text_button(ui, "Open", true, dialog.path[0] != 0);
   ImGui::SameLine();
-  if (text_button(app, "Cancel")) return close(app);
+  if (text_button(ui, "Cancel")) return close(ui);
   if (!open || dialog.path[0] == 0) return;
   fs::path file;
   try {
@@ -181,21 +181,21 @@ void open_presets(App& app) {
   } catch (const std::exception& error) {
     return refuse(dialog, error.what());
   }
-  close(app);
-  app.request(request::Open{.file = file, .shipped = is_shipped(file)});
+  close(ui);
+  ui.session.request(request::Open{.file = file, .shipped = is_shipped(file)});
 }
 
 /// The lower part of dialogs that write: the question whether to overwrite, and the buttons. True when it may go on.
-bool may_write(App& app, const char* verb) {
-  Dialog& dialog = app.ui.dialog;
-  problem(app);
+bool may_write(Ui& ui, const char* verb) {
+  Dialog& dialog = ui.dialog;
+  problem(ui);
   std::error_code ignored;
   const fs::path file = path_of(dialog.path);
-  if (dialog.overwrite) wrapped(app, "That file exists. Replace it?", app.theme.colors.warning);
-  const bool go = text_button(app, dialog.overwrite ? "Replace" : verb, true, dialog.path[0] != 0) || dialog.enter;
+  if (dialog.overwrite) wrapped(ui, "That file exists. Replace it?", ui.theme.colors.warning);
+  const bool go = text_button(ui, dialog.overwrite ? "Replace" : verb, true, dialog.path[0] != 0) || dialog.enter;
   ImGui::SameLine();
-  if (text_button(app, "Cancel")) {
-    close(app);
+  if (text_button(ui, "Cancel")) {
+    close(ui);
     return false;
   }
   if (!go || dialog.path[0] == 0) return false;
@@ -214,18 +214,18 @@ bool may_write(App& app, const char* verb) {
   return true;
 }
 
-void save_preset_dialog(App& app) {
-  Dialog& dialog = app.ui.dialog;
-  title(app, "Save the preset");
-  label(app, "Name");
-  const bool renamed = text_field(app, "##name", dialog.name, ImGui::IsWindowAppearing());
+void save_preset_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Save the preset");
+  label(ui, "Name");
+  const bool renamed = text_field(ui, "##name", dialog.name, ImGui::IsWindowAppearing());
   if (renamed && dialog.path_follows)
     set(dialog.path, (path_of(dialog.path).parent_path() / file_name_for(dialog.name)).string());
-  label(app, "File");
-  const bool moved = path_field(app);
+  label(ui, "File");
+  const bool moved = path_field(ui);
   if (moved) dialog.path_follows = false;
   if (moved || renamed) dialog.overwrite = false, dialog.problem.clear();
-  if (!may_write(app, "Save")) return;
+  if (!may_write(ui, "Save")) return;
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".json";
   if (is_shipped(file)) {
@@ -235,112 +235,119 @@ void save_preset_dialog(App& app) {
   }
   const request::SavePreset save{file, dialog.name};
   const auto then = dialog.then;
-  close(app);
-  app.request(save);
-  if (then) app.request(*then);
+  close(ui);
+  ui.session.request(save);
+  if (then) ui.session.request(*then);
 }
 
-void export_dialog(App& app) {
-  Dialog& dialog = app.ui.dialog;
-  const Export& what = export_of(dialog.source);
-  title(app, what.title);
-  wrapped(app, what.holds, app.theme.colors.quiet);
-  label(app, "File");
-  if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
-  if (!may_write(app, "Write")) return;
-  const request::WriteExport write{path_of(dialog.path), dialog.source};
-  close(app);
-  app.request(write);
+void export_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  const Export& what = *dialog.exporting->writes;
+  title(ui, what.title);
+  wrapped(ui, what.holds, ui.theme.colors.quiet);
+  label(ui, "File");
+  if (path_field(ui, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
+  if (!may_write(ui, "Write")) return;
+  const fs::path file = path_of(dialog.path);
+  close(ui);
+  ui.act([&what, file](Ui& u) {
+    try {
+      what.write(u, file);
+      u.messages.note("Wrote " + file.string());
+    } catch (const std::runtime_error& error) {
+      u.messages.error(error.what());
+    }
+  });
 }
 
-void picture_dialog(App& app) {
+void picture_dialog(Ui& ui) {
   static constexpr const char* parts[] = {"The cloth and its legend", "The whole window"};
-  Dialog& dialog = app.ui.dialog;
-  title(app, "Save a picture");
-  if (const int k = segments(app, "parts", parts, 2, dialog.whole_window); k >= 0) dialog.whole_window = k == 1;
-  ImGui::Dummy({0, app.theme.px(2)});
-  label(app, "PNG file");
-  if (path_field(app, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
-  if (!may_write(app, "Save")) return;
+  Dialog& dialog = ui.dialog;
+  title(ui, "Save a picture");
+  if (const int k = segments(ui, "parts", parts, 2, dialog.whole_window); k >= 0) dialog.whole_window = k == 1;
+  ImGui::Dummy({0, ui.theme.px(2)});
+  label(ui, "PNG file");
+  if (path_field(ui, ImGui::IsWindowAppearing())) dialog.overwrite = false, dialog.problem.clear();
+  if (!may_write(ui, "Save")) return;
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".png";
-  const request::SavePicture save{file, dialog.whole_window};
-  close(app);
-  app.request(save);
+  const PictureOrder order{file, dialog.whole_window};
+  close(ui);
+  ui.act([order](Ui& u) { u.picture = order; });
 }
 
-void texture_dialog(App& app) {
-  Dialog& dialog = app.ui.dialog;
-  title(app, "Take a picture as texture");
-  label(app, "PNG, JPEG, BMP or TGA file");
-  path_field(app, ImGui::IsWindowAppearing());
-  problem(app);
-  const bool go = text_button(app, "Load", true, dialog.path[0] != 0) || dialog.enter;
+void texture_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Take a picture as texture");
+  label(ui, "PNG, JPEG, BMP or TGA file");
+  path_field(ui, ImGui::IsWindowAppearing());
+  problem(ui);
+  const bool go = text_button(ui, "Load", true, dialog.path[0] != 0) || dialog.enter;
   ImGui::SameLine();
-  if (text_button(app, "Cancel")) return close(app);
+  if (text_button(ui, "Cancel")) return close(ui);
   if (!go || dialog.path[0] == 0) return;
   const std::string name = path_of(dialog.path).string();
-  close(app);
-  app.request(request::LoadTexture{name});
+  close(ui);
+  ui.session.request(request::LoadTexture{name});
 }
 
 /// What was to follow goes on once the preset is saved; through the dialog where it has no file yet.
-void save_first(App& app) {
-  Dialog& dialog = app.ui.dialog;
+void save_first(Ui& ui) {
+  Dialog& dialog = ui.dialog;
   const Request then = *dialog.then;
-  close(app);
-  if (app.document.file.empty()) {
-    open_dialog(app, DialogKind::save);
-    app.ui.dialog.then = then;
+  close(ui);
+  if (ui.session.document.file.empty()) {
+    open_dialog(ui, DialogKind::save);
+    ui.dialog.then = then;
     return;
   }
-  app.request(request::SavePreset{app.document.file, app.preset().name});
-  app.request(then);
+  ui.session.request(request::SavePreset{ui.session.document.file, ui.session.preset().name});
+  ui.session.request(then);
 }
 
-void unsaved_dialog(App& app) {
-  Dialog& dialog = app.ui.dialog;
-  title(app, "Unsaved changes");
-  wrapped(app, dialog.question, app.theme.colors.text);
-  ImGui::Dummy({0, app.theme.px(4)});
-  if (text_button(app, "Save", true) || dialog.enter) return save_first(app);
+void unsaved_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "Unsaved changes");
+  wrapped(ui, dialog.question, ui.theme.colors.text);
+  ImGui::Dummy({0, ui.theme.px(4)});
+  if (text_button(ui, "Save", true) || dialog.enter) return save_first(ui);
   ImGui::SameLine();
-  if (text_button(app, "Discard the changes")) {
-    app.request(*dialog.then);
-    return close(app);
+  if (text_button(ui, "Discard the changes")) {
+    ui.session.request(*dialog.then);
+    return close(ui);
   }
   ImGui::SameLine();
-  if (text_button(app, "Cancel")) close(app);
+  if (text_button(ui, "Cancel")) close(ui);
 }
 
-void large_dialog(App& app) {
-  Dialog& dialog = app.ui.dialog;
-  title(app, "A very large cloth");
-  wrapped(app, dialog.question, app.theme.colors.text);
-  ImGui::Dummy({0, app.theme.px(4)});
-  if (text_button(app, "Keep the present cloth", true)) return close(app);
+void large_dialog(Ui& ui) {
+  Dialog& dialog = ui.dialog;
+  title(ui, "A very large cloth");
+  wrapped(ui, dialog.question, ui.theme.colors.text);
+  ImGui::Dummy({0, ui.theme.px(4)});
+  if (text_button(ui, "Keep the present cloth", true)) return close(ui);
   ImGui::SameLine();
-  if (!text_button(app, "Build it")) return;
-  app.request(*dialog.then);
-  close(app);
+  if (!text_button(ui, "Build it")) return;
+  ui.session.request(*dialog.then);
+  close(ui);
 }
 
-void contents(App& app) {
-  switch (app.ui.dialog.kind) {
+void contents(Ui& ui) {
+  switch (ui.dialog.kind) {
     case DialogKind::open:
-      return open_presets(app);
+      return open_presets(ui);
     case DialogKind::save:
-      return save_preset_dialog(app);
+      return save_preset_dialog(ui);
     case DialogKind::write_export:
-      return export_dialog(app);
+      return export_dialog(ui);
     case DialogKind::texture:
-      return texture_dialog(app);
+      return texture_dialog(ui);
     case DialogKind::picture:
-      return picture_dialog(app);
+      return picture_dialog(ui);
     case DialogKind::unsaved:
-      return unsaved_dialog(app);
+      return unsaved_dialog(ui);
     case DialogKind::large_cloth:
-      return large_dialog(app);
+      return large_dialog(ui);
     case DialogKind::none:
       return;
   }
@@ -348,8 +355,8 @@ void contents(App& app) {
 
 }  // namespace
 
-void open_dialog(App& app, DialogKind kind) {
-  Dialog& dialog = app.ui.dialog;
+void open_dialog(Ui& ui, DialogKind kind) {
+  Dialog& dialog = ui.dialog;
   dialog.kind = kind;
   dialog.opening = true;
   dialog.overwrite = dialog.enter = dialog.path_follows = dialog.refused = dialog.selecting = false;
@@ -363,52 +370,53 @@ void open_dialog(App& app, DialogKind kind) {
     list_folder(dialog, data_folder() / "presets", true);
     if (!own.empty()) list_folder(dialog, own, false);
   } else if (kind == DialogKind::save) {
-    set(dialog.name, app.preset().name);
-    const fs::path file = !app.document.file.empty() ? app.document.file : own / file_name_for(app.preset().name);
+    set(dialog.name, ui.session.preset().name);
+    const fs::path file =
+        !ui.session.document.file.empty() ? ui.session.document.file : own / file_name_for(ui.session.preset().name);
     set(dialog.path, file.string());
     dialog.path_follows = true;
   } else if (kind == DialogKind::picture) {
     std::error_code ignored;
-    set(dialog.path, (fs::current_path(ignored) / (app.document.label + ".png")).string());
+    set(dialog.path, (fs::current_path(ignored) / (ui.session.document.label + ".png")).string());
   } else if (kind == DialogKind::write_export) {
     std::error_code ignored;
-    set(dialog.path, (fs::current_path(ignored) / export_of(dialog.source).file).string());
+    set(dialog.path, (fs::current_path(ignored) / dialog.exporting->writes->file).string());
   }
 }
 
-void ask(App& app, DialogKind kind, std::string question, Request then) {
-  open_dialog(app, kind);
-  app.ui.dialog.question = std::move(question);
-  app.ui.dialog.then = std::move(then);
+void ask(Ui& ui, DialogKind kind, std::string question, Request then) {
+  open_dialog(ui, kind);
+  ui.dialog.question = std::move(question);
+  ui.dialog.then = std::move(then);
 }
 
-void show_save_problem(App& app, const fs::path& file, const std::string& name, const std::string& problem) {
-  open_dialog(app, DialogKind::save);
-  set(app.ui.dialog.path, file.string());
-  set(app.ui.dialog.name, name);
-  app.ui.dialog.problem = problem;
+void show_save_problem(Ui& ui, const fs::path& file, const std::string& name, const std::string& problem) {
+  open_dialog(ui, DialogKind::save);
+  set(ui.dialog.path, file.string());
+  set(ui.dialog.name, name);
+  ui.dialog.problem = problem;
 }
 
-void dialogs(App& app) {
-  Dialog& dialog = app.ui.dialog;
+void dialogs(Ui& ui) {
+  Dialog& dialog = ui.dialog;
   if (dialog.opening) ImGui::OpenPopup("dialog");
   dialog.opening = false;
   if (dialog.kind == DialogKind::none) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const bool question = dialog.kind == DialogKind::unsaved || dialog.kind == DialogKind::large_cloth;
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(app.theme.px(question ? 460 : 620), window.x - app.theme.px(24)), 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(24), app.theme.px(20)));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
+  ImGui::SetNextWindowSize({std::min(ui.theme.px(question ? 460 : 620), window.x - ui.theme.px(24)), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(24), ui.theme.px(20)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   if (ImGui::BeginPopupModal("dialog", nullptr,
                              ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                  ImGuiWindowFlags_NoSavedSettings)) {
     ImGui::PushTextWrapPos(0);
     // Enter waits until the field has the text that was typed before it.
-    const bool enter = std::exchange(dialog.enter, dialog.enter && !app.input.unread);
-    contents(app);
-    dialog.enter = enter && app.input.unread;
+    const bool enter = std::exchange(dialog.enter, dialog.enter && !ui.input.unread);
+    contents(ui);
+    dialog.enter = enter && ui.input.unread;
     if (dialog.kind == DialogKind::none) ImGui::CloseCurrentPopup();
     ImGui::PopTextWrapPos();
     ImGui::EndPopup();

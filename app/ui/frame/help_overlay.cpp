@@ -36,10 +36,10 @@ constexpr Entry sliders[] = {
 };
 
 /// Text that is wrapped between `left` and `right`, pixels within the window; returns where it ends below.
-float text_between(App& app, const char* text, ImVec2 at, float right, ImU32 color) {
+float text_between(Ui& ui, const char* text, ImVec2 at, float right, ImU32 color) {
   ImGui::SetCursorPos(at);
   ImGui::PushTextWrapPos(right);
-  wrapped(app, text, color);
+  wrapped(ui, text, color);
   ImGui::PopTextWrapPos();
   return ImGui::GetCursorPosY();
 }
@@ -49,17 +49,17 @@ struct Column {
   float left, width, keys;
 };
 
-void table(App& app, const char* title, std::span<const Entry> entries, const Column& column) {
-  const Tokens& c = app.theme.colors;
+void table(Ui& ui, const char* title, std::span<const Entry> entries, const Column& column) {
+  const Tokens& c = ui.theme.colors;
   const float right = column.left + column.width, does = column.left + column.keys;
-  ImGui::PushFont(app.fonts.title);
-  float y = text_between(app, title, {column.left, ImGui::GetCursorPosY()}, right, c.text);
+  ImGui::PushFont(ui.fonts.title);
+  float y = text_between(ui, title, {column.left, ImGui::GetCursorPosY()}, right, c.text);
   ImGui::PopFont();
   for (const Entry& entry : entries) {
-    const float keys_end = text_between(app, entry.keys, {column.left, y}, does - app.theme.px(12), c.accent);
-    y = std::max(keys_end, text_between(app, entry.does, {does, y}, right, c.text));
+    const float keys_end = text_between(ui, entry.keys, {column.left, y}, does - ui.theme.px(12), c.accent);
+    y = std::max(keys_end, text_between(ui, entry.does, {does, y}, right, c.text));
   }
-  ImGui::SetCursorPos({column.left, y + app.theme.px(8)});
+  ImGui::SetCursorPos({column.left, y + ui.theme.px(8)});
 }
 
 /// Every command that has keys; the views have theirs.
@@ -71,47 +71,47 @@ std::vector<Entry> key_entries() {
   return entries;
 }
 
-void tables(App& app, float width) {
+void tables(Ui& ui, float width) {
   const ImVec2 start = ImGui::GetCursorPos();
-  const float gap = app.theme.px(32);
-  const bool two = width > app.theme.px(640);
-  const float column = two ? (width - gap) / 2 : width, key_width = std::min(app.theme.px(180), 0.42f * column);
+  const float gap = ui.theme.px(32);
+  const bool two = width > ui.theme.px(640);
+  const float column = two ? (width - gap) / 2 : width, key_width = std::min(ui.theme.px(180), 0.42f * column);
   const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
-  table(app, "In the viewport", mouse_entries, left);
-  table(app, "On sliders", sliders, left);
+  table(ui, "In the viewport", mouse_entries, left);
+  table(ui, "On sliders", sliders, left);
   const float half = ImGui::GetCursorPosY();
   if (two) ImGui::SetCursorPosY(start.y);
-  table(app, "Keys", key_entries(), right);
-  text_between(app, "A slider or text field in use keeps its keys; Esc gives them back.",
-               {right.left, ImGui::GetCursorPosY()}, right.left + column, app.theme.colors.quiet);
-  ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + app.theme.px(4)});
+  table(ui, "Keys", key_entries(), right);
+  text_between(ui, "A slider or text field in use keeps its keys; Esc gives them back.",
+               {right.left, ImGui::GetCursorPosY()}, right.left + column, ui.theme.colors.quiet);
+  ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + ui.theme.px(4)});
 }
 
 }  // namespace
 
-void help_overlay(App& app) {
-  if (app.ui.dialog.kind != Dialog::Kind::none) app.ui.help = false;
-  if (!app.ui.help) return;
+void help_overlay(Ui& ui) {
+  if (ui.dialog.kind != Dialog::Kind::none) ui.help = false;
+  if (!ui.help) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float width = std::min(app.theme.px(960), window.x - app.theme.px(32));
+  const float width = std::min(ui.theme.px(960), window.x - ui.theme.px(32));
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - app.theme.px(32)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - ui.theme.px(32)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(24), app.theme.px(20)));
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(5)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(24), ui.theme.px(20)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(5)));
   ImGui::SetNextWindowFocus();
   if (ImGui::Begin("help", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
-    tables(app, ImGui::GetContentRegionAvail().x);
-    if (text_button(app, "Close", true)) app.ui.help = false;
-    for (const Command command : {Command::choose_lab, Command::start_tour, Command::open_palette}) {
+    tables(ui, ImGui::GetContentRegionAvail().x);
+    if (text_button(ui, "Close", true)) ui.help = false;
+    for (const char* id : {"choose_lab", "start_tour", "open_palette"}) {
       ImGui::SameLine();
-      if (text_button(app, row_of(command).name)) app.ui.help = false, app.command(command);
+      if (text_button(ui, row_of(id).name)) ui.help = false, ui.command(id);
     }
     const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-    cover_viewport(app, lo, {lo.x + size.x, lo.y + size.y});
+    cover_viewport(ui, lo, {lo.x + size.x, lo.y + size.y});
   }
   ImGui::End();
   ImGui::PopStyleVar(4);

@@ -1,7 +1,7 @@
 #include "app/ui/frame/keys.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
+#include "app/base/glfw_keys.h"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "app/ui/app.h"
 #include "app/ui/frame/commands.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 namespace {
@@ -31,13 +31,13 @@ std::optional<int> digit(const KeyEvent& event) {
 }
 
 /// Enter in the field of a lab's prediction gives it.
-void lab_field_takes(App& app, const KeyEvent& event) {
-  app.labs.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+void lab_field_takes(Ui& ui, const KeyEvent& event) {
+  ui.lab_enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
 }
 
 /// Keys of a text field: only those that end it matter here. True if the field has the key.
-bool typing_takes(App& app, const KeyEvent& event) {
-  SliderState& slider = app.ui.slider;
+bool typing_takes(Ui& ui, const KeyEvent& event) {
+  SliderState& slider = ui.slider;
   if (slider.typing == 0 && !ImGui::GetIO().WantTextInput) return false;
   if (event.key == GLFW_KEY_Q && (event.mods & counted) == GLFW_MOD_CONTROL) {
     slider.cancel = true;  // a number half typed is no change that could be lost
@@ -47,29 +47,29 @@ bool typing_takes(App& app, const KeyEvent& event) {
     slider.commit |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER || event.key == GLFW_KEY_TAB;
     slider.cancel |= event.key == GLFW_KEY_ESCAPE;
   } else {
-    lab_field_takes(app, event);
+    lab_field_takes(ui, event);
   }
   return true;
 }
 
-bool dialog_takes(App& app, const KeyEvent& event) {
-  if (app.ui.dialog.kind == Dialog::Kind::none) return false;
-  if (event.key == GLFW_KEY_ESCAPE) app.ui.dialog.kind = Dialog::Kind::none;
-  app.ui.dialog.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+bool dialog_takes(Ui& ui, const KeyEvent& event) {
+  if (ui.dialog.kind == Dialog::Kind::none) return false;
+  if (event.key == GLFW_KEY_ESCAPE) ui.dialog.kind = Dialog::Kind::none;
+  ui.dialog.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
   return true;
 }
 
-bool slider_takes(App& app, const KeyEvent& event) {
-  if (app.ui.slider.focused == 0) return false;
+bool slider_takes(Ui& ui, const KeyEvent& event) {
+  if (ui.slider.focused == 0) return false;
   const bool plain = (event.mods & GLFW_MOD_ALT) == 0;
   if (!plain || std::find(slider_keys.begin(), slider_keys.end(), event.key) == slider_keys.end()) return false;
-  app.ui.slider.keys.push_back(event);
+  ui.slider.keys.push_back(event);
   return true;
 }
 
 /// The palette takes what moves in its list and what ends it; letters go to its text field.
-bool palette_takes(App& app, const KeyEvent& event) {
-  CommandPalette& palette = app.ui.palette;
+bool palette_takes(Ui& ui, const KeyEvent& event) {
+  CommandPalette& palette = ui.palette;
   if (!palette.open) return false;
   if (palette.enter) {
     palette.later.push_back(event);
@@ -82,8 +82,8 @@ bool palette_takes(App& app, const KeyEvent& event) {
 }
 
 /// Of the tour's keys only those that lead through it; the others do what they always do.
-bool tour_takes(App& app, const KeyEvent& event) {
-  Tour& tour = app.ui.tour;
+bool tour_takes(Ui& ui, const KeyEvent& event) {
+  Tour& tour = ui.tour;
   if (tour.card < 0 || (event.mods & counted) != 0) return false;
   const bool next = event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
   const bool leave = event.key == GLFW_KEY_ESCAPE;
@@ -92,50 +92,50 @@ bool tour_takes(App& app, const KeyEvent& event) {
 }
 
 /// The help lies over everything but a dialog.
-bool help_takes(App& app, const KeyEvent& event) {
-  if (!app.ui.help || event.key != GLFW_KEY_ESCAPE) return false;
-  app.ui.help = false;
+bool help_takes(Ui& ui, const KeyEvent& event) {
+  if (!ui.help || event.key != GLFW_KEY_ESCAPE) return false;
+  ui.help = false;
   return true;
 }
 
-bool list_takes(App& app, const KeyEvent& event) {
-  if (!app.viewport.blocked || event.key != GLFW_KEY_ESCAPE) return false;
-  return app.ui.close_lists = true;
+bool list_takes(Ui& ui, const KeyEvent& event) {
+  if (!ui.viewport.blocked || event.key != GLFW_KEY_ESCAPE) return false;
+  return ui.close_lists = true;
 }
 
-void command_for(App& app, const KeyEvent& event) {
+void command_for(Ui& ui, const KeyEvent& event) {
   if (const auto mode = digit(event)) {
-    Preset next = app.requested_preset();
+    Preset next = ui.session.requested_preset();
     next.mode = *mode;
-    app.propose(std::move(next));
+    ui.session.propose(std::move(next));
     return;
   }
   for (const CommandRow& row : command_rows())
     for (const Chord& chord : row.chords)
       if (chord.key == event.key && chord.mods == (event.mods & counted) && (chord.repeats || !event.repeat))
-        return app.command(row.command);
+        return ui.command(row.id);
 }
 
-void take_key(App& app, const KeyEvent& event) {
-  const bool taken = dialog_takes(app, event) || palette_takes(app, event) || help_takes(app, event) ||
-                     list_takes(app, event) || typing_takes(app, event) || slider_takes(app, event) ||
-                     tour_takes(app, event);
-  if (!taken) command_for(app, event);
+void take_key(Ui& ui, const KeyEvent& event) {
+  const bool taken = dialog_takes(ui, event) || palette_takes(ui, event) || help_takes(ui, event) ||
+                     list_takes(ui, event) || typing_takes(ui, event) || slider_takes(ui, event) ||
+                     tour_takes(ui, event);
+  if (!taken) command_for(ui, event);
 }
 
 }  // namespace
 
-void handle_keys(App& app) {
-  CommandPalette& palette = app.ui.palette;
+void handle_keys(Ui& ui) {
+  CommandPalette& palette = ui.palette;
   // What was pressed after the palette's Enter comes once that has acted.
   if (!palette.enter)
-    for (const KeyEvent& event : std::exchange(palette.later, {})) take_key(app, event);
-  for (std::size_t n = 0; n < app.input.keys.size(); ++n) {
+    for (const KeyEvent& event : std::exchange(palette.later, {})) take_key(ui, event);
+  for (std::size_t n = 0; n < ui.input.keys.size(); ++n) {
     const bool before = palette.enter;
-    take_key(app, app.input.keys[n]);
+    take_key(ui, ui.input.keys[n]);
     // Letters typed after it are no part of what is looked for.
     if (palette.enter && !before)
-      std::erase_if(app.input.text, [&](const TypedCharacter& typed) { return typed.keys_before > n + 1; });
+      std::erase_if(ui.input.text, [&](const TypedCharacter& typed) { return typed.keys_before > n + 1; });
   }
 }
 

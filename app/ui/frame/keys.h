@@ -3,9 +3,9 @@
 
 namespace tyglab {
 
-struct App;
+struct Ui;
 
 /// Turns the frame's key presses into requests. A text field or slider in use keeps its keys.
-void handle_keys(App& app);
+void handle_keys(Ui& ui);
 
 }  // namespace tyglab

@@ -19,31 +19,30 @@ namespace {
 constexpr float header_at_1 = 46;  // pixels at scale 1
 
 /// Small capitals over a part; what is above keeps its distance, what is below stands close.
-void small_head(App& app, const char* text, ImU32 color) {
-  if (ImGui::GetCursorPosY() > app.theme.px(4)) ImGui::Dummy({0, app.theme.px(2)});
-  ImGui::PushFont(app.fonts.small);
-  wrapped(app, text, color);
+void small_head(Ui& ui, const char* text, ImU32 color) {
+  if (ImGui::GetCursorPosY() > ui.theme.px(4)) ImGui::Dummy({0, ui.theme.px(2)});
+  ImGui::PushFont(ui.fonts.small);
+  wrapped(ui, text, color);
   ImGui::PopFont();
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - app.theme.px(3));
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ui.theme.px(3));
 }
 
 /// Text in the column's width.
-void set_text(App& app, std::string_view text, ImU32 color) {
-  wrapped(app, in_lines(*app.fonts.text, text, ImGui::GetContentRegionAvail().x), color);
+void set_text(Ui& ui, std::string_view text, ImU32 color) {
+  wrapped(ui, in_lines(*ui.fonts.text, text, ImGui::GetContentRegionAvail().x), color);
 }
 
-void paragraphs_of(App& app, const Paragraphs& text, ImU32 color) {
-  for (const std::string& paragraph : text) set_text(app, paragraph, color);
+void paragraphs_of(Ui& ui, const Paragraphs& text, ImU32 color) {
+  for (const std::string& paragraph : text) set_text(ui, paragraph, color);
 }
 
 /// A line with an icon before it (or a sign, where the icon font is missing), in which words say the same.
-void marked_line(App& app, const char* glyph, const char* sign, ImU32 color, const std::string& text,
-                 ImU32 text_color) {
+void marked_line(Ui& ui, const char* glyph, const char* sign, ImU32 color, const std::string& text, ImU32 text_color) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  draw_text(*ImGui::GetWindowDrawList(), *app.fonts.text, lo, color, icon_or(app.fonts, glyph, sign));
-  ImGui::Indent(app.theme.px(22));
-  set_text(app, text, text_color);
-  ImGui::Unindent(app.theme.px(22));
+  draw_text(*ImGui::GetWindowDrawList(), *ui.fonts.text, lo, color, icon_or(ui.fonts, glyph, sign));
+  ImGui::Indent(ui.theme.px(22));
+  set_text(ui, text, text_color);
+  ImGui::Unindent(ui.theme.px(22));
 }
 
 std::string with_unit(double value, std::string_view unit) {
@@ -51,69 +50,69 @@ std::string with_unit(double value, std::string_view unit) {
 }
 
 /// What was predicted, and, once the step is done, whether it came true.
-void verdict(App& app, const Prediction& asked, const StepRecord& record) {
-  const Tokens& c = app.theme.colors;
+void verdict(Ui& ui, const Prediction& asked, const StepRecord& record) {
+  const Tokens& c = ui.theme.colors;
   const bool number = asked.choices.empty();
   const std::string said = number ? with_unit(typed_number(record.typed, asked.unit).value_or(0), asked.unit)
                                   : asked.choices[std::size_t(record.chosen)];
-  if (!record.done) return marked_line(app, icon::right, ">", c.accent, "You predict: " + said, c.text);
-  if (record.right) return marked_line(app, icon::check, "+", c.good, "You were right: " + said, c.text);
+  if (!record.done) return marked_line(ui, icon::right, ">", c.accent, "You predict: " + said, c.text);
+  if (record.right) return marked_line(ui, icon::check, "+", c.good, "You were right: " + said, c.text);
   const std::string answer = number ? with_unit(record.answer, asked.unit) : asked.choices[asked.right];
-  marked_line(app, icon::close, "x", c.warning, "You predicted: " + said, c.text);
-  marked_line(app, icon::check, "+", c.good, "It is: " + answer, c.text);
+  marked_line(ui, icon::close, "x", c.warning, "You predicted: " + said, c.text);
+  marked_line(ui, icon::check, "+", c.good, "It is: " + answer, c.text);
 }
 
-void number_field(App& app, const Prediction& asked, StepRecord& record) {
-  ImGui::SetNextItemWidth(app.theme.px(120));
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(7)));
+void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
+  ImGui::SetNextItemWidth(ui.theme.px(120));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
   ImGui::InputTextWithHint("##prediction", "your number", record.typed, sizeof record.typed);
   ImGui::PopStyleVar();
-  report_control(app, "prediction");
+  report_control(ui, "prediction");
   const bool in_field = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  wrapped(app, asked.unit, app.theme.colors.quiet);
+  wrapped(ui, asked.unit, ui.theme.colors.quiet);
   if (!asked.unit.empty()) ImGui::SameLine();
-  const bool enter = app.labs.enter && in_field && !app.input.unread;
-  if (text_button(app, "Predict", true, record.typed[0] != 0) || enter)
-    if (!predict(app))
-      app.messages.error(std::string("“") + record.typed + "” is not a number. Type one such as 0.31 or 1e-4.");
+  const bool enter = ui.lab_enter && in_field && !ui.input.unread;
+  if (text_button(ui, "Predict", true, record.typed[0] != 0) || enter)
+    if (!predict(ui.session))
+      ui.session.messages.error(std::string("“") + record.typed + "” is not a number. Type one such as 0.31 or 1e-4.");
 }
 
-void choice_list(App& app, const Prediction& asked, StepRecord& record) {
-  const Tokens& c = app.theme.colors;
+void choice_list(Ui& ui, const Prediction& asked, StepRecord& record) {
+  const Tokens& c = ui.theme.colors;
   bool clicked = false;
   for (int k = 0; k < int(asked.choices.size()); ++k) {
     ImGui::PushID(k);
     const bool chosen = record.chosen == k;
     const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const float width = ImGui::GetContentRegionAvail().x, indent = app.theme.px(24), pad = app.theme.px(5);
-    const ImFont& font = *app.fonts.text;
+    const float width = ImGui::GetContentRegionAvail().x, indent = ui.theme.px(24), pad = ui.theme.px(5);
+    const ImFont& font = *ui.fonts.text;
     const std::string words = in_lines(font, asked.choices[std::size_t(k)], width - indent - pad);
     const float height = font.CalcTextSizeA(font.FontSize, 1e9f, 0, words.c_str()).y + 2 * pad;
     if (ImGui::InvisibleButton("choice", {width, height})) record.chosen = k, clicked = true;
-    report_control(app, "choice." + std::to_string(k + 1));
+    report_control(ui, "choice." + std::to_string(k + 1));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (chosen || ImGui::IsItemHovered())
       draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, chosen ? mixed(c.field, c.accent, 0.25f) : c.field,
-                         app.theme.px(5));
-    const ImVec2 middle{lo.x + app.theme.px(12), lo.y + pad + std::round(font.FontSize / 2)};
-    draw.AddCircle(middle, app.theme.px(5.5f), chosen ? c.accent : c.quiet, 20, std::max(1.f, app.theme.px(1.5f)));
-    if (chosen) draw.AddCircleFilled(middle, app.theme.px(3), c.accent, 16);
+                         ui.theme.px(5));
+    const ImVec2 middle{lo.x + ui.theme.px(12), lo.y + pad + std::round(font.FontSize / 2)};
+    draw.AddCircle(middle, ui.theme.px(5.5f), chosen ? c.accent : c.quiet, 20, std::max(1.f, ui.theme.px(1.5f)));
+    if (chosen) draw.AddCircleFilled(middle, ui.theme.px(3), c.accent, 16);
     draw_text(draw, font, {lo.x + indent, lo.y + pad}, c.text, words);
     ImGui::PopID();
   }
-  if (text_button(app, "Predict", true, record.chosen >= 0)) predict(app);
+  if (text_button(ui, "Predict", true, record.chosen >= 0)) predict(ui.session);
   if (clicked) ImGui::SetScrollHereY(1);  // the button may stand below the column's edge
 }
 
-void prediction_part(App& app, const LabStep& step, StepRecord& record) {
+void prediction_part(Ui& ui, const LabStep& step, StepRecord& record) {
   if (!step.prediction) return;
-  small_head(app, "PREDICT", app.theme.colors.accent);
-  set_text(app, step.prediction->question, app.theme.colors.text);
-  if (record.predicted) return verdict(app, *step.prediction, record);
-  step.prediction->choices.empty() ? number_field(app, *step.prediction, record)
-                                   : choice_list(app, *step.prediction, record);
+  small_head(ui, "PREDICT", ui.theme.colors.accent);
+  set_text(ui, step.prediction->question, ui.theme.colors.text);
+  if (record.predicted) return verdict(ui, *step.prediction, record);
+  step.prediction->choices.empty() ? number_field(ui, *step.prediction, record)
+                                   : choice_list(ui, *step.prediction, record);
 }
 
 bool to_be_predicted(const LabStep& step, const StepRecord& record) {
@@ -121,168 +120,169 @@ bool to_be_predicted(const LabStep& step, const StepRecord& record) {
 }
 
 /// "now 50 N/m", or what makes it known.
-std::string present_value(App& app, const Condition& check, CheckState state) {
-  if (is_word(check.name)) return "now " + std::string(observe_word(app, check.name));
+std::string present_value(Ui& ui, const Condition& check, CheckState state) {
+  if (is_word(check.name)) return "now " + std::string(observe_word(ui.session, check.name));
   const Observable* row = find_observable(check.name);
-  const auto value = observe(app, check.name);
+  const auto value = observe(ui.session, check.name);
   if (value) return with_whole_terms("now " + with_unit(*value, unit_of(check.name)));
-  return row != nullptr && state == CheckState::unknown ? std::string(row->suggested_fix) : std::string();
+  return row != nullptr && state == CheckState::unknown ? std::string(row->hint) : std::string();
 }
 
-void check_line(App& app, const Condition& check, CheckState state, bool done) {
-  const Tokens& c = app.theme.colors;
+void check_line(Ui& ui, const Condition& check, CheckState state, bool done) {
+  const Tokens& c = ui.theme.colors;
   const std::string words = with_whole_terms(words_of(check));
-  if (done) return marked_line(app, icon::check, "+", c.good, words + ": seen", c.text);
-  const std::string now = present_value(app, check, state);
+  if (done) return marked_line(ui, icon::check, "+", c.good, words + ": seen", c.text);
+  const std::string now = present_value(ui, check, state);
   const std::string all = words + (now.empty() ? "" : " · " + now);
-  if (state == CheckState::holds) return marked_line(app, icon::check, "+", c.good, all + " · holds", c.text);
-  if (state == CheckState::open) return marked_line(app, icon::circle, "o", c.quiet, all + " · not yet", c.text);
-  marked_line(app, icon::unknown, "?", c.warning, all + (now.empty() ? " · not known yet" : ""), c.text);
+  if (state == CheckState::holds) return marked_line(ui, icon::check, "+", c.good, all + " · holds", c.text);
+  if (state == CheckState::open) return marked_line(ui, icon::circle, "o", c.quiet, all + " · not yet", c.text);
+  marked_line(ui, icon::unknown, "?", c.warning, all + (now.empty() ? " · not known yet" : ""), c.text);
 }
 
 /// Another preset is open than the lab's: what it means, and the ways on.
-void waiting_part(App& app) {
-  const Tokens& c = app.theme.colors;
-  marked_line(app, icon::pause, "!", c.warning,
-              "“" + app.preset().name + "” is open, which is not this lab's cloth. The lab waits, and checks nothing.",
-              c.text);
-  if (text_button(app, "Open the lab's cloth", true)) resume_lab(app);
+void waiting_part(Ui& ui) {
+  const Tokens& c = ui.theme.colors;
+  marked_line(
+      ui, icon::pause, "!", c.warning,
+      "“" + ui.session.preset().name + "” is open, which is not this lab's cloth. The lab waits, and checks nothing.",
+      c.text);
+  if (text_button(ui, "Open the lab's cloth", true)) resume_lab(ui.session);
   ImGui::SameLine();
-  if (text_button(app, "Leave the lab")) app.command(Command::leave_lab);
+  if (text_button(ui, "Leave the lab")) ui.command("leave_lab");
 }
 
-void doing_part(App& app, const LabStep& step, const StepRecord& record) {
-  const Tokens& c = app.theme.colors;
-  if (lab_waits(app)) return waiting_part(app);
+void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
+  const Tokens& c = ui.theme.colors;
+  if (lab_waits(ui.session)) return waiting_part(ui);
   const bool first = to_be_predicted(step, record);
-  if (cannot_be_done(app))
-    return marked_line(app, icon::warning, "!", c.warning,
+  if (cannot_be_done(ui.session))
+    return marked_line(ui, icon::warning, "!", c.warning,
                        first
                            ? "This machine has no OpenCL device, so there is nothing to do here; predict, and read on."
                            : "This machine has no OpenCL device, so there is nothing to do here; read on.",
                        c.text);
-  if (first) return set_text(app, "Predict first: then it says here what to do.", c.quiet);
-  if (!step.todo.empty()) small_head(app, "DO", c.accent), paragraphs_of(app, step.todo, c.text);
+  if (first) return set_text(ui, "Predict first: then it says here what to do.", c.quiet);
+  if (!step.todo.empty()) small_head(ui, "DO", c.accent), paragraphs_of(ui, step.todo, c.text);
   if (step.checks.empty()) return;
-  small_head(app, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
+  small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
   for (std::size_t k = 0; k < step.checks.size(); ++k)
-    check_line(app, step.checks[k], k < record.checks.size() ? record.checks[k] : CheckState::open, record.done);
+    check_line(ui, step.checks[k], k < record.checks.size() ? record.checks[k] : CheckState::open, record.done);
 }
 
-void explanation_part(App& app, LabRun& run) {
+void explanation_part(Ui& ui, LabRun& run) {
   if (!run.record().done || run.now().explanation.empty()) return;
   if (std::exchange(run.show_explanation, false)) ImGui::SetScrollHereY(0);
-  small_head(app, "WHY", app.theme.colors.accent);
-  paragraphs_of(app, run.now().explanation, app.theme.colors.text);
+  small_head(ui, "WHY", ui.theme.colors.accent);
+  paragraphs_of(ui, run.now().explanation, ui.theme.colors.text);
 }
 
-void reading_part(App& app, LabRun& run) {
-  if (run.step == 0 && !run.record().done) paragraphs_of(app, run.lab.summary, app.theme.colors.quiet);
-  paragraphs_of(app, run.now().text, app.theme.colors.text);
+void reading_part(Ui& ui, LabRun& run) {
+  if (run.step == 0 && !run.record().done) paragraphs_of(ui, run.lab.summary, ui.theme.colors.quiet);
+  paragraphs_of(ui, run.now().text, ui.theme.colors.text);
 }
 
 /// One of the panel's columns, which scrolls by itself.
-void begin_lab_column(App& app, const char* id, float left, float top, ImVec2 size) {
+void begin_lab_column(Ui& ui, const char* id, float left, float top, ImVec2 size) {
   ImGui::SetCursorScreenPos({left, top});
   gui::begin_child(id, size);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(6)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(6)));
   ImGui::PushTextWrapPos(0);
 }
 
 /// What goes on below its edge is seen to: the last line fades, and an arrow points down.
-void more_below(App& app) {
-  if (ImGui::GetScrollMaxY() - ImGui::GetScrollY() < app.theme.px(6)) return;
-  const Tokens& c = app.theme.colors;
+void more_below(Ui& ui) {
+  if (ImGui::GetScrollMaxY() - ImGui::GetScrollY() < ui.theme.px(6)) return;
+  const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  const float high = app.theme.px(16), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
-  const float x = std::round((lo.x + right) / 2), y = bottom - app.theme.px(7), r = app.theme.px(5);
+  const float high = ui.theme.px(16), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
+  const float x = std::round((lo.x + right) / 2), y = bottom - ui.theme.px(7), r = ui.theme.px(5);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 clear = faded(c.panel, 0);
   draw.AddRectFilledMultiColor({lo.x, bottom - high}, {right, bottom}, clear, clear, c.panel, c.panel);
   draw.AddTriangleFilled({x - r, y}, {x + r, y}, {x, y + r}, c.text);
 }
 
-void end_lab_column(App& app) {
-  ImGui::Dummy({0, app.theme.px(4)});
-  more_below(app);
+void end_lab_column(Ui& ui) {
+  ImGui::Dummy({0, ui.theme.px(4)});
+  more_below(ui);
   ImGui::PopTextWrapPos();
   ImGui::PopStyleVar();
   ImGui::EndChild();
 }
 
 /// Buttons at the right of the header; returns where they begin.
-float lab_buttons(App& app, LabRun& run, const Region& region) {
+float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
   const bool last = run.step + 1 == run.lab.steps.size(), done = run.record().done;
   const char* forward = last ? (done ? "Finish" : "Leave") : done ? "Next" : "Skip";
-  const float gap = app.theme.px(6), side = app.theme.px(22), padding = ImGui::GetStyle().FramePadding.x;
-  const auto button_width = [&](const char* label) { return text_width(*app.fonts.text, label) + 2 * padding; };
+  const float gap = ui.theme.px(6), side = ui.theme.px(22), padding = ImGui::GetStyle().FramePadding.x;
+  const auto button_width = [&](const char* label) { return text_width(*ui.fonts.text, label) + 2 * padding; };
   const bool again = run.now().open.has_value() && !done;
   float width = button_width("Back") + gap + button_width(forward) + gap + side;
   if (again) width += button_width("Set up again") + gap;
-  const float x = region.at.x + region.size.x - app.theme.px(12) - width;
-  ImGui::SetCursorScreenPos({x, region.at.y + app.theme.px(9)});
-  if (again && text_button(app, "Set up again")) set_up_step(app);
+  const float x = region.at.x + region.size.x - ui.theme.px(12) - width;
+  ImGui::SetCursorScreenPos({x, region.at.y + ui.theme.px(9)});
+  if (again && text_button(ui, "Set up again")) set_up_step(ui.session);
   if (again) ImGui::SameLine(0, gap);
-  if (text_button(app, "Back", false, run.step > 0)) back_step(app);
+  if (text_button(ui, "Back", false, run.step > 0)) back_step(ui.session);
   ImGui::SameLine(0, gap);
-  const bool go = text_button(app, forward, done);
+  const bool go = text_button(ui, forward, done);
   ImGui::SameLine(0, gap);
-  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + app.theme.px(13)});
-  const bool leave = quiet_button(app, "leave", icon::close, "x", "Leave the lab; what is done is remembered");
+  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + ui.theme.px(13)});
+  const bool leave = quiet_button(ui, "leave", icon::close, "x", "Leave the lab; what is done is remembered");
   if (leave || (go && last)) {
-    app.command(Command::leave_lab);
+    ui.command("leave_lab");
   } else if (go) {
-    enter_step(app, run.step + 1);
+    enter_step(ui.session, run.step + 1);
   }
   return x;
 }
 
-void lab_header(App& app, LabRun& run, const Region& region) {
-  const Tokens& c = app.theme.colors;
-  const float end = lab_buttons(app, run, region) - app.theme.px(12);
+void lab_header(Ui& ui, LabRun& run, const Region& region) {
+  const Tokens& c = ui.theme.colors;
+  const float end = lab_buttons(ui, run, region) - ui.theme.px(12);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float middle = region.at.y + app.theme.px(24), margin = app.theme.px(16);
+  const float middle = region.at.y + ui.theme.px(24), margin = ui.theme.px(16);
   float x = region.at.x + margin;
-  const float baseline = baseline_at(app.fonts, middle);
-  const std::string title = fitted(*app.fonts.title, run.now().title, end - x);
-  draw_on_baseline(draw, *app.fonts.title, {x, baseline}, c.text, title);
-  x += text_width(*app.fonts.title, title) + app.theme.px(10);
+  const float baseline = baseline_at(ui.fonts, middle);
+  const std::string title = fitted(*ui.fonts.title, run.now().title, end - x);
+  draw_on_baseline(draw, *ui.fonts.title, {x, baseline}, c.text, title);
+  x += text_width(*ui.fonts.title, title) + ui.theme.px(10);
   char place[32];
   std::snprintf(place, sizeof place, "Step %zu of %zu", run.step + 1, run.lab.steps.size());
-  if (x + text_width(*app.fonts.small, place) > end) return;
+  if (x + text_width(*ui.fonts.small, place) > end) return;
   const std::string full = std::string(place) + " · " + run.lab.title;
-  draw_on_baseline(draw, *app.fonts.small, {x, baseline}, c.quiet, fitted(*app.fonts.small, full, end - x));
+  draw_on_baseline(draw, *ui.fonts.small, {x, baseline}, c.quiet, fitted(*ui.fonts.small, full, end - x));
 }
 
 }  // namespace
 
-float lab_panel_height(const App& app, float available) {
-  if (!app.labs.run) return 0;
-  return std::round(std::min(app.theme.px(290), 0.45f * available));
+float lab_panel_height(const Ui& ui, float available) {
+  if (!ui.session.labs.run) return 0;
+  return std::round(std::min(ui.theme.px(290), 0.45f * available));
 }
 
-void lab_panel(App& app, const Region& region) {
-  const Tokens& c = app.theme.colors;
+void lab_panel(Ui& ui, const Region& region) {
+  const Tokens& c = ui.theme.colors;
   if (!begin_region("lab", region, c.panel, {0, 0})) return end_region();
-  LabRun& run = *app.labs.run;
+  LabRun& run = *ui.session.labs.run;
   ImGui::GetWindowDrawList()->AddLine(region.at, {region.at.x + region.size.x, region.at.y}, c.line);
-  lab_header(app, run, region);
-  const float margin = app.theme.px(16), gap = app.theme.px(20), top = region.at.y + app.theme.px(header_at_1);
-  const float left = region.at.x + margin, width = region.size.x - margin - app.theme.px(8);
-  const float height = region.at.y + region.size.y - top - app.theme.px(4);
-  const bool two = region.size.x >= app.theme.px(lab_two_columns);
+  lab_header(ui, run, region);
+  const float margin = ui.theme.px(16), gap = ui.theme.px(20), top = region.at.y + ui.theme.px(header_at_1);
+  const float left = region.at.x + margin, width = region.size.x - margin - ui.theme.px(8);
+  const float height = region.at.y + region.size.y - top - ui.theme.px(4);
+  const bool two = region.size.x >= ui.theme.px(lab_two_columns);
   const float column = two ? std::floor((width - gap) / 2) : width;
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
-  begin_lab_column(app, ("read" + id).c_str(), left, top, {column, height});
-  reading_part(app, run);
+  begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height});
+  reading_part(ui, run);
   // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
   const bool beside = two && to_be_predicted(run.now(), run.record());
-  if (!beside) prediction_part(app, run.now(), run.record());
-  if (two) end_lab_column(app), begin_lab_column(app, ("do" + id).c_str(), left + column + gap, top, {column, height});
-  if (beside) prediction_part(app, run.now(), run.record());
-  doing_part(app, run.now(), run.record());
-  explanation_part(app, run);
-  end_lab_column(app);
+  if (!beside) prediction_part(ui, run.now(), run.record());
+  if (two) end_lab_column(ui), begin_lab_column(ui, ("do" + id).c_str(), left + column + gap, top, {column, height});
+  if (beside) prediction_part(ui, run.now(), run.record());
+  doing_part(ui, run.now(), run.record());
+  explanation_part(ui, run);
+  end_lab_column(ui);
   end_region();
 }
 

@@ -19,8 +19,8 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
 constexpr float least_plots = 180;  // height of their column beside a lab's strip, pixels at scale 1
 
 /// A border that drags: changes `width` (at scale 1) of the region on its left (sign 1) or right (sign -1).
-void splitter(App& app, const char* id, float x, float top, float bottom, float& width, float sign) {
-  const float grip = app.theme.px(8);
+void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& width, float sign) {
+  const float grip = ui.theme.px(8);
   const Region region{{x - grip / 2, top}, {grip, bottom - top}};
   ImGui::SetNextWindowPos(region.at);
   ImGui::SetNextWindowSize(region.size);
@@ -30,26 +30,26 @@ void splitter(App& app, const char* id, float x, float top, float bottom, float&
     ImGui::InvisibleButton("grip", region.size);
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-      ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, app.theme.colors.accent, app.theme.px(2));
+      ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, ui.theme.colors.accent, ui.theme.px(2));
     }
     if (ImGui::IsItemActive())
-      width = std::clamp(width + sign * ImGui::GetIO().MouseDelta.x / app.theme.scale, 240.f, 900.f);
+      width = std::clamp(width + sign * ImGui::GetIO().MouseDelta.x / ui.theme.scale, 240.f, 900.f);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
-  app.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
+  ui.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
 }
 
 /// Chooses which of the two columns stands in the place that they share; or, where the cloth has none beside it
 /// (`all`), which of the three. `lab`: it is seen with the constants, not with the plots. Returns its height.
-float side_tabs(App& app, const Region& region, bool all, bool lab) {
+float side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
   const char* const names[] = {lab ? "Constants, lab" : "Constants", "Plots", "Cloth"};
-  if (begin_region("side", region, app.theme.colors.panel, {app.theme.px(16), app.theme.px(8)})) {
-    const int now = all && app.ui.side_cloth ? 2 : app.ui.side_plots ? 1 : 0;
-    const int k = segments(app, "columns", names, all ? 3 : 2, now);
-    if (k == 0 || k == 1) app.ui.side_plots = k == 1;
-    if (k >= 0) app.ui.side_cloth = k == 2;
-    tooltip(app, gui::item_id(), "The window is too narrow for all at once; Ctrl+- makes text and panels smaller.");
+  if (begin_region("side", region, ui.theme.colors.panel, {ui.theme.px(16), ui.theme.px(8)})) {
+    const int now = all && ui.side_cloth ? 2 : ui.side_plots ? 1 : 0;
+    const int k = segments(ui, "columns", names, all ? 3 : 2, now);
+    if (k == 0 || k == 1) ui.side_plots = k == 1;
+    if (k >= 0) ui.side_cloth = k == 2;
+    tooltip(ui, gui::item_id(), "The window is too narrow for all at once; Ctrl+- makes text and panels smaller.");
   }
   end_region();
   return region.size.y;
@@ -71,59 +71,60 @@ void end_region() {
   ImGui::PopStyleVar();
 }
 
-void draw_layout(App& app, ImVec2 window) {
-  Layout& layout = app.settings.layout;
-  const bool panels = app.ui.panels;
-  const float top = panels ? app.theme.px(48) : 0;
-  const float bottom = panels && layout.status ? app.theme.px(30) : 0;
+void draw_layout(Ui& ui, ImVec2 window) {
+  Layout& layout = ui.settings.layout;
+  const bool panels = ui.panels;
+  const float top = panels ? ui.theme.px(48) : 0;
+  const float bottom = panels && layout.status ? ui.theme.px(30) : 0;
   const float height = std::max(window.y - top - bottom, 1.f);
   // In a narrow window, or with large text, the sides share what the viewport can spare.
-  const float spare = window.x - app.theme.px(240), most = std::max(spare / 2, app.theme.px(240));
-  float left = panels && layout.left ? std::round(std::min(layout.left_width * app.theme.scale, most)) : 0;
-  float right = panels && layout.right ? std::round(std::min(layout.right_width * app.theme.scale, most)) : 0;
+  const float spare = window.x - ui.theme.px(240), most = std::max(spare / 2, ui.theme.px(240));
+  float left = panels && layout.left ? std::round(std::min(layout.left_width * ui.theme.scale, most)) : 0;
+  float right = panels && layout.right ? std::round(std::min(layout.right_width * ui.theme.scale, most)) : 0;
   // Where both have no room, they take turns in one place.
   const bool shared = left > 0 && left + right > spare;
   if (left + right > spare) right = 0;
-  if (shared) left = std::round(std::min(layout.left_width * app.theme.scale, std::max(spare, left)));
+  if (shared) left = std::round(std::min(layout.left_width * ui.theme.scale, std::max(spare, left)));
   // Where not even one has room beside the cloth, all three do.
-  const bool in_turn = left > 0 && left + app.theme.px(140) > window.x;
-  if (in_turn) left = app.ui.side_cloth ? 0 : window.x;
-  app.ui.viewport_left = left;
-  app.ui.plots.forces_shown = app.ui.plots.height_shown = app.ui.energy_shown = false;
-  app.ui.accuracy_shown = app.ui.map_shown = app.ui.inside_shown = app.copies.shown = false;
+  const bool in_turn = left > 0 && left + ui.theme.px(140) > window.x;
+  if (in_turn) left = ui.side_cloth ? 0 : window.x;
+  ui.viewport_left = left;
+  ui.wants = {};
 
-  float lab = panels ? lab_panel_height(app, height) : 0;
-  const float middle = window.x - left - right, strip = app.theme.px(42);
+  float lab = panels ? lab_panel_height(ui, height) : 0;
+  const float middle = window.x - left - right, strip = ui.theme.px(42);
   // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll;
   // plots that would be too low above it take its place.
-  const bool narrow = middle < app.theme.px(lab_two_columns);
-  const bool apart = lab > 0 && narrow && (shared || in_turn) && height - lab - strip < app.theme.px(least_plots);
-  if (apart && left > 0 && app.ui.side_plots) lab = 0;
+  const bool narrow = middle < ui.theme.px(lab_two_columns);
+  const bool apart = lab > 0 && narrow && (shared || in_turn) && height - lab - strip < ui.theme.px(least_plots);
+  if (apart && left > 0 && ui.side_plots) lab = 0;
   const bool below = lab > 0 && left > 0 && narrow;
   const float low = below ? 0 : left, column = window.y - top - (below ? lab + bottom : 0);
   const float over_cloth = in_turn ? strip : 0;
   if (middle > 0) {
-    viewport_panel(app, {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}});
+    viewport_panel(ui, {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}});
   } else {
-    app.viewport.box = {};
-    app.viewport.covers.clear();
+    ui.viewport.box = {};
+    ui.viewport.covers.clear();
   }
-  if (lab > 0) lab_panel(app, {{low, top + height - lab}, {left + middle - low, lab}});
-  if (panels) top_bar(app, {{0, 0}, {window.x, top}});
+  if (lab > 0) lab_panel(ui, {{low, top + height - lab}, {left + middle - low, lab}});
+  if (panels) top_bar(ui, {{0, 0}, {window.x, top}});
   const Region over_side{{0, top}, {in_turn ? window.x : left, strip}};
-  const float tabs = shared || in_turn ? side_tabs(app, over_side, in_turn, apart) : 0;
+  const float tabs = shared || in_turn ? side_tabs(ui, over_side, in_turn, apart) : 0;
   const Region side{{0, top + tabs}, {left, column - tabs}};
-  if (left > 0) shared&& app.ui.side_plots ? plots_panel(app, side) : constants_panel(app, side);
-  if (right > 0) plots_panel(app, {{window.x - right, top}, {right, window.y - top}});
-  if (bottom > 0) status_bar(app, {{low, window.y - bottom}, {left + middle - low, bottom}});
-  if (left > 0 && !in_turn) splitter(app, "left border", left, top, top + column, layout.left_width, 1);
-  if (right > 0) splitter(app, "right border", window.x - right, top, window.y, layout.right_width, -1);
-  tour_card(app);
-  help_overlay(app);
-  palette(app);
-  dialogs(app);
-  app.labs.enter = false;
-  app.viewport.blocked = app.ui.palette.open || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  const bool plots_at_side = shared && ui.side_plots;
+  ui.wants.stability = left > 0 && !plots_at_side;  // the gauge under dt, the zones under sliders
+  if (left > 0) plots_at_side ? plots_panel(ui, side) : constants_panel(ui, side);
+  if (right > 0) plots_panel(ui, {{window.x - right, top}, {right, window.y - top}});
+  if (bottom > 0) status_bar(ui, {{low, window.y - bottom}, {left + middle - low, bottom}});
+  if (left > 0 && !in_turn) splitter(ui, "left border", left, top, top + column, layout.left_width, 1);
+  if (right > 0) splitter(ui, "right border", window.x - right, top, window.y, layout.right_width, -1);
+  tour_card(ui);
+  help_overlay(ui);
+  palette(ui);
+  dialogs(ui);
+  ui.lab_enter = false;
+  ui.viewport.blocked = ui.palette.open || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 
 }  // namespace tyglab

@@ -25,43 +25,14 @@ std::string lower(std::string_view text) {
   return small;
 }
 
-bool available(const App& app, Command command) {
-  switch (command) {
-    case Command::leave_lab:
-      return app.labs.run.has_value();
-    case Command::undo:
-    case Command::undo_and_restart:
-      return app.history.can_undo();
-    case Command::redo:
-      return app.history.can_redo();
-    case Command::export_height:
-    case Command::show_height:
-      return app.preset().kind == Kind::one_weight;
-    case Command::next_color:
-    case Command::export_values:
-    case Command::export_mesh:
-      return app.preset().kind == Kind::cloth;
-    case Command::export_copies:
-    case Command::show_distances:
-      return !app.copies.lockstep.empty();
-    case Command::export_convergence:
-      return app.convergence.study().has_value();
-    case Command::open_palette:
-      return false;  // it is open
-    default:
-      return true;
-  }
-}
-
-void add_commands(const App& app, std::vector<PaletteEntry>& list) {
+void add_commands(const Ui& ui, std::vector<PaletteEntry>& list) {
   for (const CommandRow& row : command_rows())
-    if (available(app, row.command))
-      list.push_back(
-          {"Command", row.name, row.keys, row.also, row.help, [command = row.command](App& a) { a.command(command); }});
+    if (why_not(ui, row).empty())
+      list.push_back({"Command", row.name, row.keys, row.also, row.help, [id = row.id](Ui& u) { u.command(id); }});
 }
 
-std::string progress(const App& app, const Lab& lab) {
-  const int done = steps_done(app, lab), steps = int(lab.steps.size());
+std::string progress(const Ui& ui, const Lab& lab) {
+  const int done = steps_done(ui.session, lab), steps = int(lab.steps.size());
   if (done == 0) return std::to_string(steps) + " steps";
   return done == steps ? "done" : std::to_string(done) + " of " + std::to_string(steps);
 }
@@ -72,17 +43,17 @@ std::string all_of(const Paragraphs& text) {
   return all;
 }
 
-void add_labs(App& app, std::vector<PaletteEntry>& list) {
-  for (const Lab& lab : find_labs(app))
-    list.push_back({"Lab", lab.title, progress(app, lab), lab.label, all_of(lab.summary),
-                    [label = lab.label](App& a) { begin_lab(a, label); }});
+void add_labs(Ui& ui, std::vector<PaletteEntry>& list) {
+  for (const Lab& lab : find_labs(ui.session))
+    list.push_back({"Lab", lab.title, progress(ui, lab), lab.label, all_of(lab.summary),
+                    [label = lab.label](Ui& u) { begin_lab(u.session, label); }});
 }
 
 void add_presets(std::vector<PaletteEntry>& list, const std::filesystem::path& file, bool shipped) {
   try {
     const Preset preset = load_preset(file);
     list.push_back({"Preset", preset.name, file.stem().string(), file.stem().string() + " open", preset.description,
-                    [file, shipped](App& a) { a.request(request::Open{.file = file, .shipped = shipped}); }});
+                    [file, shipped](Ui& u) { u.session.request(request::Open{.file = file, .shipped = shipped}); }});
   } catch (const PresetError&) {
     // The dialog that opens files says what is wrong with one.
   }
@@ -97,11 +68,11 @@ void add_all_presets(std::vector<PaletteEntry>& list) {
 
 /// Asks for the present constants with one thing changed.
 template <class Change>
-std::function<void(App&)> proposing(Change change) {
-  return [change](App& app) {
-    Preset next = app.requested_preset();
+std::function<void(Ui&)> proposing(Change change) {
+  return [change](Ui& ui) {
+    Preset next = ui.session.requested_preset();
     change(next);
-    app.propose(std::move(next));
+    ui.session.propose(std::move(next));
   };
 }
 
@@ -117,18 +88,18 @@ void add_engines(std::vector<PaletteEntry>& list) {
                     proposing([&mode](Preset& next) { next.engine = mode.engine, next.precision = mode.precision; })});
 }
 
-void add_constants(const App& app, std::vector<PaletteEntry>& list) {
+void add_constants(const Ui& ui, std::vector<PaletteEntry>& list) {
   for (const PresetRow& row : notation())
-    if (applies(row, app.requested_preset()))
+    if (applies(row, ui.session.requested_preset()))
       list.push_back({"Constant", std::string(row.symbol) + "  " + std::string(row.quantity), std::string(row.unit),
                       std::string(row.key) + " " + std::string(row.storhet), std::string(row.help),
-                      [key = row.key](App& a) { show_constant(a, key); }});
+                      [key = row.key](Ui& u) { show_constant(u, key); }});
 }
 
-void add_copies(const App& app, std::vector<PaletteEntry>& list) {
-  for (const CopyChoice& choice : copy_choices(app.requested_preset()))
-    list.push_back({"Copy", "Add a copy: " + choice.label, "", "with beside compare", "", [choice](App& a) {
-                      a.request(request::AddCopy{choice.differences, choice.reference});
+void add_copies(const Ui& ui, std::vector<PaletteEntry>& list) {
+  for (const CopyChoice& choice : copy_choices(ui.session.requested_preset()))
+    list.push_back({"Copy", "Add a copy: " + choice.label, "", "with beside compare", "", [choice](Ui& u) {
+                      u.session.request(request::AddCopy{choice.differences, choice.reference});
                     }});
 }
 
@@ -138,26 +109,24 @@ void add_views(std::vector<PaletteEntry>& list) {
                     proposing([k](Preset& next) { next.mode = k + 1; })});
 }
 
-void add_colors(const App& app, std::vector<PaletteEntry>& list) {
-  const auto colored = [](std::optional<ParticleField> field) {
-    return [field](App& a) { a.request(request::ColorBy{field}); };
-  };
+void add_colors(const Ui& ui, std::vector<PaletteEntry>& list) {
+  const auto colored = [](std::optional<ParticleField> field) { return [field](Ui& u) { color_by(u, field); }; };
   list.push_back({"Colour", "Own colours", "", "cloth texture", "", colored(std::nullopt)});
   for (const FieldInfo& field : particle_fields())
-    if (why_not_colored(app, field.field).empty())
+    if (why_not_colored(ui.scene, field.field).empty())
       list.push_back({"Colour", std::string(field.title), std::string(field.unit),
                       std::string(field.name) + " color cloth", "", colored(field.field)});
 }
 
 /// The kind of thing stands before its name, unless all are of one.
-void palette_row(App& app, const PaletteEntry& entry, bool chosen, float width) {
-  const Tokens& c = app.theme.colors;
-  const float height = app.theme.px(28), padding = app.theme.px(10), group = app.ui.palette.labs ? 0 : app.theme.px(84);
+void palette_row(Ui& ui, const PaletteEntry& entry, bool chosen, float width) {
+  const Tokens& c = ui.theme.colors;
+  const float height = ui.theme.px(28), padding = ui.theme.px(10), group = ui.palette.labs ? 0 : ui.theme.px(84);
   const ImVec2 lo = ImGui::GetItemRectMin(), hi{lo.x + width, lo.y + height};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (chosen) draw.AddRectFilled(lo, hi, mixed(c.field, c.accent, 0.3f), app.theme.px(5));
-  const float baseline = baseline_at(app.fonts, lo.y + height / 2);
-  const ImFont &text = *app.fonts.text, &small = *app.fonts.small;
+  if (chosen) draw.AddRectFilled(lo, hi, mixed(c.field, c.accent, 0.3f), ui.theme.px(5));
+  const float baseline = baseline_at(ui.fonts, lo.y + height / 2);
+  const ImFont &text = *ui.fonts.text, &small = *ui.fonts.small;
   const float keys = text_width(small, entry.keys), right = hi.x - padding - keys;
   if (group > 0) draw_on_baseline(draw, small, {lo.x + padding, baseline}, c.quiet, entry.group);
   draw_on_baseline(draw, text, {lo.x + padding + group, baseline}, c.text,
@@ -165,61 +134,61 @@ void palette_row(App& app, const PaletteEntry& entry, bool chosen, float width) 
   draw_on_baseline(draw, small, {right, baseline}, chosen ? c.text : c.quiet, entry.keys);
 }
 
-void act(App& app, int index) {
-  CommandPalette& palette = app.ui.palette;
+void act(Ui& ui, int index) {
+  CommandPalette& palette = ui.palette;
   palette.open = false;
   const auto action = palette.entries[std::size_t(index)].act;
-  action(app);
+  action(ui);
 }
 
-void palette_field(App& app) {
-  CommandPalette& palette = app.ui.palette;
+void palette_field(Ui& ui) {
+  CommandPalette& palette = ui.palette;
   if (std::exchange(palette.opening, false)) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(10), app.theme.px(9)));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(10), ui.theme.px(9)));
   ImGui::InputTextWithHint("##find", palette.labs ? "Find a lab" : "Find a command, preset, lab, method or constant",
                            palette.text, sizeof palette.text);
   ImGui::PopStyleVar();
-  report_control(app, "find");
+  report_control(ui, "find");
 }
 
 /// The list, in which the pointer chooses as it moves. Returns the entry that was clicked, or -1.
-int palette_list(App& app, const std::vector<int>& found, float height, bool moved) {
-  CommandPalette& palette = app.ui.palette;
+int palette_list(Ui& ui, const std::vector<int>& found, float height, bool moved) {
+  CommandPalette& palette = ui.palette;
   int clicked = -1;
   gui::begin_child("list", {0, height});
   const float width = ImGui::GetContentRegionAvail().x;
   for (int k = 0; k < int(found.size()); ++k) {
     ImGui::PushID(k);
     const PaletteEntry& entry = palette.entries[std::size_t(found[std::size_t(k)])];
-    if (ImGui::InvisibleButton("entry", {width, app.theme.px(28)})) clicked = found[std::size_t(k)];
-    report_control(app, entry.group + "." + entry.title);
+    if (ImGui::InvisibleButton("entry", {width, ui.theme.px(28)})) clicked = found[std::size_t(k)];
+    report_control(ui, entry.group + "." + entry.title);
     const ImVec2 way = ImGui::GetIO().MouseDelta;
     if (ImGui::IsItemHovered() && (way.x != 0 || way.y != 0)) palette.selected = k;
     if (moved && k == palette.selected) ImGui::SetScrollHereY(0.5f);
-    palette_row(app, entry, k == palette.selected, width);
+    palette_row(ui, entry, k == palette.selected, width);
     ImGui::PopID();
   }
-  if (found.empty()) wrapped(app, "Nothing is called so. Try another word, or fewer.", app.theme.colors.quiet);
+  if (found.empty()) wrapped(ui, "Nothing is called so. Try another word, or fewer.", ui.theme.colors.quiet);
   ImGui::EndChild();
   return clicked;
 }
 
-void palette_contents(App& app, float height) {
-  CommandPalette& palette = app.ui.palette;
-  palette_field(app);
+void palette_contents(Ui& ui, float height) {
+  CommandPalette& palette = ui.palette;
+  palette_field(ui);
   const std::vector<int> found = matching(palette.entries, palette.text);
-  ImGui::Dummy({0, app.theme.px(4)});
+  ImGui::Dummy({0, ui.theme.px(4)});
   if (palette.narrowed != palette.text) palette.narrowed = palette.text, palette.selected = 0;
   const bool moved = palette.go != 0;
   palette.selected = std::clamp(palette.selected + std::exchange(palette.go, 0), 0, std::max(int(found.size()) - 1, 0));
-  const float rows = float(std::max(int(found.size()), 1)) * app.theme.px(30);
-  const int clicked = palette_list(app, found, std::min(height, rows), moved);
+  const float rows = float(std::max(int(found.size()), 1)) * ui.theme.px(30);
+  const int clicked = palette_list(ui, found, std::min(height, rows), moved);
   // Enter counts once the field has been shown all that was typed before it.
-  const bool enter = palette.enter && !app.input.unread;
+  const bool enter = palette.enter && !ui.input.unread;
   if (enter) palette.enter = false;
-  if (clicked >= 0) return act(app, clicked);
-  if (enter && !found.empty()) act(app, found[std::size_t(palette.selected)]);
+  if (clicked >= 0) return act(ui, clicked);
+  if (enter && !found.empty()) act(ui, found[std::size_t(palette.selected)]);
   palette.opening = enter && found.empty();  // Enter has taken the keys from the field
 }
 
@@ -243,17 +212,17 @@ std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::strin
 
 }  // namespace
 
-std::vector<PaletteEntry> palette_entries(App& app) {
+std::vector<PaletteEntry> palette_entries(Ui& ui) {
   std::vector<PaletteEntry> list;
-  add_commands(app, list);
+  add_commands(ui, list);
   add_engines(list);
-  add_labs(app, list);
+  add_labs(ui, list);
   add_all_presets(list);
   add_integrators(list);
-  add_constants(app, list);
-  add_copies(app, list);
+  add_constants(ui, list);
+  add_copies(ui, list);
   add_views(list);
-  add_colors(app, list);
+  add_colors(ui, list);
   return list;
 }
 
@@ -270,30 +239,30 @@ std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_vie
   return found;
 }
 
-void open_palette(App& app, bool labs) {
-  CommandPalette& palette = app.ui.palette;
+void open_palette(Ui& ui, bool labs) {
+  CommandPalette& palette = ui.palette;
   palette = CommandPalette{};
   palette.open = palette.opening = true, palette.labs = labs;
   if (labs) {
-    add_labs(app, palette.entries);
+    add_labs(ui, palette.entries);
   } else {
-    palette.entries = palette_entries(app);
+    palette.entries = palette_entries(ui);
   }
 }
 
-void palette(App& app) {
-  CommandPalette& palette = app.ui.palette;
-  if (app.ui.dialog.kind != Dialog::Kind::none) palette.open = false;
+void palette(Ui& ui) {
+  CommandPalette& palette = ui.palette;
+  if (ui.dialog.kind != Dialog::Kind::none) palette.open = false;
   if (!palette.open) return;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float width = std::min(app.theme.px(560), window.x - app.theme.px(24)), top = app.theme.px(72);
-  const float list = std::min(app.theme.px(392), window.y - top - app.theme.px(96));
+  const float width = std::min(ui.theme.px(560), window.x - ui.theme.px(24)), top = ui.theme.px(72);
+  const float list = std::min(ui.theme.px(392), window.y - top - ui.theme.px(96));
   ImGui::SetNextWindowPos({std::round((window.x - width) / 2), top});
   ImGui::SetNextWindowSize({width, 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(12), app.theme.px(12)));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, app.theme.px(8));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(12), ui.theme.px(12)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(2)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(2)));
   if (palette.opening) ImGui::SetNextWindowFocus();
   if (ImGui::Begin("palette", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -301,7 +270,7 @@ void palette(App& app) {
     const bool elsewhere =
         ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows);
     if (elsewhere) palette.open = false;
-    if (palette.open) palette_contents(app, std::max(list, app.theme.px(60)));
+    if (palette.open) palette_contents(ui, std::max(list, ui.theme.px(60)));
   }
   ImGui::End();
   ImGui::PopStyleVar(4);

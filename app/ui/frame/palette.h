@@ -5,17 +5,17 @@
 #include <string_view>
 #include <vector>
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
 /// Opens it; `labs`: with labs alone, and how far each is done.
-void open_palette(App& app, bool labs = false);
+void open_palette(Ui& ui, bool labs = false);
 /// Draws it, and does what is chosen.
-void palette(App& app);
+void palette(Ui& ui);
 
 /// All that it finds now.
-std::vector<PaletteEntry> palette_entries(App& app);
+std::vector<PaletteEntry> palette_entries(Ui& ui);
 /// Indices of the entries that hold every word typed, those whose title begins with it first.
 std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_view typed);
 

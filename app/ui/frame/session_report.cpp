@@ -10,7 +10,7 @@
 #include <set>
 
 #include "app/tools/wind_arrow.h"
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "core/model/words.h"
@@ -49,19 +49,20 @@ Json vector(const glm::dvec3& v) {
 }
 
 /// Pixels in the window, or null behind the camera.
-Json on_screen(const App& app, const glm::dvec3& x) {
-  const auto at = app.camera.project(x, app.viewport.size());
+Json on_screen(const Ui& ui, const glm::dvec3& x) {
+  const auto at = ui.scene.camera.project(x, ui.viewport.size());
   if (!at) return nullptr;
-  return {at->x + app.viewport.box.lo.x, at->y + app.viewport.box.lo.y};
+  return {at->x + ui.viewport.box.lo.x, at->y + ui.viewport.box.lo.y};
 }
 
 Json site(const std::optional<Pins::Site>& site) {
   return site ? Json{site->i, site->j} : Json(nullptr);
 }
 
-Json particle(const App& app, int i, int j) {
-  const glm::dvec3 x = app.simulation->position(i, j);
-  return {{"i", i}, {"j", j}, {"x", vector(x)}, {"at", on_screen(app, x)}, {"pinned", app.simulation->pinned(i, j)}};
+Json particle(const Ui& ui, int i, int j) {
+  const glm::dvec3 x = ui.session.simulation->position(i, j);
+  return {
+      {"i", i}, {"j", j}, {"x", vector(x)}, {"at", on_screen(ui, x)}, {"pinned", ui.session.simulation->pinned(i, j)}};
 }
 
 std::set<int> sample_of(int count) {
@@ -70,46 +71,47 @@ std::set<int> sample_of(int count) {
   return indices;
 }
 
-Json particles(const App& app) {
+Json particles(const Ui& ui) {
   Json list = Json::array();
-  const Lattice& lattice = app.simulation->lattice();
+  const Lattice& lattice = ui.session.simulation->lattice();
   for (const int i : sample_of(lattice.rows))
-    for (const int j : sample_of(lattice.columns)) list.push_back(particle(app, i, j));
+    for (const int j : sample_of(lattice.columns)) list.push_back(particle(ui, i, j));
   return list;
 }
 
-Json bodies(const App& app) {
+Json bodies(const Ui& ui) {
   Json list = Json::array();
-  for (const Body& body : app.preset().bodies)
-    list.push_back({{"shape", name_of(body.shape)}, {"c", vector(body.c)}, {"at", on_screen(app, body.c)}});
+  for (const Body& body : ui.session.preset().bodies)
+    list.push_back({{"shape", name_of(body.shape)}, {"c", vector(body.c)}, {"at", on_screen(ui, body.c)}});
   return list;
 }
 
-Json held(const App& app) {
-  const auto held = app.simulation->held();
+Json held(const Ui& ui) {
+  const auto held = ui.session.simulation->held();
   if (!held) return nullptr;
-  Json json = particle(app, held->i, held->j);
-  json["force_N"] = vector(app.simulation->hand_force());
+  Json json = particle(ui, held->i, held->j);
+  json["force_N"] = vector(ui.session.simulation->hand_force());
   return json;
 }
 
-Json divergence(const App& app) {
-  const auto& d = app.simulation->divergence();
+Json divergence(const Ui& ui) {
+  const auto& d = ui.session.simulation->divergence();
   if (!d) return nullptr;
   return {{"t", d->t},         {"step", d->step},         {"i", d->i},
           {"j", d->j},         {"quantity", d->quantity}, {"value", d->value},
-          {"cause", d->cause}, {"remedy", d->advice},     {"constants_changed", changed_since_divergence(app)}};
+          {"cause", d->cause}, {"remedy", d->advice},     {"constants_changed", changed_since_divergence(ui.session)}};
 }
 
 /// What the gauge under dt shows; infinity cannot be said in JSON.
-Json dt_over_limit(const App& app) {
-  const auto& limits = app.stability.limits();
-  return limits && limits->any > 0 && std::isfinite(limits->any) ? Json(app.preset().dt / limits->any) : Json(nullptr);
+Json dt_over_limit(const Ui& ui) {
+  const auto& limits = ui.session.studies.stability.limits();
+  return limits && limits->any > 0 && std::isfinite(limits->any) ? Json(ui.session.preset().dt / limits->any)
+                                                                 : Json(nullptr);
 }
 
 /// The ledger; null while none is kept.
-Json energy(const App& app) {
-  const auto ledger = app.simulation->ledger();
+Json energy(const Ui& ui) {
+  const auto ledger = ui.session.simulation->ledger();
   if (!ledger) return nullptr;
   Json json = Json::object();
   for (const EnergyRow& row : energy_rows(*ledger)) json[std::string(row.name)] = row.joule;
@@ -118,8 +120,8 @@ Json energy(const App& app) {
 }
 
 /// What the accuracy card knows; null while it is closed.
-Json accuracy(const App& app) {
-  const auto study = app.accuracy.study();
+Json accuracy(const Ui& ui) {
+  const auto study = ui.session.studies.accuracy.study();
   if (!study) return nullptr;
   Json json = {{"seconds", study->reference.seconds}, {"points", study->points.size()}, {"done", study->done}};
   const auto& present = study->present;
@@ -128,8 +130,8 @@ Json accuracy(const App& app) {
 }
 
 /// What is known of the order of convergence; null while nothing is.
-Json convergence(const App& app) {
-  const auto study = app.convergence.study();
+Json convergence(const Ui& ui) {
+  const auto study = ui.session.studies.convergence.study();
   if (!study) return nullptr;
   const auto order = measured_order(*study);
   return {{"points", study->points.size()},
@@ -139,9 +141,9 @@ Json convergence(const App& app) {
 }
 
 /// The lab in work; null without one.
-Json lab(const App& app) {
-  if (!app.labs.run) return nullptr;
-  const LabRun& run = *app.labs.run;
+Json lab(const Ui& ui) {
+  if (!ui.session.labs.run) return nullptr;
+  const LabRun& run = *ui.session.labs.run;
   const StepRecord& record = run.record();
   Json checks = Json::array();
   for (const CheckState state : record.checks) checks.push_back(state == CheckState::holds);
@@ -151,12 +153,12 @@ Json lab(const App& app) {
 }
 
 /// The copies in lockstep; a distance is told where the card measures it.
-Json copies(const App& app) {
+Json copies(const Ui& ui) {
   Json list = Json::array();
-  const Copies& copies = app.copies;
+  const Copies& copies = ui.session.copies;
   for (int n = 0; n < int(copies.lockstep.size()); ++n) {
-    const Simulation& cloth = cloth_of(app, n);
-    Json copy = {{"name", name_of_cloth(app, n)}, {"t", cloth.time()}, {"steps", cloth.steps()}};
+    const Simulation& cloth = cloth_of(ui.session, n);
+    Json copy = {{"name", name_of_cloth(ui.session, n)}, {"t", cloth.time()}, {"steps", cloth.steps()}};
     const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
     copy["distance"] = std::isfinite(apart) ? Json(apart) : Json(nullptr);
     copy["diverged"] = cloth.divergence().has_value();
@@ -169,10 +171,10 @@ Json copies(const App& app) {
 }
 
 /// What colours the cloth, and where its scale ends; null where nothing does.
-Json colors(const App& app) {
-  const FieldColors* shown = shown_colors(app);
+Json colors(const Ui& ui) {
+  const FieldColors* shown = shown_colors(ui.scene);
   if (shown == nullptr) return nullptr;
-  const auto& marked = app.colors.under_pointer;
+  const auto& marked = ui.scene.colors.under_pointer;
   return {{"field", info(shown->field).name},
           {"top", shown->top()},
           {"fixed", shown->fixed.has_value()},
@@ -180,8 +182,8 @@ Json colors(const App& app) {
 }
 
 /// The step that is written out; null where none is.
-Json inside(const App& app) {
-  const StepTrace* trace = app.inside.shown();
+Json inside(const Ui& ui) {
+  const StepTrace* trace = ui.session.inspector.shown();
   if (trace == nullptr) return nullptr;
   return {{"site", {trace->i, trace->j}},
           {"evaluations", trace->stages.size()},
@@ -189,27 +191,28 @@ Json inside(const App& app) {
           {"x", vector(trace->x_after)}};
 }
 
-int pinned_count(const App& app) {
-  const Lattice& lattice = app.simulation->lattice();
+int pinned_count(const Ui& ui) {
+  const Lattice& lattice = ui.session.simulation->lattice();
   int count = 0;
   for (int i = 0; i < lattice.rows; ++i)
-    for (int j = 0; j < lattice.columns; ++j) count += app.simulation->pinned(i, j);
+    for (int j = 0; j < lattice.columns; ++j) count += ui.session.simulation->pinned(i, j);
   return count;
 }
 
 /// The wind and its arrow; `tip` in pixels of the window, null where none is shown.
-Json wind(const App& app) {
-  Json json = {{"W", vector(app.preset().W)}, {"now", vector(app.simulation->wind())}, {"tip", nullptr}};
-  if (wind_arrow_shown(app)) json["tip"] = on_screen(app, wind_arrow(app, app.requested_preset().W).tip);
+Json wind(const Ui& ui) {
+  Json json = {{"W", vector(ui.session.preset().W)}, {"now", vector(ui.session.simulation->wind())}, {"tip", nullptr}};
+  if (wind_arrow_shown(ui.tools))
+    json["tip"] = on_screen(ui, wind_arrow(ui.tools, ui.session.requested_preset().W).tip);
   return json;
 }
 
-Json handling(const App& app) {
-  const ToolSettings& handling = app.settings.handling;
+Json handling(const Ui& ui) {
+  const ToolSettings& handling = ui.settings.handling;
   return {{"cut_along_path", handling.cut_along_path},
           {"slow_hand", handling.slow_hand},
           {"arrows", handling.arrows},
-          {"arrows_shown", app.ui.arrows}};
+          {"arrows_shown", ui.arrows}};
 }
 
 std::string_view name_of(Tool::Kind kind) {
@@ -223,70 +226,72 @@ std::string_view name_of(Dialog::Kind kind) {
   return names[std::size_t(kind)];
 }
 
-void add_simulation(Json& json, const App& app) {
-  const Simulation& simulation = *app.simulation;
+void add_simulation(Json& json, const Ui& ui) {
+  const Simulation& simulation = *ui.session.simulation;
   json["t"] = simulation.time();
   json["steps"] = simulation.steps();
-  json["paused"] = !app.pacing.playing;
-  json["asleep"] = app.asleep();
-  json["speed"] = app.pacing.speed;
-  json["aim"] = app.pacing.aim();
-  json["wind"] = wind(app);
-  json["divergence"] = divergence(app);
-  json["dt_over_limit"] = dt_over_limit(app);
-  json["auto_dt"] = app.auto_dt.has_value();
-  json["energy"] = energy(app);
-  json["accuracy"] = accuracy(app);
-  json["convergence"] = convergence(app);
-  json["copies"] = copies(app);
-  const auto map = app.map.findings();
+  json["paused"] = !ui.session.pacing.playing;
+  json["asleep"] = ui.session.asleep();
+  json["speed"] = ui.session.pacing.speed;
+  json["aim"] = ui.session.pacing.aim();
+  json["wind"] = wind(ui);
+  json["divergence"] = divergence(ui);
+  json["dt_over_limit"] = dt_over_limit(ui);
+  json["auto_dt"] = ui.session.auto_dt.has_value();
+  json["energy"] = energy(ui);
+  json["accuracy"] = accuracy(ui);
+  json["convergence"] = convergence(ui);
+  json["copies"] = copies(ui);
+  const auto map = ui.session.studies.map.findings();
   json["map_cells"] = map ? Json(map->cells.size()) : Json(nullptr);
-  json["copies_reference"] = app.copies.reference;
-  const auto next = app.building.lattice();
+  json["copies_reference"] = ui.session.copies.reference;
+  const auto next = ui.session.rebuild.lattice();
   json["building"] = next ? Json{next->rows, next->columns} : Json(nullptr);
-  json["frames_while_building"] = app.building.frames_beside();
-  json["label"] = app.document.label;
-  json["file"] = app.document.file.string();
-  json["unsaved"] = unsaved(app);
-  json["preset"] = Json::parse(preset_to_json(app.preset()));
+  json["frames_while_building"] = ui.session.rebuild.frames_beside();
+  json["label"] = ui.session.document.label;
+  json["file"] = ui.session.document.file.string();
+  json["unsaved"] = unsaved(ui.session);
+  json["preset"] = Json::parse(preset_to_json(ui.session.preset()));
   json["torn_springs"] = simulation.tears().torn_count();
-  json["pinned"] = pinned_count(app);
-  json["picked"] = site(app.picked);
-  json["picked_x"] = app.picked ? vector(simulation.position(app.picked->i, app.picked->j)) : Json(nullptr);
-  json["inside"] = inside(app);
-  json["held"] = held(app);
-  json["view"] = app.preset().mode;
-  json["colors"] = colors(app);
-  json["effects_left_out"] = app.effects.left_out();
+  json["pinned"] = pinned_count(ui);
+  json["picked"] = site(ui.session.picked);
+  json["picked_x"] =
+      ui.session.picked ? vector(simulation.position(ui.session.picked->i, ui.session.picked->j)) : Json(nullptr);
+  json["inside"] = inside(ui);
+  json["held"] = held(ui);
+  json["view"] = ui.session.preset().mode;
+  json["colors"] = colors(ui);
+  json["effects_left_out"] = ui.scene.effects.left_out();
 }
 
-void add_window(Json& json, const App& app) {
+void add_window(Json& json, const Ui& ui) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const glm::vec2 at = app.viewport.box.lo, size = app.viewport.whole();
+  const glm::vec2 at = ui.viewport.box.lo, size = ui.viewport.whole();
   json["window"] = {window.x, window.y};
   json["viewport"] = {at.x, at.y, size.x, size.y};
-  json["pictures"] = {app.viewport.columns, app.viewport.rows};
-  json["pointer"] = {app.input.at.x, app.input.at.y};
-  json["tool"] = name_of(app.tool.kind);
-  json["camera"] = {{"yaw", app.camera.yaw}, {"pitch", app.camera.pitch}, {"distance", app.camera.distance}};
-  json["view_buttons"] = app.viewport.buttons;
-  json["tabs"] = app.ui.plots.cards;
-  json["tab"] = app.ui.plots.tab;
-  json["handling"] = handling(app);
-  json["theme"] = app.settings.theme;
-  const SliderState& slider = app.ui.slider;
-  const bool starts = slider.typing_starts || app.ui.dialog.refused || app.ui.dialog.selecting;  // takes no keys yet
+  json["pictures"] = {ui.viewport.columns, ui.viewport.rows};
+  json["pointer"] = {ui.input.at.x, ui.input.at.y};
+  json["tool"] = name_of(ui.tools.tool.kind);
+  json["camera"] = {
+      {"yaw", ui.scene.camera.yaw}, {"pitch", ui.scene.camera.pitch}, {"distance", ui.scene.camera.distance}};
+  json["view_buttons"] = ui.viewport.buttons;
+  json["tabs"] = ui.plots.cards;
+  json["tab"] = ui.plots.tab;
+  json["handling"] = handling(ui);
+  json["theme"] = ui.settings.theme;
+  const SliderState& slider = ui.slider;
+  const bool starts = slider.typing_starts || ui.dialog.refused || ui.dialog.selecting;  // takes no keys yet
   json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);
-  json["dialog"] = name_of(app.ui.dialog.kind);
-  json["problem"] = app.ui.dialog.problem;
-  json["palette"] = app.ui.palette.open;
-  json["tour"] = app.ui.tour.card;
-  json["lab"] = lab(app);
+  json["dialog"] = name_of(ui.dialog.kind);
+  json["problem"] = ui.dialog.problem;
+  json["palette"] = ui.palette.open;
+  json["tour"] = ui.tour.card;
+  json["lab"] = lab(ui);
   Json messages = Json::array();
-  for (const Message& message : app.messages.list()) messages.push_back(message.text);
+  for (const Message& message : ui.session.messages.list()) messages.push_back(message.text);
   json["messages"] = messages;
   Json marks = Json::object();
-  for (const OverlayLayout::Mark& mark : app.ui.placing.marks()) {
+  for (const OverlayLayout::Mark& mark : ui.placing.marks()) {
     const glm::vec2 lo = mark.box.lo, extent = mark.box.hi - lo;
     marks[mark.name] = {lo.x, lo.y, extent.x, extent.y};
   }
@@ -305,45 +310,41 @@ void SessionReport::add_control(std::string_view name) {
   drawing_[place_of(window) + "." + plain(name)] = {{seen.Min.x, seen.Min.y}, {seen.GetWidth(), seen.GetHeight()}};
 }
 
-std::string SessionReport::json(const App& app, bool ended) const {
+std::string SessionReport::json(const Ui& ui, bool ended) const {
   Json json;
   json["tyglab_session"] = 1;
   json["frames"] = frames_;
   json["events"] = events_;
   json["ended"] = ended;
-  add_simulation(json, app);
-  add_window(json, app);
-  json["particles"] = particles(app);
-  json["bodies"] = bodies(app);
+  add_simulation(json, ui);
+  add_window(json, ui);
+  json["particles"] = particles(ui);
+  json["bodies"] = bodies(ui);
   Json controls = Json::object();
   for (const auto& [name, box] : shown_) controls[name] = {box.at.x, box.at.y, box.size.x, box.size.y};
   json["controls"] = controls;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void SessionReport::end_frame(App& app) {
+void SessionReport::end_frame(Ui& ui) {
   shown_.swap(drawing_);
   drawing_.clear();
   ++frames_;
-  events_ += std::ssize(app.input.keys);
-  for (const PointerEvent& event : app.input.pointer) events_ += event.type != PointerEvent::Type::move;
+  events_ += std::ssize(ui.input.keys);
+  for (const PointerEvent& event : ui.input.pointer) events_ += event.type != PointerEvent::Type::move;
   if (failed_ || Clock::now() - written_ < period) return;
   try {
-    write_atomically(file_, json(app, false));
+    write_atomically(file_, json(ui, false));
     written_ = Clock::now();
   } catch (const OutputError& error) {
     failed_ = true;
-    app.messages.error(std::string(error.what()) + ". The session report ends here.");
+    ui.session.messages.error(std::string(error.what()) + ". The session report ends here.");
   }
 }
 
-void SessionReport::finish(const App& app) {
+void SessionReport::finish(const Ui& ui) {
   if (failed_) throw OutputError(file_.string() + ": a part of the session report could not be written.");
-  write_atomically(file_, json(app, true));
-}
-
-void report_control(App& app, std::string_view name) {
-  if (app.report) app.report->add_control(name);
+  write_atomically(file_, json(ui, true));
 }
 
 }  // namespace tyglab

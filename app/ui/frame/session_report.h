@@ -10,27 +10,29 @@
 #include <string>
 #include <string_view>
 
+#include "app/ui/kit/ui_context.h"
+
 namespace tyglab {
 
-struct App;
+struct Ui;
 
-class SessionReport {
+class SessionReport : public ControlLog {
  public:
   explicit SessionReport(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// The Dear ImGui item drawn last is a control of that name. Controls that cannot be seen are left out.
-  void add_control(std::string_view name);
+  /// Controls that cannot be seen are left out.
+  void add_control(std::string_view name) override;
   /// Ends a frame; rewrites the file when that is due. What goes wrong becomes one message, and ends the report.
-  void end_frame(App& app);
+  void end_frame(Ui& ui);
   /// Writes the last one. Throws OutputError, also where an earlier one could not be written.
-  void finish(const App& app);
+  void finish(const Ui& ui);
 
  private:
   using Clock = std::chrono::steady_clock;
   struct Box {
     glm::vec2 at, size;  ///< pixels in the window
   };
-  std::string json(const App& app, bool ended) const;
+  std::string json(const Ui& ui, bool ended) const;
 
   std::filesystem::path file_;
   std::map<std::string, Box> drawing_, shown_;  ///< controls of the frame being drawn, and of the last whole one
@@ -39,9 +41,5 @@ class SessionReport {
   Clock::time_point written_{};
   bool failed_ = false;
 };
-
-/// Names the item drawn last for the session report, if there is one: the region or "dialog" or "menu" that it stands
-/// in, a dot, and `name` with _ for all but letters and digits: "top.play", "constants.k_s.slider", "dialog.Save".
-void report_control(App& app, std::string_view name);
 
 }  // namespace tyglab

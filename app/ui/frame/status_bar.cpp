@@ -17,33 +17,33 @@ struct Hint {
 };
 
 /// The hints that fit, most useful first.
-void hints(App& app, ImDrawList& draw, ImVec2 at, float end, std::initializer_list<Hint> list) {
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.small;
+void hints(Ui& ui, ImDrawList& draw, ImVec2 at, float end, std::initializer_list<Hint> list) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.small;
   float x = at.x;
   for (const Hint& hint : list) {
-    const float what = text_width(font, hint.what), does = text_width(font, hint.does), gap = app.theme.px(6);
+    const float what = text_width(font, hint.what), does = text_width(font, hint.does), gap = ui.theme.px(6);
     if (x + what + gap + does > end) return;
     draw_text(draw, font, {x, at.y}, c.text, hint.what);
     draw_text(draw, font, {x + what + gap, at.y}, c.quiet, hint.does);
-    x += what + gap + does + app.theme.px(20);
+    x += what + gap + does + ui.theme.px(20);
   }
 }
 
 /// What is in work, or what the cloth is: the most important first.
-std::vector<std::string> facts_of(const App& app) {
-  if (app.engine_search.busy()) return {"Measuring the engines …"};
-  if (app.building.programs()) return {"Building the device's program …"};
+std::vector<std::string> facts_of(const Ui& ui) {
+  if (ui.session.studies.engine.busy()) return {"Measuring the engines …"};
+  if (ui.session.rebuild.programs()) return {"Building the device's program …"};
   const auto size = [](const Lattice& l) { return std::to_string(l.rows) + " × " + std::to_string(l.columns); };
-  if (const auto next = app.building.lattice()) return {"Building " + size(*next) + " …"};
-  if (app.preset().kind != Kind::cloth) return {"one weight"};
-  std::vector<std::string> facts{size(app.simulation->lattice()) + " particles"};
-  const std::string every = std::to_string(app.view.every);
-  if (app.view.every > 1) facts.front() += ", one in " + every + " × " + every + " drawn";
-  if (const int torn = app.simulation->tears().torn_count(); torn > 0)
+  if (const auto next = ui.session.rebuild.lattice()) return {"Building " + size(*next) + " …"};
+  if (ui.session.preset().kind != Kind::cloth) return {"one weight"};
+  std::vector<std::string> facts{size(ui.session.simulation->lattice()) + " particles"};
+  const std::string every = std::to_string(ui.scene.view.every);
+  if (ui.scene.view.every > 1) facts.front() += ", one in " + every + " × " + every + " drawn";
+  if (const int torn = ui.session.simulation->tears().torn_count(); torn > 0)
     facts.push_back(std::to_string(torn) + (torn == 1 ? " spring torn" : " springs torn"));
-  if (app.asleep()) facts.emplace_back("at rest: asleep until touched");
-  if (const std::string without = app.effects.words(); !without.empty()) facts.push_back("without " + without);
+  if (ui.session.asleep()) facts.emplace_back("at rest: asleep until touched");
+  if (const std::string without = ui.scene.effects.words(); !without.empty()) facts.push_back("without " + without);
   return facts;
 }
 
@@ -55,38 +55,38 @@ std::string first_of(const std::vector<std::string>& facts, std::size_t count) {
 }
 
 /// As many of the facts as have room, at the right; the pointer asks for all. Returns where they begin.
-float draw_facts(App& app, ImDrawList& draw, ImVec2 right, float room) {
-  const ImFont& font = *app.fonts.small;
-  const std::vector<std::string> facts = facts_of(app);
+float draw_facts(Ui& ui, ImDrawList& draw, ImVec2 right, float room) {
+  const ImFont& font = *ui.fonts.small;
+  const std::vector<std::string> facts = facts_of(ui);
   const std::string all = first_of(facts, facts.size());
   std::string shown = all;
   for (std::size_t count = facts.size() - 1; count > 0 && text_width(font, shown) > room; --count)
     shown = first_of(facts, count) + " · …";
   shown = fitted(font, shown, room);
   const float x = right.x - text_width(font, shown);
-  draw_text(draw, font, {x, right.y}, app.theme.colors.quiet, shown);
+  draw_text(draw, font, {x, right.y}, ui.theme.colors.quiet, shown);
   ImGui::SetCursorScreenPos({x, right.y});
   ImGui::InvisibleButton("facts", {std::max(right.x - x, 1.f), font.FontSize});
-  report_control(app, "facts");
-  if (shown != all) tooltip(app, gui::item_id(), all);
+  report_control(ui, "facts");
+  if (shown != all) tooltip(ui, gui::item_id(), all);
   return x;
 }
 
 }  // namespace
 
-void status_bar(App& app, const Region& region) {
-  const Tokens& c = app.theme.colors;
+void status_bar(Ui& ui, const Region& region) {
+  const Tokens& c = ui.theme.colors;
   if (!begin_region("status", region, c.panel, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float margin = app.theme.px(16);
-  const float y = std::round(region.at.y + (region.size.y - app.fonts.small->FontSize) / 2);
-  const float facts_x = draw_facts(app, draw, {region.at.x + region.size.x - margin, y}, region.size.x - 2 * margin);
+  const float margin = ui.theme.px(16);
+  const float y = std::round(region.at.y + (region.size.y - ui.fonts.small->FontSize) / 2);
+  const float facts_x = draw_facts(ui, draw, {region.at.x + region.size.x - margin, y}, region.size.x - 2 * margin);
   const ImVec2 at{region.at.x + margin, y};
-  const float end = facts_x - app.theme.px(16);
-  if (app.preset().kind == Kind::cloth) {
-    hints(app, draw, at, end,
+  const float end = facts_x - ui.theme.px(16);
+  if (ui.session.preset().kind == Kind::cloth) {
+    hints(ui, draw, at, end,
           {{"Right drag", "grabs"},
-           {"Left drag", app.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},
+           {"Left drag", ui.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},
            {"Middle drag", "orbits"},
            {"Right click", "picks"},
            {"Right double-click", "pins"},
@@ -94,7 +94,7 @@ void status_bar(App& app, const Region& region) {
            {"F", "frames"},
            {"F1", "help"}});
   } else {
-    hints(app, draw, at, end, {{"Middle drag", "orbits"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}});
+    hints(ui, draw, at, end, {{"Middle drag", "orbits"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}});
   }
   end_region();
 }

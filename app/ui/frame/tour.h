@@ -1,12 +1,12 @@
 // A handful of cards that show a newcomer round: once at the first start, and again from the help.
 #pragma once
 
-#include "app/ui/app.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
-void start_tour(App& app);
+void start_tour(Ui& ui);
 /// Draws the present card, beside what it tells of.
-void tour_card(App& app);
+void tour_card(Ui& ui);
 
 }  // namespace tyglab

@@ -3,16 +3,16 @@
 
 #include <span>
 
-#include "app/ui/app.h"
+#include "app/ui/kit/ui_context.h"
 
 namespace tyglab {
 
 /// How the names are shown in a column of that size (px).
 class CardTabs {
  public:
-  CardTabs(const App& app, std::span<const char* const> names, ImVec2 column);
+  CardTabs(const UiContext& ui, std::span<const char* const> names, ImVec2 column);
   /// Draws them at the cursor; returns the index of the one that was chosen, or -1.
-  int draw(App& app, int chosen) const;
+  int draw(UiContext& ui, int chosen) const;
   float height() const { return height_; }  ///< px
 
  private:

@@ -1,32 +1,6 @@
 #include "app/ui/kit/curves.h"
 
-#include "app/session/reference_curves.h"
-
-#include <algorithm>
-#include <glm/geometric.hpp>
-#include <stdexcept>
-
 namespace tyglab {
-
-const Variable& variable(std::string_view key) {
-  const auto list = variables();
-  const auto it = std::find_if(list.begin(), list.end(), [&](const Variable& v) { return v.key == key; });
-  if (it == list.end()) throw std::logic_error("no variable is called " + std::string(key));
-  return *it;
-}
-
-glm::dvec3 vector_of(const ParticleReadout& r, std::string_view key) {
-  if (key == "F_s") return r.F_s;
-  if (key == "F_b") return r.F_b;
-  if (key == "F_d") return r.F_d;
-  if (key == "F_g") return r.F_g;
-  if (key == "F_int") return r.F_int;
-  if (key == "F_ext") return r.F_ext;
-  if (key == "F") return r.F;
-  if (key == "x") return r.x;
-  if (key == "v") return r.v;
-  return r.a;
-}
 
 CurveStyle curve_style(const Tokens& c, std::string_view key) {
   if (key == "F_s") return {c.blue, LineStyle::solid, 1.8f};
@@ -65,25 +39,13 @@ CurveStyle integrator_style(const Tokens& c, std::string_view name) {
   return {c.quiet, LineStyle::solid, 1.8f};
 }
 
-std::vector<std::string> height_column_names() {
-  std::vector<std::string> names{"y [m]"};
-  for (std::string_view curve : ReferenceCurves::curves) names.push_back("y_" + std::string(curve) + " [m]");
-  return names;
-}
-
-std::vector<std::string> force_column_names() {
-  std::vector<std::string> names;
-  for (std::string_view key : force_keys) names.push_back(std::string(key) + " [N]");
-  return names;
-}
-
-std::array<double, Plots::forces_count> force_values(const ParticleReadout& r) {
-  return {glm::length(r.F),   glm::length(r.F_s),   glm::length(r.F_b),  glm::length(r.F_d),
-          glm::length(r.F_g), glm::length(r.F_int), glm::length(r.F_ext)};
-}
-
-std::array<double, Plots::forces_count> force_values(const ForceSummary& s) {
-  return {s.F, s.F_s, s.F_b, s.F_d, s.F_g, s.F_int, s.F_ext};
+CurveStyle copy_style(const Tokens& c, std::optional<std::size_t> seat) {
+  static constexpr std::array<ImU32 Tokens::*, Lockstep::most> colors{&Tokens::orange, &Tokens::green, &Tokens::magenta,
+                                                                      &Tokens::yellow, &Tokens::vermilion};
+  static constexpr std::array<LineStyle, Lockstep::most> lines{
+      LineStyle::dashed, LineStyle::long_dash, LineStyle::dotted, LineStyle::dash_dot, LineStyle::sparse_dots};
+  if (!seat) return {c.sky, LineStyle::solid, 2};
+  return {c.*colors[*seat], lines[*seat], 2};
 }
 
 }  // namespace tyglab

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/tools/pointer.h"
+#include "app/base/viewport.h"
 
 namespace tyglab {
 

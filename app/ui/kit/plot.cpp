@@ -41,10 +41,9 @@ double quantile(const std::vector<double>& sorted, double q) {
   return sorted[std::size_t(q * double(sorted.size() - 1))];
 }
 
-float label_width(App& app, std::span<const PlotTick> ticks) {
-  float width = app.theme.px(38);
-  for (const PlotTick& tick : ticks)
-    width = std::max(width, text_width(*app.fonts.small, tick.label) + app.theme.px(7));
+float label_width(UiContext& ui, std::span<const PlotTick> ticks) {
+  float width = ui.theme.px(38);
+  for (const PlotTick& tick : ticks) width = std::max(width, text_width(*ui.fonts.small, tick.label) + ui.theme.px(7));
   return width;
 }
 
@@ -57,8 +56,8 @@ void draw_times(const PlotPaint& paint, const PlotAxes& axes) {
   draw_text(paint.draw, font, {axes.hi.x - text_width(font, to), below}, paint.theme.colors.quiet, to);
 }
 
-void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const PlotCurve> curves,
-              std::string_view unit) {
+void read_out(UiContext& ui, ImDrawList& draw, const PlotAxes& axes, std::span<const PlotCurve> curves,
+              const PlotFrame& frame) {
   const std::span<const double> x = curves.front().x;
   const double along = (ImGui::GetIO().MousePos.x - axes.lo.x) / (axes.hi.x - axes.lo.x);
   const double wanted = axes.x.lo + along * (axes.x.hi - axes.x.lo);
@@ -66,35 +65,33 @@ void read_out(App& app, ImDrawList& draw, const PlotAxes& axes, std::span<const 
   if (after == x.end()) --after;
   if (after != x.begin() && wanted - *(after - 1) < *after - wanted) --after;
   const auto n = std::size_t(after - x.begin());
-  const Tokens& c = app.theme.colors;
+  const Tokens& c = ui.theme.colors;
   const float at = std::round(axes.px(x[n]));
   draw.AddLine({at, axes.lo.y}, {at, axes.hi.y}, faded(c.text, 0.4f));
   const auto has = [&](const PlotCurve& curve) { return n >= curve.from && n < curve.to; };
   for (const PlotCurve& curve : curves)
     if (has(curve) && axes.y.drawable(curve.y[n]))
-      draw.AddCircleFilled({at, axes.py(curve.y[n])}, app.theme.px(3), curve.style.color, 12);
-  begin_tooltip_at_pointer(app);
-  ImGui::PushFont(app.fonts.mono);
-  wrapped(app, "t = " + time_number(x[n], app.preset().dt) + " s", c.quiet);
+      draw.AddCircleFilled({at, axes.py(curve.y[n])}, ui.theme.px(3), curve.style.color, 12);
+  begin_tooltip_at_pointer(ui);
+  ImGui::PushFont(ui.fonts.mono);
+  wrapped(ui, "t = " + time_number(x[n], frame.time_step) + " s", c.quiet);
   ImDrawList& tip = *ImGui::GetWindowDrawList();
-  float names = app.theme.px(48);
-  for (const PlotCurve& curve : curves)
-    names = std::max(names, symbol_width(app.fonts, curve.symbol) + app.theme.px(12));
+  float names = ui.theme.px(48);
+  for (const PlotCurve& curve : curves) names = std::max(names, symbol_width(ui.fonts, curve.symbol) + ui.theme.px(12));
   for (const PlotCurve& curve : curves) {
     if (!has(curve) || !std::isfinite(curve.y[n])) continue;
     const ImVec2 lo = ImGui::GetCursorScreenPos();
-    const float line = app.theme.px(20), middle = std::round(lo.y + line / 2);
-    const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + app.theme.px(24), middle}};
-    draw_styled_line(tip, sample, 2, curve.style, app.theme.scale);
-    draw_symbol(tip, app.fonts, {lo.x + app.theme.px(32), baseline_at(app.fonts, middle)}, curve.symbol, c.text);
-    const std::string value = steady_number(curve.y[n]) + " " + std::string(unit);
-    draw_on_baseline(tip, *app.fonts.mono, {lo.x + app.theme.px(32) + names, baseline_at(app.fonts, middle)}, c.text,
+    const float line = ui.theme.px(20), middle = std::round(lo.y + line / 2);
+    const ImVec2 sample[2] = {{lo.x, middle}, {lo.x + ui.theme.px(24), middle}};
+    draw_styled_line(tip, sample, 2, curve.style, ui.theme.scale);
+    draw_symbol(tip, ui.fonts, {lo.x + ui.theme.px(32), baseline_at(ui.fonts, middle)}, curve.symbol, c.text);
+    const std::string value = steady_number(curve.y[n]) + " " + std::string(frame.unit);
+    draw_on_baseline(tip, *ui.fonts.mono, {lo.x + ui.theme.px(32) + names, baseline_at(ui.fonts, middle)}, c.text,
                      value);
-    ImGui::Dummy(
-        {app.theme.px(36) + names + text_width(*app.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
+    ImGui::Dummy({ui.theme.px(36) + names + text_width(*ui.fonts.mono, value), line - ImGui::GetStyle().ItemSpacing.y});
   }
   ImGui::PopFont();
-  end_tooltip(app);
+  end_tooltip(ui);
 }
 
 }  // namespace
@@ -109,16 +106,16 @@ PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) 
   return linear_range(std::max(values.front(), low - reach), std::min(values.back(), high + reach), frame.from_zero);
 }
 
-float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
+float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + size.x, lo.y + size.y};
   ImGui::InvisibleButton(id, size);
-  const bool hovered = ImGui::IsItemHovered() && !app.ui.help;
-  const PlotPaint paint{*ImGui::GetWindowDrawList(), app.theme, app.fonts};
+  const bool hovered = ImGui::IsItemHovered() && !ui.covered;
+  const PlotPaint paint{*ImGui::GetWindowDrawList(), ui.theme, ui.fonts};
   const PlotRange range = plot_range(curves, frame);
   const std::vector<PlotTick> ticks = labelled(range.ticks);
-  const ImFont& font = *app.fonts.small;
-  const PlotAxes axes{{lo.x + label_width(app, ticks), lo.y + std::round(font.FontSize / 2)},
-                      {hi.x, hi.y - font.FontSize - app.theme.px(6)},
+  const ImFont& font = *ui.fonts.small;
+  const PlotAxes axes{{lo.x + label_width(ui, ticks), lo.y + std::round(font.FontSize / 2)},
+                      {hi.x, hi.y - font.FontSize - ui.theme.px(6)},
                       {frame.x_min, frame.x_max},
                       {range.lo, range.hi, frame.log}};
   if (axes.hi.x - axes.lo.x < 8 || axes.hi.y - axes.lo.y < 8) return 0;
@@ -128,7 +125,7 @@ float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve
     const float width = text_width(font, frame.when_empty);
     draw_text(paint.draw, font,
               {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},
-              app.theme.colors.quiet, frame.when_empty);
+              ui.theme.colors.quiet, frame.when_empty);
     return 0;
   }
   const auto [first, last] = window_of(curves.front().x, frame);
@@ -136,27 +133,9 @@ float draw_plot(App& app, const char* id, ImVec2 size, std::span<const PlotCurve
   for (const PlotCurve& curve : curves) draw_curve(paint, axes, curve, first, last);
   paint.draw.PopClipRect();
   if (!hovered) return 0;
-  if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(app, paint.draw, axes, curves, frame.unit);
-  const bool scrolls = app.ui.plots.scrolls && !ImGui::GetIO().KeyCtrl;
+  if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(ui, paint.draw, axes, curves, frame);
+  const bool scrolls = ui.wheel_scrolls && !ImGui::GetIO().KeyCtrl;
   return scrolls ? 0 : ImGui::GetIO().MouseWheel;
-}
-
-const char* why_empty(const App& app) {
-  if (app.simulation->divergence()) return "Restart to see curves";
-  return app.pacing.playing ? "Waiting for the first step" : "Press Space to run";
-}
-
-PlotFrame time_frame(const App& app, const Series& series, bool log, std::string_view unit,
-                     std::string_view when_empty) {
-  const double now = series.empty() ? app.simulation->time() : series.t().back();
-  const double length = series.empty() ? 0 : now - series.t().front();
-  const double window = app.ui.plots.window_s.value_or(length <= 2 ? 2 : length <= 5 ? 5 : 10);
-  const double end = std::max(now, window);
-  return {.x_min = end - window, .x_max = end, .log = log, .from_zero = true, .unit = unit, .when_empty = when_empty};
-}
-
-void zoom_time(App& app, const PlotFrame& frame, float wheel) {
-  if (wheel != 0) app.ui.plots.window_s = std::clamp((frame.x_max - frame.x_min) * std::pow(0.8, wheel), 0.1, 120.0);
 }
 
 }  // namespace tyglab

@@ -11,21 +11,21 @@ namespace tyglab {
 class PlotCard {
  public:
   /// `buttons`: how many head_buttons follow; the note stands to their left.
-  PlotCard(App& app, const char* id, std::string_view title, std::string_view note, float height, int buttons = 0);
+  PlotCard(UiContext& ui, const char* id, std::string_view title, std::string_view note, float height, int buttons = 0);
   ~PlotCard();
   PlotCard(const PlotCard&) = delete;
   PlotCard& operator=(const PlotCard&) = delete;
   const Region& inner() const { return inner_; }
 
   /// A button on the title's line, the n-th from the right; the cursor stays.
-  bool head_button(App& app, int n, const char* id, const char* glyph, const char* word, const char* tip) const;
+  bool head_button(UiContext& ui, int n, const char* id, const char* glyph, const char* word, const char* tip) const;
 
  private:
   Region inner_;
 };
 
 /// Height of a card with so much in it, and width of what a card of that width holds, px.
-float plot_card_height(const App& app, float content);
-float plot_card_inner_width(const App& app, float width);
+float plot_card_height(const UiContext& ui, float content);
+float plot_card_inner_width(const UiContext& ui, float width);
 
 }  // namespace tyglab

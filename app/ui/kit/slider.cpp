@@ -56,14 +56,14 @@ void start_typing(SliderState& state, unsigned id, double value) {
 }
 
 /// Whether the last item, a number, was pressed so that it can be typed.
-bool wants_typing(const App& app) {
-  return (ImGui::IsItemActive() && app.input.double_click) ||
-         (ImGui::IsItemActivated() && (app.input.mods & GLFW_MOD_CONTROL) != 0);
+bool wants_typing(const UiContext& ui) {
+  return (ImGui::IsItemActive() && ui.input.double_click) ||
+         (ImGui::IsItemActivated() && (ui.input.mods & GLFW_MOD_CONTROL) != 0);
 }
 
 /// Keys of the focused slider, as one result.
-SliderResult take_keys(App& app, const SliderScale& scale, double value) {
-  SliderState& state = app.ui.slider;
+SliderResult take_keys(UiContext& ui, const SliderScale& scale, double value) {
+  SliderState& state = ui.slider;
   SliderResult result{.value = value};
   const auto go = [&](double to) { result.changed = to != value, result.value = to; };
   for (const KeyEvent& key : state.keys) {
@@ -128,9 +128,9 @@ bool follow_focus(SliderState& state, unsigned id) {
 }
 
 /// The drag of a slider or of a cell; `width` pixels are the whole scale.
-SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigned id, float width, bool jump,
+SliderResult take_drag(UiContext& ui, const SliderScale& scale, double value, unsigned id, float width, bool jump,
                        float left) {
-  SliderState& state = app.ui.slider;
+  SliderState& state = ui.slider;
   SliderResult result{.value = value};
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemActivated()) {
@@ -138,17 +138,17 @@ SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigne
     state.dragged = id;
     state.value = value;
     state.position = slider_position(scale, value);
-    state.reset_done = app.ui.now - state.reset_time < double_click_time;
+    state.reset_done = ui.now - state.reset_time < double_click_time;
     const double under = (io.MousePos.x - left) / width;
-    if (jump && !state.reset_done && !app.input.double_click &&
-        std::abs(under - state.position) * width > app.theme.px(6))
+    if (jump && !state.reset_done && !ui.input.double_click &&
+        std::abs(under - state.position) * width > ui.theme.px(6))
       state.position = under;
   } else if (ImGui::IsItemActive() && state.dragged == id) {
     state.position += io.MouseDelta.x / width * (io.KeyShift ? 0.1 : 1);
   }
-  if (jump && ImGui::IsItemActive() && app.input.double_click) {
+  if (jump && ImGui::IsItemActive() && ui.input.double_click) {
     result.reset = state.reset_done = true;
-    state.reset_time = app.ui.now;
+    state.reset_time = ui.now;
   }
   if (ImGui::IsItemActive() && state.dragged == id && !state.reset_done) {
     const double to = slider_value(scale, state.position, io.KeyShift ? 4 : 3);
@@ -165,22 +165,23 @@ SliderResult take_drag(App& app, const SliderScale& scale, double value, unsigne
   return result;
 }
 
-void draw_track(App& app, const SliderScale& scale, double value, ImVec2 lo, ImVec2 hi, bool hovered, bool focused) {
-  const Tokens& c = app.theme.colors;
+void draw_track(UiContext& ui, const SliderScale& scale, double value, ImVec2 lo, ImVec2 hi, bool hovered,
+                bool focused) {
+  const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float round = app.theme.px(4), middle = (lo.y + hi.y) / 2, half = app.theme.px(8);
+  const float round = ui.theme.px(4), middle = (lo.y + hi.y) / 2, half = ui.theme.px(8);
   const ImVec2 a{lo.x, middle - half}, b{hi.x, middle + half};
   draw.AddRectFilled(a, b, hovered ? c.field_hover : c.field, round);
   const double t = slider_position(scale, value);
   const float x = std::round(lo.x + float(t) * (hi.x - lo.x));
   if (x > lo.x + 1) draw.AddRectFilled(a, {x, b.y}, mixed(c.field, c.accent, hovered ? 0.42f : 0.34f), round);
   if (focused)
-    draw.AddRect({a.x - 2, a.y - 2}, {b.x + 2, b.y + 2}, c.accent, round + 2, 0, std::max(1.f, app.theme.px(1.5f)));
-  const float thick = app.theme.px(2), tall = app.theme.px(10);
+    draw.AddRect({a.x - 2, a.y - 2}, {b.x + 2, b.y + 2}, c.accent, round + 2, 0, std::max(1.f, ui.theme.px(1.5f)));
+  const float thick = ui.theme.px(2), tall = ui.theme.px(10);
   const float at = std::clamp(x, lo.x + thick, hi.x - thick);
-  draw.AddRectFilled({at - thick, middle - tall}, {at + thick, middle + tall}, c.text, app.theme.px(2));
+  draw.AddRectFilled({at - thick, middle - tall}, {at + thick, middle + tall}, c.text, ui.theme.px(2));
   // The value lies beyond the slider's own range: an arrow at the end says so.
-  const float r = app.theme.px(4);
+  const float r = ui.theme.px(4);
   if (value > scale.max * (1 + 1e-9))
     draw.AddTriangleFilled({hi.x - 3 * r, middle - r}, {hi.x - 3 * r, middle + r}, {hi.x - 2 * r, middle}, c.text);
   if (value < lowest(scale) * (1 - 1e-9) && value != 0 && value < scale.max)
@@ -188,19 +189,19 @@ void draw_track(App& app, const SliderScale& scale, double value, ImVec2 lo, ImV
 }
 
 /// The text field of a value. Sets `result` when the typing ends.
-void type_value(App& app, double value, float width, float height, std::string_view unit, SliderResult& result) {
-  SliderState& state = app.ui.slider;
+void type_value(UiContext& ui, double value, float width, float height, std::string_view unit, SliderResult& result) {
+  SliderState& state = ui.slider;
   if (state.typing_starts) ImGui::SetKeyboardFocusHere();
-  ImGui::PushFont(app.fonts.mono);
-  const float above = std::floor((height - app.fonts.mono->FontSize) / 2);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(4), above));
+  ImGui::PushFont(ui.fonts.mono);
+  const float above = std::floor((height - ui.fonts.mono->FontSize) / 2);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(4), above));
   ImGui::SetNextItemWidth(width);
   ImGui::InputText("##typed", state.text, sizeof state.text, ImGuiInputTextFlags_AutoSelectAll);
   ImGui::PopStyleVar();
   ImGui::PopFont();
   if (ImGui::IsItemActive()) state.typing_starts = false;
   // Enter counts once the text field has been shown all that was typed before it.
-  const bool ended = (state.commit || state.cancel) && !app.input.unread;
+  const bool ended = (state.commit || state.cancel) && !ui.input.unread;
   const bool over = ended || (!state.typing_starts && !ImGui::IsItemActive());
   if (!over) return;
   state.typing = 0;
@@ -209,9 +210,9 @@ void type_value(App& app, double value, float width, float height, std::string_v
     result.changed = result.finished = *typed != value;
     result.value = *typed;
   } else {
-    app.messages.error(std::string("“") + state.text + "” is not a number" +
-                       (unit.empty() ? "" : " in " + std::string(unit)) +
-                       "; the value stays. Type one such as 310 or 1e-4.");
+    ui.messages.error(std::string("“") + state.text + "” is not a number" +
+                      (unit.empty() ? "" : " in " + std::string(unit)) +
+                      "; the value stays. Type one such as 310 or 1e-4.");
   }
 }
 
@@ -239,27 +240,27 @@ double slider_value(const SliderScale& s, double position, int digits) {
   return std::clamp(tidy(s, low * std::pow(s.max / low, position), digits), low, s.max);
 }
 
-SliderResult slider(App& app, const SliderScale& scale, double value, float width, float height) {
+SliderResult slider(UiContext& ui, const SliderScale& scale, double value, float width, float height) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("slider", {width, height});
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
-  SliderResult result = take_drag(app, scale, value, id, width, true, lo.x);
-  const bool focused = follow_focus(app.ui.slider, id);
-  if (focused && !app.ui.slider.keys.empty()) result = take_keys(app, scale, value);
-  const bool dragging = ImGui::IsItemActive() && app.ui.slider.dragged == id;
-  draw_track(app, scale, dragging ? app.ui.slider.value : value, lo, {lo.x + width, lo.y + height}, hovered, focused);
+  SliderResult result = take_drag(ui, scale, value, id, width, true, lo.x);
+  const bool focused = follow_focus(ui.slider, id);
+  if (focused && !ui.slider.keys.empty()) result = take_keys(ui, scale, value);
+  const bool dragging = ImGui::IsItemActive() && ui.slider.dragged == id;
+  draw_track(ui, scale, dragging ? ui.slider.value : value, lo, {lo.x + width, lo.y + height}, hovered, focused);
   return result;
 }
 
-SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, double value, float width, float height,
-                       std::string_view unit) {
+SliderResult drag_cell(UiContext& ui, const char* id_text, const SliderScale& scale, double value, float width,
+                       float height, std::string_view unit) {
   ImGui::PushID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   SliderResult result{.value = value};
   const unsigned typing_id = ImGui::GetID("value");
-  if (app.ui.slider.typing == typing_id) {
-    type_value(app, value, width, height, unit, result);
+  if (ui.slider.typing == typing_id) {
+    type_value(ui, value, width, height, unit, result);
     ImGui::PopID();
     return result;
   }
@@ -267,53 +268,53 @@ SliderResult drag_cell(App& app, const char* id_text, const SliderScale& scale, 
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (wants_typing(app)) {
-    start_typing(app.ui.slider, typing_id, value);
+  if (wants_typing(ui)) {
+    start_typing(ui.slider, typing_id, value);
   } else {
-    result = take_drag(app, scale, value, id, app.theme.px(300), false, lo.x);
+    result = take_drag(ui, scale, value, id, ui.theme.px(300), false, lo.x);
   }
-  const bool focused = follow_focus(app.ui.slider, id);
-  if (focused && !app.ui.slider.keys.empty()) result = take_keys(app, scale, value);
-  const Tokens& c = app.theme.colors;
+  const bool focused = follow_focus(ui.slider, id);
+  if (focused && !ui.slider.keys.empty()) result = take_keys(ui, scale, value);
+  const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float inset = std::round((height - app.theme.px(20)) / 2);
+  const float inset = std::round((height - ui.theme.px(20)) / 2);
   const ImVec2 a{lo.x, lo.y + inset}, b{lo.x + width, lo.y + height - inset};
-  draw.AddRectFilled(a, b, hovered ? c.field_hover : c.field, app.theme.px(4));
-  if (focused) draw.AddRect(a, b, c.accent, app.theme.px(4));
-  const bool dragging = ImGui::IsItemActive() && app.ui.slider.dragged == id;
-  const std::string text = short_number(dragging ? app.ui.slider.value : value);
-  const ImFont& font = *app.fonts.mono;
+  draw.AddRectFilled(a, b, hovered ? c.field_hover : c.field, ui.theme.px(4));
+  if (focused) draw.AddRect(a, b, c.accent, ui.theme.px(4));
+  const bool dragging = ImGui::IsItemActive() && ui.slider.dragged == id;
+  const std::string text = short_number(dragging ? ui.slider.value : value);
+  const ImFont& font = *ui.fonts.mono;
   draw.PushClipRect(a, b, true);
-  const float x = std::max(a.x + 2, b.x - app.theme.px(5) - text_width(font, text));
-  draw_on_baseline(draw, font, {x, baseline_at(app.fonts, lo.y + height / 2)}, c.text, text);
+  const float x = std::max(a.x + 2, b.x - ui.theme.px(5) - text_width(font, text));
+  draw_on_baseline(draw, font, {x, baseline_at(ui.fonts, lo.y + height / 2)}, c.text, text);
   draw.PopClipRect();
   ImGui::PopID();
   return result;
 }
 
-SliderResult value_cell(App& app, const char* id_text, double value, std::string_view shown, float width, float height,
-                        std::string_view unit) {
-  SliderState& state = app.ui.slider;
+SliderResult value_cell(UiContext& ui, const char* id_text, double value, std::string_view shown, float width,
+                        float height, std::string_view unit) {
+  SliderState& state = ui.slider;
   SliderResult result{.value = value};
   const unsigned id = ImGui::GetID(id_text);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   if (state.typing == id) {
-    type_value(app, value, width, height, unit, result);
+    type_value(ui, value, width, height, unit, result);
     return result;
   }
   ImGui::InvisibleButton(id_text, {width, height});
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
-  if (wants_typing(app)) start_typing(state, id, value);
-  const ImFont& font = *app.fonts.mono;
+  if (wants_typing(ui)) start_typing(state, id, value);
+  const ImFont& font = *ui.fonts.mono;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float inset = app.theme.px(2);
+  const float inset = ui.theme.px(2);
   if (hovered)
-    draw.AddRectFilled({lo.x, lo.y + inset}, {lo.x + width, lo.y + height - inset}, app.theme.colors.field,
-                       app.theme.px(4));
-  draw_on_baseline(
-      draw, font, {lo.x + width - app.theme.px(4) - text_width(font, shown), baseline_at(app.fonts, lo.y + height / 2)},
-      app.theme.colors.text, shown);
+    draw.AddRectFilled({lo.x, lo.y + inset}, {lo.x + width, lo.y + height - inset}, ui.theme.colors.field,
+                       ui.theme.px(4));
+  draw_on_baseline(draw, font,
+                   {lo.x + width - ui.theme.px(4) - text_width(font, shown), baseline_at(ui.fonts, lo.y + height / 2)},
+                   ui.theme.colors.text, shown);
   return result;
 }
 

@@ -1,7 +1,7 @@
 // The slider and the typed value of a constant.
 #pragma once
 
-#include "app/ui/app.h"
+#include "app/ui/kit/ui_context.h"
 #include "core/model/notation.h"
 
 namespace tyglab {
@@ -25,14 +25,14 @@ struct SliderResult {
 };
 
 /// Draws it at the cursor and takes mouse and keys. Shift drags ten times finer.
-SliderResult slider(App& app, const SliderScale& scale, double value, float width, float height);
+SliderResult slider(UiContext& ui, const SliderScale& scale, double value, float width, float height);
 
 /// A value that is dragged sideways (`scale` tells how far) or typed: component of a vector.
-SliderResult drag_cell(App& app, const char* id, const SliderScale& scale, double value, float width, float height,
+SliderResult drag_cell(UiContext& ui, const char* id, const SliderScale& scale, double value, float width, float height,
                        std::string_view unit = {});
 
 /// A number that a double click or Ctrl+click lets one type. `shown` is its text; `unit` may be typed after it.
-SliderResult value_cell(App& app, const char* id, double value, std::string_view shown, float width, float height,
+SliderResult value_cell(UiContext& ui, const char* id, double value, std::string_view shown, float width, float height,
                         std::string_view unit = {});
 
 }  // namespace tyglab

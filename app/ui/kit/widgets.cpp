@@ -14,27 +14,27 @@ namespace {
 constexpr double tooltip_delay = 0.45;  // s
 
 /// A row of icons sits on the line of the text beside it.
-void centred_text(App& app, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU32 color, const char* text) {
+void centred_text(UiContext& ui, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU32 color, const char* text) {
   const ImVec2 size = font.CalcTextSizeA(font.FontSize, 1e9f, 0, text);
   draw_text(*ImGui::GetWindowDrawList(), font,
             {std::round((lo.x + hi.x - size.x) / 2), std::round((lo.y + hi.y - size.y) / 2)}, color, text);
-  (void)app;
+  (void)ui;
 }
 
 /// Lists of menus and combo boxes have the same rhythm wherever they are opened from.
-bool list_opened(App& app) {
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(8), app.theme.px(8)));
-  if (app.ui.close_lists) ImGui::CloseCurrentPopup();
+bool list_opened(UiContext& ui) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(8)));
+  if (ui.close_lists) ImGui::CloseCurrentPopup();
   return true;
 }
 
 /// Where the next tooltip goes, so that what it explains stays in sight: beside the panel or list of which the last
 /// item takes up the width, else under the item, or above it where there is no room.
-void place_tooltip(const App& app) {
+void place_tooltip(const UiContext& ui) {
   const ImVec2 window = ImGui::GetIO().DisplaySize, lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   const ImGuiWindow& panel = *ImGui::GetCurrentWindowRead()->RootWindow;
-  const float gap = app.theme.px(8), left = panel.Pos.x, right = left + panel.Size.x;
-  const glm::vec2 size = app.ui.tooltip_size;
+  const float gap = ui.theme.px(8), left = panel.Pos.x, right = left + panel.Size.x;
+  const glm::vec2 size = ui.tooltip_size;
   const bool row = hi.x - lo.x > 0.4f * panel.Size.x;
   ImVec2 at{lo.x, hi.y + gap / 2};
   if (row && right + gap + size.x <= window.x) {
@@ -60,14 +60,14 @@ struct SegmentPlaces {
   ImVec2 size{0, 0};
 };
 
-SegmentPlaces segment_places(const App& app, const char* const* labels, int count, float room_at_1, float width) {
+SegmentPlaces segment_places(const UiContext& ui, const char* const* labels, int count, float room_at_1, float width) {
   SegmentPlaces places;
-  places.height = app.theme.px(26);
+  places.height = ui.theme.px(26);
   ImVec2 at{0, 0};
   for (int k = 0; k < count; ++k) {
-    const float own = text_width(*app.fonts.text, labels[k]) + 2 * app.theme.px(room_at_1);
+    const float own = text_width(*ui.fonts.text, labels[k]) + 2 * ui.theme.px(room_at_1);
     const bool begins = k == 0 || at.x + own > width;
-    if (begins && k > 0) at = {0, at.y + places.height + app.theme.px(4)}, places.segments.back().ends_row = true;
+    if (begins && k > 0) at = {0, at.y + places.height + ui.theme.px(4)}, places.segments.back().ends_row = true;
     places.segments.push_back({at, own, begins, k + 1 == count});
     places.size = {std::max(places.size.x, at.x + own), at.y + places.height};
     at.x += own + 1;
@@ -77,97 +77,97 @@ SegmentPlaces segment_places(const App& app, const char* const* labels, int coun
 
 }  // namespace
 
-bool tooltip_due(App& app, ImGuiID id) {
+bool tooltip_due(UiContext& ui, ImGuiID id) {
   // What cannot be chosen says why.
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
-  if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || app.ui.slider.typing != 0 || app.ui.help) return false;
-  app.ui.hover_seen = true;
-  if (app.ui.hovered != id) {
-    app.ui.hovered = id;
-    app.ui.hovered_since = app.ui.now;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || ui.slider.typing != 0 || ui.covered) return false;
+  ui.hover_seen = true;
+  if (ui.hovered != id) {
+    ui.hovered = id;
+    ui.hovered_since = ui.now;
   }
-  const double due = app.ui.hovered_since + tooltip_delay;
-  if (app.ui.now <= due) app.ui.draw_by = std::min(app.ui.draw_by, due + 0.01);
-  return app.ui.now > due;
+  const double due = ui.hovered_since + tooltip_delay;
+  if (ui.now <= due) ui.draw_by = std::min(ui.draw_by, due + 0.01);
+  return ui.now > due;
 }
 
-void begin_tooltip(App& app) {
-  place_tooltip(app);
-  begin_tooltip_at_pointer(app);
+void begin_tooltip(UiContext& ui) {
+  place_tooltip(ui);
+  begin_tooltip_at_pointer(ui);
 }
 
-void begin_tooltip_at_pointer(App& app) {
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(12), app.theme.px(10)));
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(app.theme.px(6), app.theme.px(4)));
+void begin_tooltip_at_pointer(UiContext& ui) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(12), ui.theme.px(10)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(6), ui.theme.px(4)));
   ImGui::BeginTooltip();
   // Dear ImGui hides it in the frame in which it measures it.
-  if (ImGui::IsWindowAppearing()) app.ui.draw_by = app.ui.now;
-  ImGui::PushTextWrapPos(std::min(app.theme.px(340), ImGui::GetIO().DisplaySize.x - app.theme.px(48)));
+  if (ImGui::IsWindowAppearing()) ui.draw_by = ui.now;
+  ImGui::PushTextWrapPos(std::min(ui.theme.px(340), ImGui::GetIO().DisplaySize.x - ui.theme.px(48)));
 }
 
-void end_tooltip(App& app) {
+void end_tooltip(UiContext& ui) {
   ImGui::PopTextWrapPos();
-  app.ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
+  ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
   ImGui::EndTooltip();
   ImGui::PopStyleVar(2);
 }
 
-void wrapped(App&, std::string_view text, ImU32 color) {
+void wrapped(UiContext&, std::string_view text, ImU32 color) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopStyleColor();
 }
 
-void tooltip(App& app, ImGuiID id, std::string_view text, std::string_view keys) {
-  if (!tooltip_due(app, id)) return;
-  begin_tooltip(app);
-  wrapped(app, text, app.theme.colors.text);
+void tooltip(UiContext& ui, ImGuiID id, std::string_view text, std::string_view keys) {
+  if (!tooltip_due(ui, id)) return;
+  begin_tooltip(ui);
+  wrapped(ui, text, ui.theme.colors.text);
   if (!keys.empty()) {
-    ImGui::PushFont(app.fonts.small);
-    wrapped(app, keys, app.theme.colors.quiet);
+    ImGui::PushFont(ui.fonts.small);
+    wrapped(ui, keys, ui.theme.colors.quiet);
     ImGui::PopFont();
   }
-  end_tooltip(app);
+  end_tooltip(ui);
 }
 
-bool icon_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip,
+bool icon_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip,
                  std::string_view keys, bool lit) {
-  const Tokens& c = app.theme.colors;
-  const float side = app.theme.px(32);
-  const char* text = icon_or(app.fonts, glyph, word);
-  const float width = app.fonts.icons ? side : std::max(side, text_width(*app.fonts.text, text) + app.theme.px(12));
+  const Tokens& c = ui.theme.colors;
+  const float side = ui.theme.px(32);
+  const char* text = icon_or(ui.fonts, glyph, word);
+  const float width = ui.fonts.icons ? side : std::max(side, text_width(*ui.fonts.text, text) + ui.theme.px(12));
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(id, {width, side});
-  report_control(app, id);
+  report_control(ui, id);
   const ImU32 ground = lit                      ? c.accent
                        : ImGui::IsItemActive()  ? c.line
                        : ImGui::IsItemHovered() ? c.field_hover
                                                 : c.field;
   const ImVec2 hi{lo.x + width, lo.y + side};
-  ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, app.theme.px(5));
-  centred_text(app, *app.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
-  tooltip(app, gui::item_id(), tip, keys);
+  ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, ui.theme.px(5));
+  centred_text(ui, *ui.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
+  tooltip(ui, gui::item_id(), tip, keys);
   return pressed;
 }
 
-bool quiet_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip) {
-  const Tokens& c = app.theme.colors;
-  const float side = app.theme.px(22);
-  const char* text = icon_or(app.fonts, glyph, word);
-  const float width = app.fonts.icons ? side : text_width(*app.fonts.text, text) + app.theme.px(8);
+bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip) {
+  const Tokens& c = ui.theme.colors;
+  const float side = ui.theme.px(22);
+  const char* text = icon_or(ui.fonts, glyph, word);
+  const float width = ui.fonts.icons ? side : text_width(*ui.fonts.text, text) + ui.theme.px(8);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(id, {width, side});
-  report_control(app, id);
+  report_control(ui, id);
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 hi{lo.x + width, lo.y + side};
-  if (hovered) ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, c.field_hover, app.theme.px(4));
-  centred_text(app, *app.fonts.text, lo, hi, hovered ? c.text : c.quiet, text);
-  tooltip(app, gui::item_id(), tip);
+  if (hovered) ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, c.field_hover, ui.theme.px(4));
+  centred_text(ui, *ui.fonts.text, lo, hi, hovered ? c.text : c.quiet, text);
+  tooltip(ui, gui::item_id(), tip);
   return pressed;
 }
 
-bool text_button(App& app, const char* label, bool strong, bool enabled) {
-  const Tokens& c = app.theme.colors;
+bool text_button(UiContext& ui, const char* label, bool strong, bool enabled) {
+  const Tokens& c = ui.theme.colors;
   ImGui::BeginDisabled(!enabled);
   if (strong) {
     ImGui::PushStyleColor(ImGuiCol_Button, c.accent);
@@ -175,18 +175,19 @@ bool text_button(App& app, const char* label, bool strong, bool enabled) {
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, mixed(c.accent, c.ground, 0.2f));
     ImGui::PushStyleColor(ImGuiCol_Text, c.on_accent);
   }
-  const bool pressed = ImGui::Button(label, {0, app.theme.px(30)});
-  report_control(app, label);
+  const bool pressed = ImGui::Button(label, {0, ui.theme.px(30)});
+  report_control(ui, label);
   if (strong) ImGui::PopStyleColor(4);
   ImGui::EndDisabled();
   return pressed;
 }
 
-int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float room_at_1, float width) {
-  const Tokens& c = app.theme.colors;
+int segments(UiContext& ui, const char* id, const char* const* labels, int count, int chosen, float room_at_1,
+             float width) {
+  const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const SegmentPlaces places = segment_places(app, labels, count, room_at_1, width);
-  const float round = app.theme.px(5);
+  const SegmentPlaces places = segment_places(ui, labels, count, room_at_1, width);
+  const float round = ui.theme.px(5);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   int clicked = -1;
   ImGui::PushID(id);
@@ -196,64 +197,64 @@ int segments(App& app, const char* id, const char* const* labels, int count, int
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(k);
     if (ImGui::InvisibleButton("segment", {hi.x - lo.x, hi.y - lo.y})) clicked = k;
-    if (app.report) report_control(app, std::string(id) + "." + std::to_string(k + 1));
+    if (ui.controls) report_control(ui, std::string(id) + "." + std::to_string(k + 1));
     const bool on = k == chosen;
     const ImU32 ground = on ? c.accent : ImGui::IsItemHovered() ? c.field_hover : c.field;
     const ImDrawFlags corners = (segment.begins_row ? ImDrawFlags_RoundCornersLeft : 0) |
                                 (segment.ends_row ? ImDrawFlags_RoundCornersRight : 0);
     draw.AddRectFilled(lo, hi, ground, round, corners != 0 ? corners : ImDrawFlags_RoundCornersNone);
-    centred_text(app, *app.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
+    centred_text(ui, *ui.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
     ImGui::PopID();
   }
   ImGui::PopID();
   return clicked;
 }
 
-ImVec2 segments_size(const App& app, const char* const* labels, int count, float room_at_1, float width) {
-  return segment_places(app, labels, count, room_at_1, width).size;
+ImVec2 segments_size(const UiContext& ui, const char* const* labels, int count, float room_at_1, float width) {
+  return segment_places(ui, labels, count, room_at_1, width).size;
 }
 
-bool check(App& app, const char* label, bool value) {
-  const Tokens& c = app.theme.colors;
+bool check(UiContext& ui, const char* label, bool value) {
+  const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float box = app.theme.px(16), height = app.theme.px(26), gap = app.theme.px(8);
+  const float box = ui.theme.px(16), height = ui.theme.px(26), gap = ui.theme.px(8);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::InvisibleButton(label, {box + gap + text_width(*app.fonts.text, label), height});
-  report_control(app, label);
+  const bool clicked = ImGui::InvisibleButton(label, {box + gap + text_width(*ui.fonts.text, label), height});
+  report_control(ui, label);
   const ImVec2 at{lo.x, std::round(lo.y + (height - box) / 2)};
   const ImU32 ground = value ? c.accent : ImGui::IsItemHovered() ? c.line : c.field_hover;
-  draw.AddRectFilled(at, {at.x + box, at.y + box}, ground, app.theme.px(4));
-  if (!value) draw.AddRect(at, {at.x + box, at.y + box}, mixed(c.line, c.quiet, 0.6f), app.theme.px(4));
+  draw.AddRectFilled(at, {at.x + box, at.y + box}, ground, ui.theme.px(4));
+  if (!value) draw.AddRect(at, {at.x + box, at.y + box}, mixed(c.line, c.quiet, 0.6f), ui.theme.px(4));
   if (value) {
     const ImVec2 tick[3] = {{at.x + box * 0.24f, at.y + box * 0.52f},
                             {at.x + box * 0.43f, at.y + box * 0.71f},
                             {at.x + box * 0.77f, at.y + box * 0.30f}};
-    draw.AddPolyline(tick, 3, c.on_accent, ImDrawFlags_None, std::max(1.5f, app.theme.px(2)));
+    draw.AddPolyline(tick, 3, c.on_accent, ImDrawFlags_None, std::max(1.5f, ui.theme.px(2)));
   }
-  draw_text(draw, *app.fonts.text, {at.x + box + gap, std::round(lo.y + (height - app.fonts.text->FontSize) / 2)},
-            c.text, label);
+  draw_text(draw, *ui.fonts.text, {at.x + box + gap, std::round(lo.y + (height - ui.fonts.text->FontSize) / 2)}, c.text,
+            label);
   return clicked;
 }
 
-bool section(App& app, const char* name) {
-  const Tokens& c = app.theme.colors;
+bool section(UiContext& ui, const char* name) {
+  const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  auto& folded = app.settings.layout.folded;
+  auto& folded = ui.settings.layout.folded;
   const bool open = folded.count(name) == 0;
-  ImGui::Dummy({0, app.theme.px(2)});
-  const float height = app.theme.px(22), width = app.ui.row_width;
+  ImGui::Dummy({0, ui.theme.px(2)});
+  const float height = ui.theme.px(22), width = ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   if (ImGui::InvisibleButton(name, {width, height})) open ? void(folded.insert(name)) : void(folded.erase(name));
-  report_control(app, name);
+  report_control(ui, name);
   const ImU32 color = ImGui::IsItemHovered() ? c.text : c.quiet;
   std::string capitals(name);
   for (char& letter : capitals) letter = char(std::toupper(static_cast<unsigned char>(letter)));
-  const ImFont& font = *app.fonts.small;
+  const ImFont& font = *ui.fonts.small;
   const float top = std::round(lo.y + (height - font.FontSize) / 2), middle = std::round(lo.y + height / 2);
   draw_text(draw, font, {lo.x, top}, color, capitals);
-  const float from = lo.x + text_width(font, capitals) + app.theme.px(10), arrow = app.theme.px(18);
+  const float from = lo.x + text_width(font, capitals) + ui.theme.px(10), arrow = ui.theme.px(18);
   draw.AddLine({from, middle}, {lo.x + width - arrow, middle}, c.line);
-  const float x = lo.x + width - app.theme.px(7), r = app.theme.px(3);
+  const float x = lo.x + width - ui.theme.px(7), r = ui.theme.px(3);
   if (open) {
     draw.AddTriangleFilled({x - r, middle - r * 0.6f}, {x + r, middle - r * 0.6f}, {x, middle + r * 0.8f}, color);
   } else {
@@ -267,11 +268,11 @@ void end_combo() {
   ImGui::EndCombo();
 }
 
-bool begin_menu(App& app, const char* id) {
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(14), app.theme.px(12)));
+bool begin_menu(UiContext& ui, const char* id) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(14), ui.theme.px(12)));
   const bool open = ImGui::BeginPopup(id);
   ImGui::PopStyleVar();
-  return open && list_opened(app);
+  return open && list_opened(ui);
 }
 
 void end_menu() {
@@ -279,23 +280,23 @@ void end_menu() {
   ImGui::EndPopup();
 }
 
-bool begin_combo(App& app, const char* id, const char* shown, float width) {
+bool begin_combo(UiContext& ui, const char* id, const char* shown, float width) {
   ImGui::SetNextItemWidth(width);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(app.theme.px(8), app.theme.px(6)));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(app.theme.px(8), app.theme.px(10)));
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(6)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(8), ui.theme.px(10)));
   const bool open = ImGui::BeginCombo(id, shown, ImGuiComboFlags_HeightLarge | ImGuiComboFlags_NoArrowButton);
   ImGui::PopStyleVar(2);
-  if (open) return list_opened(app);
-  report_control(app, id);
+  if (open) return list_opened(ui);
+  report_control(ui, id);
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
-  const float r = app.theme.px(3.5f), x = hi.x - app.theme.px(13), y = std::round((lo.y + hi.y) / 2);
+  const float r = ui.theme.px(3.5f), x = hi.x - ui.theme.px(13), y = std::round((lo.y + hi.y) / 2);
   ImGui::GetWindowDrawList()->AddTriangleFilled({x - r, y - r * 0.5f}, {x + r, y - r * 0.5f}, {x, y + r * 0.8f},
-                                                app.theme.colors.quiet);
+                                                ui.theme.colors.quiet);
   return false;
 }
 
-void cover_viewport(App& app, ImVec2 lo, ImVec2 hi) {
-  app.viewport.covers.push_back({{lo.x, lo.y}, {hi.x, hi.y}});
+void cover_viewport(UiContext& ui, ImVec2 lo, ImVec2 hi) {
+  ui.viewport.covers.push_back({{lo.x, lo.y}, {hi.x, hi.y}});
 }
 
 }  // namespace tyglab

@@ -6,62 +6,62 @@
 #include <functional>
 #include <string_view>
 
-#include "app/ui/app.h"
+#include "app/ui/kit/ui_context.h"
 
 namespace tyglab {
 
 /// Whether the pointer has rested on the last item long enough for its tooltip.
-bool tooltip_due(App& app, ImGuiID id);
+bool tooltip_due(UiContext& ui, ImGuiID id);
 /// A line of text as the tooltip of the last item; the keys that do the same stand after it, quietly.
-void tooltip(App& app, ImGuiID id, std::string_view text, std::string_view keys = {});
+void tooltip(UiContext& ui, ImGuiID id, std::string_view text, std::string_view keys = {});
 
 /// Begins and ends a tooltip of the house's width and look, beside the last item or, where one reads off values under
 /// the pointer, at the pointer.
-void begin_tooltip(App& app);
-void begin_tooltip_at_pointer(App& app);
-void end_tooltip(App& app);
-void wrapped(App& app, std::string_view text, ImU32 color);
+void begin_tooltip(UiContext& ui);
+void begin_tooltip_at_pointer(UiContext& ui);
+void end_tooltip(UiContext& ui);
+void wrapped(UiContext& ui, std::string_view text, ImU32 color);
 
 /// A square button with an icon (or a word where the icon font is missing).
-bool icon_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip,
+bool icon_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip,
                  std::string_view keys = {}, bool lit = false);
 /// A button with words; `strong` fills it with the accent.
-bool text_button(App& app, const char* label, bool strong = false, bool enabled = true);
+bool text_button(UiContext& ui, const char* label, bool strong = false, bool enabled = true);
 /// A quiet button without a ground: an icon that shows itself under the pointer.
-bool quiet_button(App& app, const char* id, const char* glyph, const char* word, std::string_view tip);
+bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip);
 
 /// Choices in a row of which one is taken, with so much room (at scale 1) on either side of each; they go on in another
 /// row where they would be wider than `width` (px). Returns the index clicked, or -1.
-int segments(App& app, const char* id, const char* const* labels, int count, int chosen, float padding = 11,
+int segments(UiContext& ui, const char* id, const char* const* labels, int count, int chosen, float padding = 11,
              float width = 1e9f);
 /// What they take, px.
-ImVec2 segments_size(const App& app, const char* const* labels, int count, float padding = 11, float width = 1e9f);
+ImVec2 segments_size(const UiContext& ui, const char* const* labels, int count, float padding = 11, float width = 1e9f);
 /// A check box of the house's look. Returns whether it was clicked.
-bool check(App& app, const char* label, bool value);
+bool check(UiContext& ui, const char* label, bool value);
 
 /// Head of a section: small capitals and a line; a click folds it. Returns whether it is open.
-bool section(App& app, const char* name);
+bool section(UiContext& ui, const char* name);
 
 /// A card of lines under a heading that folds it. Heights at scale 1.
 namespace card {
 inline constexpr float line = 19, head = 36, foot = 10;
 }
 /// Its height, px, with so much (at scale 1) under its heading, or folded.
-float card_height(const App& app, const char* heading, float content);
+float card_height(const UiContext& ui, const char* heading, float content);
 /// Begins a card as wide as its region; returns whether it is open. end_card in any case.
-bool begin_card(App& app, const char* heading, float height);
-void end_card(App& app);
+bool begin_card(UiContext& ui, const char* heading, float height);
+void end_card(UiContext& ui);
 /// Width of what stands in a card that has begun, px.
-float card_width(const App& app);
+float card_width(const UiContext& ui);
 
 /// A combo box; while it is open its list is written with ImGui::Selectable, then end_combo.
-bool begin_combo(App& app, const char* id, const char* shown, float width);
+bool begin_combo(UiContext& ui, const char* id, const char* shown, float width);
 void end_combo();
 /// A menu that was opened with ImGui::OpenPopup; Esc closes it.
-bool begin_menu(App& app, const char* id);
+bool begin_menu(UiContext& ui, const char* id);
 void end_menu();
 
 /// Leaves an area of the window to the panel: presses on the viewport there are not the viewport's.
-void cover_viewport(App& app, ImVec2 lo, ImVec2 hi);
+void cover_viewport(UiContext& ui, ImVec2 lo, ImVec2 hi);
 
 }  // namespace tyglab

@@ -24,9 +24,9 @@ float height_of(const ImFont& font, const std::string& lines) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
 }
 
-const Advice& advice_for(const Preset& then, App& app) {
-  Advice& advice = app.ui.advice;
-  const Preset& now = app.preset();
+const Advice& advice_for(const Preset& then, Ui& ui) {
+  Advice& advice = ui.advice;
+  const Preset& now = ui.session.preset();
   if (advice.then != then || advice.now != now)
     advice = {
         then, now, stable_dt(then, then.integrator), springs_too_weak(now), suggested_fix(now), with_advised_dt(now)};
@@ -62,7 +62,7 @@ std::string capitalised(std::string text) {
 struct Way {
   std::string label, tip;
   const char* keys;
-  std::function<void(App&)> go;
+  std::function<void(Ui&)> go;
 };
 
 std::string fix_label(const Preset& now, const Preset& cured) {
@@ -72,17 +72,17 @@ std::string fix_label(const Preset& now, const Preset& cured) {
 }
 
 /// Why, and what to do about it: the advice holds for the constants that diverged, and goes with them.
-std::string why_and_what_now(const App& app, const Divergence& d) {
+std::string why_and_what_now(const Ui& ui, const Divergence& d) {
   const char* changed = "Constants have changed since then: restart to see what they do.";
-  return sentence(d.cause) + " " + (changed_since_divergence(app) ? changed : sentence(d.advice));
+  return sentence(d.cause) + " " + (changed_since_divergence(ui.session) ? changed : sentence(d.advice));
 }
 
 /// Back to where the cloth was well, with a change that makes it stay so: a smaller dt, Verlet, implicit Euler.
-void add_retries(const App& app, const Advice& advice, bool past, std::vector<Way>& ways) {
-  const Preset& now = app.preset();
+void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>& ways) {
+  const Preset& now = ui.session.preset();
   const std::string from = past ? "A second back, and on with " : "From the start again with ";
   const auto retry = [&](const std::string& label, const Preset& preset, const char* with) {
-    ways.push_back({label, from + with, "", [preset](App& a) { a.requests.emplace_back(request::Retry{preset}); }});
+    ways.push_back({label, from + with, "", [preset](Ui& u) { u.session.request(request::Retry{preset}); }});
   };
   if (advice.suggested_fix && advice.suggested_fix->integrator != now.integrator)
     retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what the linear theory advises");
@@ -97,34 +97,33 @@ void add_retries(const App& app, const Advice& advice, bool past, std::vector<Wa
 
 /// What is offered, the most helpful first: to take back what the user did, to go back and do what the linear theory
 /// advises. Once constants have changed, to try them.
-std::vector<Way> ways_out(const App& app, const Advice& advice) {
+std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   std::vector<Way> ways;
-  if (const Preset* before = app.history.last(); before != nullptr && !same_model(*before, app.preset()))
+  if (const Preset* before = ui.session.history.last(); before != nullptr && !same_model(*before, ui.session.preset()))
     ways.push_back({"Undo and restart", "Takes the last change of constants back, and begins anew", "Ctrl+Z, then R",
-                    [](App& a) { a.command(Command::undo_and_restart); }});
+                    [](Ui& u) { u.command("undo_and_restart"); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
-                    [](App& a) { a.command(Command::restart); }};
-  const bool past = app.rewind.before(*app.simulation, app.simulation->time(), 1) != nullptr;
-  const Way rewind{"Rewind 1 s", "Back to where it was a second ago, paused", "←",
-                   [](App& a) { a.command(Command::rewind); }};
-  if (changed_since_divergence(app)) {
+                    [](Ui& u) { u.command("restart"); }};
+  const bool past = ui.session.rewind.before(*ui.session.simulation, ui.session.simulation->time(), 1) != nullptr;
+  const Way rewind{"Rewind 1 s", "Back to where it was a second ago, paused", "←", [](Ui& u) { u.command("rewind"); }};
+  if (changed_since_divergence(ui.session)) {
     ways.insert(ways.begin(), restart);
     if (past) ways.push_back(rewind);
     return ways;
   }
-  if (!advice.springs_too_weak) add_retries(app, advice, past, ways);
+  if (!advice.springs_too_weak) add_retries(ui, advice, past, ways);
   if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;
 }
 
 /// Places the buttons from the left, in as many lines as they need; returns where each begins, relative to the first.
-std::vector<ImVec2> flow(App& app, const std::vector<Way>& ways, float width) {
-  const float gap = app.theme.px(8), line = app.theme.px(30) + gap;
+std::vector<ImVec2> flow(Ui& ui, const std::vector<Way>& ways, float width) {
+  const float gap = ui.theme.px(8), line = ui.theme.px(30) + gap;
   std::vector<ImVec2> places;
   ImVec2 at{0, 0};
   for (const Way& way : ways) {
-    const float button = text_width(*app.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
+    const float button = text_width(*ui.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x;
     if (at.x > 0 && at.x + button > width) at = {0, at.y + line};
     places.push_back(at);
     at.x += button + gap;
@@ -132,55 +131,55 @@ std::vector<ImVec2> flow(App& app, const std::vector<Way>& ways, float width) {
   return places;
 }
 
-void way_buttons(App& app, const std::vector<Way>& ways, const std::vector<ImVec2>& places, ImVec2 lo) {
+void way_buttons(Ui& ui, const std::vector<Way>& ways, const std::vector<ImVec2>& places, ImVec2 lo) {
   for (std::size_t k = 0; k < ways.size(); ++k) {
     ImGui::SetCursorScreenPos({lo.x + places[k].x, lo.y + places[k].y});
-    if (text_button(app, ways[k].label.c_str(), k == 0)) ways[k].go(app);
-    tooltip(app, gui::item_id(), ways[k].tip, ways[k].keys);
+    if (text_button(ui, ways[k].label.c_str(), k == 0)) ways[k].go(ui);
+    tooltip(ui, gui::item_id(), ways[k].tip, ways[k].keys);
   }
 }
 
 /// In the middle of the lower end of a picture of that size, above the names of cloths where there is room.
-Box place_of_banner(const App& app, glm::vec2 picture, glm::vec2 size) {
-  const glm::vec2 lo = app.viewport.box.lo;
+Box place_of_banner(const Ui& ui, glm::vec2 picture, glm::vec2 size) {
+  const glm::vec2 lo = ui.viewport.box.lo;
   const float left = std::round(lo.x + (picture.x - size.x) / 2),
-              under = std::clamp((picture.y - size.y) / 2, 0.f, app.theme.px(20)),
+              under = std::clamp((picture.y - size.y) / 2, 0.f, ui.theme.px(20)),
               foot = std::round(lo.y + picture.y - under);
-  const auto free = app.ui.placing.in_corner({{left, lo.y}, {left + size.x, foot}}, size, ScreenCorner::lower_left);
+  const auto free = ui.placing.in_corner({{left, lo.y}, {left + size.x, foot}}, size, ScreenCorner::lower_left);
   return free.value_or(Box{{left, foot - size.y}, {left + size.x, foot}});
 }
 
 }  // namespace
 
-void banner(App& app) {
-  const auto& divergence = app.simulation->divergence();
+void banner(Ui& ui) {
+  const auto& divergence = ui.session.simulation->divergence();
   if (!divergence) return;
-  const Tokens& c = app.theme.colors;
+  const Tokens& c = ui.theme.colors;
   // In the original's picture where it has room for it, so that its copies can still be seen.
-  const bool roomy = app.viewport.size().x >= app.theme.px(least_banner);
-  const glm::vec2 size = roomy ? app.viewport.size() : app.viewport.whole();
-  const float width = std::min(app.theme.px(600), size.x - app.theme.px(32)), padding = app.theme.px(16);
+  const bool roomy = ui.viewport.size().x >= ui.theme.px(least_banner);
+  const glm::vec2 size = roomy ? ui.viewport.size() : ui.viewport.whole();
+  const float width = std::min(ui.theme.px(600), size.x - ui.theme.px(32)), padding = ui.theme.px(16);
   // In a narrow one the text begins under the icon.
-  const float icon = app.theme.px(30), indent = width < app.theme.px(least_banner) ? 0 : icon;
+  const float icon = ui.theme.px(30), indent = width < ui.theme.px(least_banner) ? 0 : icon;
   const float inner = width - 2 * padding - indent;
-  const ImFont &title = *app.fonts.title, &text = *app.fonts.text;
-  const Preset& then = app.simulation->diverged_preset();
-  const Advice& advice = advice_for(then, app);
+  const ImFont &title = *ui.fonts.title, &text = *ui.fonts.text;
+  const Preset& then = ui.session.simulation->diverged_preset();
+  const Advice& advice = advice_for(then, ui);
   const std::string happened =
                         in_lines(text, with_whole_terms(what_happened(*divergence, then, advice.largest_dt)), inner),
-                    why = in_lines(text, with_whole_terms(why_and_what_now(app, *divergence)), inner);
-  const std::vector<Way> ways = ways_out(app, advice);
-  const std::vector<ImVec2> places = flow(app, ways, inner);
-  const float gap = app.theme.px(6), buttons = places.back().y + app.theme.px(30);
+                    why = in_lines(text, with_whole_terms(why_and_what_now(ui, *divergence)), inner);
+  const std::vector<Way> ways = ways_out(ui, advice);
+  const std::vector<ImVec2> places = flow(ui, ways, inner);
+  const float gap = ui.theme.px(6), buttons = places.back().y + ui.theme.px(30);
   const float happened_height = height_of(text, happened), why_height = height_of(text, why);
   const float height =
-      2 * padding + title.FontSize + gap + happened_height + gap + why_height + app.theme.px(12) + buttons;
-  const Box box = place_of_banner(app, size, {width, height});
+      2 * padding + title.FontSize + gap + happened_height + gap + why_height + ui.theme.px(12) + buttons;
+  const Box box = place_of_banner(ui, size, {width, height});
   const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(lo, hi, c.panel, app.theme.px(8));
-  draw.AddRect(lo, hi, c.danger, app.theme.px(8), 0, std::max(1.f, app.theme.px(1.5f)));
-  draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(app.fonts, icon::warning, "!"));
+  draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(8));
+  draw.AddRect(lo, hi, c.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
+  draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
   float y = lo.y + padding;
   const float x = lo.x + padding + indent;
   draw_text(draw, title, {lo.x + padding + icon, y}, c.text, "The simulation diverged");
@@ -188,49 +187,49 @@ void banner(App& app) {
   draw_text(draw, text, {x, y}, c.text, happened);
   y += happened_height + gap;
   draw_text(draw, text, {x, y}, c.quiet, why);
-  y += why_height + app.theme.px(12);
-  way_buttons(app, ways, places, {x, y});
-  cover_viewport(app, lo, hi);
-  app.ui.placing.take("banner", box);
+  y += why_height + ui.theme.px(12);
+  way_buttons(ui, ways, places, {x, y});
+  cover_viewport(ui, lo, hi);
+  ui.placing.take("banner", box);
 }
 
-void message_list(App& app) {
-  app.messages.age(app.ui.now);
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.text;
-  const float padding = app.theme.px(12), icon_width = app.theme.px(24), close = app.theme.px(22);
-  const float most = std::min(app.theme.px(460), app.viewport.whole().x - app.theme.px(32));
-  float y = app.ui.notes_from;
-  const Box* paused = app.ui.placing.find("paused");
+void message_list(Ui& ui) {
+  ui.session.messages.age(ui.now);
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.text;
+  const float padding = ui.theme.px(12), icon_width = ui.theme.px(24), close = ui.theme.px(22);
+  const float most = std::min(ui.theme.px(460), ui.viewport.whole().x - ui.theme.px(32));
+  float y = ui.notes_from;
+  const Box* paused = ui.placing.find("paused");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto& list = app.messages.list();
+  const auto& list = ui.session.messages.list();
   std::size_t dismissed = list.size();
   for (std::size_t k = 0; k < list.size(); ++k) {
     const Message& message = list[k];
     const bool note = message.severity == Message::Severity::note;
     const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
     const std::string text = in_lines(font, capitalised(message.text), most - 2 * padding - icon_width - close);
-    const float height = std::max(height_of(font, text) + 2 * app.theme.px(9), app.theme.px(36));
-    ImVec2 lo{app.viewport.box.lo.x + app.theme.px(16), y}, hi{lo.x + most, y + height};
+    const float height = std::max(height_of(font, text) + 2 * ui.theme.px(9), ui.theme.px(36));
+    ImVec2 lo{ui.viewport.box.lo.x + ui.theme.px(16), y}, hi{lo.x + most, y + height};
     if (paused != nullptr && overlap(*paused, {{lo.x, lo.y}, {hi.x, hi.y}}))
-      lo.y = paused->hi.y + app.theme.px(8), hi.y = lo.y + height;
-    draw.AddRectFilled(lo, hi, c.panel, app.theme.px(6));
-    draw.AddRectFilled(lo, {lo.x + app.theme.px(3), hi.y}, color, app.theme.px(6), ImDrawFlags_RoundCornersLeft);
-    draw_text(draw, font, {lo.x + padding, lo.y + app.theme.px(10)}, color,
-              icon_or(app.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
-    draw_text(draw, font, {lo.x + padding + icon_width, lo.y + app.theme.px(9)}, c.text, text);
+      lo.y = paused->hi.y + ui.theme.px(8), hi.y = lo.y + height;
+    draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(6));
+    draw.AddRectFilled(lo, {lo.x + ui.theme.px(3), hi.y}, color, ui.theme.px(6), ImDrawFlags_RoundCornersLeft);
+    draw_text(draw, font, {lo.x + padding, lo.y + ui.theme.px(10)}, color,
+              icon_or(ui.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
+    draw_text(draw, font, {lo.x + padding + icon_width, lo.y + ui.theme.px(9)}, c.text, text);
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(int(k));
     if (ImGui::InvisibleButton("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;
-    report_control(app, "dismiss");
-    tooltip(app, gui::item_id(), "Click to dismiss");
+    report_control(ui, "dismiss");
+    tooltip(ui, gui::item_id(), "Click to dismiss");
     ImGui::PopID();
-    draw_text(draw, font, {hi.x - close, lo.y + app.theme.px(10)}, ImGui::IsItemHovered() ? c.text : c.quiet,
-              icon_or(app.fonts, icon::close, "x"));
-    cover_viewport(app, lo, hi);
-    y = hi.y + app.theme.px(8);
+    draw_text(draw, font, {hi.x - close, lo.y + ui.theme.px(10)}, ImGui::IsItemHovered() ? c.text : c.quiet,
+              icon_or(ui.fonts, icon::close, "x"));
+    cover_viewport(ui, lo, hi);
+    y = hi.y + ui.theme.px(8);
   }
-  if (dismissed < list.size()) app.messages.dismiss(dismissed);
+  if (dismissed < list.size()) ui.session.messages.dismiss(dismissed);
 }
 
 }  // namespace tyglab

@@ -5,6 +5,7 @@
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
+#include "app/ui/kit/curves.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/overlay/overlay.h"
 
@@ -15,44 +16,44 @@ constexpr std::size_t most_lines = 3;
 constexpr float narrow_at_1 = 220;  // pixels of a picture's width, under which its name is written small
 
 /// What there is to tell beside the name; empty: nothing.
-std::string state_of(const App& app, int n) {
-  if (const auto& divergence = cloth_of(app, n).divergence())
-    return "diverged at t = " + time_number(divergence->t, cloth_of(app, n).preset().dt) + " s";
-  return n == app.copies.reference ? "reference" : "";
+std::string state_of(const Ui& ui, int n) {
+  if (const auto& divergence = cloth_of(ui.session, n).divergence())
+    return "diverged at t = " + time_number(divergence->t, cloth_of(ui.session, n).preset().dt) + " s";
+  return n == ui.session.copies.reference ? "reference" : "";
 }
 
 }  // namespace
 
-void cloth_names(App& app, ImDrawList& draw) {
-  const Copies& copies = app.copies;
+void cloth_names(Ui& ui, ImDrawList& draw) {
+  const Copies& copies = ui.session.copies;
   if (copies.lockstep.empty()) return;
-  const Tokens& c = app.theme.colors;
-  const bool narrow = app.viewport.size().x < app.theme.px(narrow_at_1);
-  const ImFont& font = narrow ? *app.fonts.small : *app.fonts.text;
-  const float pad = app.theme.px(8), edge = narrow ? pad : 2 * pad, sample = app.theme.px(narrow ? 14 : 24),
+  const Tokens& c = ui.theme.colors;
+  const bool narrow = ui.viewport.size().x < ui.theme.px(narrow_at_1);
+  const ImFont& font = narrow ? *ui.fonts.small : *ui.fonts.text;
+  const float pad = ui.theme.px(8), edge = narrow ? pad : 2 * pad, sample = ui.theme.px(narrow ? 14 : 24),
               line = font.FontSize + pad / 2;
   const int count = int(copies.lockstep.size());
-  float foot = app.viewport.origin(0).y + app.viewport.size().y - edge;
+  float foot = ui.viewport.origin(0).y + ui.viewport.size().y - edge;
   for (int n = count - 1; n >= Copies::original; --n) {
-    const glm::vec2 origin = app.viewport.origin(copies.overlaid ? 0 : n + 1);
-    if (!copies.overlaid) foot = origin.y + app.viewport.size().y - edge;
+    const glm::vec2 origin = ui.viewport.origin(copies.overlaid ? 0 : n + 1);
+    if (!copies.overlaid) foot = origin.y + ui.viewport.size().y - edge;
     const auto words =
-        name_lines(name_of_cloth(app, n), state_of(app, n), app.viewport.size().x - sample - 3 * pad - 2 * edge,
+        name_lines(name_of_cloth(ui.session, n), state_of(ui, n), ui.viewport.size().x - sample - 3 * pad - 2 * edge,
                    most_lines, [&font](std::string_view piece) { return text_width(font, piece); });
     float width = 0;
     for (const std::string& text : words) width = std::max(width, text_width(font, text));
     const glm::vec2 size = glm::ceil(glm::vec2(sample + 3 * pad + width, line * float(words.size()) + pad / 2));
     const glm::vec2 lo = glm::round(glm::vec2(origin.x + edge, foot - size.y));
-    draw.AddRectFilled(vec(lo), vec(lo + size), faded(c.ground, 0.85f), app.theme.px(6));
-    app.ui.placing.take("name " + std::to_string(n + 1), {lo, lo + size});
+    draw.AddRectFilled(vec(lo), vec(lo + size), faded(c.ground, 0.85f), ui.theme.px(6));
+    ui.placing.take("name " + std::to_string(n + 1), {lo, lo + size});
     const float middle = std::round(lo.y + pad / 2 + font.FontSize / 2);
     const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
-    CurveStyle style = style_of_cloth(app, n);
+    CurveStyle style = copy_style(ui.theme.colors, seat_of_cloth(ui.session, n));
     if (copies.overlaid) style.line = LineStyle::solid;  // as the nets are drawn
-    draw_styled_line(draw, ends, 2, style, app.theme.scale);
+    draw_styled_line(draw, ends, 2, style, ui.theme.scale);
     for (std::size_t k = 0; k < words.size(); ++k)
       draw_text(draw, font, {lo.x + 2 * pad + sample, lo.y + pad / 2 + line * float(k)},
-                cloth_of(app, n).divergence() ? c.danger : c.text, words[k]);
+                cloth_of(ui.session, n).divergence() ? c.danger : c.text, words[k]);
     foot = lo.y;
   }
 }

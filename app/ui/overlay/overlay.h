@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "app/ui/app.h"
 #include "app/ui/kit/theme.h"
+#include "app/ui/ui.h"
 
 namespace tyglab {
 
@@ -15,35 +15,35 @@ inline ImVec2 vec(glm::vec2 v) {
   return {v.x, v.y};
 }
 /// Pixel in the window of a place in a picture, if it is before the camera.
-std::optional<ImVec2> on_screen(const App& app, int tile, glm::dvec3 world);
-std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site);
+std::optional<ImVec2> on_screen(const Ui& ui, int tile, glm::dvec3 world);
+std::optional<ImVec2> particle_on_screen(Ui& ui, int tile, Pins::Site site);
 
-void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width);
+void ring(Ui& ui, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width);
 /// An arrow with a dark rim; one that is `cut_short` has an open head. False where it is too short to be drawn.
-bool draw_arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, const CurveStyle& style, bool cut_short = false);
+bool draw_arrow(Ui& ui, ImDrawList& draw, ImVec2 from, ImVec2 to, const CurveStyle& style, bool cut_short = false);
 /// As much of the way from `from`, which lies in a picture, as stays in it. Whether something was cut off.
-bool keep_in_picture(const App& app, int tile, ImVec2 from, ImVec2& to);
+bool keep_in_picture(const Ui& ui, int tile, ImVec2 from, ImVec2& to);
 
 /// The scales of the arrows at the picked particle, one each for forces, velocity and acceleration, in the corner of
 /// the original's picture.
-void arrow_scales(App& app, ImDrawList& draw);
+void arrow_scales(Ui& ui, ImDrawList& draw);
 /// To those scales: the variables that are ticked in the read-out, each with its symbol where there is room.
-void particle_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from);
+void particle_arrows(Ui& ui, ImDrawList& draw, int tile, ImVec2 from);
 /// The wind's arrow with its strength.
-void wind_overlay(App& app, ImDrawList& draw);
+void wind_overlay(Ui& ui, ImDrawList& draw);
 /// The picked particle in every picture, with its arrows.
-void picked_overlay(App& app, ImDrawList& draw);
+void picked_overlay(Ui& ui, ImDrawList& draw);
 /// The pointer with its tool, and the particle that it would take.
-void pointer_overlay(App& app, ImDrawList& draw);
+void pointer_overlay(Ui& ui, ImDrawList& draw);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
-void pause_mark(App& app, ImDrawList& draw, const Box& row);
+void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
 /// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged.
-void cloth_names(App& app, ImDrawList& draw);
+void cloth_names(Ui& ui, ImDrawList& draw);
 /// Where cloth, weight and the wind's arrow are drawn: boxes of their parts.
-std::vector<Box> drawn_parts(App& app);
+std::vector<Box> drawn_parts(Ui& ui);
 /// Where a knife has just gone along its path, fading.
-void knife_stroke(App& app, ImDrawList& draw);
+void knife_stroke(Ui& ui, ImDrawList& draw);
 /// What a nick at the pointer would cut.
-void springs_to_cut(App& app, ImDrawList& draw);
+void springs_to_cut(Ui& ui, ImDrawList& draw);
 
 }  // namespace tyglab

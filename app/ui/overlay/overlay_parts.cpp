@@ -9,16 +9,16 @@
 
 namespace tyglab {
 
-std::optional<ImVec2> on_screen(const App& app, int tile, glm::dvec3 world) {
-  const auto pixel = app.camera.project(world, app.viewport.size());
+std::optional<ImVec2> on_screen(const Ui& ui, int tile, glm::dvec3 world) {
+  const auto pixel = ui.scene.camera.project(world, ui.viewport.size());
   if (!pixel || !std::isfinite(pixel->x) || !std::isfinite(pixel->y) || std::abs(pixel->x) > 1e5f ||
       std::abs(pixel->y) > 1e5f)
     return std::nullopt;
-  return vec(*pixel + app.viewport.origin(tile));
+  return vec(*pixel + ui.viewport.origin(tile));
 }
 
-std::optional<ImVec2> particle_on_screen(App& app, int tile, Pins::Site site) {
-  return on_screen(app, tile, cloth_in_tile(app, tile).position(site.i, site.j));
+std::optional<ImVec2> particle_on_screen(Ui& ui, int tile, Pins::Site site) {
+  return on_screen(ui, tile, cloth_in_tile(ui.scene, tile).position(site.i, site.j));
 }
 
 namespace {
@@ -28,10 +28,10 @@ Box box_round(ImVec2 a, ImVec2 b) {
 }
 
 /// The box of what of these places is seen.
-void add_box(const App& app, int tile, std::initializer_list<glm::dvec3> places, std::vector<Box>& to) {
+void add_box(const Ui& ui, int tile, std::initializer_list<glm::dvec3> places, std::vector<Box>& to) {
   std::optional<Box> all;
   for (const glm::dvec3& place : places)
-    if (const auto at = on_screen(app, tile, place)) {
+    if (const auto at = on_screen(ui, tile, place)) {
       const Box box = all ? *all : box_round(*at, *at);
       all = Box{{std::min(box.lo.x, at->x), std::min(box.lo.y, at->y)},
                 {std::max(box.hi.x, at->x), std::max(box.hi.y, at->y)}};
@@ -39,68 +39,67 @@ void add_box(const App& app, int tile, std::initializer_list<glm::dvec3> places,
   if (all) to.push_back({all->lo - 1.f, all->hi + 1.f});
 }
 
-void add_weight(const App& app, const Simulation& cloth, int tile, std::vector<Box>& to) {
+void add_weight(const Ui& ui, const Simulation& cloth, int tile, std::vector<Box>& to) {
   const WeightModel model = weight_model(cloth.preset(), cloth.positions().at(0, 0));
   const glm::dvec3 weight(model.weight), side(1.2 * model.radius, 0, 0), down(0, 1.2 * model.radius, 0);
   const glm::dvec3 top(weight.x, 3.1 * model.radius / 0.19 + cloth.preset().x_0.y, weight.z);
-  add_box(app, tile, {top - side, top + side, weight - down - side, weight - down + side}, to);
+  add_box(ui, tile, {top - side, top + side, weight - down - side, weight - down + side}, to);
 }
 
 /// Patches of the lattice, at most so many along each side.
-void add_patches(const App& app, const Simulation& cloth, int tile, std::vector<Box>& to) {
+void add_patches(const Ui& ui, const Simulation& cloth, int tile, std::vector<Box>& to) {
   constexpr int most = 12;
   const PositionView x = cloth.positions();
   const int down = std::max(1, std::min(x.rows - 1, most)), across = std::max(1, std::min(x.columns - 1, most));
   const auto place = [&](int k, int l) { return x.at(k * (x.rows - 1) / down, l * (x.columns - 1) / across); };
   for (int k = 0; k < down; ++k)
     for (int l = 0; l < across; ++l)
-      add_box(app, tile, {place(k, l), place(k + 1, l), place(k, l + 1), place(k + 1, l + 1)}, to);
+      add_box(ui, tile, {place(k, l), place(k + 1, l), place(k, l + 1), place(k + 1, l + 1)}, to);
 }
 
 }  // namespace
 
-std::vector<Box> drawn_parts(App& app) {
+std::vector<Box> drawn_parts(Ui& ui) {
   std::vector<Box> parts;
-  for (int tile = 0; tile < app.copies.tiles(); ++tile) {
-    const Simulation& cloth = cloth_in_tile(app, tile);
-    cloth.preset().kind == Kind::one_weight ? add_weight(app, cloth, tile, parts)
-                                            : add_patches(app, cloth, tile, parts);
+  for (int tile = 0; tile < ui.session.copies.tiles(); ++tile) {
+    const Simulation& cloth = cloth_in_tile(ui.scene, tile);
+    cloth.preset().kind == Kind::one_weight ? add_weight(ui, cloth, tile, parts) : add_patches(ui, cloth, tile, parts);
   }
-  if (wind_arrow_shown(app)) {
-    const WindArrow arrow = wind_arrow(app, app.requested_preset().W);
-    add_box(app, 0, {arrow.base, arrow.tip}, parts);
+  if (wind_arrow_shown(ui.tools)) {
+    const WindArrow arrow = wind_arrow(ui.tools, ui.session.requested_preset().W);
+    add_box(ui, 0, {arrow.base, arrow.tip}, parts);
   }
   return parts;
 }
 
-void ring(App& app, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {
+void ring(Ui& ui, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {
   // A dark rim keeps it visible on a light cloth.
-  draw.AddCircle(at, app.theme.px(radius), faded(app.theme.colors.ground, 0.6f), 32, app.theme.scale * (width + 2));
-  draw.AddCircle(at, app.theme.px(radius), color, 32, app.theme.scale * width);
+  draw.AddCircle(at, ui.theme.px(radius), faded(ui.theme.colors.ground, 0.6f), 32, ui.theme.scale * (width + 2));
+  draw.AddCircle(at, ui.theme.px(radius), color, 32, ui.theme.scale * width);
 }
 
-bool draw_arrow(App& app, ImDrawList& draw, ImVec2 from, ImVec2 to, const CurveStyle& style, bool cut_short) {
+bool draw_arrow(Ui& ui, ImDrawList& draw, ImVec2 from, ImVec2 to, const CurveStyle& style, bool cut_short) {
   const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
-  if (length < app.theme.px(10)) return false;
-  const float ux = dx / length, uy = dy / length, head = app.theme.px(9);
+  if (length < ui.theme.px(10)) return false;
+  const float ux = dx / length, uy = dy / length, head = ui.theme.px(9);
   const ImVec2 neck{to.x - ux * head, to.y - uy * head};
-  draw.AddLine(from, neck, faded(app.theme.colors.ground, 0.55f), app.theme.px(5));
+  draw.AddLine(from, neck, faded(ui.theme.colors.ground, 0.55f), ui.theme.px(5));
   const ImVec2 line[2] = {from, neck};
   CurveStyle thick = style;
   thick.width = 2.6f;
-  draw_styled_line(draw, line, 2, thick, app.theme.scale);
+  draw_styled_line(draw, line, 2, thick, ui.theme.scale);
   const ImVec2 left{neck.x - uy * head * 0.5f, neck.y + ux * head * 0.5f},
       right{neck.x + uy * head * 0.5f, neck.y - ux * head * 0.5f};
   if (cut_short)
-    draw.AddTriangle(to, left, right, style.color, std::max(1.f, app.theme.px(1.5f)));
+    draw.AddTriangle(to, left, right, style.color, std::max(1.f, ui.theme.px(1.5f)));
   else
     draw.AddTriangleFilled(to, left, right, style.color);
   return true;
 }
 
-bool keep_in_picture(const App& app, int tile, ImVec2 from, ImVec2& to) {
-  const float margin = app.theme.px(6);
-  const glm::vec2 lo = app.viewport.origin(tile) + margin, hi = lo + app.viewport.size() - 2 * margin;
+bool keep_in_picture(const Ui& ui, int tile, ImVec2 from, ImVec2& to) {
+  const float margin = ui.theme.px(6);
+  const glm::vec2 lo = ui.viewport.origin(tile) + margin, hi = lo + ui.viewport.size() - 2 * margin;
   float part = 1;
   const auto keep = [&](float begin, float end, float least, float most) {
     if (end > most) part = std::min(part, std::max((most - begin) / (end - begin), 0.f));

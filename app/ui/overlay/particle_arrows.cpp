@@ -44,59 +44,58 @@ double round_below(double value) {
 }
 
 /// Places for a label of that size at an arrow's head, the best first: farther out along it, then to its sides.
-std::vector<Box> label_places(const App& app, int tile, glm::vec2 head, glm::vec2 along, glm::vec2 size) {
-  const glm::vec2 lo = app.viewport.origin(tile), hi = lo + app.viewport.size();
+std::vector<Box> label_places(const Ui& ui, int tile, glm::vec2 head, glm::vec2 along, glm::vec2 size) {
+  const glm::vec2 lo = ui.viewport.origin(tile), hi = lo + ui.viewport.size();
   std::vector<Box> places;
   const auto add = [&](glm::vec2 middle) {
     const Box box{glm::round(middle - size / 2.f), glm::round(middle + size / 2.f)};
     if (box.lo.x >= lo.x && box.lo.y >= lo.y && box.hi.x <= hi.x && box.hi.y <= hi.y) places.push_back(box);
   };
-  for (float away = 18; away <= 54; away += 4) add(head + along * app.theme.px(away));
+  for (float away = 18; away <= 54; away += 4) add(head + along * ui.theme.px(away));
   const glm::vec2 across(-along.y, along.x);
   for (const float back : {0.f, 12.f, 24.f})
     for (const float side : {1.f, -1.f})
-      add(head - along * app.theme.px(back) + across * side * (glm::length(size * across) / 2 + app.theme.px(12)));
+      add(head - along * ui.theme.px(back) + across * side * (glm::length(size * across) / 2 + ui.theme.px(12)));
   return places;
 }
 
 /// The symbol beside an arrow's head, where there is room for it.
-void arrow_label(App& app, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std::string_view symbol) {
+void arrow_label(Ui& ui, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std::string_view symbol) {
   const glm::vec2 head(to.x, to.y), way = head - glm::vec2(from.x, from.y);
-  if (glm::length(way) < app.theme.px(24)) return;
-  const float pad = app.theme.px(7), height = app.theme.px(24);
-  const glm::vec2 size(std::ceil(symbol_width(app.fonts, symbol)) + 2 * pad, height);
-  const auto box = app.ui.placing.first_free(label_places(app, tile, head, glm::normalize(way), size));
+  if (glm::length(way) < ui.theme.px(24)) return;
+  const float pad = ui.theme.px(7), height = ui.theme.px(24);
+  const glm::vec2 size(std::ceil(symbol_width(ui.fonts, symbol)) + 2 * pad, height);
+  const auto box = ui.placing.first_free(label_places(ui, tile, head, glm::normalize(way), size));
   if (!box) return;
-  app.ui.placing.take("label " + std::to_string(tile) + " " + std::string(symbol), *box);
-  draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(app.theme.colors.ground, 0.88f), app.theme.px(6));
-  draw_symbol(draw, app.fonts, {box->lo.x + pad, box->lo.y + height / 2 + app.theme.px(4)}, symbol,
-              app.theme.colors.text);
+  ui.placing.take("label " + std::to_string(tile) + " " + std::string(symbol), *box);
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(ui.theme.colors.ground, 0.88f), ui.theme.px(6));
+  draw_symbol(draw, ui.fonts, {box->lo.x + pad, box->lo.y + height / 2 + ui.theme.px(4)}, symbol, ui.theme.colors.text);
 }
 
 /// The scale, in units for the longest arrow, follows within half a second, so that growth is seen; and at once where
 /// arrows would leave the picture or vanish.
-void follow(App& app, double& scale, double longest) {
+void follow(Ui& ui, double& scale, double longest) {
   const double part = 1 - std::exp(-double(ImGui::GetIO().DeltaTime) / 0.5);
   const bool far = longest > 3 * scale || longest < scale / 20;
   scale = far ? longest : scale + part * (longest - scale);
-  if (std::abs(longest - scale) > 0.01 * scale) app.ui.draw_by = app.ui.now;
+  if (std::abs(longest - scale) > 0.01 * scale) ui.draw_by = ui.now;
 }
 
 /// A bar in the picture's corner, as long as an arrow of the value beside it, where there is room. Returns where the
 /// next one begins.
-float scale_bar(App& app, ImDrawList& draw, ImVec2 at, double scale, std::string_view unit) {
-  const Tokens& c = app.theme.colors;
-  const ImFont& font = *app.fonts.small;
+float scale_bar(Ui& ui, ImDrawList& draw, ImVec2 at, double scale, std::string_view unit) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.small;
   const double value = round_below(scale);
-  const float length = std::round(float(value / scale) * app.theme.px(longest_px)), tick = app.theme.px(3),
-              pad = app.theme.px(6);
+  const float length = std::round(float(value / scale) * ui.theme.px(longest_px)), tick = ui.theme.px(3),
+              pad = ui.theme.px(6);
   const std::string text = short_number(value) + " " + std::string(unit);
   const float end = at.x + length + pad + text_width(font, text);
   const Box box{{at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2}};
-  if (!app.ui.placing.free(box)) return at.x;
-  app.ui.placing.take("scale " + std::string(unit), box);
-  draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), app.theme.px(6));
-  const float width = std::max(1.f, app.theme.px(1.5f));
+  if (!ui.placing.free(box)) return at.x;
+  ui.placing.take("scale " + std::string(unit), box);
+  draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), ui.theme.px(6));
+  const float width = std::max(1.f, ui.theme.px(1.5f));
   draw.AddLine(at, {at.x + length, at.y}, c.text, width);
   for (const float x : {at.x, at.x + length}) draw.AddLine({x, at.y - tick}, {x, at.y + tick + 1}, c.text, width);
   draw_text(draw, font, {at.x + length + pad, std::round(at.y - font.FontSize / 2)}, c.text, text);
@@ -112,14 +111,14 @@ std::optional<double> longest_of(const Group& group, const std::set<std::string>
 }
 
 /// Where the scales stand: in the first picture's lower left corner, above the names of copies.
-ImVec2 place_of_bars(const App& app) {
-  const glm::vec2 lo = app.viewport.origin(0), hi = lo + app.viewport.size();
-  float foot = hi.y - app.theme.px(12);
-  for (const OverlayLayout::Mark& mark : app.ui.placing.marks())
-    if (mark.name.starts_with("name ") && mark.box.lo.x < lo.x + app.theme.px(32) && mark.box.hi.y > lo.y &&
+ImVec2 place_of_bars(const Ui& ui) {
+  const glm::vec2 lo = ui.viewport.origin(0), hi = lo + ui.viewport.size();
+  float foot = hi.y - ui.theme.px(12);
+  for (const OverlayLayout::Mark& mark : ui.placing.marks())
+    if (mark.name.starts_with("name ") && mark.box.lo.x < lo.x + ui.theme.px(32) && mark.box.hi.y > lo.y &&
         mark.box.lo.y < hi.y)
-      foot = std::min(foot, mark.box.lo.y - app.theme.px(8));
-  return {lo.x + app.theme.px(22), std::round(foot - app.theme.px(10))};
+      foot = std::min(foot, mark.box.lo.y - ui.theme.px(8));
+  return {lo.x + ui.theme.px(22), std::round(foot - ui.theme.px(10))};
 }
 
 struct DrawnArrow {
@@ -128,51 +127,53 @@ struct DrawnArrow {
 };
 
 /// One variable's arrow; none where it is too short to be seen.
-std::optional<DrawnArrow> variable_arrow(App& app, ImDrawList& draw, int tile, ImVec2 from, const ParticleReadout& r,
+std::optional<DrawnArrow> variable_arrow(Ui& ui, ImDrawList& draw, int tile, ImVec2 from, const ParticleReadout& r,
                                          std::string_view key, double scale) {
   const glm::dvec3 value = vector_of(r, key);
-  const double parts = glm::length(value) / scale, pixels = std::min(parts, most_of_it) * app.theme.px(longest_px);
+  const double parts = glm::length(value) / scale, pixels = std::min(parts, most_of_it) * ui.theme.px(longest_px);
   if (pixels < 1) return std::nullopt;
-  auto to = on_screen(app, tile,
-                      r.x + glm::normalize(value) * pixels * app.camera.metres_per_pixel(r.x, app.viewport.size().y));
+  auto to = on_screen(
+      ui, tile, r.x + glm::normalize(value) * pixels * ui.scene.camera.metres_per_pixel(r.x, ui.viewport.size().y));
   if (!to) return std::nullopt;
-  const bool cut_short = keep_in_picture(app, tile, from, *to) || parts > most_of_it;
-  if (!draw_arrow(app, draw, from, *to, curve_style(app.theme.colors, key), cut_short)) return std::nullopt;
+  const bool cut_short = keep_in_picture(ui, tile, from, *to) || parts > most_of_it;
+  if (!draw_arrow(ui, draw, from, *to, curve_style(ui.theme.colors, key), cut_short)) return std::nullopt;
   return DrawnArrow{*to, variable(key).symbol};
 }
 
 }  // namespace
 
-void arrow_scales(App& app, ImDrawList& draw) {
-  if (!app.picked || !app.ui.arrows || app.preset().kind != Kind::cloth || app.simulation->divergence()) return;
-  const ParticleReadout r = app.simulation->particle(app.picked->i, app.picked->j);
-  ImVec2 at = place_of_bars(app);
+void arrow_scales(Ui& ui, ImDrawList& draw) {
+  if (!ui.session.picked || !ui.arrows || ui.session.preset().kind != Kind::cloth ||
+      ui.session.simulation->divergence())
+    return;
+  const ParticleReadout r = ui.session.simulation->particle(ui.session.picked->i, ui.session.picked->j);
+  ImVec2 at = place_of_bars(ui);
   for (std::size_t k = 0; k < groups().size(); ++k) {
     const Group& group = groups()[k];
-    const auto longest = longest_of(group, app.settings.handling.arrows, r);
+    const auto longest = longest_of(group, ui.settings.handling.arrows, r);
     if (!longest || !std::isfinite(*longest)) continue;
     // The original leads; its copies' arrows are to the same scale.
-    follow(app, app.ui.arrow_scales[k], std::max(*longest, group.least(app.preset())));
-    at.x = scale_bar(app, draw, at, app.ui.arrow_scales[k], group.unit);
+    follow(ui, ui.arrow_scales[k], std::max(*longest, group.least(ui.session.preset())));
+    at.x = scale_bar(ui, draw, at, ui.arrow_scales[k], group.unit);
   }
 }
 
-void particle_arrows(App& app, ImDrawList& draw, int tile, ImVec2 from) {
-  const ParticleReadout r = cloth_in_tile(app, tile).particle(app.picked->i, app.picked->j);
-  const std::set<std::string>& ticked = app.settings.handling.arrows;
+void particle_arrows(Ui& ui, ImDrawList& draw, int tile, ImVec2 from) {
+  const ParticleReadout r = cloth_in_tile(ui.scene, tile).particle(ui.session.picked->i, ui.session.picked->j);
+  const std::set<std::string>& ticked = ui.settings.handling.arrows;
   std::vector<DrawnArrow> arrows;
   for (std::size_t k = 0; k < groups().size(); ++k) {
     const Group& group = groups()[k];
     const auto longest = longest_of(group, ticked, r);
     if (!longest || !std::isfinite(*longest)) continue;
-    double& scale = app.ui.arrow_scales[k];
-    if (scale <= 0) scale = std::max(*longest, group.least(app.preset()));  // the original has diverged
+    double& scale = ui.arrow_scales[k];
+    if (scale <= 0) scale = std::max(*longest, group.least(ui.session.preset()));  // the original has diverged
     for (const std::string_view key : group.keys)
       if (ticked.count(std::string(key)) > 0)
-        if (const auto arrow = variable_arrow(app, draw, tile, from, r, key, scale)) arrows.push_back(*arrow);
+        if (const auto arrow = variable_arrow(ui, draw, tile, from, r, key, scale)) arrows.push_back(*arrow);
   }
   // Last, so that no arrow runs over a symbol.
-  for (const DrawnArrow& arrow : arrows) arrow_label(app, draw, tile, from, arrow.to, arrow.symbol);
+  for (const DrawnArrow& arrow : arrows) arrow_label(ui, draw, tile, from, arrow.to, arrow.symbol);
 }
 
 }  // namespace tyglab

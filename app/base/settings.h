@@ -29,7 +29,7 @@ struct ToolSettings {
 };
 
 /// The preset of the last session, with what was not saved.
-struct Session {
+struct LastSession {
   Preset preset;
   Preset saved;  ///< as it was opened or saved; a user's file is read again
   std::string label;
@@ -48,7 +48,7 @@ struct Settings {
   std::string color;         ///< name of the field that colours the cloth; empty: none
   bool tour_seen = false;
   std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
-  std::optional<Session> session;
+  std::optional<LastSession> session;
 };
 
 /// Folder of settings and the user's presets: $TYGLAB_CONFIG_DIR, $XDG_CONFIG_HOME/tyglab or ~/.config/tyglab; empty

@@ -1,4 +1,4 @@
-#include "app/session/settings.h"
+#include "app/base/settings.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -90,8 +90,8 @@ ToolSettings handling_from(const Section& from) {
   return handling;
 }
 
-Session session_from(const Section& from) {
-  Session session;
+LastSession session_from(const Section& from) {
+  LastSession session;
   session.preset = parse_preset(from.at("preset").dump(), "the last session's preset");
   session.saved = session.preset;
   if (from.has("saved")) session.saved = parse_preset(from.at("saved").dump(), "the last session's saved preset");

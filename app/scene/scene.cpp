@@ -1,0 +1,22 @@
+#include "app/scene/scene.h"
+
+namespace tyglab {
+
+void Scene::follow() {
+  const SessionCounts& now = session.counts;
+  if (now.documents != seen_.documents) wants_framing = true;
+  if (now.copies != seen_.copies) views.forget_copies();
+  if (now.labs_begun != seen_.labs_begun) colors.choose(std::nullopt);  // the next session has the user's choice again
+  if (now.cloths != seen_.cloths) redraw = true;
+  seen_ = now;
+}
+
+void Scene::draw(glm::vec2 magnified) {
+  views.draw(*this, magnified);
+}
+
+Simulation& cloth_in_tile(const Scene& scene, int tile) {
+  return cloth_of(scene.session, tile < scene.session.copies.tiles() ? tile - 1 : Copies::original);
+}
+
+}  // namespace tyglab

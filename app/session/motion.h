@@ -1,0 +1,29 @@
+// What is done to the motion and to the constants as a whole: restart, rewind, undo, single steps, an automatic dt.
+#pragma once
+
+#include <optional>
+
+#include "app/session/session.h"
+
+namespace tyglab {
+
+/// Back to the start with the present constants.
+void restart(Session& session);
+/// A second back; the plots forget what has not happened. False where there is nothing to go back to.
+bool rewind(Session& session);
+/// Takes constants that stood before. An automatic dt stays so only if it is the one that would be chosen for them.
+bool take_back(Session& session, const Preset& preset);
+/// Undoes or redoes the last change of constants.
+void take_from_history(Session& session, bool backwards);
+/// The preset as it was opened: its constants, its start.
+void reset_everything(Session& session);
+/// Pauses, and makes one step of dt; the hand that holds the cloth goes there.
+void single_step(Session& session, const std::optional<glm::dvec3>& hand);
+/// dt chosen and watched by the program, or set by hand again.
+void toggle_auto_dt(Session& session);
+/// While dt is automatic: halves it if the ledger finds that the method makes energy.
+void watch_dt(Session& session);
+/// Sends the hand that holds the cloth there over the next `steps` steps.
+void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int steps);
+
+}  // namespace tyglab

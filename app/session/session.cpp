@@ -1,0 +1,132 @@
+#include "app/session/session.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/session/edits.h"
+#include "app/session/engine_fallback.h"
+#include "app/session/motion.h"
+#include "core/theory/advice.h"
+
+namespace tyglab {
+namespace {
+
+/// The engine that was asked for as the fastest one, once it is known.
+void take_engine_choice(Session& session) {
+  const auto outcome = session.studies.engine.take();
+  if (!outcome) return;
+  if (const auto* error = std::get_if<JobError>(&*outcome)) {
+    session.messages.error(error->what);
+  } else {
+    const EngineChoice& choice = std::get<EngineChoice>(*outcome);
+    Preset next = session.requested_preset();
+    next.engine = choice.engine;
+    if (next.engine == EngineKind::opencl) next.device = choice.device;
+    if (next != session.requested_preset()) session.propose(std::move(next));
+    session.messages.note("Automatic: " + choice.why + ".");
+  }
+  session.pacing.restart_measure();
+}
+
+/// Where drawing alone takes longer than the display's frame (waiting for the display is none of it), steps may cost
+/// as much again: they no longer decide whether the window keeps up.
+double step_budget(const FrameCosts& costs, double frame_time) {
+  double beside_ms = costs.recent_ms(Part::frame);
+  for (const Part part : {Part::simulate, Part::swap}) beside_ms -= costs.recent_ms(part);
+  return beside_ms > 1e3 * frame_time ? std::min(1e-3 * beside_ms, 0.2) : Pacing::usual_budget_s;
+}
+
+}  // namespace
+
+bool Session::idle() const {
+  const bool over = simulation->divergence().has_value() && !copies.lockstep.alive();
+  return (!pacing.playing || over || asleep()) && !rebuild.busy() && !studies.engine.busy() && requests.empty();
+}
+
+void Session::update(double real_seconds, const SessionInput& input) {
+  now += real_seconds;
+  rebuild.poll(*this);
+  take_engine_choice(*this);
+  apply_requests(*this);
+  try {
+    step(real_seconds, input);
+  } catch (const EngineError& error) {
+    fall_back(*this, error.what());
+  }
+  costs.add_steps(steps_made);
+  sample(*this);
+  watch_lab(*this);
+  wants |= lab_wants(*this);
+  StudyMoment moment{*simulation, now, last_change, !rebuild.holds_present(), input.dragging};
+  studies.update(wants, moment);
+  wants.step ? inspector.update(*this) : inspector.drop();
+  again_at = moment.again_at;
+  steps_made = 0;
+}
+
+void Session::step(double real_seconds, const SessionInput& input) {
+  const FrameCosts::Timer timer(costs, Part::simulate);
+  sleep.begin(*simulation);
+  if (const bool wanted = wants.ledger || auto_dt; wanted != simulation->ledger().has_value())
+    if (!wanted || rebuild.ledger_ready(*this)) simulation->enable_ledger(wanted);
+  if (!pacing.playing || asleep() || rebuild.holds_present() || studies.engine.busy()) return;
+  const double dt = preset().dt;
+  pacing.slow(input.slow_motion ? Pacing::slow_motion : 1);
+  if (simulation->divergence()) {
+    if (copies.lockstep.alive()) steps_made += copies_go_on(*this, pacing.due(real_seconds, dt));
+    return;
+  }
+  rewind.look(*simulation);
+  const int due = up_to_stop(*this, pacing.due(real_seconds, dt));
+  move_hand(*this, input.hand, due);
+  pacing.budget_s = step_budget(costs, input.frame_time);
+  double spent_s = 0;
+  const int made = make_steps(due, input, spent_s);
+  pacing.made(made, dt, spent_s);
+  steps_made += made;
+  pause_at_stop(*this);
+  if (auto_dt && !simulation->divergence()) watch_dt(*this);
+  if (!scripted) sleep.look(*simulation, input.touched || !copies.lockstep.empty());
+}
+
+/// In pieces, so that a wrong guess of a step's cost cannot hold the window up.
+int Session::make_steps(int due, const SessionInput& input, double& spent_s) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  int made = 0;
+  while (made < due && !simulation->divergence() && (made == 0 || spent() < pacing.budget_s)) {
+    const double cost = pacing.step_cost_s();
+    const int piece =
+        cost > 0 && !input.after_steps ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, due - made) : 1;
+    const double before = spent();
+    const Advance advance = simulation->advance(piece);
+    made += advance.steps;
+    copies_follow(*this, spent() - before);
+    if (input.after_steps) input.after_steps();
+    warn_of(advance);
+    if (advance.steps < piece) break;
+  }
+  spent_s = spent();
+  return made;
+}
+
+void Session::warn_of(const Advance& advance) {
+  if (advance.left_inside > 0 && !warned_left_inside) {
+    messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
+    warned_left_inside = true;
+  }
+  if (simulation->engine().solves().unconverged > 0 && !warned_unconverged) {
+    messages.warning(
+        "Newton's method does not reach its tolerance, so this is not quite the method's motion. Take a smaller dt or "
+        "k_s.");
+    warned_unconverged = true;
+  }
+  if (const std::string missed = tolerance_missed(simulation->preset(), simulation->engine().inner_steps());
+      !missed.empty() && !warned_unconverged) {
+    messages.warning(missed);
+    warned_unconverged = true;
+  }
+  if (advance.released) messages.note("The hand let go: its force exceeded F_release.");
+}
+
+}  // namespace tyglab

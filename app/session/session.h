@@ -1,0 +1,111 @@
+// One experiment in work: the cloth, what is asked of it, its past, its copies, its lab. No window, no picture, no
+// Dear ImGui: the window, the tests and whoever else runs an experiment call update() and read what it says.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/base/frame_costs.h"
+#include "app/base/messages.h"
+#include "app/session/copies.h"
+#include "app/session/document.h"
+#include "app/session/history.h"
+#include "app/session/labs/lab_state.h"
+#include "app/session/pacing.h"
+#include "app/session/recorded.h"
+#include "app/session/reference_curves.h"
+#include "app/session/requests.h"
+#include "app/session/rewind.h"
+#include "app/session/sleep.h"
+#include "app/session/step_inspector.h"
+#include "app/studies/studies.h"
+#include "core/energy/auto_step.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+/// What acts on the cloth during an update, beside the requests.
+struct SessionInput {
+  std::optional<glm::dvec3> hand;     ///< where the hand that holds the cloth is to be at the end, m
+  std::function<void()> after_steps;  ///< called after each step where set: a knife acts while the cloth moves under it
+  bool touched = false;               ///< a tool is in use: the cloth does not fall asleep
+  bool slow_motion = false;
+  bool dragging = false;         ///< a constant is being dragged
+  double frame_time = 1.0 / 60;  ///< s, of the display; drawing that takes longer leaves as much time for steps
+};
+
+/// Counts of events that whoever draws the session or acts on it must follow.
+struct SessionCounts {
+  std::uint64_t documents = 0;  ///< a preset was opened
+  std::uint64_t cloths = 0;     ///< pictures are out of date, though revisions may be the same
+  std::uint64_t copies = 0;     ///< copies were made anew or are gone
+  std::uint64_t copies_added = 0;
+  std::uint64_t lattices = 0;  ///< the cloth has another shape
+  std::uint64_t labs_begun = 0;
+  std::uint64_t hands = 0;  ///< the hand lets go, and every tool with it
+};
+
+struct Session {
+  std::shared_ptr<Simulation> simulation;
+  int threads = 1;        ///< of the CPU engine, at most
+  bool scripted = false;  ///< everything is done at once, so that the same frames come on every machine
+  Document document;
+  History history;
+  BackgroundRebuild rebuild;
+  Pacing pacing;
+  Sleep sleep;
+  Rewind rewind;
+  Copies copies;
+  ReferenceCurves curves;
+  Recorded recorded;
+  Studies studies;
+  StepInspector inspector;
+  LabState labs;
+  Messages messages;
+  FrameCosts costs;
+  std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
+  std::optional<Pins::Site> picked;
+  std::vector<Request> requests;
+  std::optional<Question> question;      ///< to be put to the user
+  std::optional<SaveProblem> not_saved;  ///< to be shown where the user saves
+  std::function<std::optional<std::string>(const std::string& texture)>
+      show_texture;  ///< returns what is wrong with it
+
+  Wants wants;  ///< of this update; labs add theirs
+  SessionCounts counts;
+  std::int64_t steps_made = 0;      ///< since the last update
+  double now = 0;                   ///< s since the session began
+  double last_change = 0;           ///< s, when constants changed last, to tell gestures apart
+  double again_at = 0;              ///< s: update() wants to be called by then, though nothing moves
+  bool warned_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
+  bool warned_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
+  bool quit = false;
+
+  /// Goes on by so much real time (s): applies what was requested, steps, samples, judges the lab's checks, goes on
+  /// with the studies that are wanted. Throws EngineError only where the CPU engine itself fails.
+  void update(double real_seconds, const SessionInput& input);
+
+  bool asleep() const { return pacing.playing && sleep.asleep(*simulation); }
+  /// Whether nothing moves, and nothing is being worked out that will change the cloth.
+  bool idle() const;
+  const Preset& preset() const { return simulation->preset(); }
+  /// The constants as they have been asked for: those of the cloth being built, or else the present one's.
+  const Preset& requested_preset() const {
+    return rebuild.requested_preset() != nullptr ? *rebuild.requested_preset() : preset();
+  }
+  void request(Request request) { requests.push_back(std::move(request)); }
+  /// Asks for the constants to become these.
+  void propose(Preset next, unsigned gesture = 0) { request(request::Apply{edit::Change{std::move(next)}, gesture}); }
+
+ private:
+  void step(double real_seconds, const SessionInput& input);
+  int make_steps(int due, const SessionInput& input, double& spent_s);
+  void warn_of(const Advance& advance);
+};
+
+}  // namespace tyglab

@@ -1,0 +1,31 @@
+#include "app/ui/cards/time_plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyglab {
+
+const char* why_empty(const Ui& ui) {
+  if (ui.session.simulation->divergence()) return "Restart to see curves";
+  return ui.session.pacing.playing ? "Waiting for the first step" : "Press Space to run";
+}
+
+PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
+  const double now = series.empty() ? ui.session.simulation->time() : series.t().back();
+  const double length = series.empty() ? 0 : now - series.t().front();
+  const double window = ui.plots.window_s.value_or(length <= 2 ? 2 : length <= 5 ? 5 : 10);
+  const double end = std::max(now, window);
+  return {.x_min = end - window,
+          .x_max = end,
+          .log = log,
+          .from_zero = true,
+          .unit = unit,
+          .when_empty = when_empty,
+          .time_step = ui.session.preset().dt};
+}
+
+void zoom_time(Ui& ui, const PlotFrame& frame, float wheel) {
+  if (wheel != 0) ui.plots.window_s = std::clamp((frame.x_max - frame.x_min) * std::pow(0.8, wheel), 0.1, 120.0);
+}
+
+}  // namespace tyglab

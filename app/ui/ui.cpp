@@ -1,0 +1,31 @@
+#include "app/ui/ui.h"
+
+#include <utility>
+
+#include "app/ui/cards/cards.h"
+#include "app/ui/frame/dialogs.h"
+
+namespace tyglab {
+
+void Ui::run_actions() {
+  // What these ask for in turn is done in the next frame.
+  for (const auto& action : std::exchange(actions, {})) action(*this);
+}
+
+void Ui::follow() {
+  const SessionCounts& counts = session.counts;
+  if (counts.documents != seen_.documents) slider = SliderState{}, constants_to_top = true;
+  if (counts.copies_added != seen_.copies_added) {
+    settings.layout.folded.erase(card_name::copies);
+    if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;
+  }
+  seen_ = counts;
+  if (const auto question = std::exchange(session.question, std::nullopt)) {
+    const bool unsaved = question->about == Question::About::unsaved_changes;
+    ask(*this, unsaved ? Dialog::Kind::unsaved : Dialog::Kind::large_cloth, question->text, question->then);
+  }
+  if (const auto problem = std::exchange(session.not_saved, std::nullopt))
+    show_save_problem(*this, problem->file, problem->name, problem->why);
+}
+
+}  // namespace tyglab

@@ -1,0 +1,154 @@
+// The user interface of one session: what panels, cards, marks and dialogs remember from frame to frame. They draw what
+// the session and the scene say, and ask; they decide nothing.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/tools/tools.h"
+#include "app/ui/kit/ui_context.h"
+
+namespace tyglab {
+
+struct CommandRow;
+struct Ui;
+
+/// The column of plots and cards.
+struct Plots {
+  bool log = false;
+  std::optional<double> window_s;  ///< simulated time shown, once the wheel has set it; until then it grows
+  std::string tab;                 ///< name of the card shown where only one has room; another: the first
+  std::string wanted;              ///< of a card that is to come to the front where it is a tab
+  std::vector<std::string> cards;  ///< names on the tabs; none where all cards have room
+  float width = 0;                 ///< of a card, pixels
+  std::array<bool, Recorded::forces_count> hidden{true, false, false, false, false, true, true};
+  std::array<bool, 4> figure_hidden{};
+  bool convergence = false;  ///< the card Accuracy shows the order of convergence, in place of error over cost
+};
+
+/// A question or a file dialog over everything else.
+struct Dialog {
+  enum class Kind { none, open, save, write_export, texture, picture, unsaved, large_cloth };
+  Kind kind = Kind::none;
+  bool opening = false;  ///< to be opened in this frame
+  char path[1024] = "";
+  char name[128] = "";
+  std::string problem;                    ///< shown in it
+  bool refused = false;                   ///< what was given: the path's field is to take keys again
+  bool selecting = false;                 ///< all of its text, once it takes them
+  bool enter = false;                     ///< Enter was pressed in this frame
+  bool path_follows = false;              ///< the path is made from the name until it is edited
+  bool overwrite = false;                 ///< the file exists, and the user is asked
+  bool whole_window = false;              ///< of picture
+  const CommandRow* exporting = nullptr;  ///< of write_export
+  std::optional<Request> then;            ///< of a question: what follows a yes
+  std::string question;
+  struct Entry {
+    std::filesystem::path file;
+    std::string label, name, description, problem;
+    bool shipped = false;
+  };
+  std::vector<Entry> entries;
+  int selected = -1;
+};
+
+/// What linear theory says of a divergence and of the ways out (advice.h): kept, since it takes milliseconds and is
+/// asked for in every frame.
+struct Advice {
+  std::optional<Preset> then, now;  ///< what it is about: the constants that diverged, the present ones
+  double largest_dt = 0;            ///< s, that was stable then
+  bool springs_too_weak = false;    ///< now
+  std::optional<Preset> suggested_fix, slower;
+};
+
+/// A line of the palette: what it is called, and what it does.
+struct PaletteEntry {
+  std::string group, title;
+  std::string keys;  ///< at the right: keys, units, progress
+  std::string also;  ///< words under which it is found too
+  std::string help;  ///< sentences under which it is found after all others
+  std::function<void(Ui&)> act;
+};
+
+/// Ctrl+P: a list of all that can be done, narrowed by what is typed.
+struct CommandPalette {
+  bool open = false;
+  bool opening = false;  ///< its field is to take keys
+  bool labs = false;     ///< it lists labs alone
+  std::vector<PaletteEntry> entries;
+  char text[128] = "";
+  std::string narrowed;  ///< the text for which `selected` counts
+  int selected = 0;
+  int go = 0;                   ///< entries to go down, by the keys of this frame
+  bool enter = false;           ///< Enter was pressed
+  std::vector<KeyEvent> later;  ///< pressed after it, for what stands there once it has acted
+};
+
+/// The cards that show a newcomer round.
+struct Tour {
+  int card = -1;                     ///< none while below 0
+  bool next = false, leave = false;  ///< asked for by keys of this frame
+  struct Place {
+    glm::vec2 lo{0}, hi{0};
+  };
+  Place transport, labs;  ///< where the top bar drew them
+};
+
+/// A PNG of the window, or of the viewport with what its colours mean and without buttons.
+struct PictureOrder {
+  std::filesystem::path file;
+  bool whole_window = false;
+};
+
+struct Ui : UiContext {
+  Ui(Session& of, Scene& in, Tools& with, InputQueue& events, Settings& remembered)
+      : UiContext(events, remembered, of.messages, in.viewport), session(of), scene(in), tools(with) {}
+
+  Session& session;
+  Scene& scene;
+  Tools& tools;
+  CommandPalette palette;
+  Tour tour;
+  Plots plots;
+  Dialog dialog;
+  Advice advice;
+  bool help = false;
+  bool panels = true;                                    ///< Tab hides them all
+  std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
+  float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
+  bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
+  std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
+  bool constants_to_top = false;         ///< another preset was taken: its constants are shown from the first one on
+  bool lab_enter = false;                ///< Enter was pressed in the field of a lab's prediction
+  float viewport_left = 0;               ///< pixels
+  bool side_plots = false;               ///< where both columns have no room, the plots stand in the constants' place
+  bool side_cloth = true;  ///< where not even one has room beside the cloth: the cloth is shown, and neither
+
+  Wants wants;                          ///< of the panels and cards that are open
+  std::optional<PictureOrder> picture;  ///< to be taken of this frame
+  bool full_screen = false;             ///< as the window is
+  bool toggle_full_screen = false;
+  bool scale_changed = true;  ///< fonts are to be built anew
+  std::vector<std::function<void(Ui&)>> actions;
+
+  /// Asks for something to be done before the next frame is drawn.
+  void act(std::function<void(Ui&)> action) { actions.push_back(std::move(action)); }
+  /// The same of a command, by the id of its row (commands.h).
+  void command(std::string_view id);
+  /// Does what was asked for, in order.
+  void run_actions();
+  /// Follows what became of the session since the last call.
+  void follow();
+
+ private:
+  SessionCounts seen_;
+};
+
+}  // namespace tyglab
