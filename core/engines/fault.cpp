@@ -54,7 +54,7 @@ double growth_left(const Preset& preset, const Lattice& lattice, const Tears& te
   const std::uint8_t* masks = tears.row(i);
   if (masks == nullptr || std::all_of(masks + begin, masks + end, [&](auto mask) { return (mask >> d & 1) != 0; })) {
     const R longest =
-        cpu::longest_squared(state.x_row(i, 0), state.stride, dir.di * 3 * state.stride + dir.dj, begin, end);
+        simd::longest_squared(state.x_row(i, 0), state.stride, dir.di * 3 * state.stride + dir.dj, begin, end);
     const double left = bound - std::sqrt(double(longest)) * (1 + rounding<R>);
     if (left >= 0) return left;
   }

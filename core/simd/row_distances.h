@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace tyglab::cpu {
+namespace tyglab::simd {
 
 /// The largest |x[j + other] - x[j]|² for begin <= j < end, m²; ∞ or NaN if one of them is. `x` is a row as in
 /// row_field.h, `other` leads to the springs' other ends.
@@ -18,4 +18,4 @@ R nearest_squared(const R* x, std::ptrdiff_t stride, int columns, const R point[
 template <class R>
 R lowest(const R* x, std::ptrdiff_t stride, int columns);
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::simd

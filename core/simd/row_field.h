@@ -7,7 +7,7 @@
 
 #include "core/cloth/state.h"
 
-namespace tyglab::cpu {
+namespace tyglab::simd {
 
 inline constexpr int widest_vector = 64;  ///< bytes; rows begin at multiples of it
 
@@ -49,4 +49,4 @@ class RowField {
   Array<R> data_;
 };
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::simd

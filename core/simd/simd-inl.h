@@ -10,7 +10,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tyglab::cpu::HWY_NAMESPACE {
+namespace tyglab::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// A vector of N numbers and the operations that the formulas use.
@@ -180,6 +180,6 @@ struct Carry {
   }
 };
 
-}  // namespace tyglab::cpu::HWY_NAMESPACE
+}  // namespace tyglab::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

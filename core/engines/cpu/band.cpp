@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/engines/cpu/row_update.h"
 #include "core/forces/contact.h"
 #include "core/forces/spring-inl.h"
 #include "core/simd/row_distances.h"
-#include "core/simd/row_update.h"
 
 namespace tyglab::cpu {
 namespace {
@@ -165,12 +165,13 @@ bool Band<R, Present>::touches(int i) const {
   for (const Body& body : cloth_.preset.bodies) {
     if (body.shape == Body::Shape::plane) {
       const R height = std::nextafter(R(body.y), std::numeric_limits<R>::max());
-      if (lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
+      if (simd::lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
       continue;
     }
     const R centre[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
     const double reach = body.r + contact_tolerance(body, body.c, epsilon);
-    if (double(nearest_squared(x, cloth_.stride, cloth_.lattice.columns, centre)) < reach * reach * (1 + 8 * epsilon))
+    if (double(simd::nearest_squared(x, cloth_.stride, cloth_.lattice.columns, centre)) <
+        reach * reach * (1 + 8 * epsilon))
       return true;
   }
   return false;

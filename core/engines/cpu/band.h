@@ -14,13 +14,15 @@
 #include "core/cloth/tears.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/parts.h"
+#include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 #include "core/simd/row_field.h"
-#include "core/simd/row_update.h"
 
 namespace tyglab::cpu {
+
+using simd::RowField, simd::row_stride, simd::widest_vector;
 
 /// Sums of state vectors that a step is judged by (scheme.h), all over the same vectors.
 struct ResolvedEstimate {

@@ -36,7 +36,7 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   const double rest = dir.rest * cloth_.preset.L, longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
   // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be overloaded.
-  const double found = double(longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
+  const double found = double(simd::longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
                                               dir.di * cloth_.vector(vector_x).pitch() + dir.dj, begin, end));
   if (found <= longest * longest * (1 - rounding<R>)) return found;
   double left = 0;

@@ -16,7 +16,7 @@ template <class R>
 DeviceState<R>::DeviceState(std::shared_ptr<Device> device, const Lattice& lattice, int vectors)
     : device_(std::move(device)),
       lattice_(lattice),
-      stride_(cpu::row_stride<R>(lattice.columns)),
+      stride_(simd::row_stride<R>(lattice.columns)),
       mask_pitch_((lattice.columns + 15) / 16 * 16 + 2 * mask_margin),
       numbers_((std::size_t(lattice.rows) + 5) * 3 * std::size_t(stride_) + 32),
       mask_bytes_((std::size_t(lattice.rows) + 5) * std::size_t(mask_pitch_)),

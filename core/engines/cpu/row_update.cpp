@@ -1,17 +1,19 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/simd/row_update.cpp"
+#define HWY_TARGET_INCLUDE "core/engines/cpu/row_update.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "core/engines/cpu/row_update.h"
 #include "core/simd/row_field.h"
-#include "core/simd/row_update.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
+using namespace tyglab::simd::HWY_NAMESPACE;
+using simd::widest_vector;
 
 /// The sum at one vector's place.
 template <int terms, class R>
