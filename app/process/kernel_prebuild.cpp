@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/simulation.h"
@@ -46,7 +47,7 @@ void run_programs_once(const Preset& preset, bool ledger) {
     Simulation simulation(preset);
     if (ledger) simulation.enable_ledger(true);
     simulation.advance(1);
-    simulation.engine().shown();
+    drawn_positions(simulation.engine());
   } catch (const EngineError&) {
     // The cloth itself will meet it, where it is reported.
   }

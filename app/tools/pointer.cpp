@@ -11,6 +11,7 @@
 #include "app/tools/knife.h"
 #include "app/tools/wind_arrow.h"
 #include "app/ui/app.h"
+#include "core/engines/vertex_sharing.h"
 
 namespace tyglab {
 namespace {
@@ -38,7 +39,7 @@ std::optional<Pins::Site> nearest_of_all(App& app, int tile, glm::vec2 at) {
 /// until the pointer moves.
 std::optional<Pins::Site> site_under(App& app, int tile, glm::vec2 at) {
   Simulation& simulation = cloth_in_tile(app, tile);
-  if (!simulation.engine().remote()) return nearest_of_all(app, tile, at);
+  if (!is_remote(simulation.engine())) return nearest_of_all(app, tile, at);
   Tool::Rest& rest = app.tool.rest;
   if (rest.at != at || rest.tile != tile || !(rest.camera == app.camera))
     rest = {at, tile, app.camera, nearest_of_all(app, tile, at)};

@@ -61,7 +61,7 @@ std::string shared_buffer_problem(int number) {
     Simulation simulation(preset);
     WrittenVertices vertices;
     std::size_t looked_at = 0;
-    vertices.write(simulation.engine(), {{simulation.lattice(), 1}, true}, looked_at);
+    vertices.write(*simulation.engine().vertex_sharing(), {{simulation.lattice(), 1}, true}, looked_at);
     return {};
   } catch (const GraphicsError& error) {
     return std::string("OpenGL is not there without a window: ") + error.what();

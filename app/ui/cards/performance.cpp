@@ -9,6 +9,7 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "core/engines/vertex_sharing.h"
 
 namespace tyglab {
 namespace {
@@ -199,7 +200,7 @@ std::vector<PerformanceFact> performance_facts(const App& app) {
   facts.push_back({"positions are drawn from", drawn_from(app.costs.way()), why.empty() ? "" : "Copied, since " + why});
   const std::size_t copied = app.costs.last_copied();
   facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B"});
-  if (engine.copied() > 0) facts.push_back({"read by others", megabytes(app.costs.recent_read()) + " a frame"});
+  if (bytes_read(engine) > 0) facts.push_back({"read by others", megabytes(app.costs.recent_read()) + " a frame"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
   facts.push_back({"masks and read-outs", megabytes(double(app.simulation->bytes() + app.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});

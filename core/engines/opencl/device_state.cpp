@@ -56,7 +56,7 @@ R* DeviceState<R>::map(cl_mem field, cl_map_flags how) const {
   void* at =
       clEnqueueMapBuffer(device_->queue(), field, CL_TRUE, how, 0, numbers_ * sizeof(R), 0, nullptr, nullptr, &code);
   check(code, "reading from the device");
-  if (!device_->facts().shared_memory) copied_ += numbers_ * sizeof(R);
+  if (!device_->facts().shared_memory) bytes_read_ += numbers_ * sizeof(R);
   return static_cast<R*>(at) + lead();
 }
 
@@ -104,7 +104,7 @@ void DeviceState<R>::read_patch(Vector& vector, int i, int j) const {
       clEnqueueReadBufferRect(device_->queue(), vector.now.memory.get(), CL_TRUE, from.data(), to.data(), region.data(),
                               line, 3 * line, short_line, 3 * short_line, patch.numbers.data(), 0, nullptr, nullptr),
       "reading from the device");
-  copied_ += patch.numbers.size() * sizeof(R);
+  bytes_read_ += patch.numbers.size() * sizeof(R);
 }
 
 template <class R>
@@ -122,7 +122,7 @@ void DeviceState<R>::take_back() {
 }
 
 template <class R>
-bool DeviceState<R>::take_memory(std::shared_ptr<PositionMemory> memory) {
+bool DeviceState<R>::use_memory(std::shared_ptr<PositionMemory> memory) {
   std::array<Memory, PositionMemory::count> slots;
   for (std::size_t n = 0; n < slots.size(); ++n)
     if (!(slots[n] = device_->in_place(memory->slots[n], slot_bytes()))) return false;

@@ -34,7 +34,7 @@ class DeviceState {
   /// Where a sweep that reads the vector's neighbours writes it; swap() then makes it the vector.
   cl_mem other(int n);
   void swap(int n);
-  /// Whether it was given memory of OpenGL's (take_memory) and works there.
+  /// Whether it works in memory lent by use_memory().
   bool has_lent_memory() const { return lent_ != nullptr; }
   /// Whether the vector is in lent memory, where it must never be written in place: it may be shown.
   bool lent(int n) const { return vectors_[std::size_t(n)].now.slot >= 0; }
@@ -60,13 +60,13 @@ class DeviceState {
   void unmap(cl_mem field, R* at) const;
   /// Ends all views: kernels may write again.
   void take_back();
-  /// Bytes that were copied for views.
-  std::uint64_t copied() const { return copied_; }
+  /// Bytes copied for views so far.
+  std::uint64_t bytes_read() const { return bytes_read_; }
 
   std::size_t slot_bytes() const { return numbers_ * sizeof(float); }
   /// Moves the positions into that memory; in double it keeps a copy of them in float there, for who draws. False where
   /// the device would not write there itself; nothing is changed then.
-  bool take_memory(std::shared_ptr<PositionMemory> memory);
+  bool use_memory(std::shared_ptr<PositionMemory> memory);
   /// In double, where the positions in float are to be written; null where they stand there already, or where there is
   /// no lent memory.
   cl_mem stale_floats();
@@ -113,7 +113,7 @@ class DeviceState {
   std::array<Memory, 3> floats_;  ///< in double: its slots
   int floats_slot_ = -1;          ///< of them the one that holds the positions
   float* floats_host_ = nullptr;
-  mutable std::atomic<std::uint64_t> copied_ = 0;
+  mutable std::atomic<std::uint64_t> bytes_read_ = 0;
   mutable std::mutex mutex_;  ///< of the views
   mutable std::vector<Vector> vectors_;
   Memory masks_, springs_;

@@ -11,7 +11,7 @@
 namespace tyglab::opencl {
 namespace {
 
-constexpr int idle_slot = steps_between_backups;  // that no step reports in
+constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
 
 template <class R>
 constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
@@ -29,8 +29,8 @@ OpenClEngine<R>::OpenClEngine(const Preset& preset, const Lattice& lattice, std:
       width_(width > 0 ? width : device_->width(sizeof(R))),
       kernels_(make_kernels(preset, false)),
       options_(options(preset, false)) {
-  reports_ = device_->zeros((steps_between_backups + 1) * sizeof(StepReport));
-  hand_ = device_->zeros((steps_between_backups + 1) * 4 * sizeof(R));
+  reports_ = device_->zeros((StepGuard::steps_between_backups + 1) * sizeof(StepReport));
+  hand_ = device_->zeros((StepGuard::steps_between_backups + 1) * 4 * sizeof(R));
   guards_ = state_.mask_field();
   if (is_implicit(*scheme_)) solver_ = std::make_unique<DeviceSolver<R>>(device_, lattice_, state_, width_);
   plan_bands();
@@ -109,7 +109,8 @@ void OpenClEngine<R>::resolve() {
     resolved_.push_back({&pass.sweep, constants(over, summed), pass.work});
   }
   upload_bodies();
-  invalidate_budgets();
+  guard_.set_rules({.tearing = tears_watched(), .F_release = preset_.F_release, .costly_steps = is_implicit(*scheme_)});
+  guard_.invalidate();
 }
 
 template <class R>
@@ -245,13 +246,14 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
   }
   state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
   upload_masks(tears);
+  guard_.accept_cuts(tears);
   if (!scheme_->start.empty()) {
     // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
     const Sweep start{vector_x, vector_v, 0, scheme_->start};
     enqueue_sweep(kernels_.start, {&start, constants(preset_, start)}, idle_slot);
   }
   write_fixed_velocities();
-  invalidate_budgets();
+  guard_.invalidate();
 }
 
 template <class R>
@@ -261,7 +263,7 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
   state_.take_back();
-  take_changes(tears);
+  accept_changes(tears);
   State kept;
   // What lags half a step depends on dt, and the velocity must stay.
   if (shifts && !scheme_->keeps_displacement) read(kept, tears);
@@ -320,7 +322,7 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
                                  pinned_.data(), 0, nullptr, nullptr),
             "writing to the device");
   }
-  invalidate_budgets();  // the backup holds the hand's old velocity
+  guard_.invalidate();  // the backup holds the hand's old velocity
   write_fixed_velocities();
 }
 
@@ -365,14 +367,14 @@ void OpenClEngine<R>::upload_masks(const Tears& tears) {
   set_arguments(kernels_.derive_masks, 0, from, to, none, cl_int(0), cl_int(state_.mask_pitch()), cl_int(lattice_.rows),
                 cl_int(lattice_.columns));
   launch_rows(kernels_.derive_masks, lattice_.columns);
-  masks_stale_ = false, torn_ = tears.torn_count();
+  masks_stale_ = false;
 }
 
 template <class R>
-void OpenClEngine<R>::take_changes(const Tears& tears) {
-  if (!masks_stale_ && torn_ == tears.torn_count()) return;
+void OpenClEngine<R>::accept_changes(const Tears& tears) {
+  if (!masks_stale_ && !guard_.springs_cut(tears)) return;
   upload_masks(tears);
-  since_backup_ = -1;
+  guard_.accept_cuts(tears);
 }
 
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {

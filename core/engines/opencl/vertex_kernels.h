@@ -14,7 +14,8 @@ class VertexKernels {
   /// For positions in double or in float. Throws EngineError, as all of it does.
   VertexKernels(std::shared_ptr<Device> device, bool in_double);
 
-  void take_tears(std::span<const TornSite> torn);
+  /// As GlVertices::set_tears().
+  void set_tears(std::span<const TornSite> torn);
   /// Queues the writing of positions, of a vector as in cloth.cl.
   void write_positions(cl_mem x, int stride, const DrawnSites& sites, cl_mem to);
   /// Queues the writing of normals, from such positions.
