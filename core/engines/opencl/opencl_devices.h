@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,14 @@ struct OpenClDevice {
   bool gl_event = false;       ///< cl_khr_gl_event: it and OpenGL wait for each other
 };
 
+/// Calls `ask` where a crash or a hang does no harm, such as in a child process; returns whether it came to its end.
+using DriverProbe = std::function<bool(const std::function<void()>& ask)>;
+/// Sets how to find out, once, whether the drivers survive being asked for their devices. Without a probe they are
+/// trusted.
+void set_driver_probe(DriverProbe probe);
+
 /// The devices of all platforms, in the order of their numbers (--engine opencl:NUMBER). Never throws for what a driver
-/// does; one that ends the process which asks is asked by a child first, and then counts as none.
+/// does; if the drivers crash the probe, there are no devices.
 struct OpenClInventory {
   std::vector<OpenClDevice> devices;
   std::string problem;  ///< why there is none, if the loader said
