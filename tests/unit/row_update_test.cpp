@@ -59,7 +59,7 @@ TEST_CASE_TEMPLATE("the largest way of a row is found, and what is not finite", 
       simd::RowField<R> x = random_row<R>(columns, 1), old = x, v = random_row<R>(columns, 2);
       change(x, v);
       alignas(simd::widest_vector) R most[simd::widest_vector / sizeof(R)] = {};
-      cpu::watch_ways(x.row(0), old.row(0), v.row(0), R(1e-3), stride, columns, most);
+      cpu::watch_displacements(x.row(0), old.row(0), v.row(0), R(1e-3), stride, columns, most);
       R found = 0;
       for (const R m : most) found = std::isfinite(m) ? std::max(found, m) : std::numeric_limits<R>::infinity();
       return double(found);

@@ -162,7 +162,7 @@ void CpuEngine<R, Present>::step_adaptively(int number, Tears& tears, Fault& fau
     if (number == 0) judge_inner_step();
     team_->barrier();
     if (!accepted_) continue;
-    band.begin_watch();
+    band.reset_watch();
     band.assign(accepting_, true);
     team_->barrier();
     if (number == 0) finish_inner_step(tears, fault);

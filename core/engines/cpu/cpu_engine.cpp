@@ -151,7 +151,7 @@ void CpuEngine<R, Present>::make_waves() {
   for (auto& wave : waves_)
     if (!wave) wave = std::make_unique<Band<R, Present>>(cloth_, 0, rows);
   for (auto* list : {&bands_, &waves_})
-    for (auto& band : *list) band->make_room(keeps_old_rows());
+    for (auto& band : *list) band->allocate(keeps_old_rows());
 }
 
 template <class R, unsigned Present>

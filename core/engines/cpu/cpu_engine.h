@@ -42,9 +42,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   using Field = RowField<R>;
 
   static constexpr bool has(unsigned which) { return (Present & which) != 0; }
-  /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
+  /// More rows than the cloth has, since the sweep loads neighbors before it masks those that do not exist.
   int array_rows() const { return cloth_.lattice.rows + 3; }
-  /// The first row of a thread's band; of the number after the last, where the cloth ends.
+  /// The first row of a thread's band; for the number after the last, the number of rows.
   int band_begin(int number) const;
   void resolve();
   void resolve_estimate();
@@ -56,9 +56,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
   /// The implicit stage of a sweep, on this thread alone.
   void solve(const ResolvedSweep& sweep, const Tears& tears);
-  /// Works the coefficients out for steps of that length.
+  /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
-  /// The same for an inner step, which comes often: in place.
+  /// The same in place, for inner steps, where it happens often.
   void change_dt(double dt);
   void scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const;
   void scale_estimate();
@@ -91,13 +91,13 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// Makes and judges steps until one asks to stop. `waves`: several steps at a time where that pays off.
   StepsMade run(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
-  /// What a sweep that projects does, with its assignments.
+  /// A sweep that projects, with its assignments.
   void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
   void read_hand(const Tears& tears);
   /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
-  /// That many steps in one pass over the rows: each sweep two rows behind the one before it, so that rows are worked
-  /// on while they lie in the cache. Threads share the sweeps out and follow each other, without a barrier.
+  /// Makes that many steps in one pass over the rows: each sweep is two rows behind the one before it, so that rows are
+  /// still in the cache. Threads divide the sweeps among them and follow each other, without a barrier.
   void step_in_waves(int number, int steps, const Tears& tears);
 
   Cloth<R> cloth_;
@@ -105,23 +105,23 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<ResolvedSweep> sweeps_;
   StepControl control_, control_backup_;
   ResolvedEstimate estimate_;
-  std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step whose first a is known
-  std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once it is accepted
-  double left_of_dt_ = 0;                                      ///< s that inner steps have still to cover
+  std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step, whose first a is known
+  std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once the step is accepted
+  double left_of_dt_ = 0;                                      ///< that inner steps have yet to cover, s
   bool knows_first_a_ = false, accepted_ = false;
   std::vector<Field> backup_;
-  Field acceleration_;                ///< used between steps alone (readouts, starts)
-  std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
+  Field acceleration_;                ///< used only between steps (readouts, starts)
+  std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
   std::vector<int> pinned_;
   std::vector<Contact> inner_contacts_;  ///< of all inner steps of the last dt
   ImplicitSolver<R> solver_;
   Projector<R> projector_;
   int projected_torn_ = 0;
-  bool springs_changed_ = true;  ///< or what is fixed, since the projector looked
+  bool springs_changed_ = true;  ///< or what is fixed, since the projector was prepared
   std::unique_ptr<Team> team_;
   std::vector<std::unique_ptr<Band<R, Present>>> bands_;
-  std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< all rows each, a sweep each
-  std::vector<Progress> progress_;                        ///< of each thread's last sweep of a wave
+  std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< one for each sweep of a wave, over all rows
+  std::vector<Progress> progress_;                        ///< of each thread's last sweep in a wave
   StepGuard guard_;
   StepsMade made_;            ///< by the present run
   int together_ = 0;          ///< steps that are made in one pass over the rows; 0: the run is over

@@ -75,7 +75,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   Band<R, Present>& band = *bands_[std::size_t(number)];
-  band.begin_watch();
+  band.reset_watch();
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
     if (sweep.projects) {
@@ -140,7 +140,7 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
   const int first = all * number / threads, end = all * (number + 1) / threads;
   for (int n = first; n < end; ++n) {
     const ResolvedSweep& sweep = sweeps_[std::size_t(n % sweeps)];
-    waves_[std::size_t(n)]->begin_watch();
+    waves_[std::size_t(n)]->reset_watch();
     waves_[std::size_t(n)]->begin_sweep(sweep, tears, n % sweeps == sweeps - 1);
   }
   Progress& mine = progress_[std::size_t(number)];

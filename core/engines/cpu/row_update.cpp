@@ -159,13 +159,13 @@ void make_sum(const RowSum<double>& s, std::ptrdiff_t stride, int columns) {
   HWY_DYNAMIC_DISPATCH(sum_double)(s, stride, columns);
 }
 template <>
-void watch_ways(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
-                float* largest) {
+void watch_displacements(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
+                         float* largest) {
   HWY_DYNAMIC_DISPATCH(watch_float)(x, old, v, dt, stride, columns, largest);
 }
 template <>
-void watch_ways(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride, int columns,
-                double* largest) {
+void watch_displacements(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride,
+                         int columns, double* largest) {
   HWY_DYNAMIC_DISPATCH(watch_double)(x, old, v, dt, stride, columns, largest);
 }
 

@@ -18,8 +18,8 @@ class CardVertices final : public GlVertices {
     return device == device_ && in_double == in_double_;
   }
   void set_tears(std::span<const TornSite> torn) override { kernels_.set_tears(torn); }
-  /// Writes what is asked for of a vector as in cloth.cl, and waits for it. Throws EngineError; the buffers are
-  /// OpenGL's again then.
+  /// Writes what is requested from a vector as in cloth.cl, and waits for it. Throws EngineError; even then the buffers
+  /// are OpenGL's again.
   VertexBox write(cl_mem x, int stride, const VertexRequest& order);
 
  private:

@@ -28,7 +28,7 @@ DeviceState<R>::DeviceState(std::shared_ptr<Device> device, const Lattice& latti
 template <class R>
 DeviceState<R>::~DeviceState() {
   clFinish(device_->queue());
-  take_back();
+  end_views();
 }
 
 template <class R>
@@ -108,7 +108,7 @@ void DeviceState<R>::read_patch(Vector& vector, int i, int j) const {
 }
 
 template <class R>
-void DeviceState<R>::take_back() {
+void DeviceState<R>::end_views() {
   const std::lock_guard lock(mutex_);
   for (Vector& vector : vectors_) {
     if (vector.host != nullptr) unmap(vector.now.memory.get(), const_cast<R*>(vector.host));
@@ -126,7 +126,7 @@ bool DeviceState<R>::use_memory(std::shared_ptr<PositionMemory> memory) {
   std::array<Memory, PositionMemory::count> slots;
   for (std::size_t n = 0; n < slots.size(); ++n)
     if (!(slots[n] = device_->in_place(memory->slots[n], slot_bytes()))) return false;
-  take_back();
+  end_views();
   if constexpr (std::is_same_v<R, float>) {
     Vector& x = vectors_[vector_x];
     copy(x.now.memory.get(), slots[0].get());
@@ -199,7 +199,7 @@ void DeviceState<R>::keep_backup() {
 
 template <class R>
 void DeviceState<R>::restore() {
-  take_back();
+  end_views();
   for (int n = 0; n < int(vectors_.size()); ++n) copy(vectors_[std::size_t(n)].backup.get(), overwritten(n));
 }
 

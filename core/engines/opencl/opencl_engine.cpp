@@ -221,7 +221,7 @@ template <class R>
 void OpenClEngine<R>::accelerations() const {
   if (!acceleration_) acceleration_ = state_.field();
   const cl_mem x = state_.vector(vector_x), v = state_.vector(seen_velocity(*scheme_)), out = acceleration_.get();
-  Sweep sweep = look();
+  Sweep sweep = readout();
   sweep.velocity_dt_power = scheme_->keeps_displacement ? -1 : 0;
   const int at = set_arguments(kernels_.accelerations, 0, x, x, v, v, out, out);
   launch_sweep(kernels_.accelerations, at, constants(preset_, sweep), idle_slot, 1);
@@ -229,7 +229,7 @@ void OpenClEngine<R>::accelerations() const {
 
 template <class R>
 void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
-  state_.take_back();
+  state_.end_views();
   const int columns = lattice_.columns;
   R* const x = state_.map(state_.overwritten(vector_x), CL_MAP_READ | CL_MAP_WRITE);
   R* const v = state_.map(state_.vector(vector_v), CL_MAP_READ | CL_MAP_WRITE);
@@ -262,7 +262,7 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
-  state_.take_back();
+  state_.end_views();
   accept_changes(tears);
   State kept;
   // What lags half a step depends on dt, and the velocity must stay.
@@ -330,7 +330,7 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
 template <class R>
 void OpenClEngine<R>::write_fixed_velocities() {
   if (pinned_.empty() && held_.particle < 0) return;
-  state_.take_back();
+  state_.end_views();
   const cl_mem v = state_.vector(vector_v), seen = state_.vector(seen_velocity(*scheme_)), list = fixed_list_.get();
   const glm::dvec3 hand = held_.velocity * velocity_scale();
   set_arguments(kernels_.set_fixed, 0, v, seen, list, cl_int(pinned_.size()), cl_int(held_.particle), R(hand.x),

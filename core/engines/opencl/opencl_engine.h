@@ -46,13 +46,13 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
 
  private:
   using Constants = DeviceConstants<R>;
-  /// The kernels of one set of features.
+  /// The kernels for one set of features.
   struct Kernels {
-    std::vector<Kernel> passes;  ///< none for a solution
+    std::vector<Kernel> passes;  ///< an empty one for a solution
     Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, look, to_float;
     typename DeviceSolver<R>::Kernels solver;
   };
-  /// A sweep with its constants worked out; of a solution those of its residual.
+  /// A sweep with its constants; for a solution, those of its residual.
   struct Resolved {
     const Sweep* sweep;
     Constants constants;
@@ -73,9 +73,9 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool meets_bodies(const Preset& preset) const { return !preset.bodies.empty() && preset.kind == Kind::cloth; }
   double velocity_scale() const { return scheme_->keeps_displacement ? preset_.dt : 1; }
   std::string options(const Preset& preset, bool contacts) const;
-  /// What the device knows the kernels by that such a preset runs.
+  /// The name under which the device knows the kernels for such a preset.
   std::string program_name(const Preset& preset, const std::string& options) const;
-  /// Kernels for a preset; throws and changes nothing if they do not build.
+  /// The kernels for a preset. Throws EngineError if they do not build.
   Kernels make_kernels(const Preset& preset, bool contacts) const;
   Constants constants(const Preset& preset, const Sweep& sweep) const;
   void resolve();
@@ -84,20 +84,20 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void upload_bodies_as();
   void read_contacts(std::uint32_t count);
 
-  /// So many work-items for each row.
+  /// Launches `columns` work-items for each row.
   void launch_rows(const Kernel& kernel, int columns) const;
-  /// A sweep's, behind its vectors, and its work-items.
+  /// Sets a sweep's arguments after its vectors, and launches it.
   void launch_sweep(const Kernel& kernel, int at, const Constants& constants, int slot, int levels) const;
-  /// One sweep, or as many steps as there are levels of a method of one sweep.
+  /// Queues one sweep, or `levels` steps of a method of one sweep.
   void enqueue_sweep(const Kernel& kernel, const Resolved& resolved, int slot, int levels = 1);
   /// Solves the implicit stage of a sweep; waits for it.
   void solve(const Resolved& resolved, int slot);
   void plan_bands();
   void enqueue_tear(int slot);
-  /// F/m now, into acceleration_.
+  /// Writes F/m of the present state into acceleration_.
   void accelerations() const;
   void write_fixed_velocities();
-  /// Brings masks, guards and backup up to date with what was changed from outside.
+  /// Brings masks, guards and backup up to date with changes from outside.
   void accept_changes(const Tears& tears);
   void upload_masks(const Tears& tears);
   void read_stored(State& state) const;
@@ -131,9 +131,9 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::vector<Resolved> resolved_;  ///< as passes_
   std::unique_ptr<DeviceSolver<R>> solver_;
   mutable Memory acceleration_;
-  int width_;                     ///< particles that a work-item works on at a time
-  int bands_ = 1, levels_ = 1;    ///< work-items of a sweep, and steps of a launch at most, where width_ is over 1
-  std::size_t band_numbers_ = 0;  ///< of a band's scratch
+  int width_;                     ///< particles that a work-item processes at a time
+  int bands_ = 1, levels_ = 1;    ///< work-items of a sweep, and steps of a launch at most, if width_ > 1
+  std::size_t band_numbers_ = 0;  ///< size of a band's scratch memory
   Memory scratch_;
   mutable Kernels kernels_;
   std::string options_;
@@ -142,7 +142,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;
   bool memory_settled_ = false;  ///< positions are in lent memory, or cannot be
-  bool noted_run_ = false;       ///< that the present kernels have made steps
+  bool noted_run_ = false;       ///< the device knows that the present kernels have made steps
   std::vector<Contact> contacts_;
   std::vector<StepReport> report_;
   std::vector<R> hand_forces_;  ///< of each step of the batch
@@ -151,8 +151,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool tears_unread_ = false;  ///< some were broken that `tears` does not have yet
 };
 
-/// Throws EngineError where there is no such device or it cannot run the preset. `width`: particles that a work-item
-/// works on at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
+/// Throws EngineError if there is no such device or it cannot run the preset. `width`: particles that a work-item
+/// processes at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width = 0);
 
 }  // namespace tyglab::opencl

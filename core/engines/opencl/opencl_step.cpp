@@ -32,7 +32,7 @@ void OpenClEngine<R>::enqueue_tear(int slot) {
 
 template <class R>
 void OpenClEngine<R>::run(int count, bool tear_each) {
-  state_.take_back();
+  state_.end_views();
   const cl_uint zero = 0;
   const std::size_t bytes = std::size_t(count) * sizeof(StepReport);
   check(clEnqueueFillBuffer(device_->queue(), reports_.get(), &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
@@ -159,7 +159,7 @@ void OpenClEngine<R>::repeat(int steps, Tears& tears) {
 
 template <class R>
 Advance OpenClEngine<R>::advance(int steps, Tears& tears) {
-  state_.take_back();
+  state_.end_views();
   accept_changes(tears);
   const Advance result = guard_.advance(*this, steps, tears);
   if (notes_contacts_ && !report_.empty() && meets_bodies(preset_)) read_contacts(report_.back().contacts);
