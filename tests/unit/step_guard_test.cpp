@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -43,13 +44,14 @@ class OneSpring final : public GuardedSteps {
   }
   bool find_fault(Tears& torn, Fault& fault, double& budget) override {
     ++examined;
-    budget = torn.torn_count() > 0 ? no_limit : too_long - length_(made);
+    budget = torn.torn_count() > 0 && std::isfinite(length_(made)) ? no_limit : too_long - length_(made);
     fault = {0, 0, "spring length", length_(made), 0, 1};
     return !(budget >= 0);
   }
-  void keep_backup() override { backup_ = made, ++backups; }
+  void keep_backup() override { backup_ = made, torn_at_backup_ = tears.torn_count(), ++backups; }
   /// As an engine would: every step is examined, and what is overloaded breaks.
   void repeat(int steps, Tears& torn) override {
+    CHECK(torn.torn_count() == torn_at_backup_);
     for (made = backup_; made < backup_ + steps;) {
       ++made;
       if (tearing) tear_overloaded(torn);
@@ -64,7 +66,7 @@ class OneSpring final : public GuardedSteps {
 
  private:
   std::function<double(int)> length_;
-  int first_ = 0, backup_ = 0;
+  int first_ = 0, backup_ = 0, torn_at_backup_ = 0;
 };
 
 /// Grows slowly, then suddenly, so that batches overshoot.
@@ -111,6 +113,17 @@ TEST_CASE("a spring breaks in the step that overloads it, also in steps that are
     CHECK(spring.torn_at == last_under(overloaded) + 1);
     CHECK(spring.tears.torn_count() == 1);
   }
+}
+
+TEST_CASE("steps that are made again begin with the springs that were whole then") {
+  OneSpring spring([](int n) { return n <= 750 ? sudden(n) : std::numeric_limits<double>::quiet_NaN(); });
+  spring.tearing = true;
+  spring.guard.set_rules({.tearing = true});
+  const Advance all = spring.advance(2000);
+  CHECK(all.diverged);
+  CHECK(all.steps == 750);
+  CHECK(spring.torn_at == last_under(overloaded) + 1);
+  CHECK(all.torn == 1);
 }
 
 TEST_CASE("the hand lets go after the step whose force exceeds F_release") {
