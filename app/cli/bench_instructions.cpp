@@ -1,8 +1,5 @@
 #include "app/cli/bench_instructions.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -11,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "app/process/child.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -27,25 +25,9 @@ fs::path on_path(const std::string& name) {
   return {};
 }
 
-/// Runs a program to its end, silently. Whether it ended well.
+/// Whether a program, which prints nothing then, ended well.
 bool run_silently(const std::vector<std::string>& command) {
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, stream, "/dev/null", O_WRONLY, 0);
-  pid_t child = -1;
-  const int problem = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (problem != 0) return false;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return false;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return run_program_silently(command.front(), command) == 0;
 }
 
 /// A new file in the system's folder for temporary ones, removed at the end; no path if none could be made.

@@ -9,11 +9,13 @@
 #include "app/cli/commands/run.h"
 #include "app/cli/commands/sandbox.h"
 #include "app/cli/commands/stability.h"
+#include "app/process/driver_probe.h"
 
 namespace tyglab {
 
 int run_program(int argc, char** argv) {
   prepare_process();
+  probe_drivers_in_child();
   Action action;
   CLI::App program(
       "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"

@@ -5,26 +5,20 @@
 #include <functional>
 #include <string>
 
-namespace tyglab {
+#include "app/process/child.h"
 
-/// How a case's process ended.
-struct ChildOutcome {
-  std::string text;        ///< what it had to say; empty unless it came to its end
-  int signal = 0;          ///< that ended it; 0: none
-  bool timed_out = false;  ///< it was ended for taking too long
-  double seconds = 0;      ///< that it took
-};
+namespace tyglab {
 
 struct ChildCases {
   std::int64_t from = 0, count = 0;
   int at_a_time = 1;
-  double most_seconds = 60;                                           ///< for one case
-  std::function<std::string(std::int64_t)> work = {};                 ///< in the case's own process
-  std::function<void(std::int64_t, const ChildOutcome&)> ended = {};  ///< in this one, in the order of the numbers
-  std::function<bool()> stop = {};                                    ///< no further case is begun once this holds
+  double most_seconds = 60;                                        ///< for one case
+  std::function<std::string(std::int64_t)> work = {};              ///< in the case's own process
+  std::function<void(std::int64_t, const ChildExit&)> ended = {};  ///< in this one, in the order of the numbers
+  std::function<bool()> stop = {};                                 ///< no further case is started once this holds
 };
 
-/// Runs them. This process must have no other threads. Throws std::runtime_error where no process can be made.
+/// Runs them. This process must have no other threads. Throws ChildError if no process can be created.
 void run_child_cases(const ChildCases& cases);
 
 }  // namespace tyglab

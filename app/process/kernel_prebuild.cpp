@@ -1,18 +1,14 @@
 #include "app/process/kernel_prebuild.h"
 
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/mman.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <string>
-#include <vector>
 
+#include "app/process/child.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/simulation.h"
@@ -46,7 +42,7 @@ void run_programs_once(const Preset& preset, bool ledger) {
     Simulation simulation(preset);
     if (ledger) simulation.enable_ledger(true);
     simulation.advance(1);
-    simulation.engine().shown();
+    drawn_positions(simulation.engine());
   } catch (const EngineError&) {
     // The cloth itself will meet it, where it is reported.
   }
@@ -55,26 +51,13 @@ void run_programs_once(const Preset& preset, bool ledger) {
 void prepare_programs(const Preset& preset, bool ledger) {
   const int input = file_of(preset_to_json(miniature(preset)));
   if (input < 0) return;
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-  for (const int output : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&files, output, "/dev/null", O_WRONLY, 0);
   const std::string engine = preset.device < 0 ? "opencl" : "opencl:" + std::to_string(preset.device);
   // A time series reads the cloth, which is a kernel too; so does the ledger.
-  std::vector<std::string> words{"tyglab",   "run",  "/dev/stdin",     "--steps", "3",
-                                 "--engine", engine, "--series-every", "1",       ledger ? "--ledger" : "--series",
-                                 "-"};
-  std::vector<char*> arguments;
-  arguments.reserve(words.size() + 1);
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t child = 0;
-  const int failed = ::posix_spawn(&child, "/proc/self/exe", &files, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
+  run_program_silently("/proc/self/exe",
+                       {"tyglab", "run", "/dev/stdin", "--steps", "3", "--engine", engine, "--series-every", "1",
+                        ledger ? "--ledger" : "--series", "-"},
+                       input);
   ::close(input);
-  while (failed == 0 && ::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-  }
 }
 
 }  // namespace tyglab

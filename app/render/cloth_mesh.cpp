@@ -99,10 +99,10 @@ void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, 
       const int i = int(index) / stride_, j = int(index) % stride_;
       torn.push_back({std::uint32_t(i * lattice_.columns + j), whole_triangles(lattice_, scene.tears, i, j)});
     }
-    written_.take_tears(std::move(torn));
+    written_.set_tears(std::move(torn));
   }
   const Stopwatch watch(work.upload);
-  bounds_ = written_.write(*scene.writer->engine, {scene.writer->sites, normals}, work.read);
+  bounds_ = written_.write(*scene.writer->engine->vertex_sharing(), {scene.writer->sites, normals}, work.read);
   lent_.show(nullptr);
   mapped_normals_.free();
   way_ = VertexWay::shared_buffer;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/render/cloth_renderer_parts.h"
+#include "core/engines/vertex_sharing.h"
 
 namespace tyglab {
 namespace {
@@ -23,7 +24,9 @@ std::function<bool(int, int)> pins_of(const Simulation& simulation) {
 
 /// Why something had to be copied to be drawn: a part of a sentence.
 std::string why_copied(const Engine& engine, const ClothMesh& mesh, const ViewOptions& options) {
-  if (std::string why = engine.why_copied(); !why.empty()) return why;
+  const VertexSharing* sharing = engine.vertex_sharing();
+  if (sharing == nullptr) return "the CPU engine makes its steps in place";
+  if (std::string why = sharing->copy_reason(); !why.empty()) return why;
   if (std::string why = mesh.problem(); !why.empty()) return why;
   if (options.every > 1) return "the cloth is finer than the picture, so that not all of it is drawn";
   if (options.longest_edge > 0) return "the edges of a diverged cloth are measured before they are drawn";
@@ -67,10 +70,10 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   p.revision = simulation.revision();
   p.tear_revision = simulation.tear_revision();
   const auto copied_since_last = [&] {  // another engine counts anew
-    const std::uint64_t before = std::exchange(p.engine_copied, simulation.engine().copied());
+    const std::uint64_t before = std::exchange(p.engine_copied, bytes_read(simulation.engine()));
     return std::size_t(p.engine_copied - std::min(p.engine_copied, before));
   };
-  if (other) p.engine_copied = simulation.engine().copied();  // what it was made from is nobody's read-out
+  if (other) p.engine_copied = bytes_read(simulation.engine());  // what it was made from is nobody's read-out
   p.work.read += copied_since_last();
   if (!p.take_written(simulation, options, moved, topology_changed))
     p.take_read(simulation, options, moved, topology_changed);
@@ -103,7 +106,7 @@ bool ClothRenderer::Parts::take_written(Simulation& cloth, const ViewOptions& op
 
 /// Takes positions from the simulation's memory.
 void ClothRenderer::Parts::take_read(Simulation& cloth, const ViewOptions& options, bool moved, bool topology_changed) {
-  take({cloth.engine().shown(), cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), {}}, options,
+  take({drawn_positions(cloth.engine()), cloth.lattice(), cloth.tears(), cloth.preset(), pins_of(cloth), {}}, options,
        moved || written, topology_changed);
   written = false;
 }

@@ -5,13 +5,14 @@
 namespace tyglab {
 
 void PositionLoans::lend(Engine& engine) {
-  const std::size_t wanted = engine.wants_memory();
+  VertexSharing* const sharing = engine.vertex_sharing();
+  const std::size_t wanted = sharing != nullptr ? sharing->wanted_slot_bytes() : 0;
   if (wanted == 0 || !problem_.empty()) return;
   try {
     auto loan = std::shared_ptr<Loan>(new Loan{{PositionMemory::count, wanted}, std::make_shared<PositionMemory>()});
     for (int n = 0; n < PositionMemory::count; ++n) loan->memory->slots[std::size_t(n)] = loan->buffer.slot(n);
     loan->memory->bytes = loan->buffer.slot_bytes();
-    if (engine.take_memory(loan->memory)) loans_.push_back(std::move(loan));
+    if (sharing->use_memory(loan->memory)) loans_.push_back(std::move(loan));
   } catch (const GraphicsError& error) {
     problem_ = error.what();  // positions are copied, as ever
   }

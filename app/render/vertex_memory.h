@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/render/mapped_buffer.h"
-#include "core/engines/engine.h"
+#include "core/engines/vertex_sharing.h"
 
 namespace tyglab {
 

@@ -6,24 +6,25 @@
 
 namespace tyglab {
 
-void WrittenVertices::take_tears(std::vector<TornSite> torn) {
+void WrittenVertices::set_tears(std::vector<TornSite> torn) {
   torn_ = std::move(torn);
-  if (vertices_) vertices_->take_tears(torn_);
+  if (vertices_) vertices_->set_tears(torn_);
 }
 
-Bounds WrittenVertices::write(Engine& engine, const VertexOrder& order, std::size_t& read) {
-  const std::size_t bytes = 3 * sizeof(float) * std::size_t(order.sites.rows()) * std::size_t(order.sites.columns());
+Bounds WrittenVertices::write(VertexSharing& device, const VertexRequest& request, std::size_t& read) {
+  const std::size_t bytes =
+      3 * sizeof(float) * std::size_t(request.sites.rows()) * std::size_t(request.sites.columns());
   // By the letter, glFinish is what tells a device without cl_khr_gl_event that OpenGL has drawn.
-  if (engine.gl_sharing() == GlSharing::finished) glFinish();
+  if (device.gl_sharing() == GlSharing::finished) glFinish();
   std::optional<VertexBox> box;
-  if (vertices_ && bytes == bytes_) box = engine.write(*vertices_, order);
-  if (!box) box = write_new(engine, order, bytes);
-  if (!std::exchange(looked_, true)) look_at(*box, order.sites), read += bytes;
+  if (vertices_ && bytes == bytes_) box = device.write(*vertices_, request);
+  if (!box) box = write_new(device, request, bytes);
+  if (!std::exchange(looked_, true)) look_at(*box, request.sites), read += bytes;
   return {box->lo, box->hi};
 }
 
 /// Into new buffers: the cloth has another size, or runs on another device or in another precision.
-VertexBox WrittenVertices::write_new(Engine& engine, const VertexOrder& order, std::size_t bytes) {
+VertexBox WrittenVertices::write_new(VertexSharing& device, const VertexRequest& request, std::size_t bytes) {
   free();
   buffers_.emplace();
   for (const auto* buffer : {&buffers_->positions, &buffers_->normals}) {
@@ -31,10 +32,10 @@ VertexBox WrittenVertices::write_new(Engine& engine, const VertexOrder& order, s
     glBufferData(GL_ARRAY_BUFFER, GLsizeiptr(bytes), nullptr, GL_STREAM_COPY);
   }
   glFinish();  // they are there before the device looks for them
-  vertices_ = engine.share({buffers_->positions.id(), buffers_->normals.id(), bytes});
+  vertices_ = device.share({buffers_->positions.id(), buffers_->normals.id(), bytes});
   bytes_ = bytes;
-  vertices_->take_tears(torn_);
-  const std::optional<VertexBox> box = engine.write(*vertices_, order);
+  vertices_->set_tears(torn_);
+  const std::optional<VertexBox> box = device.write(*vertices_, request);
   if (!box) throw EngineError("The device cannot write the buffers that it has been given");
   return *box;
 }

@@ -10,19 +10,22 @@
 #include "app/render/camera.h"
 #include "app/render/gl_objects.h"
 #include "app/render/vertex_memory.h"
-#include "core/engines/engine.h"
+#include "core/engines/vertex_sharing.h"
 
 namespace tyglab {
 
 class WrittenVertices {
  public:
   /// Whether the engine's device can write buffers of the present context. False for good once it has failed.
-  bool can(const Engine& engine) const { return problem_.empty() && engine.gl_sharing() != GlSharing::none; }
+  bool can(const Engine& engine) const {
+    const VertexSharing* sharing = engine.vertex_sharing();
+    return problem_.empty() && sharing != nullptr && sharing->gl_sharing() != GlSharing::none;
+  }
   /// Particles beside tears have such normals from now on.
-  void take_tears(std::vector<TornSite> torn);
-  /// Has the engine write, and says between what the positions lie. What the very first buffer holds is read back and
-  /// compared with that, since a driver may share in name only; `read` counts its bytes. Throws EngineError.
-  Bounds write(Engine& engine, const VertexOrder& order, std::size_t& read);
+  void set_tears(std::vector<TornSite> torn);
+  /// Has the device write, and returns the bounds of the positions. The content of the very first buffer is read back
+  /// and compared with them, since a driver may share in name only; `read` counts its bytes. Throws EngineError.
+  Bounds write(VertexSharing& device, const VertexRequest& request, std::size_t& read);
   /// It does not work here, for that reason: can() is false from now on.
   void fail(const std::string& why) { free(), problem_ = why; }
   /// Why it failed; empty: it did not.
@@ -37,7 +40,7 @@ class WrittenVertices {
   struct Buffers {
     gl::Object<gl::BufferTraits> positions, normals;
   };
-  VertexBox write_new(Engine& engine, const VertexOrder& order, std::size_t bytes);
+  VertexBox write_new(VertexSharing& device, const VertexRequest& request, std::size_t bytes);
   void look_at(const VertexBox& box, const DrawnSites& sites) const;
 
   std::optional<Buffers> buffers_;

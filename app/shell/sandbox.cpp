@@ -67,9 +67,9 @@ class Sandbox {
   bool idle() const;
 
   SandboxOptions options_;
+  Session session_;  // first: it takes the messages of what is read
   Settings settings_;
   InputQueue input_;
-  Session session_;
   Scene scene_{session_};
   Tools tools_{session_, scene_, input_, settings_.handling};
   Ui ui_{session_, scene_, tools_, input_, settings_};

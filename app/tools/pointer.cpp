@@ -12,6 +12,7 @@
 #include "app/tools/knife.h"
 #include "app/tools/tools.h"
 #include "app/tools/wind_arrow.h"
+#include "core/engines/vertex_sharing.h"
 
 namespace tyglab {
 namespace {
@@ -39,7 +40,7 @@ std::optional<Pins::Site> nearest_of_all(Tools& tools, int tile, glm::vec2 at) {
 /// until the pointer moves.
 std::optional<Pins::Site> site_under(Tools& tools, int tile, glm::vec2 at) {
   Simulation& simulation = cloth_in_tile(tools.scene, tile);
-  if (!simulation.engine().remote()) return nearest_of_all(tools, tile, at);
+  if (!is_remote(simulation.engine())) return nearest_of_all(tools, tile, at);
   Tool::Rest& rest = tools.tool.rest;
   if (rest.at != at || rest.tile != tile || !(rest.camera == tools.scene.camera))
     rest = {at, tile, tools.scene.camera, nearest_of_all(tools, tile, at)};

@@ -10,7 +10,7 @@ template <class R>
 EngineForces<R>::EngineForces(const Preset& preset) : tears_(lattice_of(preset)) {
   cloth_.preset = preset;
   cloth_.lattice = lattice_of(preset);
-  cloth_.stride = cpu::row_stride<R>(cloth_.lattice.columns);
+  cloth_.stride = simd::row_stride<R>(cloth_.lattice.columns);
   cloth_.sweeps = cpu::pair_sweeps<R>();
   cloth_.features = (preset.k_b > 0 ? cpu::bending : 0u) | (preset.k_d > 0 ? cpu::damping : 0u) |
                     (preset.W != glm::dvec3(0) ? cpu::wind : 0u);
@@ -21,7 +21,7 @@ EngineForces<R>::EngineForces(const Preset& preset) : tears_(lattice_of(preset))
     lead += 23;
   }
   cloth_.fixed = pinned_particles(preset);
-  cloth_.fixed.resize(cloth_.fixed.size() + cpu::widest_vector, 0);
+  cloth_.fixed.resize(cloth_.fixed.size() + simd::widest_vector, 0);
   cloth_.fixed_begin = {0};
   for (int i = 0; i < cloth_.lattice.rows; ++i) {
     for (int j = 0; j < cloth_.lattice.columns; ++j)

@@ -35,7 +35,7 @@ class EngineForces {
   cpu::Cloth<R> cloth_;
   std::unique_ptr<cpu::Band<R>> band_;
   cpu::ResolvedSweep look_;
-  cpu::RowField<R> out_;
+  simd::RowField<R> out_;
   Tears tears_;
   std::size_t half_;
   std::int64_t evaluations_ = 0;

@@ -74,7 +74,7 @@ struct Linearisation::Tridiagonal {
 Linearisation::Linearisation(const Simulation& simulation)
     : rows_(simulation.lattice().rows),
       columns_(simulation.lattice().columns),
-      stride_(cpu::row_stride<double>(columns_)),
+      stride_(simd::row_stride<double>(columns_)),
       damped_(simulation.preset().k_d > 0),
       lattice_(simulation.preset().kind == Kind::cloth) {
   const Preset& p = simulation.preset();

@@ -28,7 +28,7 @@ class Linearisation {
   bool damped() const { return damped_; }
 
  private:
-  using Field = cpu::RowField<double>;
+  using Field = simd::RowField<double>;
   struct Tridiagonal;
   void linearise(const Preset& preset, const Tears& tears, const Field& x, int direction, int i);
   Array<double> combined(double stiffness, double damping) const;

@@ -11,14 +11,14 @@ namespace tyglab {
 class EnergyWatch {
  public:
   void begin(const Preset& preset, const EnergyReading& now);
-  /// What is whole before the step: what breaks in it is lost.
+  /// Records which springs are whole: the energy of those that break in the step is lost.
   void before_step(const Preset& preset, const Tears& tears);
-  /// One step has led to `state`; bodies stopped those in it.
+  /// One step has led to `state`; `contacts`: what bodies stopped in it.
   void after_step(const Preset& preset, const Tears& tears, const State& state, const Held& held,
                   std::span<const Contact> contacts);
   void edited(const EnergyReading& now, Ledger::Source source) { ledger_.edited(now, source); }
   const Ledger& ledger() const { return ledger_; }
-  /// A divergence (without step and time) if the integrator has made more energy than Ledger::diverges_at allows.
+  /// A divergence (without step and time) if the integrator has added more energy than Ledger::diverges_at allows.
   std::optional<Divergence> divergence(const Preset& preset, const State& state, int columns) const;
 
  private:

@@ -1,5 +1,5 @@
-// The energy ledger: where a cloth's energy came from and where it went. What no force, contact, tear or edit explains,
-// the integrator made or ate.
+// The energy ledger: where a cloth's energy came from and where it went. What no force, contact, tear or edit explains
+// was added or removed by the integrator.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace tyglab {
 
-/// ∫ P dt of values that come a step apart: by the polynomial through the last five, so that the sum's own error falls
-/// with the fifth power of the step where P is smooth and never hides a method's.
+/// ∫ P dt from one value per step: by the polynomial through the last five, so that where P is smooth the error of the
+/// sum decreases with the fifth power of the step and never hides that of a method.
 class RunningIntegral {
  public:
-  /// Begins anew with the value of now: what is behind is kept, and no polynomial reaches over the break.
+  /// Continues after a break with the present value: the total is kept, and no polynomial reaches across the break.
   void restart(double value);
-  /// The value a step of h (s) later. All steps since restart() are of one length.
+  /// Adds the value a step of h (s) later. All steps since restart() have the same length.
   void add(double value, double h);
   double total() const { return closed_ + open(); }
 
@@ -26,46 +26,46 @@ class RunningIntegral {
   double closed_ = 0;
 };
 
-/// Work done on the cloth since the ledger began, J; what it lost stands below 0.
+/// Work done on the cloth since the ledger began, J; negative where the cloth lost energy.
 struct WorkTotals {
   double damping = 0;
   double contact = 0;  ///< with bodies: impacts and friction
   double tearing = 0;  ///< energy of springs that broke or were cut
   double wind = 0;
   double hand = 0;
-  double edits = 0;  ///< jumps by changed constants, pins, methods
+  double edits = 0;  ///< jumps when constants, pins or the method change
   double total() const { return damping + contact + tearing + wind + hand + edits; }
 };
 
-/// What the ledger says, J.
+/// The state of the ledger, J.
 struct LedgerReading {
   Energy energy;     ///< now
-  double start = 0;  ///< of all kinds together, when the ledger began
+  double start = 0;  ///< total when the ledger began
   WorkTotals works;
-  /// What unexplained() is judged by: the energy that the cloth had in motion and springs, what gravity can give it
-  /// over its own length, and what wind, hand and edits have brought.
+  /// The scale of unexplained(): the energy that the cloth had in motion and springs, what gravity can give it over its
+  /// own length, and what wind, hand and edits have added.
   double scale = 0;
-  /// What the integrator made (above 0) or ate.
+  /// What the integrator added (> 0) or removed.
   double unexplained() const { return energy.total() - start - works.total(); }
-  /// What came from nowhere: unexplained() and what contacts seem to have brought, since bodies at rest only take.
-  /// (Moved ones do push the cloth.)
+  /// Energy out of nothing: unexplained() and what contacts seem to have added, since bodies at rest only remove
+  /// energy. (Bodies that are moved do push the cloth.)
   double made() const { return unexplained() + (works.contact > 0 ? works.contact : 0); }
-  /// unexplained() in parts of scale; 0 where there is no scale.
+  /// unexplained() relative to scale; 0 if there is no scale.
   double share() const { return scale > 0 ? unexplained() / scale : 0; }
 };
 
 class Ledger {
  public:
-  /// Made energy, in parts of the scale: a warning is due, or the run counts as diverged.
+  /// Added energy, relative to the scale, above which a warning is due, or the run counts as diverged.
   static constexpr double warns_at = 0.1, diverges_at = 10;
 
   enum class Source { hand, tearing, edits };
 
-  /// `gravity_scale`: J, what gravity can give.
+  /// `gravity_scale`: energy that gravity can give, J.
   void begin(const EnergyReading& now, double gravity_scale);
-  /// A step of h (s) has been made. `contact`, `tearing`: J that bodies and broken springs brought in it.
+  /// A step of h (s) has been made. `contact`, `tearing`: energy that bodies and broken springs added in it, J.
   void step(const EnergyReading& now, double h, double contact, double tearing);
-  /// Something was changed between two steps; the energy jumped to what it is now.
+  /// Something was changed between two steps, and the energy jumped to its present value.
   void edited(const EnergyReading& now, Source source);
   LedgerReading reading() const;
 

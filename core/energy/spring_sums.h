@@ -5,7 +5,7 @@
 
 namespace tyglab {
 
-/// A row's springs: particle j's other end stands at j + other of the same arrays; begin <= j < end own one.
+/// The springs of a row: particles begin <= j < end own one each, whose other end is at j + other of the same arrays.
 struct SpringRow {
   const double* x[3];
   const double* v[3];
@@ -15,8 +15,8 @@ struct SpringRow {
 };
 
 struct SpringSums {
-  double longer = 0;   ///< Σ (|x_ij| - rest)² of springs longer than rest, m²
-  double shorter = 0;  ///< the same of shorter ones
+  double longer = 0;   ///< Σ (|x_ij| - rest)² over springs longer than rest, m²
+  double shorter = 0;  ///< the same over shorter ones
   double speed = 0;    ///< Σ |v_j - v_i|², m²/s²
 };
 

@@ -1,5 +1,5 @@
-// Cholesky's factorisation of a banded matrix: the direct way to solve an implicit step's linear system, for cloths so
-// stiff that conjugate gradients do not get there. A lattice numbered along its shorter side has all its springs within
+// Cholesky factorization of a banded matrix: solves an implicit step's linear system directly, for cloths so stiff that
+// conjugate gradients do not converge. If a lattice is numbered along its shorter side, no spring reaches farther than
 // two such lines. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems (1981), 4.
 #pragma once
 
@@ -9,28 +9,28 @@
 
 namespace tyglab {
 
-/// A symmetric positive definite matrix of `size` rows whose elements further than `band` from the diagonal are 0, in
-/// double; then its factor L, A = L Lᵀ, in the same place.
+/// A symmetric positive definite matrix of `size` rows whose elements farther than `band` from the diagonal are 0, in
+/// double; after factor() its factor L, A = L Lᵀ, in the same place.
 class BandedCholesky {
  public:
-  /// All elements 0.
+  /// Starts a new matrix, all of whose elements are 0.
   void begin(int size, int band);
   /// The element, row >= column, row - column <= band.
   double& at(int row, int column) { return elements_[std::size_t(row) * (band_ + 1) + (column - row + band_)]; }
-  /// Factorises what has been put in. False if it is not positive definite, to rounding.
+  /// Replaces the matrix by its factor. Returns false if it is not positive definite, to rounding.
   bool factor();
-  /// Replaces the right side by the solution.
+  /// Replaces the right-hand side by the solution.
   void solve(std::span<double> b) const;
   std::size_t bytes() const { return (elements_.capacity() + column_.capacity()) * sizeof(double); }
 
-  /// Multiplications that factor() makes, about.
+  /// Approximate number of multiplications in factor().
   static double work(double size, double band) { return size * band * band / 2; }
 
  private:
   double at(int row, int column) const { return elements_[std::size_t(row) * (band_ + 1) + (column - row + band_)]; }
 
   int size_ = 0, band_ = 0;
-  std::vector<double> elements_;  ///< a row after the other, from its first element within the band to the diagonal
+  std::vector<double> elements_;  ///< row by row, each from its first element within the band to the diagonal
   std::vector<double> column_;    ///< of L, below the diagonal
 };
 

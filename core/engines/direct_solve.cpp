@@ -23,7 +23,7 @@ void for_each(const Lattice& lattice, const What& what) {
 
 }  // namespace
 
-bool DirectSolver::pays(const Lattice& lattice) {
+bool DirectSolver::is_quick(const Lattice& lattice) {
   return BandedCholesky::work(3.0 * lattice.size(), 3.0 * reach(lattice)) < 2e9;
 }
 

@@ -1,10 +1,9 @@
-// Where a simulation runs. An engine owns the particles' arrays and steps them; everything else (time, edits, tears'
-// bookkeeping, files) is Simulation's.
+// Where a simulation runs. An engine owns the particles' arrays and steps them; time, edits, the bookkeeping of tears
+// and files belong to Simulation, and how a device's arrays reach OpenGL to VertexSharing.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -13,56 +12,56 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
-#include "core/engines/gl_vertices.h"
-#include "core/engines/position_memory.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
-/// A particle moved by the hand: a = 0, v = the hand's velocity.
+class VertexSharing;
+
+/// A particle moved by the hand: a = 0, v is the velocity of the hand.
 struct Held {
-  int particle = -1;  ///< i·columns + j; -1: nothing is held
+  int particle = -1;  ///< i·columns + j; -1: none
   glm::dvec3 velocity{0, 0, 0};
 };
 
 /// Why a run ended.
 struct Divergence {
-  double t = 0;           ///< s, end of the step that diverged
-  std::int64_t step = 0;  ///< number of that step, the first is 1
-  int i = 0, j = 0;       ///< particle (upper or left end of the spring)
-  int di = 0, dj = 0;     ///< to the spring's other end; 0, 0: no spring
+  double t = 0;           ///< end of the step that diverged, s
+  std::int64_t step = 0;  ///< number of that step, from 1
+  int i = 0, j = 0;       ///< the particle, or the upper or left end of the spring
+  int di = 0, dj = 0;     ///< from there to the other end; 0, 0: not a spring
   std::string quantity;   ///< "position", "velocity", "spring length"
-  double value = 0;       ///< its value; may be non-finite
+  double value = 0;       ///< of that quantity; may be non-finite
   std::string cause;      ///< a sentence
   std::string advice;     ///< a sentence
   /// "particle (3, 4)" or "spring (3, 4)–(4, 5)".
   std::string where() const;
 };
 
-/// What one call of Engine::advance did.
+/// Result of Engine::advance().
 struct Advance {
-  int steps = 0;          ///< steps completed
+  int steps = 0;          ///< completed
   bool diverged = false;  ///< the next step diverged; the state is the one before it
-  int i = 0, j = 0;       ///< where, if diverged
-  int di = 0, dj = 0;     ///< to the other end, if it was a spring
+  int i = 0, j = 0;       ///< where, if it diverged
+  int di = 0, dj = 0;     ///< to the other end, if a spring diverged
   std::string quantity;
   double value = 0;
-  int torn = 0;                    ///< stretch springs broken
-  int left_inside = 0;             ///< free particles still inside a body after the last step (overlapping bodies)
+  int torn = 0;                    ///< stretch springs that broke
+  int left_inside = 0;             ///< free particles inside a body after the last step (overlapping bodies)
   bool released = false;           ///< the hand's force exceeded F_release
-  glm::dvec3 hand_force{0, 0, 0};  ///< force on the held particle at the last step, N, before it was set to 0
+  glm::dvec3 hand_force{0, 0, 0};  ///< on the held particle in the last step, N; the method itself takes it as 0
 };
 
-/// A particle that a body stopped: by how much the step would have taken it further, m, and how much faster it would
-/// be, m/s.
+/// A particle that a body stopped: how much farther the step would have moved it, m, and how much its velocity would
+/// differ, m/s.
 struct Contact {
   int particle;  ///< i·columns + j
   glm::dvec3 x, v;
 };
 
-/// Read-only view of the engine's own positions: particle (i, j) at index i·stride + j of each component's pointer. One
-/// of f or d is set. Rows lie one after the other, each as its x, its y and its z of stride/3 values (RowField).
+/// Read-only view of an engine's own positions: particle (i, j) is at index i·stride + j of each component's pointer.
+/// Either f or d is set, by precision. Each row holds its x, then its y, then its z, stride/3 values each (RowField).
 struct PositionView {
   int rows = 0, columns = 0, stride = 0;
   const float* f[3] = {nullptr, nullptr, nullptr};
@@ -73,22 +72,22 @@ struct PositionView {
   }
 };
 
-/// What implicit methods have done since the engine was made.
+/// Work of implicit methods since the engine was created.
 struct SolveCounts {
-  std::int64_t newton = 0;  ///< steps of Newton's method
-  std::int64_t linear = 0;  ///< steps of conjugate gradients in them
+  std::int64_t newton = 0;  ///< Newton iterations
+  std::int64_t linear = 0;  ///< iterations of conjugate gradients within them
   std::int64_t force_evaluations = 0;
-  std::int64_t unconverged = 0;  ///< solves, linear or not, that did not reach their tolerance
+  std::int64_t unconverged = 0;  ///< linear or nonlinear solves that missed their tolerance
 };
 
-/// A particle as its method holds it, m and m/s.
+/// A particle as its method stores it, m and m/s.
 struct StoredParticle {
   glm::dvec3 x{0}, v{0};
-  glm::dvec3 v_seen{0};  ///< what damping sees where a step begins
-  double lag = 0;        ///< s; v + lag · a belongs to x
+  glm::dvec3 v_seen{0};  ///< velocity that damping uses at the start of a step
+  double lag = 0;        ///< s; v + lag · a is the velocity at the time of x
 };
 
-/// Something that a step does only for scenes that need it.
+/// Part of a step that only some scenes need.
 struct StepFeature {
   std::string_view name;
   bool on;
@@ -98,72 +97,52 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// Takes positions and (full-step) velocities; the method's own start is applied.
+  /// Replaces the state by positions and (full-step) velocities, from which the method derives what it starts with.
   virtual void load(const StateRows& rows, const Tears& tears) = 0;
   void load(const State& state, const Tears& tears) { load(rows_of(state, positions().columns), tears); }
-  /// Takes new constants, integrator, dt, bodies. The lattice and the precision are the same. Velocities are kept.
+  /// Changes constants, integrator, dt and bodies, and keeps the velocities. The lattice and the precision must be the
+  /// same as before.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
-  /// Whether set_preset() would be quick. Otherwise a program must be built for what the preset has, which takes
-  /// seconds, unless it has been built for another engine and is kept.
+  /// Whether set_preset() would be quick. Otherwise it builds a program for the preset, which takes seconds unless an
+  /// earlier one was kept.
   virtual bool ready_for(const Preset&) const { return true; }
-  /// The same of note_contacts(true).
+  /// The same for note_contacts(true).
   virtual bool ready_for_contacts() const { return true; }
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
-  /// Up to `steps` steps; ends early on divergence or release of the hand. `tears` is updated by tearing.
+  /// Makes up to `steps` steps; stops early on divergence or when the hand lets go. Updates `tears` as springs break.
   virtual Advance advance(int steps, Tears& tears) = 0;
-  /// Whether steps note what bodies stop, which only the energy ledger asks for.
+  /// Whether steps record what bodies stop, which only the energy ledger needs.
   virtual void note_contacts(bool on) = 0;
-  /// What bodies stopped in the last step (where a method makes several of its own within dt, in each of them), once
-  /// note_contacts(true) has been called.
+  /// What bodies stopped in the last dt, in each inner step if the method makes several; requires note_contacts(true).
   virtual std::vector<Contact> contacts() const = 0;
-  /// Positions and the velocities that belong to them (v + dt/2 a for Verlet).
+  /// Positions, and velocities at the same time (v + dt/2 a for Verlet).
   virtual void read(State& state, const Tears& tears) = 0;
-  /// What state files show: as read(), but for Verlet the backward velocity d/dt.
+  /// The state as files store it: as read(), but for Verlet with the backward velocity d/dt.
   virtual void read_raw(State& state, const Tears& tears) = 0;
   virtual PositionView positions() const = 0;
-  /// Whether its arrays lie in a device's own memory, so that positions() copies them.
-  virtual bool remote() const { return false; }
-  /// Bytes of each slot of the memory that it would keep its positions in, so that they can be drawn where they lie; 0:
-  /// none, since it has such memory already or has no use for it.
-  virtual std::size_t wants_memory() const { return 0; }
-  /// Keeps its positions, or what shown() says of them, in that memory from now on, and asks for none any more. Returns
-  /// false where the device cannot do so after all; nothing is changed then. Not while another thread reads.
-  virtual bool take_memory(std::shared_ptr<PositionMemory>) { return false; }
-  /// The positions for who draws them: as positions(), but in float in the memory that was taken, if any was.
-  virtual PositionView shown() { return positions(); }
-  /// Whether its device shares buffers with the OpenGL context in use, so that share() and write() can be called, in
-  /// the thread where that context is current.
-  virtual GlSharing gl_sharing() const { return GlSharing::none; }
-  /// OpenGL's buffers as its device's, for write(). Throws EngineError.
-  virtual std::unique_ptr<GlVertices> share(const GlBuffers&) const { return nullptr; }
-  /// Writes positions in float, and normals where they are asked for, which OpenGL may draw at once. None, and nothing
-  /// is written, where the buffers are shared with another device or for another precision. Throws EngineError.
-  virtual std::optional<VertexBox> write(GlVertices&, const VertexOrder&) { return std::nullopt; }
-  /// Why OpenGL must be given a copy of its positions, a part of a sentence; empty: for all that the engine knows, they
-  /// can be drawn where it keeps or writes them.
-  virtual std::string why_copied() const { return "the CPU engine makes its steps in place"; }
-  /// Bytes of positions and velocities that have been copied from a device into main memory, for whoever looked.
-  virtual std::uint64_t copied() const { return 0; }
-  /// One particle as the method holds it. Nothing but the particles' own arrays is looked at, so it may be called
-  /// while another thread reads.
+  /// How its positions reach OpenGL without a copy; null if its arrays are not on a device.
+  virtual VertexSharing* vertex_sharing() { return nullptr; }
+  const VertexSharing* vertex_sharing() const { return const_cast<Engine*>(this)->vertex_sharing(); }
+  /// One particle as the method stores it. Reads nothing but the particles' own arrays, so another thread may read at
+  /// the same time.
   virtual StoredParticle stored(int i, int j) const = 0;
-  /// Where one particle is: what positions() says, but of a device no more is read than stands near it.
+  /// Position of one particle: as positions(), but from a device only its surroundings are read.
   virtual glm::dvec3 position(int i, int j) const { return positions().at(i, j); }
-  /// Bytes of all arrays that grow with the cloth.
+  /// Size of all arrays that grow with the cloth, bytes.
   virtual std::size_t bytes() const = 0;
-  /// Threads that it uses.
+  /// Threads in use.
   virtual int threads() const = 0;
   virtual SolveCounts solves() const = 0;
-  /// What a method that chooses its own steps did within dt; nothing for others.
+  /// Work of a method that chooses its own steps within dt; all zero for others.
   virtual InnerSteps inner_steps() const = 0;
   /// What a step does for the present scene, and what it skips.
   virtual std::vector<StepFeature> features() const = 0;
-  /// "CPU, AVX2, 2 threads": for people.
+  /// For display, such as "CPU, AVX2, 2 threads".
   virtual std::string name() const = 0;
 };
 
-/// Makes the engine that the preset asks for, with at most so many threads (fewer where the cloth is too small for them
-/// to pay; the result is the same to the last bit). Throws EngineError if it is not there.
+/// Creates the engine that the preset names, with at most `threads` threads: fewer if the cloth is too small for them
+/// to pay off, with results that are the same to the last bit. Throws EngineError if there is no such engine.
 std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice, int threads);
 
 class EngineError : public std::runtime_error {

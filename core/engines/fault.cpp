@@ -13,7 +13,7 @@ namespace {
 
 constexpr double longest_factor = 1000;  // a spring longer than that many rest lengths has diverged
 
-/// Whether all of a row's values are numbers. Without a way out of the loop, so that the compiler can use SIMD.
+/// Whether all values of a row are finite. The loop does not stop early, so that the compiler can use SIMD.
 template <class R>
 bool finite_row(const R* field, std::ptrdiff_t stride, int i, int columns) {
   int bad = 0;
@@ -54,7 +54,7 @@ double growth_left(const Preset& preset, const Lattice& lattice, const Tears& te
   const std::uint8_t* masks = tears.row(i);
   if (masks == nullptr || std::all_of(masks + begin, masks + end, [&](auto mask) { return (mask >> d & 1) != 0; })) {
     const R longest =
-        cpu::longest_squared(state.x_row(i, 0), state.stride, dir.di * 3 * state.stride + dir.dj, begin, end);
+        simd::longest_squared(state.x_row(i, 0), state.stride, dir.di * 3 * state.stride + dir.dj, begin, end);
     const double left = bound - std::sqrt(double(longest)) * (1 + rounding<R>);
     if (left >= 0) return left;
   }
@@ -71,21 +71,21 @@ double growth_left(const Preset& preset, const Lattice& lattice, const Tears& te
 
 template <class R>
 bool within_bounds(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
-                   Fault& fault, double& free_motion) {
+                   Fault& fault, double& divergence_budget) {
   double slack = std::numeric_limits<double>::infinity();
   if (preset.kind == Kind::one_weight) {
     const double bound = longest_factor * std::max(preset.L, std::abs(preset.offset));
     const double away = std::abs(double(state.x_row(0, 1)[0]) - preset.x_0.y);
     fault = {0, 0, "distance from x_0", away};
-    free_motion = bound - away;
-    return free_motion >= 0;
+    divergence_budget = bound - away;
+    return divergence_budget >= 0;
   }
   for (int d = 0; d < int(directions.size()); ++d)
     for (int i = 0; i + directions[d].di < lattice.rows; ++i) {
       slack = std::min(slack, growth_left(preset, lattice, tears, state, d, i, fault));
       if (slack < 0) return false;
     }
-  free_motion = slack;
+  divergence_budget = slack;
   return true;
 }
 
@@ -118,8 +118,8 @@ double distance2(const StateView<R>& state, int i, int j, const Direction& to) {
 
 template <class R>
 bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
-                Fault& fault, double& free_motion) {
-  return !finite(lattice, state, fault) || !within_bounds(preset, lattice, tears, state, fault, free_motion);
+                Fault& fault, double& divergence_budget) {
+  return !finite(lattice, state, fault) || !within_bounds(preset, lattice, tears, state, fault, divergence_budget);
 }
 
 template double growth_left<float>(const Preset&, const LongestSquared&);

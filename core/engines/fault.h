@@ -1,5 +1,5 @@
-// What ends a run: something that is not finite, a spring far too long. Shared by the engines; each looks only when the
-// way that particles have gone since the last look says that something might be wrong.
+// What ends a run: a number that is not finite, or a spring that is far too long. Engines examine the cloth for it only
+// when particles have moved far enough since the last time (StepGuard).
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,7 @@
 
 namespace tyglab {
 
-inline constexpr int steps_between_backups = 256;  ///< a copy of the state costs about a step's traffic: under 1 %
-
+/// What diverged, as in Divergence.
 struct Fault {
   int i, j;
   const char* quantity;
@@ -30,10 +29,10 @@ struct StateView {
   const R* v_row(int i, int c) const { return row(v, stride, i, c); }
 };
 
-/// By how much a spring can grow where no component of a particle's way is larger: by both of its ends.
+/// By how much a spring can grow if no particle moves by more in any component: by the motion of both ends.
 double max_elongation(double max_displacement);
 
-/// Of a length computed in R, as a part of it, generously.
+/// Relative rounding error of a length computed in R, an upper bound.
 template <class R>
 constexpr double rounding = sizeof(R) == 4 ? 16 * 0x1p-23 : 16 * 0x1p-52;
 
@@ -41,8 +40,8 @@ constexpr double rounding = sizeof(R) == 4 ? 16 * 0x1p-23 : 16 * 0x1p-52;
 struct LongestSquared {
   double straight = 0, diagonal = 0, bending = 0;
 };
-/// By how much any spring of a cloth may still grow, m, where these were measured in R. If that is not more than 0, or
-/// not a number, find_fault() is to be asked.
+/// By how much any spring of a cloth may grow before one is too long, m, from lengths measured in R. Unless that is a
+/// number over 0, find_fault() must decide.
 template <class R>
 double growth_left(const Preset& preset, const LongestSquared& longest);
 
@@ -50,9 +49,9 @@ double growth_left(const Preset& preset, const LongestSquared& longest);
 template <class R>
 double distance2(const StateView<R>& state, int i, int j, const Direction& to);
 
-/// Looks at every particle and spring; if all is well, says by how much any spring may still grow, m.
+/// Examines every particle and spring; if all is well, sets by how much any spring may grow before one is too long, m.
 template <class R>
 bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
-                Fault& fault, double& free_motion);
+                Fault& fault, double& divergence_budget);
 
 }  // namespace tyglab

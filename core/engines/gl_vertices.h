@@ -1,10 +1,9 @@
-// Buffers of OpenGL that a graphics card writes itself, so that nothing of what is drawn passes through main memory.
+// OpenGL's buffers as a graphics card writes them itself, so that nothing that is drawn passes through main memory.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
-#include <memory>
 #include <span>
 
 #include "core/cloth/drawn_sites.h"
@@ -18,39 +17,38 @@ enum class GlSharing {
   ordered,   ///< the device waits for OpenGL, and OpenGL for the device (cl_khr_gl_event)
 };
 
-/// Two of OpenGL's buffers by their names, each of so many bytes.
+/// The names of two OpenGL buffers, and the size of each.
 struct GlBuffers {
   unsigned positions = 0, normals = 0;
   std::size_t bytes = 0;
 };
 
-/// A particle beside a tear: where it stands among those that are drawn, i · columns + j, and which of the eight
-/// triangles round it are whole, a bit each (whole_triangles, app/render/vertex_normals.h).
+/// A particle beside a tear: its index among those that are drawn, i · columns + j, and one bit for each of the eight
+/// triangles around it that is whole (whole_triangles, app/render/vertex_normals.h).
 struct TornSite {
   std::uint32_t site, triangles;
 };
 
-/// What a picture needs of a cloth. It is written row after row, each as its x, its y and its z of so many floats as
-/// there are columns.
-struct VertexOrder {
+/// What to write for a picture of a cloth: row after row, each as its x, its y and its z, one float per column.
+struct VertexRequest {
   DrawnSites sites;
   bool normals = false;
 };
 
-/// The box of all positions' finite components; lo over hi where there is none.
+/// Bounding box of all positions, over their finite components; lo > hi if there is none.
 struct VertexBox {
   glm::vec3 lo{1e30f}, hi{-1e30f};
 };
 
-/// OpenGL's buffers as one device sees them. Whoever has it keeps the buffers until it is gone.
+/// OpenGL's buffers as one device sees them. The owner keeps the buffers alive for as long as this exists.
 class GlVertices {
  public:
   GlVertices() = default;
   GlVertices(const GlVertices&) = delete;
   GlVertices& operator=(const GlVertices&) = delete;
   virtual ~GlVertices() = default;
-  /// From now on normals at these particles count their whole triangles alone.
-  virtual void take_tears(std::span<const TornSite> torn) = 0;
+  /// From now on the normals of these particles count whole triangles only.
+  virtual void set_tears(std::span<const TornSite> torn) = 0;
 };
 
 }  // namespace tyglab

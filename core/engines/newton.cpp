@@ -24,9 +24,9 @@ double take_step(ImplicitStage& stage, double slope, SolveCounts& counts) {
   // > 0. Along the step the potential is convex, its slope thus rises: where the step overshoots, the least value lies
   // between 0 and its end. False position, in the form that halves the slope of an end that stays (Illinois).
   double part = 1, lower = 0, lower_slope = slope, upper = 0, upper_slope = 0;
-  ImplicitStage::Landing now{};
+  ImplicitStage::Trial now{};
   for (int tries = 0; tries <= most_tries; ++tries) {
-    now = stage.go(part);
+    now = stage.try_part(part);
     ++counts.force_evaluations;
     if (std::abs(now.slope) <= flat_enough * slope || (now.slope > 0 && part == 1)) break;
     if (!(now.slope > 0)) {  // beyond it, or not finite
@@ -53,10 +53,10 @@ void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) 
   bool solved = first == 0;
   double norm = first;
   for (int n = 0; n < rules.most && !solved && std::isfinite(norm); ++n) {
-    stage.linearise();
+    stage.linearize();
     if (!find_step(stage, direct)) ++counts.unconverged;
     ++counts.newton;
-    if (rules.most == 1) return stage.take();
+    if (rules.most == 1) return stage.accept();
     const ImplicitStage::Step step = stage.step();
     norm = take_step(stage, step.slope, counts);
     solved = norm <= rules.tolerance * first || rules.h * step.size <= last_digits;

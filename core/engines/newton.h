@@ -1,10 +1,10 @@
 // Newton's method with line search for the implicit stage of a method, x = c_x + h v, v = c_v + h a(x, v) with h = β
-// dt, whichever engine holds the vectors: of them it asks for sums alone. Its linear systems are solved by
-// preconditioned conjugate gradients, or, where those do not get there, directly.
+// dt. It works for any engine, since the vectors stay there and only sums of them are requested. The linear systems
+// are solved by preconditioned conjugate gradients, or directly if those do not converge.
 //
 // Stretch springs pull only, so their potential is convex; bending springs push, and a compressed one would make the
-// system indefinite: of its stiffness only the part along the spring is taken, which changes how quickly Newton's
-// method converges and not what it converges to. Likewise the wind, which the linear system leaves out. D. Baraff, A.
+// system indefinite, so only the part of its stiffness along the spring enters, which changes how quickly Newton's
+// method converges but not to what. Likewise, the linear system leaves out the wind. D. Baraff, A.
 // Witkin, SIGGRAPH 1998; J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed. (2006), 7.1.
 #pragma once
 
@@ -13,56 +13,56 @@
 
 namespace tyglab {
 
-inline constexpr double linear_tolerance = 1e-3;  ///< |r| of its start, where conjugate gradients end
-/// Their steps, at most.
-constexpr int most_gradients(const Lattice& lattice) {
+inline constexpr double linear_tolerance = 1e-3;  ///< of conjugate gradients, relative to the initial |r|
+/// Upper bound on their iterations.
+constexpr int max_gradient_steps(const Lattice& lattice) {
   return 200 + 20 * (lattice.rows + lattice.columns);
 }
 
-/// What A has on its diagonal beside the springs.
+/// Diagonal of A without the springs.
 inline double own_stiffness(const Preset& preset, double h) {
   return preset.kind == Kind::one_weight ? 1 + (h * preset.k_d + h * h * preset.k) / preset.m : 1;
 }
 
-/// A stage as an engine holds it. The residual r is h a - (v - c_v), m/s; the step s, m/s, solves A s = r with r's
-/// derivative -A.
+/// An implicit stage, as an engine stores it. The residual r is h a - (v - c_v), m/s; the step s, m/s, solves A s = r
+/// with r's derivative -A.
 class ImplicitStage {
  public:
   virtual ~ImplicitStage() = default;
   /// |c_x|, m.
   virtual double start_size() = 0;
-  /// Takes x to c_x + h v and r to what that leaves; returns |r|.
+  /// Updates x = c_x + h v and r; returns |r|.
   virtual double evaluate() = 0;
-  /// Works A out where the stage is.
-  virtual void linearise() = 0;
-  /// Solves for s by conjugate gradients, and leaves r as it is. Whether they got there.
+  /// Computes A at the present x and v.
+  virtual void linearize() = 0;
+  /// Solves for s by conjugate gradients, leaving r as it is. Returns whether they converged.
   virtual bool gradients() = 0;
-  /// Solves for s by a factorisation. False: it would take too long, or does not exist.
+  /// Solves for s by a factorization. Returns false if it would take too long or does not exist.
   virtual bool solve_directly() = 0;
   struct Step {
     double slope, size;  ///< r·s and |s|
   };
-  /// Of the step just found; go() goes along it from here.
+  /// The step just found, along which try_part() goes.
   virtual Step step() = 0;
-  struct Landing {
+  struct Trial {
     double residual, slope;  ///< |r| and r·s
   };
-  /// Goes to v + part · s, with v of where the step was found, and evaluates r there.
-  virtual Landing go(double part) = 0;
-  /// Takes the step as it is and looks at nothing.
-  virtual void take() = 0;
+  /// Moves to v + part · s, where v is the velocity at which the step was found, and evaluates r there.
+  virtual Trial try_part(double part) = 0;
+  /// Accepts the whole step without evaluating r.
+  virtual void accept() = 0;
 };
 
 struct NewtonRules {
-  int most;          ///< steps; 1: one linear system, whose solution is taken as it is
-  double tolerance;  ///< |r| of its start
-  double epsilon;    ///< of the numbers in which the stage is held
+  int most;          ///< iterations; 1: one linear system, whose solution is accepted as it is
+  double tolerance;  ///< relative to the initial |r|
+  double epsilon;    ///< of the precision in which the stage is stored
   double h;          ///< s
 };
 template <class R>
 constexpr double newton_tolerance = sizeof(R) == 8 ? 1e-10 : 1e-5;
 
-/// Takes the stage to its solution, and counts what that took but for the steps of conjugate gradients.
+/// Solves the stage. Adds to the counts everything but the iterations of conjugate gradients.
 void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts);
 
 }  // namespace tyglab

@@ -56,12 +56,12 @@ class RowOfSprings {
     if (i + di < 0 || i + di >= lattice_.rows) return;
     const std::size_t row = std::size_t(i) * std::size_t(view_.stride);
     const R* const* x = components();
-    cpu::FieldSprings<R> springs{{x[0] + row, x[1] + row, x[2] + row},
-                                 std::ptrdiff_t(di) * view_.stride + dj,
-                                 std::max(0, -dj),
-                                 lattice_.columns - std::max(0, dj),
-                                 p_.k_s,
-                                 to.rest * p_.L};
+    FieldSprings<R> springs{{x[0] + row, x[1] + row, x[2] + row},
+                            std::ptrdiff_t(di) * view_.stride + dj,
+                            std::max(0, -dj),
+                            lattice_.columns - std::max(0, dj),
+                            p_.k_s,
+                            to.rest * p_.L};
     const std::uint8_t* masks = tears_.row(owns ? i : i + di);
     if (masks == nullptr) return take(field, springs);
     const int owner = owns ? 0 : dj;  // columns from a particle to the owner
@@ -75,9 +75,9 @@ class RowOfSprings {
     }
   }
 
-  void take(ParticleField field, const cpu::FieldSprings<R>& springs) {
-    if (field == ParticleField::tension) return cpu::take_tension(springs, values_.data());
-    cpu::add_strain(springs, values_.data());
+  void take(ParticleField field, const FieldSprings<R>& springs) {
+    if (field == ParticleField::tension) return raise_to_tension(springs, values_.data());
+    add_strain(springs, values_.data());
     for (int j = springs.begin; j < springs.end; ++j) counts_[std::size_t(j)] += 1;
   }
 

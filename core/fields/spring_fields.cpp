@@ -10,8 +10,8 @@
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tyglab::cpu::HWY_NAMESPACE {
-using namespace tyglab::HWY_NAMESPACE;
+namespace tyglab::HWY_NAMESPACE {
+using namespace tyglab::simd::HWY_NAMESPACE;
 
 /// F_s from its factor in F_s = factor · x_ij.
 template <class R>
@@ -81,11 +81,11 @@ void strain_double(const FieldSprings<double>& s, double* sum) {
   pass<Strain<double>>(s, sum);
 }
 
-}  // namespace tyglab::cpu::HWY_NAMESPACE
+}  // namespace tyglab::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tyglab::cpu {
+namespace tyglab {
 namespace {
 
 HWY_EXPORT(tension_float);
@@ -95,10 +95,10 @@ HWY_EXPORT(strain_double);
 
 }  // namespace
 
-void take_tension(const FieldSprings<float>& springs, float* largest) {
+void raise_to_tension(const FieldSprings<float>& springs, float* largest) {
   HWY_DYNAMIC_DISPATCH(tension_float)(springs, largest);
 }
-void take_tension(const FieldSprings<double>& springs, double* largest) {
+void raise_to_tension(const FieldSprings<double>& springs, double* largest) {
   HWY_DYNAMIC_DISPATCH(tension_double)(springs, largest);
 }
 void add_strain(const FieldSprings<float>& springs, float* sum) {
@@ -108,5 +108,5 @@ void add_strain(const FieldSprings<double>& springs, double* sum) {
   HWY_DYNAMIC_DISPATCH(strain_double)(springs, sum);
 }
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab
 #endif

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace tyglab::cpu {
+namespace tyglab {
 
 /// Springs between the particles begin <= j < end of a row and those that stand at j + other of the same arrays.
 template <class R>
@@ -15,10 +15,10 @@ struct FieldSprings {
 };
 
 /// largest[j] becomes F_s (2.5) of the spring, N, where that is more.
-void take_tension(const FieldSprings<float>& springs, float* largest);
-void take_tension(const FieldSprings<double>& springs, double* largest);
+void raise_to_tension(const FieldSprings<float>& springs, float* largest);
+void raise_to_tension(const FieldSprings<double>& springs, double* largest);
 /// Adds the strain, (|x_ij| - rest) / rest, to sum[j].
 void add_strain(const FieldSprings<float>& springs, float* sum);
 void add_strain(const FieldSprings<double>& springs, double* sum);
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab

@@ -1,5 +1,5 @@
 // Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"). In double for both precisions: few
-// particles touch a body, and a float's rounding would be seen as jitter.
+// particles touch a body, and rounding to float would be visible as jitter.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -17,16 +17,17 @@ struct ContactStep {
 /// How deep `x` is inside the body, m; negative outside.
 double depth(const Body& body, const glm::dvec3& x);
 
-/// 8 units in the last place of the largest of |x|, |c|, r: what rounding can leave. `epsilon` is the state's.
+/// 8 units in the last place of the largest of |x|, |c|, r: a bound on rounding errors, m. `epsilon` is that of the
+/// state's precision.
 double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
 
-/// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt: then the
-/// body bears on it, with a force that no formula gives, since collide() corrects positions and velocities.
+/// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt. Then the
+/// body exerts a force that no formula gives, since collide() corrects positions and velocities.
 bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
                      const glm::dvec3& a);
 
-/// Corrects x and v of a passage for all bodies, in list order and repeatedly. Returns whether x is outside all of them
-/// afterwards (overlapping bodies can leave it inside one).
-bool collide(std::span<const Body> bodies, double dt, double epsilon, ContactStep& passage);
+/// Corrects x and v for all bodies, in list order and repeatedly. Returns whether x is outside all of them afterwards
+/// (overlapping bodies can leave it inside one).
+bool collide(std::span<const Body> bodies, double dt, double epsilon, ContactStep& step);
 
 }  // namespace tyglab

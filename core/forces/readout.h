@@ -1,5 +1,5 @@
-// The forces on one particle, gathered in double from a state: what panels and plots show. The sweeps of the engines
-// compute the same formulas (spring.h, wind.h), spring by spring.
+// The forces on one particle, computed in double from a state, for panels and plots. The engines compute the same
+// formulas (spring-inl.h, wind-inl.h), spring by spring.
 #pragma once
 
 #include <array>
@@ -12,26 +12,27 @@
 
 namespace tyglab {
 
-/// Forces by kind, N.
+/// Forces on a particle by kind, N.
 struct ParticleForces {
   glm::dvec3 F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0};
   glm::dvec3 F_int() const { return F_s + F_b + F_d; }
-  /// Without the hand.
+  /// Without the force of the hand.
   glm::dvec3 F_ext() const { return F_g + F_wind; }
 };
 
-/// What one spring does to a particle.
+/// The force of one spring on a particle.
 struct SpringForce {
-  int i, j;  ///< the particle at its other end
+  int i, j;  ///< the particle at the other end
   bool bending;
   double length, rest;      ///< m
-  glm::dvec3 F{0}, F_d{0};  ///< N: F_s or F_b, and the damping that stretch springs have
+  glm::dvec3 F{0}, F_d{0};  ///< N: F_s or F_b, and the damping of a stretch spring
 };
 
-/// `state`: dense, velocities that belong to the positions.
+/// `state`: dense, with velocities at the time of the positions.
 ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const State& state, int i, int j);
 
-/// What stands round one particle, three rows and columns each way: enough for the forces on it and on those beside it.
+/// The surroundings of one particle, three rows and columns in each direction: enough for the forces on it and on its
+/// neighbors.
 class Neighbourhood {
  public:
   static constexpr int reach = 3;
@@ -47,9 +48,9 @@ class Neighbourhood {
   int i_, j_;
   std::array<glm::dvec3, std::size_t(side) * side> x_{}, v_{};
 };
-/// The same from what stands round it: (i, j) is the particle in the middle or one beside it.
+/// The same from its surroundings: (i, j) is the particle in the middle or a neighbor of it.
 ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i, int j);
-/// The springs at it, of a cloth, one by one: all that are whole.
+/// All whole springs at a particle of a cloth, one by one.
 std::vector<SpringForce> springs_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i,
                                              int j);
 

@@ -9,7 +9,7 @@
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace tyglab::cpu::HWY_NAMESPACE {
+namespace tyglab::simd::HWY_NAMESPACE {
 
 template <class R>
 R longest(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end) {
@@ -75,11 +75,11 @@ double lowest_double(const double* x, std::ptrdiff_t stride, int columns) {
   return lowest_y(x, stride, columns);
 }
 
-}  // namespace tyglab::cpu::HWY_NAMESPACE
+}  // namespace tyglab::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tyglab::cpu {
+namespace tyglab::simd {
 
 HWY_EXPORT(longest_float);
 HWY_EXPORT(longest_double);
@@ -113,5 +113,5 @@ double lowest(const double* x, std::ptrdiff_t stride, int columns) {
   return HWY_DYNAMIC_DISPATCH(lowest_double)(x, stride, columns);
 }
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::simd
 #endif

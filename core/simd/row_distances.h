@@ -1,12 +1,12 @@
-// Distances within a row and from it, in SIMD: what tearing and bodies look at.
+// Distances within a row and from a row, in SIMD: for tearing, divergence and bodies.
 #pragma once
 
 #include <cstddef>
 
-namespace tyglab::cpu {
+namespace tyglab::simd {
 
 /// The largest |x[j + other] - x[j]|² for begin <= j < end, m²; ∞ or NaN if one of them is. `x` is a row as in
-/// row_field.h, `other` leads to the springs' other ends.
+/// row_field.h, `other` is the offset to the springs' other ends.
 template <class R>
 R longest_squared(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end);
 
@@ -18,4 +18,4 @@ R nearest_squared(const R* x, std::ptrdiff_t stride, int columns, const R point[
 template <class R>
 R lowest(const R* x, std::ptrdiff_t stride, int columns);
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::simd

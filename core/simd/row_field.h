@@ -1,5 +1,5 @@
-// A vector of every particle (position, velocity, force …), row after row, each row as its x, its y and its z: a row is
-// one stretch of memory, and the sweep reaches all its components from one pointer.
+// One vector per particle (position, velocity, force …), row by row, each row as its x, then its y, then its z: a row
+// is contiguous, and the sweep reaches all its components from one pointer.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 #include "core/cloth/state.h"
 
-namespace tyglab::cpu {
+namespace tyglab::simd {
 
 inline constexpr int widest_vector = 64;  ///< bytes; rows begin at multiples of it
 
-/// Elements that one component of a row takes: whole vectors, so that every row is aligned, and in long rows an odd
-/// number of them. With a number that powers of two divide, the two dozen rows that the sweep reads and writes at a
-/// time would fall on the same few lines of the first cache (1024 columns: more than half as slow again).
+/// Elements per component of a row: whole SIMD vectors, so that every row is aligned, and in long rows an odd number of
+/// them. With a power of two, the two dozen rows that the sweep reads and writes at a time would map to the same few
+/// lines of the first-level cache (1024 columns: more than 1.5 times as slow).
 template <class R>
 constexpr int row_stride(int columns) {
   constexpr int lanes = widest_vector / int(sizeof(R)), long_row = 16;
@@ -24,9 +24,9 @@ constexpr int row_stride(int columns) {
 template <class R>
 class RowField {
  public:
-  /// `rows` rows of zeros, and a vector more than that, since the sweep loads right neighbours before it masks them.
-  /// `lead`: cache lines before the first row, so that fields that are swept together do not lie alike in their pages:
-  /// a load would have to wait for stores to the same place of another page.
+  /// `rows` rows of zeros, plus one SIMD vector, since the sweep loads right neighbors before it masks them. `lead`:
+  /// cache lines before the first row, so that fields that are swept together have different offsets in their pages: a
+  /// load would have to wait for stores to the same offset of another page.
   void resize(int rows, int stride, int lead = 0) {
     stride_ = stride;
     lead_ = std::size_t(lead) * widest_vector / sizeof(R);
@@ -38,7 +38,7 @@ class RowField {
   const R* row(int i) const { return data_.data() + lead_ + i * pitch(); }
   R* row(int i, int component) { return row(i) + component * std::ptrdiff_t(stride_); }
   const R* row(int i, int component) const { return row(i) + component * std::ptrdiff_t(stride_); }
-  /// All rows: what stands at one index belongs to one number of every field of that size.
+  /// All rows. In fields of one size, an index means the same component of the same particle.
   std::span<R> all() { return std::span(data_).subspan(lead_); }
   std::span<const R> all() const { return std::span(data_).subspan(lead_); }
   std::size_t bytes() const { return data_.size() * sizeof(R); }
@@ -49,4 +49,4 @@ class RowField {
   Array<R> data_;
 };
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::simd

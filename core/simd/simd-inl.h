@@ -1,5 +1,5 @@
-// What the sweep needs of Highway beyond its own operations, for the target that is being compiled. Included once for
-// each target (hwy/foreach_target.h), so the guard toggles.
+// SIMD vectors with the operations that the formulas of core/forces use, on top of Highway. Included once for each
+// target (hwy/foreach_target.h), so the guard toggles.
 #if defined(TYGLAB_SIMD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_SIMD_INL_H_
 #undef TYGLAB_SIMD_INL_H_
@@ -10,10 +10,10 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace tyglab::cpu::HWY_NAMESPACE {
+namespace tyglab::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A vector of N numbers and the operations that the formulas use.
+/// A SIMD vector of numbers, and the operations that the formulas use.
 template <class D>
 struct Lanes {
   using V = hn::Vec<D>;
@@ -81,7 +81,7 @@ HWY_INLINE Lanes<D> divided(Lanes<D> a, Lanes<D> b) {
   }
 }
 
-/// Lanes moved up by n (1 or 2); the lowest come from the top of `before`: what lane j-n held, for each j.
+/// Lanes moved up by n (1 or 2), with the lowest from the top of `before`: for each lane j, what was in lane j - n.
 template <int n, class D>
 HWY_INLINE Lanes<D> from_left(Lanes<D> before, Lanes<D> now) {
 #if HWY_TARGET == HWY_SCALAR
@@ -180,6 +180,6 @@ struct Carry {
   }
 };
 
-}  // namespace tyglab::cpu::HWY_NAMESPACE
+}  // namespace tyglab::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif

@@ -12,12 +12,12 @@ namespace tyglab::child_cases_test {
 
 struct Told {
   std::int64_t number;
-  ChildOutcome outcome;
+  ChildExit outcome;
 };
 
 std::vector<Told> told_by(ChildCases cases) {
   std::vector<Told> told;
-  cases.ended = [&](std::int64_t number, const ChildOutcome& outcome) { told.push_back({number, outcome}); };
+  cases.ended = [&](std::int64_t number, const ChildExit& outcome) { told.push_back({number, outcome}); };
   if (!cases.stop) cases.stop = [] { return false; };
   run_child_cases(cases);
   return told;
@@ -31,7 +31,7 @@ TEST_CASE("what cases say arrives whole and in the order of their numbers") {
   REQUIRE(told.size() == 12);
   for (std::size_t n = 0; n < told.size(); ++n) {
     CHECK(told[n].number == std::int64_t(n) + 5);
-    CHECK(told[n].outcome.text == std::string(told[n].number == 7 ? 300000 : 1, char('a' + told[n].number)));
+    CHECK(told[n].outcome.result == std::string(told[n].number == 7 ? 300000 : 1, char('a' + told[n].number)));
     CHECK(told[n].outcome.signal == 0);
   }
 }
@@ -44,16 +44,16 @@ TEST_CASE("a case that crashes, hangs or throws is told, and the others go on") 
                                return std::string("done");
                              }});
   REQUIRE(told.size() == 5);
-  CHECK(told[0].outcome.text == "done");
-  CHECK(told[1].outcome.text.empty());
+  CHECK(told[0].outcome.result == "done");
+  CHECK(told[1].outcome.result.empty());
   CHECK(told[1].outcome.signal == SIGKILL);
   CHECK_FALSE(told[1].outcome.timed_out);
-  CHECK(told[2].outcome.text.empty());
+  CHECK(told[2].outcome.result.empty());
   CHECK(told[2].outcome.timed_out);
   CHECK(told[2].outcome.seconds < 5);
-  CHECK(told[3].outcome.text.empty());
+  CHECK(told[3].outcome.result.empty());
   CHECK(told[3].outcome.signal == 0);
-  CHECK(told[4].outcome.text == "done");
+  CHECK(told[4].outcome.result == "done");
 }
 
 TEST_CASE("once it is to stop, no case is begun, and those begun are told") {
@@ -65,7 +65,7 @@ TEST_CASE("once it is to stop, no case is begun, and those begun are told") {
                              .stop = [&] { return ++asked > 6; }});
   CHECK(!told.empty());
   CHECK(told.size() < 10);
-  for (const Told& one : told) CHECK(one.outcome.text == "done");
+  for (const Told& one : told) CHECK(one.outcome.result == "done");
 }
 
 }  // namespace tyglab::child_cases_test

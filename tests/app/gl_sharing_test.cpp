@@ -102,14 +102,14 @@ TEST_SUITE("gl_sharing") {
       Simulation simulation(preset);
       stage.copied_alone(simulation, 1);
       const std::uint64_t before = counts().read, acquired = std::uint64_t(counts().acquired);
-      const std::uint64_t copied = simulation.engine().copied();
+      const std::uint64_t copied = bytes_read(simulation.engine());
       for (int frame = 0; frame < 100; ++frame) {
         simulation.advance(3);
         CHECK(stage.copied_alone(simulation, 1) == 0);
       }
       read[large] = counts().read - before;
       CHECK(std::uint64_t(counts().acquired) - acquired == 100);
-      CHECK(simulation.engine().copied() == copied);
+      CHECK(bytes_read(simulation.engine()) == copied);
     }
     // A box for each frame, and what steps report: 32 bytes each.
     for (const std::uint64_t bytes : read) CHECK(bytes < 100 * 24 + 2 * 300 * 32);
@@ -176,9 +176,9 @@ TEST_SUITE("gl_sharing") {
           sites.push_back({std::uint32_t(i * lattice.columns + j), whole_triangles(lattice, simulation.tears(), i, j)});
         }
         WrittenVertices vertices;
-        vertices.take_tears(sites);
+        vertices.set_tears(sites);
         std::size_t looked_at = 0;
-        const Bounds box = vertices.write(simulation.engine(), {{lattice, 1}, true}, looked_at);
+        const Bounds box = vertices.write(*simulation.engine().vertex_sharing(), {{lattice, 1}, true}, looked_at);
         const auto content = [&](const VertexSource& source) {
           std::vector<float> numbers(3 * std::size_t(lattice.size()));
           glBindBuffer(GL_ARRAY_BUFFER, source.buffer);
@@ -231,7 +231,7 @@ TEST_SUITE("gl_sharing") {
     // In another context nothing of the first could be drawn.
     int somewhere = 0;
     const GlContextInUse other({.context = &somewhere, .display = &somewhere});
-    CHECK(after.engine().gl_sharing() == GlSharing::none);
+    CHECK(after.engine().vertex_sharing()->gl_sharing() == GlSharing::none);
   }
 
   TEST_CASE("of one particle no more is read than stands near it") {
@@ -239,12 +239,12 @@ TEST_SUITE("gl_sharing") {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       Simulation simulation(scene(precision, 60, 70));
       simulation.advance(40);
-      const std::uint64_t before = simulation.engine().copied();
+      const std::uint64_t before = bytes_read(simulation.engine());
       const std::array<std::pair<int, int>, 5> sites{{{0, 0}, {59, 69}, {30, 35}, {31, 36}, {59, 3}}};
       std::vector<glm::dvec3> near;
       for (const auto& [i, j] : sites) near.push_back(simulation.position(i, j));
       const ParticleReadout readout = simulation.particle(30, 35);
-      CHECK(simulation.engine().copied() - before < 13 * 13 * 3 * 8 * 12);
+      CHECK(bytes_read(simulation.engine()) - before < 13 * 13 * 3 * 8 * 12);
       const State& whole = simulation.read();
       for (std::size_t n = 0; n < sites.size(); ++n) {
         const std::size_t p = std::size_t(sites[n].first) * 70 + std::size_t(sites[n].second);

@@ -49,12 +49,12 @@ void run(const Preset& preset, int width, int steps) {
   engine->note_contacts(true);
   engine->set_fixed(pinned, {});
   engine->load(start_rows(preset), tears);
-  const std::uint64_t loaded = engine->copied();
+  const std::uint64_t loaded = bytes_read(*engine);
   engine->advance(1, tears);
   engine->set_fixed(pinned, {preset.columns * 5 + 4, {0.1, 0.2, 0}});
   engine->advance(steps, tears);
-  CHECK(engine->remote() == by_the_layer());
-  CHECK(engine->copied() == loaded);  // a card has looked at its springs itself
+  CHECK(is_remote(*engine) == by_the_layer());
+  CHECK(bytes_read(*engine) == loaded);  // a card has looked at its springs itself
   State state;
   engine->read(state, tears);
   CHECK(test::all_finite(state));
@@ -97,7 +97,7 @@ TEST_SUITE("oclgrind") {
     opencl::check(clEnqueueWriteBuffer(device->queue(), from.get(), CL_TRUE, 0, x.size() * sizeof(float), x.data(), 0,
                                        nullptr, nullptr),
                   "writing to the device");
-    kernels.take_tears(std::array<TornSite, 3>{{{0, 64}, {38, 255}, {5, 0}}});
+    kernels.set_tears(std::array<TornSite, 3>{{{0, 64}, {38, 255}, {5, 0}}});
     for (const int every : {1, 4}) {
       const DrawnSites sites{lattice, every};
       const std::size_t bytes = 3 * sizeof(float) * std::size_t(sites.rows()) * std::size_t(sites.columns());

@@ -241,4 +241,19 @@ TEST_CASE("a simulation goes from one engine to the other and back") {
   CHECK(distance(both.read(), cpu.read()) <= tolerance(preset));
 }
 
+TEST_CASE("drivers that do not survive the probe count as none, and it is said why") {
+  const std::size_t trusted = opencl_devices().devices.size();
+  int probed = 0;
+  set_driver_probe([&](const std::function<void()>&) { return ++probed, false; });
+  for (int n = 0; n < 2; ++n) {
+    const OpenClInventory inventory = opencl_devices();
+    CHECK(inventory.devices.empty());
+    CHECK(inventory.problem.find("crashes when it is asked for its devices") != std::string::npos);
+  }
+  CHECK(probed == 1);
+  set_driver_probe([&](const std::function<void()>& ask) { return ask(), true; });
+  CHECK(opencl_devices().devices.size() == trusted);
+  set_driver_probe({});
+}
+
 }  // namespace tyglab::opencl_test

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 #include "tests/support/devices.h"
@@ -66,7 +67,7 @@ bool same_positions(const PositionView& shown, const PositionView& own) {
 
 /// Shows what it is at, then makes steps, and looks whether what was shown stayed as it was.
 void show_and_step(Simulation& simulation, Pages& pages, int steps) {
-  const int slot = pages.slot_of(simulation.engine().shown());
+  const int slot = pages.slot_of(drawn_positions(simulation.engine()));
   REQUIRE(slot >= 0);
   pages.memory->shown = slot;
   const std::vector<std::byte> before = pages.content(slot);
@@ -81,16 +82,16 @@ TEST_CASE("positions in lent memory move with the same bits, and what is shown i
     CAPTURE(std::string(method.name));
     const Preset preset = scene(std::string(method.name), Precision::float_);
     Simulation plain(preset), lent(preset);
-    Pages pages(lent.engine().wants_memory());
-    REQUIRE(lent.engine().take_memory(pages.memory));
-    CHECK(lent.engine().wants_memory() == 0);
+    Pages pages(lent.engine().vertex_sharing()->wanted_slot_bytes());
+    REQUIRE(lent.engine().vertex_sharing()->use_memory(pages.memory));
+    CHECK(lent.engine().vertex_sharing()->wanted_slot_bytes() == 0);
     for (const int steps : {1, 2, 30, 7, 1, 300}) {
       show_and_step(lent, pages, steps);
       plain.advance(steps);
     }
     CHECK(same_state(lent.read(), plain.read()));
     CHECK(pages.slot_of(lent.positions()) >= 0);
-    CHECK(lent.engine().copied() == 0);
+    CHECK(bytes_read(lent.engine()) == 0);
   }
 }
 
@@ -98,12 +99,13 @@ TEST_CASE("in double the memory shows the positions in float") {
   if (!test::device_there()) return;
   const Preset preset = scene("verlet", Precision::double_);
   Simulation plain(preset), lent(preset);
-  Pages pages(lent.engine().wants_memory());
-  if (!lent.engine().take_memory(pages.memory)) FAIL("a processor works in the memory that it is given");
+  Pages pages(lent.engine().vertex_sharing()->wanted_slot_bytes());
+  if (!lent.engine().vertex_sharing()->use_memory(pages.memory))
+    FAIL("a processor works in the memory that it is given");
   for (const int steps : {1, 40, 3}) {
     show_and_step(lent, pages, steps);
     plain.advance(steps);
-    CHECK(same_positions(lent.engine().shown(), plain.positions()));
+    CHECK(same_positions(drawn_positions(lent.engine()), plain.positions()));
   }
   CHECK(same_state(lent.read(), plain.read()));
 }
@@ -113,13 +115,13 @@ TEST_CASE("what is shown stays where a state is loaded, a step is made again, or
   Preset preset = scene("verlet", Precision::float_);
   preset.F_max = 2;
   Simulation plain(preset), lent(preset);
-  Pages pages(lent.engine().wants_memory());
-  REQUIRE(lent.engine().take_memory(pages.memory));
+  Pages pages(lent.engine().vertex_sharing()->wanted_slot_bytes());
+  REQUIRE(lent.engine().vertex_sharing()->use_memory(pages.memory));
   const auto both = [&](const auto& what) { what(plain), what(lent); };
   show_and_step(lent, pages, 50), plain.advance(50);
   const Snapshot then = plain.snapshot();
   show_and_step(lent, pages, 200), plain.advance(200);
-  pages.memory->shown = pages.slot_of(lent.engine().shown());
+  pages.memory->shown = pages.slot_of(drawn_positions(lent.engine()));
   const std::vector<std::byte> before = pages.content(pages.memory->shown);
   both([&](Simulation& s) { s.restore(then); });
   CHECK(pages.content(pages.memory->shown) == before);
@@ -132,12 +134,15 @@ TEST_CASE("what is shown stays where a state is loaded, a step is made again, or
   REQUIRE(plain.divergence());
   CHECK(lent.divergence()->step == plain.divergence()->step);
   CHECK(same_state(lent.read(), plain.read()));
-  CHECK(same_positions(lent.engine().shown(), plain.positions()));
+  CHECK(same_positions(drawn_positions(lent.engine()), plain.positions()));
 }
 
-TEST_CASE("the CPU engine wants no memory") {
+TEST_CASE("the CPU engine shares nothing with OpenGL") {
   Simulation simulation(test::cloth(8, 8));
-  CHECK(simulation.engine().wants_memory() == 0);
+  CHECK(simulation.engine().vertex_sharing() == nullptr);
+  CHECK_FALSE(is_remote(simulation.engine()));
+  CHECK(bytes_read(simulation.engine()) == 0);
+  CHECK(same_positions(drawn_positions(simulation.engine()), simulation.positions()));
 }
 
 }  // namespace tyglab::position_memory_test

@@ -14,7 +14,7 @@ namespace tyglab::projection_test {
 /// Rows of particles as the kernels see them, and the same in plain numbers.
 template <class R>
 struct Rows {
-  explicit Rows(int columns_of, std::uint64_t seed) : columns(columns_of), stride(cpu::row_stride<R>(columns_of)) {
+  explicit Rows(int columns_of, std::uint64_t seed) : columns(columns_of), stride(simd::row_stride<R>(columns_of)) {
     test::Random random(seed);
     for (auto* field : {&x, &q, &lambda, &free, &whole}) {
       field->resize(2, stride);
@@ -26,11 +26,11 @@ struct Rows {
     }
     lambda.resize(2, stride);
   }
-  glm::dvec3 at(const cpu::RowField<R>& field, int i, int j) const {
+  glm::dvec3 at(const simd::RowField<R>& field, int i, int j) const {
     return {field.row(i, 0)[j], field.row(i, 1)[j], field.row(i, 2)[j]};
   }
   int columns, stride;
-  cpu::RowField<R> x, q, lambda, free, whole;
+  simd::RowField<R> x, q, lambda, free, whole;
 };
 
 /// One step of Gauss-Seidel on a spring, as the papers write it.

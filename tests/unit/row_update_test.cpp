@@ -1,5 +1,5 @@
 // Row updates in SIMD against plain loops.
-#include "core/simd/row_update.h"
+#include "core/engines/cpu/row_update.h"
 
 #include <doctest/doctest.h>
 
@@ -14,9 +14,9 @@
 namespace tyglab::row_update_test {
 
 template <class R>
-cpu::RowField<R> random_row(int columns, unsigned seed) {
-  cpu::RowField<R> row;
-  row.resize(1, cpu::row_stride<R>(columns));
+simd::RowField<R> random_row(int columns, unsigned seed) {
+  simd::RowField<R> row;
+  row.resize(1, simd::row_stride<R>(columns));
   std::mt19937 random(seed);
   for (int c = 0; c < 3; ++c)
     for (int j = 0; j < columns; ++j) row.row(0, c)[j] = R(std::uniform_real_distribution(-1.0, 1.0)(random));
@@ -28,8 +28,8 @@ TEST_CASE_TEMPLATE("a sum is that of plain loops, and ends with the row", R, flo
     for (int terms = 1; terms <= cpu::RowSum<R>::most_terms; ++terms) {
       CAPTURE(columns);
       CAPTURE(terms);
-      const int stride = cpu::row_stride<R>(columns);
-      cpu::RowField<R> rows[cpu::RowSum<R>::most_terms];
+      const int stride = simd::row_stride<R>(columns);
+      simd::RowField<R> rows[cpu::RowSum<R>::most_terms];
       for (unsigned n = 0; n < std::size(rows); ++n) rows[n] = random_row<R>(columns, n + 1);
       cpu::RowSum<R> sum{.target = rows[0].row(0)};
       for (int n = 0; n < terms; ++n) sum.source[n] = rows[n].row(0), sum.factor[n] = R(0.3 + n);
@@ -54,12 +54,12 @@ TEST_CASE_TEMPLATE("a sum is that of plain loops, and ends with the row", R, flo
 TEST_CASE_TEMPLATE("the largest way of a row is found, and what is not finite", R, float, double) {
   for (const int columns : {1, 7, 16, 33}) {
     CAPTURE(columns);
-    const int stride = cpu::row_stride<R>(columns), last = columns - 1;
+    const int stride = simd::row_stride<R>(columns), last = columns - 1;
     const auto largest = [&](auto change) {
-      cpu::RowField<R> x = random_row<R>(columns, 1), old = x, v = random_row<R>(columns, 2);
+      simd::RowField<R> x = random_row<R>(columns, 1), old = x, v = random_row<R>(columns, 2);
       change(x, v);
-      alignas(cpu::widest_vector) R most[cpu::widest_vector / sizeof(R)] = {};
-      cpu::watch_ways(x.row(0), old.row(0), v.row(0), R(1e-3), stride, columns, most);
+      alignas(simd::widest_vector) R most[simd::widest_vector / sizeof(R)] = {};
+      cpu::watch_displacements(x.row(0), old.row(0), v.row(0), R(1e-3), stride, columns, most);
       R found = 0;
       for (const R m : most) found = std::isfinite(m) ? std::max(found, m) : std::numeric_limits<R>::infinity();
       return double(found);

@@ -12,6 +12,8 @@
 
 namespace tyglab::cpu::stiffness_test {
 
+using simd::RowField, simd::row_stride;
+
 /// Random coefficients for every spring of a lattice, and none beyond it.
 template <class R>
 struct Operator {

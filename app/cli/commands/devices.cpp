@@ -1,14 +1,9 @@
 #include "app/cli/commands/devices.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <csignal>
 #include <cstring>
-#include <functional>
 #include <iostream>
 
+#include "app/process/child.h"
 #include "app/render/graphics_error.h"
 #include "app/render/headless_context.h"
 #include "app/render/mapped_buffer.h"
@@ -61,7 +56,7 @@ std::string shared_buffer_problem(int number) {
     Simulation simulation(preset);
     WrittenVertices vertices;
     std::size_t looked_at = 0;
-    vertices.write(simulation.engine(), {{simulation.lattice(), 1}, true}, looked_at);
+    vertices.write(*simulation.engine().vertex_sharing(), {{simulation.lattice(), 1}, true}, looked_at);
     return {};
   } catch (const GraphicsError& error) {
     return std::string("OpenGL is not there without a window: ") + error.what();
@@ -111,36 +106,34 @@ void print_opencl() {
               << names_of_methods(false) << ".\n";
 }
 
-/// What happens in the child: never returns. Only the parent speaks of Ctrl-C, which reaches both.
-[[noreturn]] void work_and_exit(const std::function<void()>& work) noexcept {
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-  work();
-  try {
-    flush_standard_output();
-  } catch (const OutputError&) {
-    ::_exit(exit_output);
-  }
-  ::_exit(exit_done);
-}
-
-/// Runs `work` in a process of its own: a driver that aborts takes its process along. Returns the signal that ended it,
-/// or 0. Throws OutputError if what it had to say did not arrive.
-int in_child(const std::function<void()>& work) {
+/// Prints in a process of its own, since a driver that aborts takes its process along. Returns the signal that ended
+/// it, or 0. Throws OutputError if not all that it printed arrived.
+int print_in_child(void (*print)()) {
   flush_standard_output();
-  const pid_t child = ::fork();
-  if (child < 0) return work(), 0;
-  if (child == 0) work_and_exit(work);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  const std::string arrived = "arrived";
+  // What is thrown by a driver ends the child like an abort.
+  const auto work = [&]() noexcept -> std::string {
+    print();
+    try {
+      flush_standard_output();
+    } catch (const OutputError&) {
+      return {};
+    }
+    return arrived;
+  };
+  try {
+    const ChildExit exit = run_in_child(work, {.interruptible = true});  // only this process speaks of Ctrl-C
+    if (exit.signal == 0 && exit.result != arrived)
+      throw OutputError("standard output: not all of the list could be written");
+    return exit.signal;
+  } catch (const ChildError&) {
+    return print(), 0;
   }
-  if (WIFSIGNALED(status)) return WTERMSIG(status);
-  if (WEXITSTATUS(status) == exit_output) throw OutputError("standard output: not all of the list could be written");
-  return 0;
 }
 
 int devices() {
   print_cpu();
-  if (const int signal = in_child(print_opencl))
+  if (const int signal = print_in_child(print_opencl))
     std::cout << "\nAn OpenCL driver of this system crashed (" << ::strsignal(signal)
               << ") when it was asked for its devices, so none can be used. Pocl does so where /sys is not mounted.\n";
   return exit_done;

@@ -65,8 +65,8 @@ std::string run_case(std::uint64_t seed, std::int64_t number) {
 }
 
 /// The row of a case, also where its process did not come to its end.
-Json row_of(std::uint64_t seed, std::int64_t number, const ChildOutcome& outcome) {
-  Json row = outcome.text.empty() ? Json() : Json::parse(outcome.text, nullptr, false);
+Json row_of(std::uint64_t seed, std::int64_t number, const ChildExit& outcome) {
+  Json row = outcome.result.empty() ? Json() : Json::parse(outcome.result, nullptr, false);
   if (!row.is_object()) {
     StressResult lost;
     lost.preset = stress_preset(seed, std::uint64_t(number));
@@ -115,7 +115,7 @@ int stress(const StressOptions& options) {
   int failed = 0;
   InterruptGuard guard;
   Progress progress("stability stress");
-  const auto ended = [&](std::int64_t number, const ChildOutcome& outcome) {
+  const auto ended = [&](std::int64_t number, const ChildExit& outcome) {
     const Json row = row_of(seed, number, outcome);
     ++counts[row["integrator"]][row["status"]];
     if (row["status"] == "failed") {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/engines/cpu/row_update.h"
 #include "core/forces/contact.h"
 #include "core/forces/spring-inl.h"
 #include "core/simd/row_distances.h"
-#include "core/simd/row_update.h"
 
 namespace tyglab::cpu {
 namespace {
@@ -24,7 +24,7 @@ Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), beg
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::make_room(bool old_rows) {
+void Band<R, Present>::allocate(bool old_rows) {
   if (old_rows && old_rows_.empty()) old_rows_.resize(2, cloth_.stride);
 }
 
@@ -62,7 +62,7 @@ PairTask<R> Band<R, Present>::task(const ResolvedSweep& s) {
   for (int c = 0; c < 3; ++c) t.W[c] = cloth_.preset.W[c];
   t.v_to_x = s.v_to_x, t.force_to_x = s.force_to_x, t.force_to_v = s.force_to_v;
   t.dt_v = cloth_.dt / cloth_.velocity_scale();
-  t.max_displacement = largest_way_.data();
+  t.max_displacement = max_displacement_.data();
   return t;
 }
 
@@ -144,14 +144,14 @@ void Band<R, Present>::assign_row(const std::vector<ResolvedSweep::ResolvedAssig
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::keep_pair(int i) {
+void Band<R, Present>::save_pair(int i) {
   for (int row = i; row < std::min(i + 2, end_); ++row)
     std::copy_n(cloth_.row(vector_x, row, 0), old_rows_.pitch(), old_row(row, 0));
 }
 
 /// A pair swept in the halo goes back to the cloth.
 template <class R, unsigned Present>
-void Band<R, Present>::give_back_pair(const PairTask<R>& t, const ResolvedSweep& s, int i) {
+void Band<R, Present>::restore_pair(const PairTask<R>& t, const ResolvedSweep& s, int i) {
   Field &x = cloth_.vector(s.position), &v = cloth_.vector(s.velocity);
   std::copy_n(t.x, 2 * x.pitch(), x.row(i));
   std::copy_n(t.v, 2 * v.pitch(), v.row(i));
@@ -165,12 +165,13 @@ bool Band<R, Present>::touches(int i) const {
   for (const Body& body : cloth_.preset.bodies) {
     if (body.shape == Body::Shape::plane) {
       const R height = std::nextafter(R(body.y), std::numeric_limits<R>::max());
-      if (lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
+      if (simd::lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
       continue;
     }
     const R centre[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
     const double reach = body.r + contact_tolerance(body, body.c, epsilon);
-    if (double(nearest_squared(x, cloth_.stride, cloth_.lattice.columns, centre)) < reach * reach * (1 + 8 * epsilon))
+    if (double(simd::nearest_squared(x, cloth_.stride, cloth_.lattice.columns, centre)) <
+        reach * reach * (1 + 8 * epsilon))
       return true;
   }
   return false;
@@ -199,7 +200,7 @@ void Band<R, Present>::collide_row(int i) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
       cloth_.row(cloth_.seen_velocity, i, c)[j] = *v[c];
       // A body that was moved into the cloth may push a particle further than it would have gone.
-      largest_way_[0] = std::max(largest_way_[0], std::abs(*x[c] - old_row(i, c)[j]));
+      max_displacement_[0] = std::max(max_displacement_[0], std::abs(*x[c] - old_row(i, c)[j]));
     }
     if (cloth_.notes_contacts)
       contacts_.push_back({i * cloth_.lattice.columns + j, freely.x - glm::dvec3(*x[0], *x[1], *x[2]),
@@ -210,8 +211,9 @@ void Band<R, Present>::collide_row(int i) {
 /// What the pair sweep does itself where it makes the update: keeps the largest way.
 template <class R, unsigned Present>
 void Band<R, Present>::watch_row(int i) {
-  watch_ways(cloth_.row(vector_x, i, 0), old_row(i, 0), cloth_.row(vector_v, i, 0),
-             R(cloth_.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns, largest_way_.data());
+  watch_displacements(cloth_.row(vector_x, i, 0), old_row(i, 0), cloth_.row(vector_v, i, 0),
+                      R(cloth_.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns,
+                      max_displacement_.data());
 }
 
 template <class R, unsigned Present>
@@ -227,8 +229,8 @@ void Band<R, Present>::measure(const ResolvedEstimate& estimate, const ResolvedS
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::begin_watch() {
-  largest_way_.fill(R(0));
+void Band<R, Present>::reset_watch() {
+  max_displacement_.fill(R(0));
   contacts_.clear();
   left_inside_ = 0;
   collided_ = false;
@@ -238,7 +240,7 @@ template <class R, unsigned Present>
 double Band<R, Present>::max_displacement() const {
   double largest = 0;
   bool finite = true;
-  for (const R way : largest_way_) {
+  for (const R way : max_displacement_) {
     finite &= std::isfinite(way);
     largest = std::max(largest, double(way));
   }
@@ -259,9 +261,9 @@ void Band<R, Present>::sweep_pair(int i) {
   const ResolvedSweep& s = *pass_.sweep;
   const bool last = pass_.last, bodies = pass_.bodies, assigns = pass_.assigns;
   point_at_pair(pass_.task, s, *pass_.tears, i);
-  if (bodies || (last && assigns)) keep_pair(i);
+  if (bodies || (last && assigns)) save_pair(i);
   forces_on_pair(pass_.task, assigns ? Update::force : s.update);
-  if (!assigns && in_tail(i)) give_back_pair(pass_.task, s, i);
+  if (!assigns && in_tail(i)) restore_pair(pass_.task, s, i);
   for (int row = i; row < std::min(i + 2, end_); ++row) {
     if (assigns)
       fix_row(row), assign_row(s.assignments, row);
@@ -283,7 +285,7 @@ template <class R, unsigned Present>
 void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last) {
   const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && cloth_.preset.kind == Kind::cloth;
   for (int i = begin_; i < end_; ++i) {
-    if (last && i % 2 == 0) keep_pair(i);
+    if (last && i % 2 == 0) save_pair(i);
     assign_row(assignments, i);
     if (bodies && touches(i)) collide_row(i);
     if (last) watch_row(i);

@@ -1,6 +1,6 @@
-// A band of rows, the work of one thread, pair after pair. Bands sweep in place at the same time; what a band needs of
-// its neighbours' rows it copies before anyone writes, and the forces that come from the pair above it it computes
-// again, in the same order, so the result does not depend on the number of bands.
+// A band of rows, swept by one thread, pair by pair. Bands sweep in place at the same time: each copies the rows of its
+// neighbors that it needs before any thread writes, and recomputes the forces from the pair above it in the same order,
+// so the result does not depend on the number of bands.
 #pragma once
 
 #include <array>
@@ -14,15 +14,17 @@
 #include "core/cloth/tears.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/parts.h"
+#include "core/engines/cpu/row_update.h"
 #include "core/engines/engine.h"
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 #include "core/simd/row_field.h"
-#include "core/simd/row_update.h"
 
 namespace tyglab::cpu {
 
-/// Sums of state vectors that a step is judged by (scheme.h), all over the same vectors.
+using simd::RowField, simd::row_stride, simd::widest_vector;
+
+/// Sums of state vectors by which a step is judged (scheme.h), all over the same vectors.
 struct ResolvedEstimate {
   struct Share {
     int vector;
@@ -31,7 +33,7 @@ struct ResolvedEstimate {
   std::vector<Share> shares;
 };
 
-/// A sweep with its coefficients worked out for one dt and m: acceleration terms multiply forces, so they hold 1/m.
+/// A sweep with its coefficients for one dt and m. Coefficients of acceleration multiply forces, so they include 1/m.
 struct ResolvedSweep {
   struct ResolvedTerm {
     int vector;
@@ -46,37 +48,37 @@ struct ResolvedSweep {
   std::vector<ResolvedAssignment> assignments;
   bool external = false, projects = false;  ///< as in Sweep
   double solve_dt = 0;                      ///< not 0: an implicit stage over that time is solved first
-  std::vector<ResolvedAssignment> before;   ///< made before it
-  Update update = Update::force;  ///< what the pair sweep does by itself; force: the assignments are made row by row
-  double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other two
-  const ResolvedEstimate* estimate = nullptr;         ///< each row is measured by it
+  std::vector<ResolvedAssignment> before;   ///< made before the solve
+  Update update = Update::force;            ///< by the pair sweep itself; force: assignments follow row by row
+  double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other kinds
+  const ResolvedEstimate* estimate = nullptr;         ///< measured for each row, unless null
 };
 
-/// What all bands share: the arrays and what is known of the scene.
+/// What all bands share: the arrays and the scene.
 template <class R>
 struct Cloth {
   using Field = RowField<R>;
 
   Preset preset;
-  double dt = 0;  ///< of the step that is being made, s: the preset's, or that of an inner step
+  double dt = 0;  ///< of the present step, s: the preset's, or that of an inner step
   Lattice lattice;
   int stride = 0;
   PairSweeps<R> sweeps;
   unsigned features = 0;
   bool keeps_displacement = false;
-  bool notes_contacts = false;   ///< whether bands note what bodies stop
-  int seen_velocity = vector_v;  ///< vector that damping sees where a step begins
+  bool notes_contacts = false;   ///< whether bands record what bodies stop
+  int seen_velocity = vector_v;  ///< vector that damping uses at the start of a step
   std::vector<Field> vectors;
-  std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row after row
-  std::vector<int> fixed_begin;     ///< where each row's begin
-  std::vector<std::uint8_t> fixed;  ///< mask over i·columns + j, empty if none
+  std::vector<int> fixed_columns;   ///< columns of pinned and held particles, row by row
+  std::vector<int> fixed_begin;     ///< index of each row's first among them
+  std::vector<std::uint8_t> fixed;  ///< 1 at i·columns + j if pinned or held; empty if none is
   Held held;
 
   Field& vector(int number) { return vectors[std::size_t(number)]; }
   const Field& vector(int number) const { return vectors[std::size_t(number)]; }
   R* row(int vector, int i, int component) { return vectors[std::size_t(vector)].row(i, component); }
   const R* row(int vector, int i, int component) const { return vectors[std::size_t(vector)].row(i, component); }
-  std::vector<RowMeasures> measures;  ///< of each row, by the last sweep with an estimate
+  std::vector<RowMeasures> measures;  ///< of each row, from the last sweep with an estimate
   double velocity_scale() const { return keeps_displacement ? preset.dt : 1; }
   bool has_fixed(int i) const { return fixed_begin[std::size_t(i)] < fixed_begin[std::size_t(i) + 1]; }
 };
@@ -91,33 +93,33 @@ class Band {
   /// where there are several bands.
   Band(Cloth<R>& cloth, int begin, int end);
   static constexpr int least_rows = 8;
-  /// For the positions before a pair is overwritten, where bodies or the watch over a method with more vectors need
-  /// them. Before the first sweep.
-  void make_room(bool old_rows);
+  /// Allocates buffers, before the first sweep. `old_rows`: also for the positions before a pair is overwritten, for
+  /// bodies and for watching the motion in methods with more vectors.
+  void allocate(bool old_rows);
 
-  /// Before a sweep, while nobody writes: copies the neighbours' rows that this band reads.
+  /// Copies the neighbors' rows that this band reads: before a sweep, while no thread writes.
   void copy_halo(const ResolvedSweep& sweep);
-  /// One pass over the band's rows. `last`: the last sweep of a step, in which bodies act and motion is watched.
+  /// One pass over the band's rows. `last`: the last sweep of a step, in which bodies act and the motion is watched.
   void sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
-  /// The same pair by pair: i and i + 1 of the band's rows, from its first row on. The arguments must outlive the pass.
+  /// The same pair by pair: rows i and i + 1, from the band's first row on. The arguments must outlive the pass.
   void begin_sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
   void sweep_pair(int i);
-  /// Makes assignments, none of which names a. `last` as above.
+  /// Makes assignments that do not use a. `last` as above.
   void assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last);
-  /// F/m of the present state into `out`. `of_step`: it belongs to the step, so the hand feels it; otherwise nothing
-  /// else changes.
+  /// Writes F/m of the present state. `of_step`: it belongs to the step, so the force on the hand is updated; otherwise
+  /// nothing else changes.
   void accelerations(const ResolvedSweep& sweep, const Tears& tears, Field& out, bool of_step = false);
 
-  void begin_watch();
-  /// Largest way of a particle in one component since begin_watch, m; ∞ if something is not finite.
+  void reset_watch();
+  /// Largest displacement of a particle in one component since reset_watch(), m; ∞ if something is not finite.
   double max_displacement() const;
   int left_inside() const { return left_inside_; }
-  /// Whether a body has moved a particle since begin_watch.
+  /// Whether a body has moved a particle since reset_watch().
   bool collided() const { return collided_; }
-  /// The force on the hand's particle as the last sweep found it; only the band that has its row sets it.
+  /// The force on the held particle in the last sweep, N; only the band with its row has it.
   bool has_hand() const { return has_hand_; }
   glm::dvec3 hand_force() const { return hand_force_; }
-  /// What bodies stopped since begin_watch, where the cloth notes it.
+  /// What bodies stopped since reset_watch(), if the cloth records it.
   std::span<const Contact> contacts() const { return contacts_; }
   std::size_t bytes() const;
 
@@ -137,8 +139,8 @@ class Band {
   void read_hand(int i);
   void fix_row(int i);
   void assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i);
-  void keep_pair(int i);
-  void give_back_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
+  void save_pair(int i);
+  void restore_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
   bool touches(int i) const;
   void collide_row(int i);
   void watch_row(int i);
@@ -163,7 +165,7 @@ class Band {
   Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
-  alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> largest_way_{};  ///< by lane
+  alignas(widest_vector) std::array<R, widest_vector / sizeof(R)> max_displacement_{};  ///< by lane
   int left_inside_ = 0;
   std::vector<Contact> contacts_;
   bool collided_ = false;

@@ -95,7 +95,6 @@ void CpuEngine<R, Present>::take_next_dt() {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_interval(const Tears& tears) {
   left_of_dt_ = cloth_.preset.dt;
-  end_ = End::none;
   inner_contacts_.clear();
   if (!control_.begun()) begin_control(tears);
   take_next_dt();
@@ -141,9 +140,10 @@ void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   if (cloth_.notes_contacts)
     for (const auto& band : bands_)
       inner_contacts_.insert(inner_contacts_.end(), band->contacts().begin(), band->contacts().end());
-  const End end = finish_step(bands_, tears, fault);
-  if (end != End::none) end_ = end;
-  left_of_dt_ = end == End::fault ? 0 : left_of_dt_ - cloth_.dt;
+  const StepsEnd end = guard_.judge(*this, 1, tears, fault).end;
+  if (end != StepsEnd::complete) made_.end = end;
+  left_of_dt_ = end == StepsEnd::fault ? 0 : left_of_dt_ - cloth_.dt;
+  if (left_of_dt_ <= 0 && made_.end != StepsEnd::fault) ++made_.count;
   // The last a is the next step's first, unless something else than the method has moved the particles or the springs.
   std::swap(cloth_.vector(sweeps_.front().assignments.front().target),
             cloth_.vector(sweeps_.back().assignments.front().target));
@@ -162,7 +162,7 @@ void CpuEngine<R, Present>::step_adaptively(int number, Tears& tears, Fault& fau
     if (number == 0) judge_inner_step();
     team_->barrier();
     if (!accepted_) continue;
-    band.begin_watch();
+    band.reset_watch();
     band.assign(accepting_, true);
     team_->barrier();
     if (number == 0) finish_inner_step(tears, fault);

@@ -118,7 +118,11 @@ void CpuEngine<R, Present>::resolve() {
   cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
                                (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
   make_waves();
-  invalidate_budgets();
+  const Preset& p = cloth_.preset;
+  guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
+                    .F_release = p.F_release,
+                    .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_)});
+  guard_.invalidate();
 }
 
 template <class R, unsigned Present>
@@ -147,7 +151,7 @@ void CpuEngine<R, Present>::make_waves() {
   for (auto& wave : waves_)
     if (!wave) wave = std::make_unique<Band<R, Present>>(cloth_, 0, rows);
   for (auto* list : {&bands_, &waves_})
-    for (auto& band : *list) band->make_room(keeps_old_rows());
+    for (auto& band : *list) band->allocate(keeps_old_rows());
 }
 
 template <class R, unsigned Present>
@@ -183,7 +187,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   }
   set_fixed(std::vector<int>(pinned_), cloth_.held);
   restart_control();
-  invalidate_budgets();
+  guard_.invalidate();
 }
 
 template <class R, unsigned Present>
@@ -240,7 +244,7 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
         if (const int i = p / cloth_.lattice.columns + di, j = p % cloth_.lattice.columns + dj;
             cloth_.lattice.contains(i, j))
           guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
-  invalidate_budgets();
+  guard_.invalidate();
 }
 
 template <class R, unsigned Present>

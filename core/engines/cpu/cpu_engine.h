@@ -1,7 +1,6 @@
 // The CPU engine: runs every explicit scheme in place over rows, in SIMD.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <span>
 
@@ -10,14 +9,14 @@
 #include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
 #include "core/engines/engine.h"
-#include "core/engines/fault.h"
+#include "core/engines/step_guard.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::cpu {
 
 /// `Present`: the parts that are compiled in (parts.h).
 template <class R, unsigned Present = part::everything>
-class CpuEngine final : public Engine {
+class CpuEngine final : public Engine, private GuardedSteps {
  public:
   CpuEngine(const Preset& preset, const Lattice& lattice, int threads);
 
@@ -41,12 +40,11 @@ class CpuEngine final : public Engine {
 
  private:
   using Field = RowField<R>;
-  enum class End { none, fault, released, rolled_back };
 
   static constexpr bool has(unsigned which) { return (Present & which) != 0; }
-  /// More rows than the cloth has: the sweep loads neighbours before it masks those that are not there.
+  /// More rows than the cloth has, since the sweep loads neighbors before it masks those that do not exist.
   int array_rows() const { return cloth_.lattice.rows + 3; }
-  /// The first row of a thread's band; of the number after the last, where the cloth ends.
+  /// The first row of a thread's band; for the number after the last, the number of rows.
   int band_begin(int number) const;
   void resolve();
   void resolve_estimate();
@@ -58,13 +56,13 @@ class CpuEngine final : public Engine {
   void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
   /// The implicit stage of a sweep, on this thread alone.
   void solve(const ResolvedSweep& sweep, const Tears& tears);
-  /// Works the coefficients out for steps of that length.
+  /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
-  /// The same for an inner step, which comes often: in place.
+  /// The same in place, for inner steps, where it happens often.
   void change_dt(double dt);
   void scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const;
   void scale_estimate();
-  /// Covers dt with inner steps, all threads together; end_ says how it ended.
+  /// Covers dt with inner steps, all threads together, and judges each.
   void step_adaptively(int number, Tears& tears, Fault& fault);
   void take_next_dt();
   void begin_interval(const Tears& tears);
@@ -75,73 +73,59 @@ class CpuEngine final : public Engine {
   /// Positions and vector 1 as a velocity.
   void read_stored(State& state) const;
 
-  double tear_overloaded(Tears& tears);
+  // What the guard asks for.
+  StepsMade make_steps(int most, Tears& tears, Fault& fault) override;
+  StepOutcome outcome(int step) override;
+  double tear_overloaded(Tears& tears) override;
+  bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
+  void keep_backup() override;
+  void repeat(int steps, Tears& tears) override;
+
   double tear_row(Tears& tears, int direction, int i);
   bool guarded(int i, int j) const {
     return !guards_.empty() && guards_[std::size_t(i) * cloth_.lattice.columns + j] != 0;
   }
-  /// Looks at every particle and spring; if all is well, says how much motion may pass before the next look.
-  bool find_fault(const Tears& tears, Fault& fault);
   StateView<R> view() const;
-  /// The steps before say nothing any more of how long the next may be.
+  /// The steps before no longer say anything about how long the next may be.
   void restart_control() { control_.restart(), knows_first_a_ = false; }
-  /// Forgets how far particles may still move, and the backup: something else than their motion has changed.
-  void invalidate_budgets() {
-    divergence_budget_ = tear_budget_ = 0;
-    since_backup_ = -1;
-    growth_ = std::numeric_limits<double>::infinity();
-  }
-  End finish_step(std::span<const std::unique_ptr<Band<R, Present>>> bands, Tears& tears, Fault& fault);
-  /// Steps until done, the hand lets go, a fault is found, or a step of a wave had to be looked at (end_ says which);
-  /// returns the steps without fault. `waves`: several steps at a time where that pays.
-  int run(int steps, Tears& tears, Fault& fault, bool waves);
+  /// Makes and judges steps until one asks to stop. `waves`: several steps at a time where that pays off.
+  StepsMade run(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
-  /// What a sweep that projects does, with its assignments.
+  /// A sweep that projects, with its assignments.
   void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
   void read_hand(const Tears& tears);
-  /// How many of the `left` steps can follow each other through the rows before one must be looked at: 1 or more.
+  /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
-  /// That many steps in one pass over the rows: each sweep two rows behind the one before it, so that rows are worked
-  /// on while they lie in the cache. Threads share the sweeps out and follow each other, without a barrier.
+  /// Makes that many steps in one pass over the rows: each sweep is two rows behind the one before it, so that rows are
+  /// still in the cache. Threads divide the sweeps among them and follow each other, without a barrier.
   void step_in_waves(int number, int steps, const Tears& tears);
-  void keep_backup(const Tears& tears);
-  void repeat(int steps, Tears& tears);
-  bool tears_watched() const {
-    return has(part::tearing) && cloth_.preset.F_max > 0 && cloth_.preset.k_s > 0 && cloth_.preset.kind == Kind::cloth;
-  }
-  int finish_wave(int steps, Tears& tears, Fault& fault);
 
   Cloth<R> cloth_;
   const Scheme* scheme_ = nullptr;
   std::vector<ResolvedSweep> sweeps_;
   StepControl control_, control_backup_;
   ResolvedEstimate estimate_;
-  std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step whose first a is known
-  std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once it is accepted
-  double left_of_dt_ = 0;                                      ///< s that inner steps have still to cover
+  std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step, whose first a is known
+  std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once the step is accepted
+  double left_of_dt_ = 0;                                      ///< that inner steps have yet to cover, s
   bool knows_first_a_ = false, accepted_ = false;
   std::vector<Field> backup_;
-  Tears tears_backup_;
-  int since_backup_ = -1;             ///< steps; under 0: there is none
-  int torn_ = 0;                      ///< springs, when a step was last made: cuts come from outside
-  Field acceleration_;                ///< used between steps alone (readouts, starts)
-  std::vector<std::uint8_t> guards_;  ///< particles whose springs tearing leaves alone
+  Field acceleration_;                ///< used only between steps (readouts, starts)
+  std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
   std::vector<int> pinned_;
   std::vector<Contact> inner_contacts_;  ///< of all inner steps of the last dt
   ImplicitSolver<R> solver_;
   Projector<R> projector_;
   int projected_torn_ = 0;
-  bool springs_changed_ = true;  ///< or what is fixed, since the projector looked
+  bool springs_changed_ = true;  ///< or what is fixed, since the projector was prepared
   std::unique_ptr<Team> team_;
   std::vector<std::unique_ptr<Band<R, Present>>> bands_;
-  std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< all rows each, a sweep each
-  std::vector<Progress> progress_;                        ///< of each thread's last sweep of a wave
-  double growth_ = 0;                                     ///< of a spring in the last step, at most, m; ∞: not known
-  int left_inside_ = 0;
-  End end_ = End::none;
-  glm::dvec3 hand_force_{0};
-  double tear_budget_ = 0;        ///< m that particles may still move before a spring can be overloaded
-  double divergence_budget_ = 0;  ///< m that particles may still move before springs must be measured again
+  std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< one for each sweep of a wave, over all rows
+  std::vector<Progress> progress_;                        ///< of each thread's last sweep in a wave
+  StepGuard guard_;
+  StepsMade made_;            ///< by the present run
+  int together_ = 0;          ///< steps that are made in one pass over the rows; 0: the run is over
+  glm::dvec3 hand_force_{0};  ///< on the held particle, of a method that projects
 };
 
 std::unique_ptr<Engine> make_cpu_engine(const Preset& preset, const Lattice& lattice, int threads);

@@ -1,7 +1,6 @@
-// Stepping: bands side by side, then what needs the whole cloth: tearing, the hand's release, the watch for divergence.
+// Stepping: bands side by side or in waves, then what needs the whole cloth: tearing and the search for faults.
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
 
 #include "core/engines/cpu/cpu_engine.h"
@@ -36,8 +35,8 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
   const double rest = dir.rest * cloth_.preset.L, longest = rest + cloth_.preset.F_max / cloth_.preset.k_s;
   const int begin = std::max(0, -dir.dj), end = cloth_.lattice.columns - std::max(0, dir.dj);
   // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be overloaded.
-  const double found = double(longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
-                                              dir.di * cloth_.vector(vector_x).pitch() + dir.dj, begin, end));
+  const double found = double(simd::longest_squared(cloth_.row(vector_x, i, 0), cloth_.stride,
+                                                    dir.di * cloth_.vector(vector_x).pitch() + dir.dj, begin, end));
   if (found <= longest * longest * (1 - rounding<R>)) return found;
   double left = 0;
   for (int j = begin; j < end; ++j) {
@@ -52,39 +51,31 @@ double CpuEngine<R, Present>::tear_row(Tears& tears, int d, int i) {
 }
 
 template <class R, unsigned Present>
-bool CpuEngine<R, Present>::find_fault(const Tears& tears, Fault& fault) {
-  return tyglab::find_fault(cloth_.preset, cloth_.lattice, tears, view(), fault, divergence_budget_);
+bool CpuEngine<R, Present>::find_fault(Tears& tears, Fault& fault, double& divergence_budget) {
+  return tyglab::find_fault(cloth_.preset, cloth_.lattice, tears, view(), fault, divergence_budget);
 }
 
-/// Ends a step on one thread: says whether to go on.
 template <class R, unsigned Present>
-typename CpuEngine<R, Present>::End CpuEngine<R, Present>::finish_step(
-    std::span<const std::unique_ptr<Band<R, Present>>> bands, Tears& tears, Fault& fault) {
-  const Preset& preset = cloth_.preset;
+StepOutcome CpuEngine<R, Present>::outcome(int step) {
+  std::span<const std::unique_ptr<Band<R, Present>>> bands(bands_);
+  if (together_ > 1) bands = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
+  const bool hand = has(part::hand) && cloth_.held.particle >= 0, projected = projects(*scheme_);
   double largest = 0;
-  left_inside_ = 0;
+  StepOutcome result;
   for (const auto& band : bands) {
     largest = std::max(largest, band->max_displacement());
-    left_inside_ += band->left_inside();
-    if (has(part::hand) && band->has_hand() && !projects(*scheme_)) hand_force_ = band->hand_force();
+    result.left_inside += band->left_inside();
+    if (hand && !projected && band->has_hand()) result.hand_force = band->hand_force();
   }
-  growth_ = max_elongation(largest);
-  if (tears_watched()) {
-    tear_budget_ -= growth_;
-    if (!(tear_budget_ > 0)) tear_budget_ = tear_overloaded(tears);
-  }
-  divergence_budget_ -= growth_;
-  if (!(divergence_budget_ > 0) && find_fault(tears, fault)) return End::fault;
-  if (has(part::hand) && cloth_.held.particle >= 0 && preset.F_release > 0 &&
-      glm::length(hand_force_) > preset.F_release)
-    return End::released;
-  return End::none;
+  if (hand && projected) result.hand_force = hand_force_;
+  result.elongation = max_elongation(largest);
+  return result;
 }
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   Band<R, Present>& band = *bands_[std::size_t(number)];
-  band.begin_watch();
+  band.reset_watch();
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
     if (sweep.projects) {
@@ -139,10 +130,7 @@ template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_in_wave(int left) const {
   const int most = std::min(left, int(waves_.size() / sweeps_.size()));
   const bool hand = has(part::hand) && cloth_.held.particle >= 0 && cloth_.preset.F_release > 0;
-  const double motion = tears_watched() ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
-  if (most <= 1 || hand || !(motion > 0)) return 1;
-  constexpr double margin = 2;  // motion does not double within a wave, unless something is going wrong
-  return int(std::clamp(motion / (margin * growth_), 1.0, double(most)));
+  return most <= 1 || hand ? 1 : guard_.steps_ahead(most);
 }
 
 template <class R, unsigned Present>
@@ -152,7 +140,7 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
   const int first = all * number / threads, end = all * (number + 1) / threads;
   for (int n = first; n < end; ++n) {
     const ResolvedSweep& sweep = sweeps_[std::size_t(n % sweeps)];
-    waves_[std::size_t(n)]->begin_watch();
+    waves_[std::size_t(n)]->reset_watch();
     waves_[std::size_t(n)]->begin_sweep(sweep, tears, n % sweeps == sweeps - 1);
   }
   Progress& mine = progress_[std::size_t(number)];
@@ -164,109 +152,74 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
   }
 }
 
-/// Returns the steps without fault.
 template <class R, unsigned Present>
-int CpuEngine<R, Present>::finish_wave(int steps, Tears& tears, Fault& fault) {
-  const std::size_t sweeps = sweeps_.size();
-  for (int n = 0; n < steps; ++n) {
-    const std::span last(&waves_[std::size_t(n + 1) * sweeps - 1], 1);
-    const double growth = max_elongation(last[0]->max_displacement());
-    const bool look = !(divergence_budget_ - growth > 0) || (tears_watched() && !(tear_budget_ - growth > 0));
-    if (look && n < steps - 1) {
-      end_ = End::rolled_back;  // its positions are gone
-      return n;
-    }
-    end_ = finish_step(last, tears, fault);
-  }
-  return end_ == End::fault ? steps - 1 : steps;
-}
-
-template <class R, unsigned Present>
-int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
-  int done = 0, together = 1;
-  end_ = End::none;
+StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+  made_ = {};
   const auto plan = [&] {
-    together = end_ != End::none || done == steps ? 0 : waves ? steps_in_wave(steps - done) : 1;
+    const int left = made_.end == StepsEnd::complete ? steps - made_.count : 0;
+    together_ = left > 0 && waves ? steps_in_wave(left) : std::min(left, 1);
     for (Progress& progress : progress_) progress.restart();
+  };
+  const auto judge = [&] {
+    const StepsMade judged = guard_.judge(*this, together_, tears, fault);
+    made_ = {made_.count + judged.count, judged.end};
   };
   plan();
   team_->run([&](int number) {
-    while (together > 0) {
-      if (together > 1) {
-        step_in_waves(number, together, tears);
+    while (together_ > 0) {
+      if (together_ > 1) {
+        step_in_waves(number, together_, tears);
         team_->barrier();
-        if (number == 0) done += finish_wave(together, tears, fault);
       } else if (chooses_steps(*scheme_)) {
         step_adaptively(number, tears, fault);
-        if (number == 0 && end_ != End::fault) ++done;
       } else {
         step_in_bands(number, tears);
-        if (number == 0) {
-          end_ = finish_step(bands_, tears, fault);
-          if (end_ != End::fault) ++done;
-        }
       }
-      if (number == 0) plan();
+      if (number == 0) {
+        if (!chooses_steps(*scheme_)) judge();  // inner steps have been judged
+        plan();
+      }
       team_->barrier();
     }
   });
-  return done;
+  return made_;
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::keep_backup(const Tears& tears) {
-  for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
-  control_backup_ = control_;
-  if (tears_watched()) tears_backup_ = tears;
-  since_backup_ = 0;
+StepsMade CpuEngine<R, Present>::make_steps(int most, Tears& tears, Fault& fault) {
+  return run(most, tears, fault, true);
 }
 
-/// The sweep works in place: return to the backup and repeat that many good steps, which gives the same bits.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::keep_backup() {
+  for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
+  control_backup_ = control_;
+}
+
+/// Without waves, which would overwrite states that are to be examined.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
-  if (tears_watched()) tears = tears_backup_;
-  invalidate_budgets();
-  Fault none{};
-  const End end = end_;
-  run(steps, tears, none, false);
-  invalidate_budgets();
-  end_ = end;
+  Fault known{};
+  run(steps, tears, known, false);
 }
 
 template <class R, unsigned Present>
 Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
-  Advance result;
-  const int torn_before = tears.torn_count();
-  Fault fault{};
-  while (result.steps < steps && !result.diverged && !result.released) {
-    if (torn_ != tears.torn_count()) restart_control();  // cut from outside
-    if (since_backup_ < 0 || since_backup_ >= steps_between_backups || torn_ != tears.torn_count()) keep_backup(tears);
-    const int before = since_backup_, batch = std::min(steps - result.steps, steps_between_backups - before);
-    int done = run(batch, tears, fault, true);
-    if (end_ == End::rolled_back) {
-      repeat(before, tears);
-      done = run(batch, tears, fault, false);
-    }
-    result.diverged = end_ == End::fault;
-    result.released = end_ == End::released;
-    if (result.diverged) repeat(before + done, tears);
-    result.steps += done;
-    since_backup_ =
-        is_implicit(*scheme_) || chooses_steps(*scheme_) ? -1 : before + done;  // such steps cost more than a copy
-    torn_ = tears.torn_count();
-  }
-  result.i = fault.i, result.j = fault.j, result.di = fault.di, result.dj = fault.dj, result.value = fault.value;
-  if (result.diverged) result.quantity = fault.quantity;
-  result.torn = tears.torn_count() - torn_before;
-  result.left_inside = left_inside_;
-  result.hand_force = has(part::hand) && cloth_.held.particle >= 0 ? hand_force_ : glm::dvec3(0);
-  return result;
+  if (guard_.springs_cut(tears)) restart_control(), guard_.accept_cuts(tears);
+  return guard_.advance(*this, steps, tears);
 }
 
-// What cpu_engine.cpp, where the class is instantiated, needs of this file.
-#define TYGLAB_MAKE(R, present) template Advance CpuEngine<R, (present)>::advance(int, Tears&);
+// What the engine's other files need of this one.
+#define TYGLAB_MAKE(R, present)                                                \
+  template Advance CpuEngine<R, (present)>::advance(int, Tears&);              \
+  template StepsMade CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&); \
+  template StepOutcome CpuEngine<R, (present)>::outcome(int);                  \
+  template double CpuEngine<R, (present)>::tear_overloaded(Tears&);            \
+  template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);  \
+  template void CpuEngine<R, (present)>::keep_backup();                        \
+  template void CpuEngine<R, (present)>::repeat(int, Tears&);
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE
 

@@ -65,7 +65,7 @@ ImplicitStage::Step ImplicitSolver<R>::step() {
 }
 
 template <class R>
-ImplicitStage::Landing ImplicitSolver<R>::go(double part) {
+ImplicitStage::Trial ImplicitSolver<R>::try_part(double part) {
   const std::span<R> v = velocity().all();
   for (std::size_t n = 0; n < v.size(); ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
   const double norm = evaluate();
@@ -73,13 +73,13 @@ ImplicitStage::Landing ImplicitSolver<R>::go(double part) {
 }
 
 template <class R>
-void ImplicitSolver<R>::take() {
+void ImplicitSolver<R>::accept() {
   const std::span<R> x = position().all(), v = velocity().all();
   for (std::size_t n = 0; n < v.size(); ++n) v[n] += step_.all()[n], x[n] = start_x_.all()[n] + R(task_.dt) * v[n];
 }
 
 template <class R>
-void ImplicitSolver<R>::linearise() {
+void ImplicitSolver<R>::linearize() {
   std::fill(blocks_.begin(), blocks_.end(), R(0));
   const bool weight = cloth().preset.kind == Kind::one_weight;
   mass_ = own_stiffness(cloth().preset, task_.dt);
@@ -87,13 +87,13 @@ void ImplicitSolver<R>::linearise() {
     for (int c = 0; c < 3; ++c) std::fill_n(block(i) + c * stride_, cloth().lattice.columns, R(mass_));
   if (!weight)
     for (int i = 0; i < rows_; ++i)
-      for (int d = 0; d < springs_of_a_particle; ++d) linearise_row(d, i);
+      for (int d = 0; d < springs_of_a_particle; ++d) linearize_row(d, i);
   invert_blocks();
 }
 
 /// The springs of a row in one direction: their coefficients, and what they add to the blocks of both ends.
 template <class R>
-void ImplicitSolver<R>::linearise_row(int d, int i) {
+void ImplicitSolver<R>::linearize_row(int d, int i) {
   const Direction& to = directions[d];
   R* part = coefficients_.data() + i * coefficient_pitch(stride_) + d * spring_parts * stride_;
   std::fill_n(part, spring_parts * stride_, R(0));
@@ -172,7 +172,7 @@ bool ImplicitSolver<R>::conjugate_gradients() {
   for (Field* field : {&step_, &direction_, &product_}) std::fill(field->all().begin(), field->all().end(), R(0));
   Residual now = update(0);
   const double enough = linear_tolerance * linear_tolerance * now.squared;
-  const int most = most_gradients(cloth().lattice);
+  const int most = max_gradient_steps(cloth().lattice);
   double before = std::numeric_limits<double>::infinity();
   for (int n = 0; n < most; ++n) {
     if (now.squared <= enough) return true;
@@ -198,7 +198,7 @@ bool ImplicitSolver<R>::gradients() {
 template <class R>
 bool ImplicitSolver<R>::solve_directly() {
   const Lattice& lattice = cloth().lattice;
-  if (cloth().preset.kind == Kind::one_weight || !DirectSolver::pays(lattice)) return false;
+  if (cloth().preset.kind == Kind::one_weight || !DirectSolver::is_quick(lattice)) return false;
   const auto fixed = [&](int i, int j) {
     return !cloth().fixed.empty() && cloth().fixed[std::size_t(i) * lattice.columns + j] != 0;
   };

@@ -1,6 +1,5 @@
-// The implicit stages of a method on this processor (newton.h), in SIMD, on one thread. Its linear systems are
-// multiplied row by row from what each spring resists with (stiffness.h); no matrix is stored unless one has to be
-// factorised.
+// The implicit stages of a method on the processor (newton.h), in SIMD, on one thread. Products with the matrix are
+// computed row by row from the stiffness of each spring (stiffness.h); it is stored only if it must be factorized.
 #pragma once
 
 #include <functional>
@@ -16,7 +15,7 @@ template <class R>
 class ImplicitSolver final : private ImplicitStage {
  public:
   using Field = RowField<R>;
-  /// Writes a of the vectors that are being solved for.
+  /// Writes a for the vectors that are being solved for.
   using Accelerations = std::function<void(Field&)>;
 
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
@@ -26,7 +25,7 @@ class ImplicitSolver final : private ImplicitStage {
   std::size_t bytes() const;
 
  private:
-  /// What solve() was called with.
+  /// Arguments of solve().
   struct Task {
     Cloth<R>* cloth;
     int position, velocity;
@@ -36,18 +35,18 @@ class ImplicitSolver final : private ImplicitStage {
   };
   double start_size() override;
   double evaluate() override;
-  void linearise() override;
+  void linearize() override;
   bool gradients() override;
   bool solve_directly() override;
   Step step() override;
-  Landing go(double part) override;
-  void take() override;
+  Trial try_part(double part) override;
+  void accept() override;
 
   const Cloth<R>& cloth() const { return *task_.cloth; }
   Field& position() { return task_.cloth->vector(task_.position); }
   Field& velocity() { return task_.cloth->vector(task_.velocity); }
   void resize();
-  void linearise_row(int direction, int i);
+  void linearize_row(int direction, int i);
   void invert_blocks();
   bool conjugate_gradients();
   double multiply();
@@ -57,13 +56,13 @@ class ImplicitSolver final : private ImplicitStage {
 
   Task task_{};
   int rows_ = 0, stride_ = 0;
-  double mass_ = 1;          ///< of A's diagonal beside the springs
+  double mass_ = 1;          ///< diagonal of A without the springs
   Field start_x_, start_v_;  ///< c_x and c_v
   Field acceleration_, before_;
-  Field residual_;  ///< and what conjugate gradients leave of it
+  Field residual_;  ///< then that of conjugate gradients
   Field step_;
   Field direction_, product_, preconditioned_;
-  Array<R> blocks_;  ///< of the diagonal, then their inverses
+  Array<R> blocks_;  ///< on the diagonal, then their inverses
   Array<R> coefficients_;
   DirectSolver direct_;
   SolveCounts counts_;

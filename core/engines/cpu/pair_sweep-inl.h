@@ -22,6 +22,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
 using namespace tyglab::HWY_NAMESPACE;
+using namespace tyglab::simd::HWY_NAMESPACE;
 
 /// What a row of a block has four of, one for each stretch spring that its particles own or, for `crossing`, that their
 /// right neighbours own. With A a particle, B to its right, C below it and E below B: A-B, A-C, A-E, B-C.

@@ -1,7 +1,7 @@
 // The sweep over a pair of rows, in SIMD: forces of the springs and triangles that the two rows own, and the update of
 // both. Springs are owned by their upper end, so once a pair is done the force on it is complete and it is overwritten
-// at once: a sweep runs in place, computes each spring once, and a never travels through memory. Two rows at a time,
-// since what the upper one hands to the lower then stays in registers.
+// at once: a sweep runs in place, computes each spring once, and a never passes through memory. Two rows at a time, so
+// that reactions of the upper row on the lower stay in registers.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,19 @@
 
 namespace tyglab::cpu {
 
-/// What a scene needs; worked out once when something changes, and a template argument of the sweep, so that what is
-/// off costs nothing.
+/// What a scene needs. A template argument of the sweep, so that what is off costs nothing.
 enum Feature : unsigned { bending = 1, damping = 2, wind = 4, feature_sets = 8 };
 
-/// What happens with the force on a row.
+/// What is done with the force on a row.
 enum class Update : unsigned {
   displacement,  ///< v += force_to_v·F, x += v: Verlet, whose v is a displacement
   general,       ///< x += v_to_x·v + force_to_x·F, v += force_to_v·F
-  force          ///< F takes the place of f[0] and f[1]: for schemes with more vectors, readouts
+  force          ///< F replaces f[0] and f[1]: for schemes with more vectors, and for readouts
 };
 
-/// Two rows for the sweep, the upper one of even number. Vectors of particles are laid out as in row_field.h and begin
-/// at the pair's first particle; two more rows follow. Columns beyond the cloth up to the end of a vector are there,
-/// hold 0 in v, and stay as they are, and so does the lower row if the cloth ends above it.
+/// Two rows for the sweep, the upper one even. Vectors of particles are laid out as in row_field.h and begin
+/// at the pair's first particle; two more rows follow. Columns beyond the cloth up to the end of a vector exist,
+/// are 0 in v, and stay as they are; so does the lower row if the cloth ends above it.
 template <class R>
 struct PairTask {
   R* x;
@@ -40,16 +39,16 @@ struct PairTask {
   double W[3];
   double v_to_x, force_to_x, force_to_v;
   Update update;
-  double dt_v;          ///< what v must be multiplied with to be a way, m: dt, or 1 for displacements
-  R* max_displacement;  ///< `lanes` numbers: the largest |component| of a way so far (m), where the update watches
+  double dt_v;          ///< factor from v to a displacement, m: dt, or 1 where v is one
+  R* max_displacement;  ///< `lanes` numbers: the largest |component| of a displacement so far, m, if the update watches
 };
 
-/// The functions for one precision, for the best instruction set of this machine.
+/// The sweeps for one precision, for the best instruction set of this machine.
 template <class R>
 struct PairSweeps {
   using Function = void (*)(const PairTask<R>&);
-  /// Verlet's update is compiled in; the others are looked up in the task for each row, which costs them next to
-  /// nothing, and every build less. A way that is not finite makes max_displacement ∞ or NaN.
+  /// Verlet's update is compiled in. The others are looked up in the task for each row, which costs next to nothing and
+  /// keeps builds short. A displacement that is not finite makes max_displacement ∞ or NaN.
   struct OfFeatures {
     Function displacement, other;
   };

@@ -1,5 +1,5 @@
-// What an engine is built to do. The engine that scenes run on has every part; `tyglab bench skip` also runs engines
-// that were compiled without one, to see that a part which is there but off costs nothing.
+// Parts that an engine is compiled with. The engine that scenes run on has all; `tyglab bench skip` also runs engines
+// compiled without one, to show that a part costs nothing while it is off.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace tyglab::cpu {
 
-/// Parts of an engine, a bit each; the first three have the numbers of the sweep's features.
+/// Parts of an engine, one bit each; the first three equal the sweep's features.
 namespace part {
 enum : unsigned {
   bending = cpu::bending,
@@ -20,14 +20,14 @@ enum : unsigned {
   bodies = 8,
   tearing = 16,
   pins = 32,  ///< pinned and held particles keep their velocity
-  hand = 64,  ///< the force on the held particle is measured, and it lets go above F_release
+  hand = 64,  ///< the force on the held particle is measured, and the hand lets go above F_release
   everything = 127
 };
 }  // namespace part
 
-/// An engine in float, on one thread, compiled without that part: for measurements alone. It treats the preset as if
-/// the part were off. Null if `absent` is not one part. Throws EngineError in a build with sanitizers, which leaves
-/// these engines out: it takes four times as long over each, and no scene runs on them.
+/// An engine in float, on one thread, compiled without that part: for measurements only. It treats the preset as if the
+/// part were off. Null if `absent` is not exactly one part. Throws EngineError in a build with sanitizers, which leaves
+/// these engines out, since no scene runs on them and each takes four times as long to compile.
 std::unique_ptr<Engine> make_engine_without(unsigned absent, const Preset& preset, const Lattice& lattice);
 
 }  // namespace tyglab::cpu

@@ -33,17 +33,17 @@ void Projector<R>::prepare(const Cloth<R>& cloth, const Tears& tears, bool chang
     }
 }
 
-/// Where the springs of a colour in row i lie: the first elements of both ends' rows. False where there are none.
+/// Where the springs of a color in row i lie: the first elements of both ends' rows. False where there are none.
 template <class R>
 template <class Row>
-bool Projector<R>::place(const Cloth<R>& cloth, const Colour& colour, int i, Row& row, int& upper, int& lower) const {
-  const Direction& to = directions[std::size_t(colour.direction)];
+bool Projector<R>::place(const Cloth<R>& cloth, const Color& color, int i, Row& row, int& upper, int& lower) const {
+  const Direction& to = directions[std::size_t(color.direction)];
   const int columns = cloth.lattice.columns;
   row.stride = cloth.stride;
   if (to.di == 0) {
     row.reach = to.dj;
-    upper = lower = colour.first;
-    row.count = columns - colour.first;
+    upper = lower = color.first;
+    row.count = columns - color.first;
     if (row.count <= row.reach) return false;
   } else {
     upper = std::max(0, -to.dj), lower = upper + to.dj;
@@ -53,33 +53,33 @@ bool Projector<R>::place(const Cloth<R>& cloth, const Colour& colour, int i, Row
   if (masked_) {
     row.free_a = free_.data() + std::size_t(i) * stride_ + upper;
     row.free_b = free_.data() + std::size_t(i + to.di) * stride_ + lower;
-    row.whole = whole_.data() + (std::size_t(i) * directions.size() + colour.direction) * stride_ + upper;
+    row.whole = whole_.data() + (std::size_t(i) * directions.size() + color.direction) * stride_ + upper;
   }
   return true;
 }
 
 template <class R>
-void Projector<R>::project_colour(Cloth<R>& cloth, int q, const Colour& colour, int i) {
-  const Direction& to = directions[std::size_t(colour.direction)];
+void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int i) {
+  const Direction& to = directions[std::size_t(color.direction)];
   const Preset& p = cloth.preset;
   ProjectionRow<R> row;
   int upper = 0, lower = 0;
   row.compliance = p.m / ((to.bending ? p.k_b : p.k_s) * cloth.dt * cloth.dt);
-  if (!(row.compliance < softest) || !place(cloth, colour, i, row, upper, lower)) return;
+  if (!(row.compliance < softest) || !place(cloth, color, i, row, upper, lower)) return;
   row.x_a = cloth.row(vector_x, i, 0) + upper, row.x_b = cloth.row(vector_x, i + to.di, 0) + lower;
   row.q_a = cloth.row(q, i, 0) + upper, row.q_b = cloth.row(q, i + to.di, 0) + lower;
-  row.lambda = lambda_.data() + (std::size_t(i) * lambdas + colour.lambda) * stride_ + upper;
+  row.lambda = lambda_.data() + (std::size_t(i) * lambdas + color.lambda) * stride_ + upper;
   row.rest = to.rest * p.L, row.pushes = to.bending;
   project_row(row);
 }
 
 template <class R>
-void Projector<R>::damp_colour(Cloth<R>& cloth, const Colour& colour, int i) {
-  const Direction& to = directions[std::size_t(colour.direction)];
+void Projector<R>::damp_color(Cloth<R>& cloth, const Color& color, int i) {
+  const Direction& to = directions[std::size_t(color.direction)];
   const double decay = cloth.preset.k_d * cloth.dt / cloth.preset.m;
   DampingRow<R> row;
   int upper = 0, lower = 0;
-  if (!place(cloth, colour, i, row, upper, lower)) return;
+  if (!place(cloth, color, i, row, upper, lower)) return;
   row.v_a = cloth.row(vector_v, i, 0) + upper, row.v_b = cloth.row(vector_v, i + to.di, 0) + lower;
   row.both = -std::expm1(-2 * decay) / 2, row.one = -std::expm1(-decay);
   damp_row(row);
@@ -87,20 +87,20 @@ void Projector<R>::damp_colour(Cloth<R>& cloth, const Colour& colour, int i) {
 
 template <class R>
 template <class Work>
-void Projector<R>::in_colours(int begin, int end, bool bending, Team& team, Work work) {
-  static constexpr Colour in_row[]{{E, 0, 0}, {E, 1, 1}, {EE, 0, 2}, {EE, 2, 3}};
-  static constexpr Colour to_next[]{{S, 0, 4}, {SE, 0, 5}, {SW, 0, 6}};
-  static constexpr Colour to_second{SS, 0, 7};
+void Projector<R>::in_colors(int begin, int end, bool bending, Team& team, Work work) {
+  static constexpr Color in_row[]{{E, 0, 0}, {E, 1, 1}, {EE, 0, 2}, {EE, 2, 3}};
+  static constexpr Color to_next[]{{S, 0, 4}, {SE, 0, 5}, {SW, 0, 6}};
+  static constexpr Color to_second{SS, 0, 7};
   // Rows of even number first, with what lies within them and below; then what joins pairs to pairs.
   for (int i = begin; i < end; i += 2) {
     for (int row = i; row < std::min(i + 2, end); ++row)
-      for (const Colour& colour : in_row)
-        if (bending || colour.direction == E) work(colour, row);
-    for (const Colour& colour : to_next) work(colour, i);
+      for (const Color& color : in_row)
+        if (bending || color.direction == E) work(color, row);
+    for (const Color& color : to_next) work(color, i);
   }
   team.barrier();
   for (int i = begin + 1; i < end; i += 2)
-    for (const Colour& colour : to_next) work(colour, i);
+    for (const Color& color : to_next) work(color, i);
   team.barrier();
   if (!bending) return;
   for (const int first : {0, 2}) {
@@ -130,8 +130,8 @@ void Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
   for (int n = 0; n < cloth.preset.iterations; ++n)
-    in_colours(begin, end, cloth.preset.k_b > 0, team,
-               [&](const Colour& colour, int i) { project_colour(cloth, q, colour, i); });
+    in_colors(begin, end, cloth.preset.k_b > 0, team,
+              [&](const Color& color, int i) { project_color(cloth, q, color, i); });
 }
 
 template <class R>
@@ -142,7 +142,7 @@ void Projector<R>::damp(Cloth<R>& cloth, int begin, int end, Team& team) {
     team.barrier();
     return;
   }
-  in_colours(begin, end, false, team, [&](const Colour& colour, int i) { damp_colour(cloth, colour, i); });
+  in_colors(begin, end, false, team, [&](const Color& color, int i) { damp_color(cloth, color, i); });
 }
 
 template <class R>

@@ -1,6 +1,6 @@
-// Extended position-based dynamics on the lattice: Gauss-Seidel over springs that are coloured by the parity of their
-// row or column, so that no two of a colour share a particle. The order of the colours is fixed, and threads work on
-// rows that no other touches meanwhile: the same bits for any number of them.
+// Extended position-based dynamics on the lattice: Gauss-Seidel over springs colored by the parity of their row or
+// column, so that no two of one color share a particle. The order of the colors is fixed, and no two threads work on
+// the same rows at a time, so the result has the same bits for any number of threads.
 #pragma once
 
 #include "core/engines/cpu/band.h"
@@ -14,38 +14,38 @@ class Projector {
  public:
   using Field = RowField<R>;
 
-  /// Before a step, on one thread: which springs are whole and which particles free, where that is not all of them.
-  /// `changed`: whether either may differ from the last step's.
+  /// Prepares a step, on one thread: which springs are whole and which particles are free, unless all are. `changed`:
+  /// whether either may differ from the last step.
   void prepare(const Cloth<R>& cloth, const Tears& tears, bool changed);
-  /// Moves the displacements in vector q of rows [begin, end) until the springs have had their iterations. All threads
-  /// together, each with its rows: begin is even, and so is end but for the last.
+  /// Makes all iterations on the displacements in vector q, in rows [begin, end). Called by all threads together, each
+  /// with its rows: begin is even, and so is end except for the last.
   void project(Cloth<R>& cloth, int q, int begin, int end, Team& team);
-  /// What k_d takes of the velocities, likewise.
+  /// Damps the velocities by k_d, likewise.
   void damp(Cloth<R>& cloth, int begin, int end, Team& team);
   std::size_t bytes() const;
 
  private:
-  /// Where a colour of a direction begins, and how its springs lie.
-  struct Colour {
+  /// One color of the springs of one direction.
+  struct Color {
     int direction;
     int first;   ///< row or column
-    int lambda;  ///< which of lambda_
+    int lambda;  ///< index into lambda_
   };
-  void project_colour(Cloth<R>& cloth, int q, const Colour& colour, int i);
-  void damp_colour(Cloth<R>& cloth, const Colour& colour, int i);
+  void project_color(Cloth<R>& cloth, int q, const Color& color, int i);
+  void damp_color(Cloth<R>& cloth, const Color& color, int i);
   void project_weight(Cloth<R>& cloth, int q);
   template <class Row>
-  bool place(const Cloth<R>& cloth, const Colour& colour, int i, Row& row, int& upper, int& lower) const;
-  /// Does what each colour asks for in rows [begin, end), with a barrier between those that reach over to other rows.
+  bool place(const Cloth<R>& cloth, const Color& color, int i, Row& row, int& upper, int& lower) const;
+  /// Does the work for each color in rows [begin, end), with barriers around those that reach into other rows.
   template <class Work>
-  static void in_colours(int begin, int end, bool bending, Team& team, Work work);
+  static void in_colors(int begin, int end, bool bending, Team& team, Work work);
 
   static constexpr int lambdas = 8;
   int rows_ = 0, stride_ = 0;
-  Array<R> lambda_;  ///< a row's, colour after colour
+  Array<R> lambda_;  ///< row by row, in each color by color
   bool masked_ = false;
   Array<R> free_;   ///< of particles
-  Array<R> whole_;  ///< of a row's springs, direction after direction
+  Array<R> whole_;  ///< row by row, in each direction by direction
 };
 
 }  // namespace tyglab::cpu

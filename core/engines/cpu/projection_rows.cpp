@@ -10,6 +10,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
+using namespace tyglab::simd::HWY_NAMESPACE;
 using tyglab::HWY_NAMESPACE::shortest;
 
 template <class D>

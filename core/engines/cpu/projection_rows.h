@@ -1,21 +1,21 @@
-// One row of springs, or a pair of rows joined by them, in SIMD: what extended position-based dynamics and its damping
-// do with springs of which no two share a particle, so that all can be worked on at once.
+// One row of springs, or a pair of rows joined by springs, in SIMD: extended position-based dynamics and its damping
+// for springs of which no two share a particle, so that all can be projected at once.
 #pragma once
 
 #include <cstddef>
 
 namespace tyglab::cpu {
 
-/// Springs of one direction and colour. Between two rows: spring n joins the particles at a[n] and b[n]. Within one row
-/// (`reach` 1 or 2): a and b are the same row, from its first particle of that colour on, and the particles are joined
+/// Springs of one direction and color. Between two rows: spring n joins the particles at a[n] and b[n]. Within one row
+/// (`reach` 1 or 2): a and b are the same row, from its first particle of that color on, and the particles are joined
 /// in groups of 2·reach: n and n + reach. Components are `stride` apart.
 template <class R>
 struct SpringRow {
   std::ptrdiff_t stride = 0;
   int count = 0;  ///< springs; within a row: particles
   int reach = 0;  ///< 0: between two rows
-  /// 1, or 0 for pinned and held particles, and `whole` 1, or 0 for torn springs; all or none of them are there. whole
-  /// stands at the spring's a.
+  /// free: 0 for pinned and held particles, else 1; whole: 0 for torn springs, else 1, at the spring's a. All three are
+  /// set, or none.
   const R *free_a = nullptr, *free_b = nullptr, *whole = nullptr;
 };
 
@@ -32,12 +32,12 @@ struct ProjectionRow : SpringRow<R> {
 template <class R>
 void project_row(const ProjectionRow<R>& row);
 
-/// Relative velocities die out exactly as the damping of each spring alone would have it.
+/// The decay of relative velocities, exactly as the damping of each spring alone causes it.
 template <class R>
 struct DampingRow : SpringRow<R> {
   R *v_a = nullptr, *v_b = nullptr;
-  double both = 0;  ///< part of the relative velocity that each end takes over where both are free
-  double one = 0;   ///< where the other end is fixed
+  double both = 0;  ///< share of the relative velocity that each end takes over if both are free
+  double one = 0;   ///< if the other end is fixed
 };
 template <class R>
 void damp_row(const DampingRow<R>& row);

@@ -13,6 +13,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
+using namespace tyglab::simd::HWY_NAMESPACE;
 
 /// A spring's constants and its formulas as they stood when this loop was frozen.
 template <class D>

@@ -18,6 +18,7 @@ using Output = R*;
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
+using namespace tyglab::simd::HWY_NAMESPACE;
 
 /// What a spring resists with when its ends are moved apart by d: t d + a (a·d). `c`: its four parts at one column.
 template <class D>

@@ -1,17 +1,17 @@
-// The cloth's linearised force, row by row and in SIMD: A p for A = M + Σ over springs of (t 1 + a aᵀ) between its
-// ends, where t and a hold what a spring's stretching, turning and damping resist with. Nothing but t and a is stored.
-// Beside it the vector operations of conjugate gradients.
+// The cloth's linearized force, row by row and in SIMD: A p for A = M + Σ over springs of (t 1 + a aᵀ) between its
+// ends, where t and a describe a spring's resistance to stretching, turning and damping. Only t and a are stored. Also
+// the vector operations of conjugate gradients.
 #pragma once
 
 #include <cstddef>
 
 namespace tyglab::cpu {
 
-inline constexpr int springs_of_a_particle = 6;  ///< that it owns, one a direction (lattice.h)
+inline constexpr int springs_of_a_particle = 6;  ///< that it owns, one per direction (lattice.h)
 inline constexpr int spring_parts = 4;           ///< a.x, a.y, a.z, t
 
-/// A row of coefficients: for each direction its four parts, `stride` numbers each. Springs to the lower left (SW)
-/// stand at the column of their lower end, so that every direction reads its vectors from where they are aligned.
+/// Size of a row of coefficients: for each direction its four parts, `stride` numbers each. Springs to the lower left
+/// (SW) are at the column of their lower end, so that all vectors are read from aligned addresses.
 constexpr std::ptrdiff_t coefficient_pitch(std::ptrdiff_t stride) {
   return springs_of_a_particle * spring_parts * stride;
 }
@@ -20,10 +20,10 @@ template <class R>
 struct ProductTask {
   const R* coefficients;  ///< of the row
   const R* p;             ///< row i, as in row_field.h; two more rows follow, zeros behind the last
-  R* q;                   ///< rows i, i+1, i+2 of the result; row i holds what the rows above gave it, and is completed
+  R* q;                   ///< rows i, i+1, i+2 of the result; row i has what the rows above added, and is completed
   std::ptrdiff_t stride;
   int columns;
-  bool first;  ///< row 0: rows i and i+1 of q hold nothing yet
+  bool first;  ///< row 0: rows i and i+1 of q are not initialized
   double m;    ///< of a particle
 };
 
@@ -32,7 +32,7 @@ template <class R>
 double multiply_row(const ProductTask<R>& task);
 
 /// One row of a step of conjugate gradients: d += α p, r -= α q, z = B r with the symmetric 3 x 3 blocks B (six numbers
-/// a particle: xx, yy, zz, yz, zx, xy; all 0 for one that is fixed, whose r becomes 0).
+/// per particle: xx, yy, zz, yz, zx, xy; all 0 if it is fixed, and its r becomes 0).
 template <class R>
 struct UpdateTask {
   const R *p, *q, *blocks;

@@ -9,12 +9,12 @@
 
 namespace tyglab::cpu {
 
-/// How many rows a thread has finished, for the one that follows it through the rows.
+/// How many rows a thread has finished, for the thread that follows it through the rows.
 class Progress {
  public:
   void restart() { rows_ = 0; }
   void finished(int rows);
-  /// Returns once so many rows are finished.
+  /// Returns once that many rows are finished.
   void wait_for(int rows) const;
 
  private:
@@ -23,7 +23,7 @@ class Progress {
 
 class Team {
  public:
-  /// `size` threads, the caller among them; at least 1.
+  /// `size` threads including the caller's; at least 1.
   explicit Team(int size);
   ~Team();
   Team(const Team&) = delete;
@@ -32,7 +32,7 @@ class Team {
   int size() const { return size_; }
   /// Runs work(0) here and work(1) … work(size - 1) on the others; returns when all are done.
   void run(const std::function<void(int)>& work);
-  /// Waits until all have come here. Called inside run() by all.
+  /// Waits until all threads have arrived. Called inside run() by all of them.
   void barrier();
 
  private:

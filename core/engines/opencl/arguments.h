@@ -1,11 +1,11 @@
-// Arguments of kernels. Included by the files of this folder alone.
+// Arguments of kernels. Included only in this folder.
 #pragma once
 
 #include "core/engines/opencl/handles.h"
 
 namespace tyglab::opencl {
 
-/// Sets arguments one after the other from number `at` on; returns the next number.
+/// Sets consecutive arguments from number `at` on; returns the number of the next.
 template <class... T>
 int set_arguments(const Kernel& kernel, int at, const T&... values) {
   // Buffers are arguments as their handles, which are pointers.

@@ -40,7 +40,7 @@ CardVertices::CardVertices(std::shared_ptr<Device> device, const GlBuffers& buff
       positions_(device_->shared(buffers.positions)),
       normals_(device_->shared(buffers.normals)) {}
 
-VertexBox CardVertices::write(cl_mem x, int stride, const VertexOrder& order) {
+VertexBox CardVertices::write(cl_mem x, int stride, const VertexRequest& order) {
   const std::array<cl_mem, 2> buffers{positions_.get(), normals_.get()};
   {
     Acquired acquired(device_->queue(), std::span(buffers).first(order.normals ? 2 : 1));

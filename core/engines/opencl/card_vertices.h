@@ -17,10 +17,10 @@ class CardVertices final : public GlVertices {
   bool fits(const std::shared_ptr<Device>& device, bool in_double) const {
     return device == device_ && in_double == in_double_;
   }
-  void take_tears(std::span<const TornSite> torn) override { kernels_.take_tears(torn); }
-  /// Writes what is asked for of a vector as in cloth.cl, and waits for it. Throws EngineError; the buffers are
-  /// OpenGL's again then.
-  VertexBox write(cl_mem x, int stride, const VertexOrder& order);
+  void set_tears(std::span<const TornSite> torn) override { kernels_.set_tears(torn); }
+  /// Writes what is requested from a vector as in cloth.cl, and waits for it. Throws EngineError; even then the buffers
+  /// are OpenGL's again.
+  VertexBox write(cl_mem x, int stride, const VertexRequest& order);
 
  private:
   std::shared_ptr<Device> device_;

@@ -1,14 +1,11 @@
 #include "core/engines/opencl/device.h"
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstring>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "core/engines/opencl/disk_cache.h"
 
@@ -87,25 +84,19 @@ OpenClDevice facts_of(const DeviceId& found) {
   return facts;
 }
 
-/// Whether to ask the drivers for their devices ends the process that asks, as it does with pocl where /sys is not
-/// mounted: a child tries it, once.
+std::mutex probe_mutex;  // of what follows
+DriverProbe driver_probe;
+std::optional<bool> probed_crash;
+
+/// Whether asking the drivers for their devices crashes, as it does with pocl where /sys is not mounted.
 bool drivers_crash() {
-  static const bool crash = [] {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      const int nowhere = ::open("/dev/null", O_WRONLY);
-      ::dup2(nowhere, STDOUT_FILENO), ::dup2(nowhere, STDERR_FILENO);
-      ::alarm(30);  // a driver that hangs is as bad
-      std::string problem;
-      for (const DeviceId& found : ask_drivers(problem)) facts_of(found);
-      ::_exit(0);
-    }
-    int status = 0;
-    while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    return child > 0 && WIFSIGNALED(status);
-  }();
-  return crash;
+  const std::lock_guard lock(probe_mutex);
+  if (!probed_crash)
+    probed_crash = driver_probe && !driver_probe([] {
+                     std::string problem;
+                     for (const DeviceId& found : ask_drivers(problem)) facts_of(found);
+                   });
+  return *probed_crash;
 }
 
 std::vector<DeviceId> find_devices(std::string& problem) {
@@ -295,6 +286,11 @@ int preferred_device(const std::vector<OpenClDevice>& devices) {
 std::string no_device_words(const std::string& problem) {
   return "No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
          ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.";
+}
+
+void set_driver_probe(DriverProbe probe) {
+  const std::lock_guard lock(opencl::probe_mutex);
+  opencl::driver_probe = std::move(probe), opencl::probed_crash.reset();
 }
 
 OpenClInventory opencl_devices() {

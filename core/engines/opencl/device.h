@@ -1,4 +1,4 @@
-// OpenCL devices: which there are, and one of them opened, with its queue and the programs built for it.
+// An open OpenCL device, with its queue and the programs built for it; and how to find one.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@
 
 namespace tyglab::opencl {
 
-/// A program for one device. Kernels belong to whoever makes them, since they hold arguments.
+/// A program for one device. Each caller has kernels of its own, since they hold arguments.
 class Program {
  public:
   explicit Program(ProgramHandle program) : program_(std::move(program)) {}
@@ -26,13 +26,13 @@ class Program {
   ProgramHandle program_;
 };
 
-/// One that was found.
+/// A device of a platform.
 struct DeviceId {
   cl_platform_id platform;
   cl_device_id id;
 };
 
-/// An opened device. All engines of one device share it; programs are built once for all of them.
+/// An open device, shared by all engines that run on it; programs are built once for all of them.
 class Device {
  public:
   /// Shares buffers with that OpenGL context where both can, see gl_sharing().
@@ -41,25 +41,26 @@ class Device {
   const OpenClDevice& facts() const { return facts_; }
   /// How it shares buffers with the OpenGL context that is in use now.
   GlSharing gl_sharing() const;
-  /// Why it does not share with the context that it was opened with; empty: it does.
+  /// Why it shares no buffers with the OpenGL context with which it was opened; empty if it does.
   const std::string& gl_problem() const { return gl_problem_; }
   /// Whether it was opened with that context, or opening it so would change nothing.
   bool suits(const GlContext& gl) const { return !could_share() || gl.number == gl_number_; }
   cl_context context() const { return context_.get(); }
   cl_command_queue queue() const { return queue_.get(); }
-  /// How many numbers of that size a work-item should work on: what a processor's vectors hold; 1 on graphics cards.
+  /// How many numbers of that size a work-item should process: as many as a processor's SIMD vector holds; 1 on
+  /// graphics cards.
   int width(std::size_t bytes) const;
-  /// The program of that text and those build options, from memory, from disk or built. Throws EngineError with the
-  /// start of the compiler's log.
+  /// The program of that text and those build options: from memory, from disk, or newly built. Throws EngineError with
+  /// the start of the compiler's log.
   std::shared_ptr<const Program> program(const std::string& text, const std::string& options);
-  /// Notes that a program of that name has made steps here: drivers build kernels when they are first used.
+  /// Records that a program of that name has made steps here: drivers finish building kernels when they are first used.
   void note_run(const std::string& program);
   bool has_run(const std::string& program);
-  /// A buffer of zeros. Throws EngineError where there is no room for it.
+  /// A buffer of zeros. Throws EngineError if there is not enough memory.
   Memory zeros(std::size_t bytes) const;
-  /// A buffer that is the program's own memory, which must outlive it; none where the device would work on a copy.
+  /// A buffer in the program's own memory, which must outlive it; none if the device would work on a copy.
   Memory in_place(void* memory, std::size_t bytes) const;
-  /// OpenGL's buffer of that name.
+  /// The OpenGL buffer of that name.
   Memory shared(unsigned gl_name) const;
 
  private:

@@ -1,11 +1,11 @@
-// What kernels take by value and from buffers: the same structs as in kernels/cloth.cl and kernels/bodies.cl.
+// Arguments of kernels and contents of buffers: the same structs as in kernels/cloth.cl, bodies.cl and implicit.cl.
 #pragma once
 
 #include <cstdint>
 
 namespace tyglab::opencl {
 
-inline constexpr int most_coefficients = 16;  ///< of one sweep's sums
+inline constexpr int most_coefficients = 16;  ///< in the sums of one sweep
 
 /// Constants of cloth.cl.
 template <class R>
@@ -52,12 +52,12 @@ struct DeviceGradients {
   std::int32_t count, unused;
 };
 
-/// What a step reports.
+/// Report of a step.
 struct StepReport {
-  float way;  ///< the largest component of a particle's way, m; ∞ or NaN if something is not finite
+  float way;  ///< largest component of a displacement, m; ∞ or NaN if something is not finite
   std::uint32_t left_inside, contacts;
   std::uint32_t torn;        ///< 1: a spring was torn
-  float straight, diagonal;  ///< squares of the longest springs that were left, m²
+  float straight, diagonal;  ///< squares of the lengths of the longest springs left whole, m²
   float bending;
   std::uint32_t bad;  ///< 1: a number of the state is not finite
 };

@@ -131,7 +131,7 @@ double DeviceSolver<R>::evaluate() {
 }
 
 template <class R>
-void DeviceSolver<R>::linearise() {
+void DeviceSolver<R>::linearize() {
   arrive();
   const Kernel& kernel = task_.kernels->linearise;
   const cl_mem x = state_.vector(task_.position);
@@ -146,7 +146,7 @@ ImplicitStage::Step DeviceSolver<R>::step() {
 }
 
 template <class R>
-ImplicitStage::Landing DeviceSolver<R>::go(double part) {
+ImplicitStage::Trial DeviceSolver<R>::try_part(double part) {
   launch_go(part);
   task_.residual(state_.vector(task_.position), state_.other(task_.velocity), start_v_.get(), residual_.get());
   const Products products = inner_products(residual_.get(), step_.get());
@@ -154,7 +154,7 @@ ImplicitStage::Landing DeviceSolver<R>::go(double part) {
 }
 
 template <class R>
-void DeviceSolver<R>::take() {
+void DeviceSolver<R>::accept() {
   launch_go(1);
 }
 
@@ -177,7 +177,7 @@ typename DeviceSolver<R>::Left DeviceSolver<R>::read_left(const Memory& progress
 
 template <class R>
 bool DeviceSolver<R>::gradients() {
-  const int most = most_gradients(lattice_);
+  const int most = max_gradient_steps(lattice_);
   const Left left = at_once_ ? make_gradients(most) : make_gradients_in_launches(most);
   counts_.linear += left.count;
   // Where they ended before the last step they are allowed, the device has seen that it is enough.
@@ -229,7 +229,7 @@ typename DeviceSolver<R>::Left DeviceSolver<R>::make_gradients_in_launches(int m
 
 template <class R>
 bool DeviceSolver<R>::solve_directly() {
-  if (task_.preset->kind == Kind::one_weight || !DirectSolver::pays(lattice_)) return false;
+  if (task_.preset->kind == Kind::one_weight || !DirectSolver::is_quick(lattice_)) return false;
   const std::size_t row = std::size_t(state_.mask_pitch()), margin = 16;
   std::vector<R> coefficients(coefficient_numbers_);
   check(clEnqueueReadBuffer(device_->queue(), coefficients_.get(), CL_TRUE, 0, coefficient_numbers_ * sizeof(R),

@@ -1,5 +1,5 @@
-// The implicit stages of a method on a device (newton.h, kernels/implicit.cl): vectors stay there, the host reads the
-// sums that Newton's method asks for.
+// The implicit stages of a method on a device (newton.h, kernels/implicit.cl): vectors stay there, and the host reads
+// only the sums that Newton's method needs.
 #pragma once
 
 #include <array>
@@ -25,13 +25,13 @@ class DeviceSolver final : private ImplicitStage {
   static Kernels make_kernels(const Program& program);
   /// Work-items of a group where a work-item has one particle.
   static constexpr int group_items = 128;
-  /// Particles up to which a launch for every step of conjugate gradients would take longer than its work, so that all
-  /// are made in one.
+  /// Number of particles up to which one launch makes all iterations of conjugate gradients, since a launch for each
+  /// would take longer than its work.
   static constexpr int most_at_once(int width) { return width == 1 ? 4096 : most_solved_in_one_launch; }
   /// Writes the residual of x and v, for c_v.
   using Residual = std::function<void(cl_mem x, cl_mem v, cl_mem c_v, cl_mem residual)>;
 
-  /// `width`: particles that a work-item works on at a time.
+  /// `width`: particles that a work-item processes at a time.
   DeviceSolver(std::shared_ptr<Device> device, const Lattice& lattice, DeviceState<R>& state, int width);
 
   struct Task {
@@ -48,11 +48,11 @@ class DeviceSolver final : private ImplicitStage {
   std::size_t bytes() const;
 
  private:
-  /// Of two vectors a and b.
+  /// Inner products of two vectors a and b.
   struct Products {
     double aa, ab, bb;
   };
-  /// What is left of a system.
+  /// What remains of the residual of a linear system.
   struct Left {
     double squared, enough;
     int count;
@@ -60,25 +60,25 @@ class DeviceSolver final : private ImplicitStage {
 
   double start_size() override { return start_size_; }
   double evaluate() override;
-  void linearise() override;
+  void linearize() override;
   bool gradients() override;
   bool solve_directly() override;
   Step step() override;
-  Landing go(double part) override;
-  void take() override;
+  Trial try_part(double part) override;
+  void accept() override;
 
-  /// Makes the velocity that go() went to the present one.
+  /// Makes the velocity that was tried the present one.
   void arrive();
   void launch_go(double part);
   void launch(const Kernel& kernel, std::size_t groups) const;
-  /// Sets what all kernels of a system begin with; returns the number of the next argument.
+  /// Sets the first arguments, common to all kernels of a system; returns the number of the next.
   int set_system(const Kernel& kernel) const;
-  /// A number in the precision of sums.
+  /// Sets a number in the precision of sums.
   int set_sum(const Kernel& kernel, int at, double value) const;
   Products inner_products(cl_mem a, cl_mem b) const;
-  /// All steps by one group, in one launch.
+  /// All iterations by one group, in one launch.
   Left make_gradients(int most) const;
-  /// Two launches for every step; now and then the host looks whether they have ended.
+  /// Two launches for each iteration; now and then the host checks whether they have converged.
   Left make_gradients_in_launches(int most);
   void launch_step(int n, int most) const;
   Left read_left(const Memory& progress, std::size_t groups) const;
@@ -90,18 +90,18 @@ class DeviceSolver final : private ImplicitStage {
   DeviceState<R>& state_;
   int width_;
   std::size_t groups_;  ///< of a launch over the whole cloth
-  bool at_once_;        ///< one group makes all steps of conjugate gradients
+  bool at_once_;        ///< one group makes all iterations of conjugate gradients
   std::size_t coefficient_numbers_, block_numbers_;
   Memory start_x_, start_v_, residual_, step_;
   Memory left_, preconditioned_, product_;  ///< of conjugate gradients
-  std::array<Memory, 2> directions_;        ///< theirs, of an even and of an odd step
+  std::array<Memory, 2> directions_;        ///< theirs, of an even and of an odd iteration
   std::array<Memory, 2> progress_;          ///< likewise, before it
   Memory coefficients_, blocks_, sums_;
   DirectSolver direct_;
   Task task_{};
-  bool away_ = false;  ///< go() has gone somewhere
+  bool away_ = false;  ///< a velocity is being tried
   double start_size_ = 0;
-  int last_count_ = 16;  ///< steps of the last system: so many are likely again
+  int last_count_ = 16;  ///< iterations for the last system: about as many are likely again
   SolveCounts counts_;
 };
 

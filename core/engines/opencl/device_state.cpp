@@ -16,7 +16,7 @@ template <class R>
 DeviceState<R>::DeviceState(std::shared_ptr<Device> device, const Lattice& lattice, int vectors)
     : device_(std::move(device)),
       lattice_(lattice),
-      stride_(cpu::row_stride<R>(lattice.columns)),
+      stride_(simd::row_stride<R>(lattice.columns)),
       mask_pitch_((lattice.columns + 15) / 16 * 16 + 2 * mask_margin),
       numbers_((std::size_t(lattice.rows) + 5) * 3 * std::size_t(stride_) + 32),
       mask_bytes_((std::size_t(lattice.rows) + 5) * std::size_t(mask_pitch_)),
@@ -28,7 +28,7 @@ DeviceState<R>::DeviceState(std::shared_ptr<Device> device, const Lattice& latti
 template <class R>
 DeviceState<R>::~DeviceState() {
   clFinish(device_->queue());
-  take_back();
+  end_views();
 }
 
 template <class R>
@@ -56,7 +56,7 @@ R* DeviceState<R>::map(cl_mem field, cl_map_flags how) const {
   void* at =
       clEnqueueMapBuffer(device_->queue(), field, CL_TRUE, how, 0, numbers_ * sizeof(R), 0, nullptr, nullptr, &code);
   check(code, "reading from the device");
-  if (!device_->facts().shared_memory) copied_ += numbers_ * sizeof(R);
+  if (!device_->facts().shared_memory) bytes_read_ += numbers_ * sizeof(R);
   return static_cast<R*>(at) + lead();
 }
 
@@ -104,11 +104,11 @@ void DeviceState<R>::read_patch(Vector& vector, int i, int j) const {
       clEnqueueReadBufferRect(device_->queue(), vector.now.memory.get(), CL_TRUE, from.data(), to.data(), region.data(),
                               line, 3 * line, short_line, 3 * short_line, patch.numbers.data(), 0, nullptr, nullptr),
       "reading from the device");
-  copied_ += patch.numbers.size() * sizeof(R);
+  bytes_read_ += patch.numbers.size() * sizeof(R);
 }
 
 template <class R>
-void DeviceState<R>::take_back() {
+void DeviceState<R>::end_views() {
   const std::lock_guard lock(mutex_);
   for (Vector& vector : vectors_) {
     if (vector.host != nullptr) unmap(vector.now.memory.get(), const_cast<R*>(vector.host));
@@ -122,11 +122,11 @@ void DeviceState<R>::take_back() {
 }
 
 template <class R>
-bool DeviceState<R>::take_memory(std::shared_ptr<PositionMemory> memory) {
+bool DeviceState<R>::use_memory(std::shared_ptr<PositionMemory> memory) {
   std::array<Memory, PositionMemory::count> slots;
   for (std::size_t n = 0; n < slots.size(); ++n)
     if (!(slots[n] = device_->in_place(memory->slots[n], slot_bytes()))) return false;
-  take_back();
+  end_views();
   if constexpr (std::is_same_v<R, float>) {
     Vector& x = vectors_[vector_x];
     copy(x.now.memory.get(), slots[0].get());
@@ -199,7 +199,7 @@ void DeviceState<R>::keep_backup() {
 
 template <class R>
 void DeviceState<R>::restore() {
-  take_back();
+  end_views();
   for (int n = 0; n < int(vectors_.size()); ++n) copy(vectors_[std::size_t(n)].backup.get(), overwritten(n));
 }
 

@@ -1,13 +1,13 @@
-// What took long to find out of a device (built programs, measured times), kept on disk from run to run: in
-// XDG_CACHE_HOME/tyglab, or ~/.cache/tyglab. What cannot be read or written is as if it were not there.
+// What takes long to find out about a device (built programs, measured times), kept on disk between runs: in
+// XDG_CACHE_HOME/tyglab, or ~/.cache/tyglab. A file that cannot be read or written counts as missing.
 #pragma once
 
 #include <string>
 
 namespace tyglab::opencl {
 
-/// What was kept under that key, which says all that it depends on (device, driver, options, text); empty if nothing
-/// was.
+/// What was kept under that key, which contains everything that it depends on (device, driver, options, text); empty if
+/// there is nothing.
 std::string kept_on_disk(const std::string& key);
 void keep_on_disk(const std::string& key, const std::string& content);
 

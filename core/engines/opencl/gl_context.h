@@ -1,18 +1,19 @@
-// Which OpenGL context devices share buffers with. No header of OpenGL or OpenCL: app hands in what its window has.
+// The OpenGL context with which devices share buffers. Includes no header of OpenGL or OpenCL; app provides the handles
+// of its window.
 #pragma once
 
 #include <cstdint>
 
 namespace tyglab {
 
-/// OpenGL's context as its window system names it.
+/// An OpenGL context by the handles of its window system.
 struct GlContext {
   void *context = nullptr, *display = nullptr;  ///< GLXContext and Display*, or EGLContext and EGLDisplay
   bool glx = false;
-  std::uint64_t number = 0;  ///< tells it from others that stood at the same address; GlContextInUse gives it
+  std::uint64_t number = 0;  ///< set by GlContextInUse, since another context may get the same address
 };
 
-/// While it lives, devices that are opened share buffers with that context, if they can, unless a later one is there.
+/// While it exists, newly opened devices share buffers with that context if they can. The latest one counts.
 class GlContextInUse {
  public:
   explicit GlContextInUse(GlContext context);
@@ -24,7 +25,7 @@ class GlContextInUse {
   std::uint64_t number_;
 };
 
-/// The one in use; number 0: none is.
+/// The one in use; its number is 0 if there is none.
 GlContext gl_context_in_use();
 
 }  // namespace tyglab

@@ -1,5 +1,5 @@
-// OpenCL's objects as owning types, and its error codes as exceptions. The C interface, since the C++ one takes as long
-// to compile as the whole engine. Included by the files of this folder alone.
+// OpenCL's objects as owning types, and its error codes as exceptions. Uses the C interface, since the C++ one takes as
+// long to compile as the whole engine. Included only in this folder.
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 120
@@ -13,10 +13,10 @@
 
 namespace tyglab::opencl {
 
-/// "out of device memory (error -4)": for people.
+/// For display, such as "the device is out of resources, or was lost (error -5)".
 std::string words_of(cl_int code);
 
-/// Throws EngineError, "what: why", unless the code is CL_SUCCESS; what is out of memory is told how to mend it.
+/// Throws EngineError, "what: why" and what to do, unless the code is CL_SUCCESS.
 void check(cl_int code, const char* what);
 
 /// Owns one object.

@@ -1,11 +1,11 @@
-// The OpenCL C of kernels/, which CMake puts into the program: so it is found wherever the program is.
+// The OpenCL C of kernels/, which CMake compiles into the program, so that no file has to be found.
 #pragma once
 
 #include <string_view>
 
 namespace tyglab::opencl {
 
-/// The text of a file of kernels/, as "cloth.cl", which must be there.
+/// The text of a file of kernels/, such as "cloth.cl", which must exist.
 std::string_view kernel_text(std::string_view file);
 
 }  // namespace tyglab::opencl

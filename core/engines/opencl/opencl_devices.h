@@ -1,7 +1,8 @@
-// Which OpenCL devices there are, and what each can do. No OpenCL header, so that app may include it.
+// Which OpenCL devices there are, and what each can do. Includes no OpenCL header.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,47 +17,53 @@ struct OpenClDevice {
   bool fp64 = false;           ///< computes in double
   bool processor = false;      ///< a CPU: its memory is the program's own
   bool card = false;           ///< a graphics card
-  bool shared_memory = false;  ///< buffers are read where they are, without a copy
+  bool shared_memory = false;  ///< the host reads buffers in place, without a copy
   bool gl_sharing = false;     ///< cl_khr_gl_sharing: can use OpenGL's buffers
   bool gl_event = false;       ///< cl_khr_gl_event: it and OpenGL wait for each other
 };
 
+/// Calls `ask` where a crash or a hang does no harm, such as in a child process; returns whether it came to its end.
+using DriverProbe = std::function<bool(const std::function<void()>& ask)>;
+/// Sets how to find out, once, whether the drivers survive being asked for their devices. Without a probe they are
+/// trusted.
+void set_driver_probe(DriverProbe probe);
+
 /// The devices of all platforms, in the order of their numbers (--engine opencl:NUMBER). Never throws for what a driver
-/// does; one that ends the process which asks is asked by a child first, and then counts as none.
+/// does; if the drivers crash the probe, there are no devices.
 struct OpenClInventory {
   std::vector<OpenClDevice> devices;
-  std::string problem;  ///< why there is none, if the loader said
+  std::string problem;  ///< why there is none, if that is known
 };
 OpenClInventory opencl_devices();
 
-/// The number of the device that is taken where none is named: the first graphics card's, or else 0.
+/// The number of the default device: the first graphics card's, or else 0.
 int preferred_device(const std::vector<OpenClDevice>& devices);
-/// That there is no device, why (OpenClInventory::problem), and the cure, in sentences.
+/// Says that there is no device, why (OpenClInventory::problem), and what to do, in sentences.
 std::string no_device_words(const std::string& problem);
 
-/// Whether OpenCL devices run the method: those of fixed dt that do not project.
+/// Whether OpenCL devices run the method: it must have a fixed dt and not project.
 bool runs_on_opencl(const Scheme& method);
 
-/// Particles of the largest cloth whose linear systems a processor solves in one launch; larger ones take other
+/// Particles of the largest cloth whose linear systems a processor solves in one launch; larger cloths need other
 /// kernels.
 inline constexpr int most_solved_in_one_launch = 20000;
 
-/// Whether the device really computes in one precision.
+/// Whether a device really computes in one precision.
 struct OpenClProbe {
-  bool offered = false;  ///< the device says so
-  std::string problem;   ///< empty: the probe kernel was built and run, and its result was right
+  bool offered = false;  ///< by the device
+  std::string problem;   ///< empty: the test kernel was built and run, and its result was right
 };
 /// Builds and runs kernels/probe.cl on the device of that number, in float or in double. Never throws.
 OpenClProbe probe_opencl_device(int number, bool in_double);
 
-/// Whether the device of that number works in memory that it is given, so that it can write into OpenGL's: processors
-/// do. Never throws.
+/// Whether the device of that number works in memory of the program's, as processors do, so that it can write into
+/// OpenGL's. Never throws.
 bool opencl_works_in_place(int number);
 
-/// Whether the device of that number, one of its own memory, says that it can share buffers with OpenGL. Such a device
-/// is opened once there is an OpenGL context (GlContextInUse). Never throws.
+/// Whether the device of that number has memory of its own and says that it can share buffers with OpenGL. Such a
+/// device should be opened once there is an OpenGL context (GlContextInUse). Never throws.
 bool opencl_offers_gl_sharing(int number);
-/// Why that device does not share buffers with the OpenGL context in use, a part of a sentence; empty: it does.
+/// Why that device does not share buffers with the OpenGL context in use, as part of a sentence; empty if it does.
 std::string opencl_gl_problem(int number);
 
 }  // namespace tyglab

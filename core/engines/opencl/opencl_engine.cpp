@@ -11,7 +11,7 @@
 namespace tyglab::opencl {
 namespace {
 
-constexpr int idle_slot = steps_between_backups;  // that no step reports in
+constexpr int idle_slot = StepGuard::steps_between_backups;  // that no step reports in
 
 template <class R>
 constexpr const char* real = sizeof(R) == 4 ? "float" : "double";
@@ -29,8 +29,8 @@ OpenClEngine<R>::OpenClEngine(const Preset& preset, const Lattice& lattice, std:
       width_(width > 0 ? width : device_->width(sizeof(R))),
       kernels_(make_kernels(preset, false)),
       options_(options(preset, false)) {
-  reports_ = device_->zeros((steps_between_backups + 1) * sizeof(StepReport));
-  hand_ = device_->zeros((steps_between_backups + 1) * 4 * sizeof(R));
+  reports_ = device_->zeros((StepGuard::steps_between_backups + 1) * sizeof(StepReport));
+  hand_ = device_->zeros((StepGuard::steps_between_backups + 1) * 4 * sizeof(R));
   guards_ = state_.mask_field();
   if (is_implicit(*scheme_)) solver_ = std::make_unique<DeviceSolver<R>>(device_, lattice_, state_, width_);
   plan_bands();
@@ -109,7 +109,8 @@ void OpenClEngine<R>::resolve() {
     resolved_.push_back({&pass.sweep, constants(over, summed), pass.work});
   }
   upload_bodies();
-  invalidate_budgets();
+  guard_.set_rules({.tearing = tears_watched(), .F_release = preset_.F_release, .costly_steps = is_implicit(*scheme_)});
+  guard_.invalidate();
 }
 
 template <class R>
@@ -220,7 +221,7 @@ template <class R>
 void OpenClEngine<R>::accelerations() const {
   if (!acceleration_) acceleration_ = state_.field();
   const cl_mem x = state_.vector(vector_x), v = state_.vector(seen_velocity(*scheme_)), out = acceleration_.get();
-  Sweep sweep = look();
+  Sweep sweep = readout();
   sweep.velocity_dt_power = scheme_->keeps_displacement ? -1 : 0;
   const int at = set_arguments(kernels_.accelerations, 0, x, x, v, v, out, out);
   launch_sweep(kernels_.accelerations, at, constants(preset_, sweep), idle_slot, 1);
@@ -228,7 +229,7 @@ void OpenClEngine<R>::accelerations() const {
 
 template <class R>
 void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
-  state_.take_back();
+  state_.end_views();
   const int columns = lattice_.columns;
   R* const x = state_.map(state_.overwritten(vector_x), CL_MAP_READ | CL_MAP_WRITE);
   R* const v = state_.map(state_.vector(vector_v), CL_MAP_READ | CL_MAP_WRITE);
@@ -245,13 +246,14 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
   }
   state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
   upload_masks(tears);
+  guard_.accept_cuts(tears);
   if (!scheme_->start.empty()) {
     // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
     const Sweep start{vector_x, vector_v, 0, scheme_->start};
     enqueue_sweep(kernels_.start, {&start, constants(preset_, start)}, idle_slot);
   }
   write_fixed_velocities();
-  invalidate_budgets();
+  guard_.invalidate();
 }
 
 template <class R>
@@ -260,8 +262,8 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
-  state_.take_back();
-  take_changes(tears);
+  state_.end_views();
+  accept_changes(tears);
   State kept;
   // What lags half a step depends on dt, and the velocity must stay.
   if (shifts && !scheme_->keeps_displacement) read(kept, tears);
@@ -320,7 +322,7 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
                                  pinned_.data(), 0, nullptr, nullptr),
             "writing to the device");
   }
-  invalidate_budgets();  // the backup holds the hand's old velocity
+  guard_.invalidate();  // the backup holds the hand's old velocity
   write_fixed_velocities();
 }
 
@@ -328,7 +330,7 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
 template <class R>
 void OpenClEngine<R>::write_fixed_velocities() {
   if (pinned_.empty() && held_.particle < 0) return;
-  state_.take_back();
+  state_.end_views();
   const cl_mem v = state_.vector(vector_v), seen = state_.vector(seen_velocity(*scheme_)), list = fixed_list_.get();
   const glm::dvec3 hand = held_.velocity * velocity_scale();
   set_arguments(kernels_.set_fixed, 0, v, seen, list, cl_int(pinned_.size()), cl_int(held_.particle), R(hand.x),
@@ -365,14 +367,14 @@ void OpenClEngine<R>::upload_masks(const Tears& tears) {
   set_arguments(kernels_.derive_masks, 0, from, to, none, cl_int(0), cl_int(state_.mask_pitch()), cl_int(lattice_.rows),
                 cl_int(lattice_.columns));
   launch_rows(kernels_.derive_masks, lattice_.columns);
-  masks_stale_ = false, torn_ = tears.torn_count();
+  masks_stale_ = false;
 }
 
 template <class R>
-void OpenClEngine<R>::take_changes(const Tears& tears) {
-  if (!masks_stale_ && torn_ == tears.torn_count()) return;
+void OpenClEngine<R>::accept_changes(const Tears& tears) {
+  if (!masks_stale_ && !guard_.springs_cut(tears)) return;
   upload_masks(tears);
-  since_backup_ = -1;
+  guard_.accept_cuts(tears);
 }
 
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {

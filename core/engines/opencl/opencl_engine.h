@@ -1,24 +1,24 @@
 // The OpenCL engine: runs every explicit scheme of fixed dt, and those that solve, on an OpenCL device.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/engines/engine.h"
-#include "core/engines/fault.h"
 #include "core/engines/opencl/device_constants.h"
 #include "core/engines/opencl/device_solver.h"
 #include "core/engines/opencl/device_state.h"
 #include "core/engines/opencl/program_text.h"
+#include "core/engines/step_guard.h"
+#include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::opencl {
 
 template <class R>
-class OpenClEngine final : public Engine {
+class OpenClEngine final : public Engine, private VertexSharing, private GuardedSteps {
  public:
   OpenClEngine(const Preset& preset, const Lattice& lattice, std::shared_ptr<Device> device, int width);
 
@@ -34,15 +34,7 @@ class OpenClEngine final : public Engine {
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
-  bool remote() const override { return !device_->facts().shared_memory; }
-  std::size_t wants_memory() const override;
-  bool take_memory(std::shared_ptr<PositionMemory> memory) override;
-  PositionView shown() override;
-  GlSharing gl_sharing() const override;
-  std::unique_ptr<GlVertices> share(const GlBuffers& buffers) const override;
-  std::optional<VertexBox> write(GlVertices& vertices, const VertexOrder& order) override;
-  std::string why_copied() const override;
-  std::uint64_t copied() const override { return state_.copied(); }
+  VertexSharing* vertex_sharing() override { return this; }
   StoredParticle stored(int i, int j) const override;
   glm::dvec3 position(int i, int j) const override { return state_.at(vector_x, i, j); }
   std::size_t bytes() const override;
@@ -54,27 +46,36 @@ class OpenClEngine final : public Engine {
 
  private:
   using Constants = DeviceConstants<R>;
-  /// The kernels of one set of features.
+  /// The kernels for one set of features.
   struct Kernels {
-    std::vector<Kernel> passes;  ///< none for a solution
+    std::vector<Kernel> passes;  ///< an empty one for a solution
     Kernel start, accelerations, residual, set_fixed, combine, tear, derive_masks, look, to_float;
     typename DeviceSolver<R>::Kernels solver;
   };
-  /// A sweep with its constants worked out; of a solution those of its residual.
+  /// A sweep with its constants; for a solution, those of its residual.
   struct Resolved {
     const Sweep* sweep;
     Constants constants;
     Work work = Work::forces;
   };
-  enum class End { none, fault, released, rolled_back };
+
+  bool remote() const override { return !device_->facts().shared_memory; }
+  std::uint64_t bytes_read() const override { return state_.bytes_read(); }
+  std::size_t wanted_slot_bytes() const override;
+  bool use_memory(std::shared_ptr<PositionMemory> memory) override;
+  PositionView drawn_positions() override;
+  GlSharing gl_sharing() const override;
+  std::unique_ptr<GlVertices> share(const GlBuffers& buffers) const override;
+  std::optional<VertexBox> write(GlVertices& vertices, const VertexRequest& request) override;
+  std::string copy_reason() const override;
 
   bool tears_watched() const { return preset_.F_max > 0 && preset_.k_s > 0 && preset_.kind == Kind::cloth; }
   bool meets_bodies(const Preset& preset) const { return !preset.bodies.empty() && preset.kind == Kind::cloth; }
   double velocity_scale() const { return scheme_->keeps_displacement ? preset_.dt : 1; }
   std::string options(const Preset& preset, bool contacts) const;
-  /// What the device knows the kernels by that such a preset runs.
+  /// The name under which the device knows the kernels for such a preset.
   std::string program_name(const Preset& preset, const std::string& options) const;
-  /// Kernels for a preset; throws and changes nothing if they do not build.
+  /// The kernels for a preset. Throws EngineError if they do not build.
   Kernels make_kernels(const Preset& preset, bool contacts) const;
   Constants constants(const Preset& preset, const Sweep& sweep) const;
   void resolve();
@@ -83,46 +84,43 @@ class OpenClEngine final : public Engine {
   void upload_bodies_as();
   void read_contacts(std::uint32_t count);
 
-  /// So many work-items for each row.
+  /// Launches `columns` work-items for each row.
   void launch_rows(const Kernel& kernel, int columns) const;
-  /// A sweep's, behind its vectors, and its work-items.
+  /// Sets a sweep's arguments after its vectors, and launches it.
   void launch_sweep(const Kernel& kernel, int at, const Constants& constants, int slot, int levels) const;
-  /// One sweep, or as many steps as there are levels of a method of one sweep.
+  /// Queues one sweep, or `levels` steps of a method of one sweep.
   void enqueue_sweep(const Kernel& kernel, const Resolved& resolved, int slot, int levels = 1);
   /// Solves the implicit stage of a sweep; waits for it.
   void solve(const Resolved& resolved, int slot);
   void plan_bands();
   void enqueue_tear(int slot);
-  /// F/m now, into acceleration_.
+  /// Writes F/m of the present state into acceleration_.
   void accelerations() const;
   void write_fixed_velocities();
-  /// Brings masks, guards and backup up to date with what was changed from outside.
-  void take_changes(const Tears& tears);
+  /// Brings masks, guards and backup up to date with changes from outside.
+  void accept_changes(const Tears& tears);
   void upload_masks(const Tears& tears);
   void read_stored(State& state) const;
 
-  /// Forgets how far particles may still move: something else than their motion has changed.
-  void invalidate_budgets() {
-    divergence_budget_ = tear_budget_ = 0;
-    since_backup_ = -1;
-    growth_ = std::numeric_limits<double>::infinity();
-  }
-  int steps_in_batch(int left) const;
-  /// Makes that many steps, and reads what they report.
-  void make_steps(int count, bool tear_each);
-  /// Judges the steps made; returns those that count, and end_ says how they ended.
-  int judge(int count, bool tear_each, Tears& tears, Fault& fault);
-  /// Looks at every particle and spring; if all is well, says so in divergence_budget_.
-  bool finds_fault(const Tears& tears, Fault& fault);
-  /// The same on the device, which leaves the whole state there; it only tells that something may be wrong.
-  bool well_on_device();
-  bool releases(int step) const;
-  template <class Look>
-  StepReport look_at_springs(const Look& look);
-  void tear_overloaded(Tears& tears);
+  // What the guard asks for.
+  StepsMade make_steps(int most, Tears& tears, Fault& fault) override;
+  StepOutcome outcome(int step) override;
+  double tear_overloaded(Tears& tears) override;
+  bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
+  void keep_backup() override { state_.keep_backup(); }
+  void repeat(int steps, Tears& tears) override;
+
+  /// Makes that many steps, and reads their reports. `tear_each`: each breaks overloaded springs.
+  void run(int count, bool tear_each);
+  /// find_fault() on the device, which leaves the state there. False: something may be wrong.
+  bool well_on_device(double& divergence_budget);
+  /// What kernels report outside of a step.
+  template <class Launch>
+  StepReport report_of(const Launch& launch);
+  /// By how much any spring may grow before one can be overloaded, m.
   double tear_slack(const StepReport& report) const;
-  void keep_backup(const Tears& tears);
-  void repeat(int steps, Tears& tears);
+  /// Copies what steps have broken on the device.
+  void read_tears(Tears& tears);
 
   std::shared_ptr<Device> device_;
   Preset preset_;
@@ -133,9 +131,9 @@ class OpenClEngine final : public Engine {
   std::vector<Resolved> resolved_;  ///< as passes_
   std::unique_ptr<DeviceSolver<R>> solver_;
   mutable Memory acceleration_;
-  int width_;                     ///< particles that a work-item works on at a time
-  int bands_ = 1, levels_ = 1;    ///< work-items of a sweep, and steps of a launch at most, where width_ is over 1
-  std::size_t band_numbers_ = 0;  ///< of a band's scratch
+  int width_;                     ///< particles that a work-item processes at a time
+  int bands_ = 1, levels_ = 1;    ///< work-items of a sweep, and steps of a launch at most, if width_ > 1
+  std::size_t band_numbers_ = 0;  ///< size of a band's scratch memory
   Memory scratch_;
   mutable Kernels kernels_;
   std::string options_;
@@ -143,23 +141,18 @@ class OpenClEngine final : public Engine {
   std::vector<int> pinned_;
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;
-  bool asked_for_memory_ = false;  ///< it has some, or cannot use it
-  bool noted_run_ = false;         ///< that the present kernels have made steps
+  bool memory_settled_ = false;  ///< positions are in lent memory, or cannot be
+  bool noted_run_ = false;       ///< the device knows that the present kernels have made steps
   std::vector<Contact> contacts_;
   std::vector<StepReport> report_;
   std::vector<R> hand_forces_;  ///< of each step of the batch
-  Tears tears_backup_;
-  int since_backup_ = -1;  ///< steps; under 0: there is none
-  int torn_ = 0;           ///< springs, when a step was last made: cuts come from outside
-  double growth_ = 0, divergence_budget_ = 0, tear_budget_ = 0;  ///< as in the CPU engine, m
-  bool tears_often_ = false;                                     ///< springs are looked at in every step
-  int left_inside_ = 0;
-  End end_ = End::none;
-  glm::dvec3 hand_force_{0};
+  StepGuard guard_;
+  bool tears_each_ = false;    ///< the steps that are being judged have each broken overloaded springs
+  bool tears_unread_ = false;  ///< some were broken that `tears` does not have yet
 };
 
-/// Throws EngineError where there is no such device or it cannot run the preset. `width`: particles that a work-item
-/// works on at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
+/// Throws EngineError if there is no such device or it cannot run the preset. `width`: particles that a work-item
+/// processes at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width = 0);
 
 }  // namespace tyglab::opencl

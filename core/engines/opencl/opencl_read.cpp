@@ -1,6 +1,4 @@
 // What the host reads of an OpenCL engine.
-#include "core/engines/opencl/arguments.h"
-#include "core/engines/opencl/card_vertices.h"
 #include "core/engines/opencl/opencl_engine.h"
 
 namespace tyglab::opencl {
@@ -24,7 +22,7 @@ void OpenClEngine<R>::read_stored(State& state) const {
 
 template <class R>
 void OpenClEngine<R>::read(State& state, const Tears& tears) {
-  if (masks_stale_ || torn_ != tears.torn_count()) take_changes(tears);
+  accept_changes(tears);
   read_stored(state);
   if (!scheme_->lags) return;
   accelerations();
@@ -59,62 +57,6 @@ PositionView OpenClEngine<R>::positions() const {
       view.d[c] = StateView<R>::row(x, state_.stride(), 0, c);
   }
   return view;
-}
-
-template <class R>
-std::size_t OpenClEngine<R>::wants_memory() const {
-  return asked_for_memory_ || !device_->facts().processor ? 0 : state_.slot_bytes();
-}
-
-template <class R>
-bool OpenClEngine<R>::take_memory(std::shared_ptr<PositionMemory> memory) {
-  asked_for_memory_ = true;
-  return state_.take_memory(std::move(memory));
-}
-
-template <class R>
-PositionView OpenClEngine<R>::shown() {
-  if constexpr (std::is_same_v<R, float>) return positions();
-  if (const cl_mem to = state_.stale_floats(); to != nullptr) {
-    constexpr std::size_t each = 8;  // numbers of a work-item
-    const std::size_t items = state_.numbers() / each;
-    const cl_mem from = state_.vector(vector_x);
-    set_arguments(kernels_.to_float, 0, from, to);
-    check(clEnqueueNDRangeKernel(device_->queue(), kernels_.to_float.get(), 1, nullptr, &items, nullptr, 0, nullptr,
-                                 nullptr),
-          "starting a kernel");
-  }
-  const float* x = state_.floats();
-  if (x == nullptr) return positions();
-  PositionView view{lattice_.rows, lattice_.columns, 3 * state_.stride()};
-  for (int c = 0; c < 3; ++c) view.f[c] = StateView<float>::row(x, state_.stride(), 0, c);
-  return view;
-}
-
-template <class R>
-GlSharing OpenClEngine<R>::gl_sharing() const {
-  // The one weight is drawn from no vertices of particles.
-  return preset_.kind == Kind::cloth ? device_->gl_sharing() : GlSharing::none;
-}
-
-template <class R>
-std::unique_ptr<GlVertices> OpenClEngine<R>::share(const GlBuffers& buffers) const {
-  return std::make_unique<CardVertices>(device_, buffers, sizeof(R) == sizeof(double));
-}
-
-template <class R>
-std::optional<VertexBox> OpenClEngine<R>::write(GlVertices& vertices, const VertexOrder& order) {
-  auto* const mine = dynamic_cast<CardVertices*>(&vertices);
-  if (mine == nullptr || !mine->fits(device_, sizeof(R) == sizeof(double))) return std::nullopt;
-  return mine->write(state_.vector(vector_x), state_.stride(), order);
-}
-
-template <class R>
-std::string OpenClEngine<R>::why_copied() const {
-  if (device_->facts().processor)
-    return asked_for_memory_ && !state_.has_lent_memory() ? "the device cannot work in OpenGL's memory" : "";
-  if (!device_->gl_problem().empty()) return device_->gl_problem();
-  return device_->gl_sharing() == GlSharing::none ? "the device was opened for another OpenGL context" : "";
 }
 
 template <class R>

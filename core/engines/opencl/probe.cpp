@@ -9,6 +9,7 @@
 #include "core/engines/opencl/arguments.h"
 #include "core/engines/opencl/device.h"
 #include "core/engines/opencl/kernel_text.h"
+#include "core/engines/position_memory.h"
 
 namespace tyglab {
 namespace opencl {

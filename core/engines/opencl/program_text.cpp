@@ -128,8 +128,8 @@ std::vector<Coefficient> coefficients(const std::vector<Assignment>& assignments
   return all;
 }
 
-const Sweep& look() {
-  static const Sweep sweep{vector_x, vector_v, 0, {{look_target, {{acceleration, 1, 0}}}}};
+const Sweep& readout() {
+  static const Sweep sweep{vector_x, vector_v, 0, {{readout_target, {{acceleration, 1, 0}}}}};
   return sweep;
 }
 
@@ -171,7 +171,7 @@ std::string program_text(const Scheme& scheme) {
     text +=
         kernel_for("residual", {.sweep = residual(), .vectors = residual_target + 1, .seen = vector_v, .often = true});
   }
-  return text + kernel_for("accelerations", {.sweep = look(), .vectors = look_target + 1, .seen = vector_v});
+  return text + kernel_for("accelerations", {.sweep = readout(), .vectors = readout_target + 1, .seen = vector_v});
 }
 
 }  // namespace tyglab::opencl

@@ -8,7 +8,7 @@
 
 namespace tyglab::opencl {
 
-/// A sweep's coefficients in the order in which its text names them: factor · dt^dt_power, over m for a term of a.
+/// A coefficient of a sweep, factor · dt^dt_power, divided by m for a term of a; in the order of the sweep's text.
 struct Coefficient {
   double factor;
   int dt_power;
@@ -16,7 +16,7 @@ struct Coefficient {
 };
 std::vector<Coefficient> coefficients(const std::vector<Assignment>& assignments);
 
-/// A part of a step that is a launch, or the solution of an implicit stage.
+/// A part of a step: one launch, or the solution of an implicit stage.
 enum class Work { forces, sums, solution };
 struct Pass {
   Work work;    ///< a sweep; assignments without a force; the stage that the sweep `solves`
@@ -24,16 +24,17 @@ struct Pass {
 };
 std::vector<Pass> passes(const Scheme& scheme);
 
-/// The sweep of the kernel `residual`, of a stage's x, v and c_v: β dt a - (v - c_v) into a fourth vector, for β = 1.
+/// The sweep of the kernel `residual`: from a stage's x, v and c_v it writes β dt a - (v - c_v) into a fourth vector,
+/// for β = 1.
 inline constexpr int residual_start = 2, residual_target = 3;
 const Sweep& residual();
 
-/// The sweep of the kernel `accelerations`: F/m of the first two vectors into a third.
-inline constexpr int look_target = 2;
-const Sweep& look();
+/// The sweep of the kernel `accelerations`: writes F/m of the first two vectors into a third.
+inline constexpr int readout_target = 2;
+const Sweep& readout();
 
-/// All kernels for a scheme: pass_0, pass_1 … for its passes but for solutions, start if it has one, residual if it
-/// solves, accelerations, and those of kernels/. Text and options depend on nothing that a slider changes.
+/// All kernels for a scheme: pass_0, pass_1 … for its passes except solutions, start if it has one, residual if it is
+/// implicit, accelerations, and those of kernels/. The text depends on nothing that a slider changes.
 std::string program_text(const Scheme& scheme);
 
 }  // namespace tyglab::opencl

@@ -30,7 +30,7 @@ VertexKernels::VertexKernels(std::shared_ptr<Device> device, bool in_double) : d
   box_ = device_->zeros(box_words * sizeof(cl_uint));
 }
 
-void VertexKernels::take_tears(std::span<const TornSite> torn) {
+void VertexKernels::set_tears(std::span<const TornSite> torn) {
   torn_count_ = int(torn.size());
   if (torn.empty()) return;
   torn_ = device_->zeros(torn.size_bytes());

@@ -1,4 +1,4 @@
-// The kernels of drawing.cl: what is drawn of a cloth, into any two buffers of a device.
+// The kernels of drawing.cl, which write the vertices of a cloth into any two buffers of a device.
 #pragma once
 
 #include <memory>
@@ -11,15 +11,16 @@ namespace tyglab::opencl {
 
 class VertexKernels {
  public:
-  /// For positions in double or in float. Throws EngineError, as all of it does.
+  /// For positions in double or in float. Throws EngineError, as all members do.
   VertexKernels(std::shared_ptr<Device> device, bool in_double);
 
-  void take_tears(std::span<const TornSite> torn);
-  /// Queues the writing of positions, of a vector as in cloth.cl.
+  /// As GlVertices::set_tears().
+  void set_tears(std::span<const TornSite> torn);
+  /// Queues the writing of positions, from a vector as in cloth.cl.
   void write_positions(cl_mem x, int stride, const DrawnSites& sites, cl_mem to);
   /// Queues the writing of normals, from such positions.
   void write_normals(cl_mem positions, const DrawnSites& sites, cl_mem to);
-  /// Waits for what was queued; between what the positions lie.
+  /// Waits for what was queued; returns the bounds of the positions.
   VertexBox box() const;
 
  private:

@@ -1,12 +1,11 @@
-// What becomes of a row once the force on it is known, in SIMD: for methods whose step the pair sweep does not make by
-// itself.
+// Updates of a row once the force on it is known, in SIMD: for methods whose update the pair sweep does not contain.
 #pragma once
 
 #include <cstddef>
 
 namespace tyglab::cpu {
 
-/// target := Σ factor · source; rows as in row_field.h, of which the target may be one of the sources.
+/// target := Σ factor · source; rows as in row_field.h. The target may be one of the sources.
 template <class R>
 struct RowSum {
   static constexpr int most_terms = 8;
@@ -16,16 +15,17 @@ struct RowSum {
   R factor[most_terms] = {};
 };
 
-/// Makes the sum for all components of the row's first `columns` particles; what lies behind them stays.
+/// Computes the sum for all components of the row's first `columns` particles; the rest of the row stays.
 template <class R>
 void make_sum(const RowSum<R>& sum, std::ptrdiff_t stride, int columns);
 
-/// Keeps in `largest`, a vector of the widest kind, the largest component of a way x - old or dt·v so far, m; one that
-/// is not finite makes it ∞ or NaN.
+/// Updates `largest`, a vector of the widest kind, to the largest component of a displacement x - old or dt·v so far,
+/// m; one that is not finite makes it ∞ or NaN.
 template <class R>
-void watch_ways(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, int columns, R* largest);
+void watch_displacements(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, int columns, R* largest);
 
-/// Five sums of the same sources: what a step errs by in x and v, by how much its last two stages differ in x, v and a.
+/// Five sums of the same sources: the error of a step in x and v, and how much its last two stages differ in x, v and
+/// a.
 template <class R>
 struct RowEstimate {
   static constexpr int most_terms = 8;
@@ -34,9 +34,9 @@ struct RowEstimate {
   R error_x[most_terms] = {}, error_v[most_terms] = {};
   R stage_x[most_terms] = {}, stage_v[most_terms] = {}, stage_a[most_terms] = {};
   const R* x = nullptr;  ///< positions
-  R dt = 0;              ///< s, that makes a way of an error in v
+  R dt = 0;              ///< s; turns an error in v into a displacement
 };
-/// Of a row: largest |component|, m, and sums over all components.
+/// Measures of a row: largest |component|, m, and sums over all components.
 struct RowMeasures {
   double error = 0;  ///< of error_x and dt·error_v; ∞ if one is not finite
   double farthest = 0;

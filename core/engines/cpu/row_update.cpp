@@ -1,17 +1,19 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/simd/row_update.cpp"
+#define HWY_TARGET_INCLUDE "core/engines/cpu/row_update.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "core/engines/cpu/row_update.h"
 #include "core/simd/row_field.h"
-#include "core/simd/row_update.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
+using namespace tyglab::simd::HWY_NAMESPACE;
+using simd::widest_vector;
 
 /// The sum at one vector's place.
 template <int terms, class R>
@@ -157,13 +159,13 @@ void make_sum(const RowSum<double>& s, std::ptrdiff_t stride, int columns) {
   HWY_DYNAMIC_DISPATCH(sum_double)(s, stride, columns);
 }
 template <>
-void watch_ways(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
-                float* largest) {
+void watch_displacements(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
+                         float* largest) {
   HWY_DYNAMIC_DISPATCH(watch_float)(x, old, v, dt, stride, columns, largest);
 }
 template <>
-void watch_ways(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride, int columns,
-                double* largest) {
+void watch_displacements(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride,
+                         int columns, double* largest) {
   HWY_DYNAMIC_DISPATCH(watch_double)(x, old, v, dt, stride, columns, largest);
 }
 

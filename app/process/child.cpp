@@ -1,0 +1,147 @@
+#include "app/process/child.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+namespace tyglab {
+namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw ChildError(std::string("cannot make a ") + what + ": " + std::strerror(errno));
+}
+
+void set_up_child(const ChildOptions& options) {
+  if (options.interruptible)
+    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  else
+    std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches it too, but what was begun is finished
+  if (!options.silent) return;
+  const int nowhere = ::open("/dev/null", O_WRONLY);
+  ::dup2(nowhere, STDOUT_FILENO), ::dup2(nowhere, STDERR_FILENO);
+}
+
+bool send(int pipe, const std::string& bytes) {
+  std::size_t sent = 0;
+  while (sent < bytes.size()) {
+    const ssize_t now = ::write(pipe, bytes.data() + sent, bytes.size() - sent);
+    if (now <= 0) return false;
+    sent += std::size_t(now);
+  }
+  return true;
+}
+
+/// The child's whole life.
+[[noreturn]] void live(const Child::Work& work, const ChildOptions& options, int pipe) {
+  set_up_child(options);
+  bool done = false;
+  try {
+    done = send(pipe, work());
+  } catch (...) {  // of which the exit code speaks
+  }
+  ::_exit(done ? 0 : 1);
+}
+
+/// Waits for a process to end; its status.
+int status_of(pid_t process) {
+  int status = 0;
+  while (::waitpid(process, &status, 0) < 0 && errno == EINTR) continue;
+  return status;
+}
+
+}  // namespace
+
+Child::Child(const Work& work, const ChildOptions& options) : most_seconds_(options.most_seconds) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
+  process_ = ::fork();
+  if (process_ < 0) {
+    ::close(ends[0]), ::close(ends[1]);
+    fail("process");
+  }
+  if (process_ == 0) live(work, options, ends[1]);
+  ::close(ends[1]);
+  pipe_ = ends[0];
+}
+
+Child::Child(Child&& from) noexcept {
+  *this = std::move(from);
+}
+
+Child& Child::operator=(Child&& from) noexcept {
+  std::swap(process_, from.process_), std::swap(pipe_, from.pipe_);
+  most_seconds_ = from.most_seconds_, start_ = from.start_, result_ = std::move(from.result_);
+  return *this;
+}
+
+Child::~Child() {
+  if (process_ < 0) return;
+  ::kill(process_, SIGKILL);
+  end();
+}
+
+bool Child::read() {
+  std::array<char, 65536> bytes;
+  const ssize_t count = ::read(pipe_, bytes.data(), bytes.size());
+  if (count < 0) return errno == EINTR;
+  result_.append(bytes.data(), std::size_t(count));
+  return count > 0;
+}
+
+bool Child::overdue() const {
+  return most_seconds_ > 0 && age() > most_seconds_;
+}
+
+ChildExit Child::end() {
+  ChildExit exit;
+  const bool kills = overdue();
+  if (kills) ::kill(process_, SIGKILL);
+  ::close(std::exchange(pipe_, -1));
+  const int status = status_of(std::exchange(process_, -1));
+  exit.seconds = age();
+  if (WIFSIGNALED(status)) exit.signal = WTERMSIG(status);
+  exit.timed_out = kills && exit.signal == SIGKILL;
+  if (WIFEXITED(status)) exit.code = WEXITSTATUS(status);
+  if (WIFEXITED(status) && exit.code == 0) exit.result = std::move(result_);
+  return exit;
+}
+
+ChildExit run_in_child(const Child::Work& work, const ChildOptions& options) {
+  Child child(work, options);
+  pollfd pipe{child.pipe(), POLLIN, 0};
+  constexpr int milliseconds = 200;
+  while (!child.overdue())
+    if (::poll(&pipe, 1, milliseconds) > 0 && !child.read()) break;
+  return child.end();
+}
+
+std::optional<int> run_program_silently(const std::string& path, std::vector<std::string> arguments, int input) {
+  std::vector<char*> words;
+  words.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  if (input >= 0)
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+  else
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  for (const int output : {STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, output, "/dev/null", O_WRONLY, 0);
+  pid_t process = -1;
+  const int problem = ::posix_spawn(&process, path.c_str(), &files, nullptr, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  if (problem != 0) return std::nullopt;
+  const int status = status_of(process);
+  return WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
+}
+
+}  // namespace tyglab

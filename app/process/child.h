@@ -1,0 +1,75 @@
+// Child processes: a function of this program or another program, whose crash or hang is a result like any other.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tyglab {
+
+/// No child process could be created. `what()` says why.
+class ChildError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// How a child process ended.
+struct ChildExit {
+  std::string result;      ///< of its function; empty unless it returned and all of the result arrived
+  int code = 0;            ///< exit code: 0 unless the function threw or the result could not be sent
+  int signal = 0;          ///< that ended it; 0: none
+  bool timed_out = false;  ///< it was killed for taking too long
+  double seconds = 0;      ///< from its start to its end
+};
+
+struct ChildOptions {
+  double most_seconds = 0;     ///< after which it is killed; 0: never
+  bool silent = false;         ///< what it writes to standard output and error goes nowhere
+  bool interruptible = false;  ///< Ctrl-C and SIGTERM end it, as by default; otherwise it ignores Ctrl-C
+};
+
+/// A function that runs in a process of its own, a copy of this one with the calling thread alone.
+class Child {
+ public:
+  using Work = std::function<std::string()>;
+
+  /// Starts it. Throws ChildError.
+  Child(const Work& work, const ChildOptions& options);
+  Child(Child&& from) noexcept;
+  Child& operator=(Child&& from) noexcept;
+  ~Child();
+
+  /// A descriptor that becomes readable when part of the result has arrived, and when the child has ended.
+  int pipe() const { return pipe_; }
+  /// Reads what has arrived; false once there will be no more.
+  bool read();
+  /// Whether it has taken longer than it may.
+  bool overdue() const;
+  /// Waits for its end; one that is overdue is killed. Once.
+  ChildExit end();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double age() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  pid_t process_ = -1;  ///< -1: it has ended
+  int pipe_ = -1;
+  double most_seconds_ = 0;
+  Clock::time_point start_ = Clock::now();
+  std::string result_;
+};
+
+/// Runs a function in a child process and waits for its end. Throws ChildError.
+ChildExit run_in_child(const Child::Work& work, const ChildOptions& options = {});
+
+/// Runs another program, without output, and waits for its end. `arguments` begin with the program's name; `input` is
+/// the descriptor of its standard input, -1 for none. Returns its exit code, or nothing if it did not start or was
+/// ended by a signal.
+std::optional<int> run_program_silently(const std::string& path, std::vector<std::string> arguments, int input = -1);
+
+}  // namespace tyglab

@@ -1,0 +1,9 @@
+// Whether an OpenCL driver crashes when it is asked for its devices: found out in a child process.
+#pragma once
+
+namespace tyglab {
+
+/// Has core ask the drivers in a child process first (set_driver_probe()).
+void probe_drivers_in_child();
+
+}  // namespace tyglab

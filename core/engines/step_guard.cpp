@@ -1,0 +1,95 @@
+#include "core/engines/step_guard.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace tyglab {
+
+void StepGuard::spend_budgets() {
+  divergence_budget_ = tear_budget_ = 0;
+  elongation_ = std::numeric_limits<double>::infinity();
+}
+
+void StepGuard::invalidate() {
+  spend_budgets();
+  since_backup_ = -1;
+}
+
+int StepGuard::steps_ahead(int most, bool tears_by_itself) const {
+  const double motion =
+      rules_.tearing && !tears_by_itself ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
+  if (!(motion > 0)) return 1;
+  constexpr double margin = 2;  // motion does not double within a few steps, unless something is going wrong
+  return int(std::clamp(motion / (margin * elongation_), 1.0, double(most)));
+}
+
+bool StepGuard::overload_within(int steps) const {
+  return rules_.tearing && tear_budget_ < steps * elongation_ && elongation_ < divergence_budget_;
+}
+
+StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
+  for (int n = 0; n < count; ++n) {
+    const StepOutcome step = engine.outcome(n);
+    elongation_ = std::isfinite(step.elongation) ? step.elongation : std::numeric_limits<double>::infinity();
+    divergence_budget_ -= elongation_, tear_budget_ -= elongation_;
+    if (step.tear_budget) tear_budget_ = *step.tear_budget;
+    left_inside_ = step.left_inside;
+    const bool tear = rules_.tearing && !step.tear_budget && !(tear_budget_ > 0), look = !(divergence_budget_ > 0);
+    const bool release = step.hand_force && rules_.F_release > 0 && glm::length(*step.hand_force) > rules_.F_release;
+    if ((tear || look || release) && n < count - 1) return {n + 1, StepsEnd::rolled_back};
+    if (tear) tear_budget_ = engine.tear_overloaded(tears);
+    if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, StepsEnd::fault};
+    hand_force_ = step.hand_force.value_or(glm::dvec3(0));
+    if (release) return {n + 1, StepsEnd::released};
+  }
+  return {count, StepsEnd::complete};
+}
+
+void StepGuard::keep_backup(GuardedSteps& engine, const Tears& tears) {
+  engine.keep_backup();
+  if (rules_.tearing) tears_backup_ = tears;
+  since_backup_ = 0;
+}
+
+void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears) {
+  if (rules_.tearing) tears = tears_backup_;
+  spend_budgets();
+  engine.repeat(steps, tears);
+  spend_budgets();
+}
+
+/// Makes steps that have been overwritten again, up to the one to be examined, and examines it.
+StepsMade StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
+  repeat(engine, since_backup_ + count, tears);
+  const StepsMade last = judge(engine, 1, tears, fault);
+  return {count - 1 + last.count, last.end};
+}
+
+Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears) {
+  Advance result;
+  const int torn_before = tears.torn_count();
+  Fault fault{};
+  while (result.steps < steps && !result.diverged && !result.released) {
+    if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(engine, tears);
+    const int most = std::min(steps - result.steps, steps_between_backups - since_backup_);
+    StepsMade made = engine.make_steps(most, tears, fault);
+    const bool rolled_back = made.end == StepsEnd::rolled_back;
+    if (rolled_back) made = examine_last(engine, made.count, tears, fault);
+    result.diverged = made.end == StepsEnd::fault;
+    result.released = made.end == StepsEnd::released;
+    result.steps += made.count;
+    if (result.diverged) repeat(engine, since_backup_ + made.count, tears);
+    // After a fault nothing is known of the next step; what has just been repeated must not be repeated again.
+    since_backup_ = result.diverged || rolled_back || rules_.costly_steps ? -1 : since_backup_ + made.count;
+    torn_ = tears.torn_count();
+  }
+  result.i = fault.i, result.j = fault.j, result.di = fault.di, result.dj = fault.dj, result.value = fault.value;
+  if (result.diverged) result.quantity = fault.quantity;
+  result.torn = tears.torn_count() - torn_before;
+  result.left_inside = left_inside_;
+  result.hand_force = hand_force_;
+  return result;
+}
+
+}  // namespace tyglab

@@ -1,0 +1,114 @@
+// Finds the first step that goes wrong without examining every one. A spring grows by no more than its two ends move,
+// so after all springs have been measured it is known how much motion may pass before one can be too long or
+// overloaded; each step spends some of these budgets, and only when one is used up is the cloth examined again. The
+// state is backed up now and then: if a step turns out to be bad, or later steps have overwritten the one to be
+// examined, the engine returns to the backup and repeats the good steps, which gives the same bits.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <limits>
+#include <optional>
+
+#include "core/cloth/tears.h"
+#include "core/engines/engine.h"
+#include "core/engines/fault.h"
+
+namespace tyglab {
+
+/// How a series of steps ended.
+enum class StepsEnd {
+  complete,
+  fault,       ///< the step after those that count diverged; the state is the one after it
+  released,    ///< in the last step the hand's force exceeded F_release
+  rolled_back  ///< the last step that counts must be examined, but later ones have overwritten its state
+};
+
+struct StepsMade {
+  int count = 0;  ///< steps that count
+  StepsEnd end = StepsEnd::complete;
+};
+
+/// What the guard needs to know of a step.
+struct StepOutcome {
+  double elongation = 0;                 ///< by which any spring can have grown at most, m; may be non-finite
+  int left_inside = 0;                   ///< free particles inside a body
+  std::optional<glm::dvec3> hand_force;  ///< on the held particle, N, if there is one
+  std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
+};
+
+/// What the guard asks of an engine.
+class GuardedSteps {
+ public:
+  GuardedSteps() = default;
+  GuardedSteps(const GuardedSteps&) = delete;
+  GuardedSteps& operator=(const GuardedSteps&) = delete;
+
+  /// Makes up to `most` steps, has the guard judge() them, and returns its verdict on all of them together.
+  virtual StepsMade make_steps(int most, Tears& tears, Fault& fault) = 0;
+  /// Of the steps that are being judged, the first of which is 0.
+  virtual StepOutcome outcome(int step) = 0;
+  /// Breaks the springs that are overloaded in the present state. Returns by how much any other spring may grow before
+  /// it can be overloaded, m.
+  virtual double tear_overloaded(Tears& tears) = 0;
+  /// Examines every particle and whole spring of the present state, with `tears` brought up to date. If all is well,
+  /// sets by how much any spring may grow before it can be too long, m.
+  virtual bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) = 0;
+  /// Copies the present state, in place of an earlier copy.
+  virtual void keep_backup() = 0;
+  /// Returns to the backup, whose tears are given, and makes that many steps again, all of which are known to be good
+  /// but perhaps the last. Outcome 0 is then that of the last one.
+  virtual void repeat(int steps, Tears& tears) = 0;
+
+ protected:
+  ~GuardedSteps() = default;
+};
+
+class StepGuard {
+ public:
+  /// A copy of the state costs about as much memory traffic as a step: under 1 %.
+  static constexpr int steps_between_backups = 256;
+
+  struct Rules {
+    bool tearing = false;       ///< springs can be overloaded
+    double F_release = 0;       ///< N; 0: the hand does not let go
+    bool costly_steps = false;  ///< a step costs more than a backup, so every run of steps begins with one
+  };
+  /// Sets what to watch for. Call invalidate() where the scene has changed.
+  void set_rules(const Rules& rules) { rules_ = rules; }
+
+  /// Voids the budgets and the backup: something other than the particles' motion has changed the state.
+  void invalidate();
+  /// Whether springs have been cut from outside since the last step.
+  bool springs_cut(const Tears& tears) const { return torn_ != tears.torn_count(); }
+  /// Takes these tears as known. The budgets stay valid without the springs that were cut, the backup does not.
+  void accept_cuts(const Tears& tears) { torn_ = tears.torn_count(), since_backup_ = -1; }
+
+  /// How many steps, 1 to `most`, can be made before one must be examined, if motion does not suddenly double.
+  /// `tears_by_itself`: each step breaks overloaded springs by itself.
+  int steps_ahead(int most, bool tears_by_itself = false) const;
+  /// Whether a spring may be overloaded within that many steps, while none can be too long in the next.
+  bool overload_within(int steps) const;
+
+  /// Makes up to `steps` good steps, as Engine::advance().
+  Advance advance(GuardedSteps& engine, int steps, Tears& tears);
+  /// Judges steps that have been made, of which the state of the last is present.
+  StepsMade judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
+
+ private:
+  void keep_backup(GuardedSteps& engine, const Tears& tears);
+  void spend_budgets();
+  void repeat(GuardedSteps& engine, int steps, Tears& tears);
+  StepsMade examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
+
+  Rules rules_;
+  double divergence_budget_ = 0;  ///< by which any spring may grow before one can be too long, m
+  double tear_budget_ = 0;        ///< before one can be overloaded, m
+  double elongation_ = std::numeric_limits<double>::infinity();  ///< of the last step at most, m; ∞: not known
+  int since_backup_ = -1;                                        ///< steps; < 0: there is no backup
+  int torn_ = 0;                                                 ///< springs, after the last step
+  Tears tears_backup_;
+  int left_inside_ = 0;
+  glm::dvec3 hand_force_{0};
+};
+
+}  // namespace tyglab
