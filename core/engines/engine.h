@@ -151,8 +151,10 @@ class Engine {
   virtual glm::dvec3 position(int i, int j) const { return positions().at(i, j); }
   /// Bytes of all arrays that grow with the cloth.
   virtual std::size_t bytes() const = 0;
-  /// Threads that it uses.
+  /// Threads that it uses at most.
   virtual int threads() const = 0;
+  /// Threads that it uses at present: it lets go of those that do not pay.
+  virtual int threads_at_work() const { return threads(); }
   virtual SolveCounts solves() const = 0;
   /// What a method that chooses its own steps did within dt; nothing for others.
   virtual InnerSteps inner_steps() const = 0;

@@ -91,6 +91,8 @@ class Band {
   /// where there are several bands.
   Band(Cloth<R>& cloth, int begin, int end);
   static constexpr int least_rows = 8;
+  /// Other rows from now on: on no side where the first ones ended at the cloth's edge may these end within the cloth.
+  void cover(int begin, int end) { begin_ = begin, end_ = end; }
   /// For the positions before a pair is overwritten, where bodies or the watch over a method with more vectors need
   /// them. Before the first sweep.
   void make_room(bool old_rows);

@@ -139,16 +139,16 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   const int torn = tears.torn_count();
   if (cloth_.notes_contacts)
-    for (const auto& band : bands_)
+    for (const auto& band : bands())
       inner_contacts_.insert(inner_contacts_.end(), band->contacts().begin(), band->contacts().end());
-  const End end = finish_step(bands_, tears, fault);
+  const End end = finish_step(bands(), tears, fault);
   if (end != End::none) end_ = end;
   left_of_dt_ = end == End::fault ? 0 : left_of_dt_ - cloth_.dt;
   // The last a is the next step's first, unless something else than the method has moved the particles or the springs.
   std::swap(cloth_.vector(sweeps_.front().assignments.front().target),
             cloth_.vector(sweeps_.back().assignments.front().target));
   knows_first_a_ = torn == tears.torn_count() &&
-                   std::none_of(bands_.begin(), bands_.end(), [](const auto& band) { return band->collided(); });
+                   std::none_of(bands().begin(), bands().end(), [](const auto& band) { return band->collided(); });
   if (left_of_dt_ > 0) take_next_dt();
 }
 

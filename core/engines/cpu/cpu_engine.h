@@ -1,6 +1,7 @@
 // The CPU engine: runs every explicit scheme in place over rows, in SIMD.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -9,6 +10,7 @@
 #include "core/engines/cpu/implicit.h"
 #include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
+#include "core/engines/cpu/thread_governor.h"
 #include "core/engines/engine.h"
 #include "core/engines/fault.h"
 #include "core/integrators/scheme.h"
@@ -33,7 +35,10 @@ class CpuEngine final : public Engine {
   PositionView positions() const override;
   StoredParticle stored(int i, int j) const override;
   std::size_t bytes() const override;
-  int threads() const override { return team_->size(); }
+  int threads() const override { return team_->capacity(); }
+  int threads_at_work() const override { return team_->size(); }
+  /// For tests: from now on every few steps are made by as many threads as this says, 1 … threads().
+  void force_threads(std::function<int()> next) { forced_threads_ = std::move(next); }
   SolveCounts solves() const override { return solver_.counts(); }
   InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
@@ -51,6 +56,13 @@ class CpuEngine final : public Engine {
   void resolve();
   void resolve_estimate();
   void make_waves();
+  /// How many steps that many threads can make in a wave; 0 where waves do not pay.
+  int steps_of_wave(int threads) const;
+  void resize_team(int size);
+  /// Those that work.
+  std::span<const std::unique_ptr<Band<R, Present>>> bands() const {
+    return std::span(bands_).first(std::size_t(team_->size()));
+  }
   bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
@@ -95,6 +107,9 @@ class CpuEngine final : public Engine {
   /// Steps until done, the hand lets go, a fault is found, or a step of a wave had to be looked at (end_ says which);
   /// returns the steps without fault. `waves`: several steps at a time where that pays.
   int run(int steps, Tears& tears, Fault& fault, bool waves);
+  int steps_of_run(int left) const;
+  /// The same with as many threads as the team has now.
+  int run_together(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
   /// What a sweep that projects does, with its assignments.
   void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
@@ -133,7 +148,11 @@ class CpuEngine final : public Engine {
   int projected_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since the projector looked
   std::unique_ptr<Team> team_;
-  std::vector<std::unique_ptr<Band<R, Present>>> bands_;
+  ThreadGovernor governor_;
+  std::function<int()> forced_threads_;
+  double steps_per_second_ = 0;                           ///< of the last run; 0: not known
+  int wave_steps_ = 0;                                    ///< at most, of the threads that work
+  std::vector<std::unique_ptr<Band<R, Present>>> bands_;  ///< one for each thread
   std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< all rows each, a sweep each
   std::vector<Progress> progress_;                        ///< of each thread's last sweep of a wave
   double growth_ = 0;                                     ///< of a spring in the last step, at most, m; ∞: not known

@@ -1,5 +1,6 @@
 // Stepping: bands side by side, then what needs the whole cloth: tearing, the hand's release, the watch for divergence.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -137,7 +138,7 @@ void CpuEngine<R, Present>::read_hand(const Tears& tears) {
 
 template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_in_wave(int left) const {
-  const int most = std::min(left, int(waves_.size() / sweeps_.size()));
+  const int most = std::min(left, wave_steps_);
   const bool hand = has(part::hand) && cloth_.held.particle >= 0 && cloth_.preset.F_release > 0;
   const double motion = tears_watched() ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
   if (most <= 1 || hand || !(motion > 0)) return 1;
@@ -182,9 +183,8 @@ int CpuEngine<R, Present>::finish_wave(int steps, Tears& tears, Fault& fault) {
 }
 
 template <class R, unsigned Present>
-int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+int CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fault, bool waves) {
   int done = 0, together = 1;
-  end_ = End::none;
   const auto plan = [&] {
     together = end_ != End::none || done == steps ? 0 : waves ? steps_in_wave(steps - done) : 1;
     for (Progress& progress : progress_) progress.restart();
@@ -202,7 +202,7 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves
       } else {
         step_in_bands(number, tears);
         if (number == 0) {
-          end_ = finish_step(bands_, tears, fault);
+          end_ = finish_step(bands(), tears, fault);
           if (end_ != End::fault) ++done;
         }
       }
@@ -210,6 +210,37 @@ int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves
       team_->barrier();
     }
   });
+  return done;
+}
+
+/// How many of the `left` steps to make before the governor may change the number of threads.
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::steps_of_run(int left) const {
+  const int least = std::max(wave_steps_, 1);
+  if (forced_threads_) return std::min(least, left);
+  if (team_->capacity() == 1) return left;
+  const double most = governor_.run_seconds() * steps_per_second_;
+  return most < left ? std::min(std::max(least, int(most) / least * least), left) : left;
+}
+
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+  using Clock = std::chrono::steady_clock;
+  end_ = End::none;
+  int done = 0;
+  while (done < steps && end_ == End::none) {
+    resize_team(forced_threads_ ? forced_threads_() : governor_.threads());
+    const std::int64_t evaluations = control_.counts().force_evaluations;
+    const auto begin = Clock::now();
+    const int made = run_together(steps_of_run(steps - done), tears, fault, waves);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    done += made;
+    if (made == 0) continue;
+    steps_per_second_ = made / seconds;
+    // Inner steps differ in number from step to step.
+    governor_.worked(chooses_steps(*scheme_) ? double(control_.counts().force_evaluations - evaluations) : made,
+                     seconds);
+  }
   return done;
 }
 
