@@ -102,9 +102,11 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
       ->type_name("float|double")
       ->check(not_empty());
   command
-      .add_option("--threads", threads,
-                  "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay "
-                  "(all processors if it is not given). The result is the same to the last bit")
+      .add_option(
+          "--threads", threads,
+          "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay and "
+          "while other programs hold processors (all processors if it is not given). The result is the same to "
+          "the last bit")
       ->type_name("N")
       ->transform(whole_number_between(1, 256));
 }

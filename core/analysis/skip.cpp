@@ -5,6 +5,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "core/analysis/throughput.h"
 #include "core/cloth/start.h"
 #include "core/engines/cpu/parts.h"
 
@@ -25,12 +26,6 @@ std::unique_ptr<Engine> make_engine_for(const SkipFeature& feature, SkipState st
   const Lattice lattice = lattice_of(preset);
   if (state == SkipState::absent) return cpu::make_engine_without(feature.part, preset, lattice);
   return make_engine(preset, lattice, 1);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

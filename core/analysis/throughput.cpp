@@ -1,8 +1,10 @@
 #include "core/analysis/throughput.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "core/analysis/machine.h"
@@ -31,7 +33,59 @@ double seconds_of(Simulation& simulation, int steps) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Steps that take about so long; tries until that is known, which also warms up.
+int steps_that_take(double wanted, Simulation& simulation) {
+  int steps = 4;
+  double seconds = seconds_of(simulation, steps);
+  while (seconds < 2e-3) steps *= 2, seconds = seconds_of(simulation, steps);
+  return std::max(shortest_run, int(steps * wanted / seconds));
+}
+
+/// What a simulation of that case tells, and the times of its runs, in ns for a particle and step.
+ThroughputRow row_of(const ThroughputCase& which, const Simulation& simulation, const std::vector<double>& times) {
+  ThroughputRow row;
+  row.of = which;
+  row.repeats = int(times.size());
+  row.ns_per_particle_step = median(times);
+  const auto [lowest, highest] = std::minmax_element(times.begin(), times.end());
+  row.ns_lowest = *lowest, row.ns_highest = *highest;
+  for (const auto& [name, on] : simulation.engine().features()) (on ? row.features : row.skipped).emplace_back(name);
+  row.threads_used = simulation.engine().threads();
+  if (which.preset.engine == EngineKind::opencl) row.device = simulation.engine().name();
+  if (row.threads_used < which.threads) row.of.variant = "too small for " + std::to_string(which.threads) + " threads";
+  row.bytes_per_particle = double(simulation.engine().bytes()) / simulation.lattice().size();
+  return row;
+}
+
+/// Threads that keep processors busy while it lives.
+class Load {
+ public:
+  explicit Load(int threads) {
+    for (int n = 0; n < threads; ++n)
+      threads_.emplace_back([this] {
+        while (!over_) {
+        }
+      });
+  }
+  ~Load() {
+    over_ = true;
+    for (std::thread& thread : threads_) thread.join();
+  }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
+
+ private:
+  std::atomic<bool> over_{false};
+  std::vector<std::thread> threads_;
+};
+
 }  // namespace
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 void wake_processor() {
   Simulation simulation(cloth_of(128));
@@ -79,32 +133,46 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads) {
 ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   Simulation simulation(which.preset, which.threads);
   const double particles = simulation.lattice().size();
-  // Warm-up, which also tells how many steps make a run of 10 ms.
-  int steps = 4;
-  double seconds = seconds_of(simulation, steps);
-  while (seconds < 2e-3) steps *= 2, seconds = seconds_of(simulation, steps);
-  steps = std::max(shortest_run, int(steps * 1e-2 / seconds));
-
-  ThroughputRow row;
-  row.of = which;
-  row.repeats = repeats;
-  for (const auto& [name, on] : simulation.engine().features()) (on ? row.features : row.skipped).emplace_back(name);
+  const int steps = steps_that_take(1e-2, simulation);
   std::vector<double> times;
   times.reserve(std::size_t(repeats));
   for (int n = 0; n < repeats; ++n) times.push_back(seconds_of(simulation, steps) * 1e9 / steps / particles);
-  std::sort(times.begin(), times.end());
-  row.ns_per_particle_step = times[times.size() / 2];
-  row.ns_lowest = times.front(), row.ns_highest = times.back();
-  row.threads_used = simulation.engine().threads();
-  if (which.preset.engine == EngineKind::opencl) row.device = simulation.engine().name();
-  if (row.threads_used < which.threads) row.of.variant = "too small for " + std::to_string(which.threads) + " threads";
-  row.bytes_per_particle = double(simulation.engine().bytes()) / particles;
+  ThroughputRow row = row_of(which, simulation, times);
   // The limits are this processor's, in so many threads.
   if (row.threads_used > processors()) return row;
   row.register_limit_ns = cpu::register_limit_ns(which.preset.precision, 15) / row.threads_used;
   const std::size_t moved = std::size_t(particles) * 6 * (which.preset.precision == Precision::float_ ? 4 : 8);
   row.memory_limit_ns = memory_limit_ns(moved, row.threads_used, 5) / particles;
   return row;
+}
+
+std::vector<ThroughputCase> cases_beside_load(bool quick, int threads) {
+  std::vector<ThroughputCase> cases;
+  for (const int side : quick ? std::vector{32, 64, 512} : std::vector{32, 64, 128, 256, 512})
+    cases.push_back({"", cloth_of(side), threads});
+  return cases;
+}
+
+std::array<ThroughputRow, 2> measure_beside_load(const ThroughputCase& which, int busy, int repeats) {
+  const Load load(busy);
+  ThroughputCase alone = which;
+  alone.threads = 1;
+  Simulation one(alone.preset, 1), many(which.preset, which.threads);
+  const int steps = steps_that_take(3e-2, one);
+  for (int n = 0; n < 3; ++n) seconds_of(many, steps);  // until it has found how many threads pay
+  std::vector<double> times_of_one, times_of_many, ratios;
+  const double per = 1e9 / steps / one.lattice().size();
+  for (int n = 0; n < repeats; ++n) {
+    // A scheduler may favour whoever comes second: each does in turn.
+    if (n % 2 == 0) times_of_one.push_back(seconds_of(one, steps) * per);
+    times_of_many.push_back(seconds_of(many, steps) * per);
+    if (n % 2 != 0) times_of_one.push_back(seconds_of(one, steps) * per);
+    ratios.push_back(times_of_many.back() / times_of_one.back());
+  }
+  std::array rows{row_of(alone, one, times_of_one), row_of(which, many, times_of_many)};
+  for (ThroughputRow& row : rows) row.beside_load = busy;
+  rows[0].over_one_thread = 1, rows[1].over_one_thread = median(ratios);
+  return rows;
 }
 
 }  // namespace tyglab

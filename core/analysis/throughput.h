@@ -1,6 +1,7 @@
 // `tyglab bench throughput`: time for one particle and step, beside what this machine could reach at most.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,7 +27,12 @@ struct ThroughputRow {
   double memory_limit_ns = 0;                  ///< moving the state once through memory (or the cache that holds it)
   std::vector<std::string> features, skipped;  ///< what the steps did, and what this scene has no need of
   double bytes_per_particle = 0;               ///< of all the solver's arrays
+  int beside_load = 0;                         ///< threads that kept processors busy meanwhile
+  double over_one_thread = 0;                  ///< median of the ratios to one thread's runs; 0: not compared
 };
+
+/// Of one value at least.
+double median(std::vector<double> values);
 
 /// Steps a cloth for half a second: a processor that was idle takes a while to reach its speed.
 void wake_processor();
@@ -37,5 +43,12 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads);
 /// Measures one case: a warm-up, then `repeats` runs of some 10 ms, and of 16 steps at least. The preset must not
 /// diverge.
 ThroughputRow measure_throughput(const ThroughputCase& which, int repeats);
+
+/// The cloths that are measured beside load, smallest first, with so many threads. `quick`: fewer sizes.
+std::vector<ThroughputCase> cases_beside_load(bool quick, int threads);
+
+/// Measures one thread, and then the case's threads, while `busy` other threads do nothing but keep processors busy: in
+/// turn, `repeats` runs of some 30 ms each, longer than a scheduler's slices. The limits are not measured.
+std::array<ThroughputRow, 2> measure_beside_load(const ThroughputCase& which, int busy, int repeats);
 
 }  // namespace tyglab

@@ -130,8 +130,10 @@ class Engine {
   virtual glm::dvec3 position(int i, int j) const { return positions().at(i, j); }
   /// Size of all arrays that grow with the cloth, bytes.
   virtual std::size_t bytes() const = 0;
-  /// Threads in use.
+  /// Most threads that it uses.
   virtual int threads() const = 0;
+  /// Threads that it uses at present: it lets go of those that do not pay.
+  virtual int threads_at_work() const { return threads(); }
   virtual SolveCounts solves() const = 0;
   /// Work of a method that chooses its own steps within dt; all zero for others.
   virtual InnerSteps inner_steps() const = 0;

@@ -1,6 +1,10 @@
 // The same run is the same to the last bit, however it is cut into calls.
 #include <doctest/doctest.h>
 
+#include <random>
+#include <set>
+
+#include "core/engines/cpu/cpu_engine.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::determinism_test {
@@ -115,20 +119,71 @@ TEST_CASE("threads change nothing, to the last bit") {
   }
 }
 
+/// Lets another number of threads make every few steps; `seen` gets the numbers.
+template <class R>
+void switch_threads(Simulation& simulation, std::set<int>& seen) {
+  auto& engine = dynamic_cast<cpu::CpuEngine<R>&>(simulation.engine());
+  engine.force_threads([&seen, most = engine.threads(), random = std::mt19937(7)]() mutable {
+    const int threads = 1 + int(random() % unsigned(most));
+    seen.insert(threads);
+    return threads;
+  });
+}
+
+TEST_CASE("threads that come and go in the middle of a run change nothing, to the last bit") {
+  for (const char* integrator : {"verlet", "euler", "rk4", "dopri5", "xpbd", "implicit_euler"}) {
+    for (const Precision precision : {Precision::float_, Precision::double_}) {
+      const bool implicit = std::string(integrator) == "implicit_euler";
+      if (skipped_here(integrator, precision) || (implicit && TYGLAB_SANITIZED)) continue;
+      CAPTURE(std::string(integrator));
+      const int steps = implicit ? 5 : some_steps;
+      const Preset preset = large(integrator, precision);
+      const auto run = [&](Simulation& simulation) {
+        simulation.engine().note_contacts(true);
+        simulation.advance(steps);
+        simulation.apply(edit::Grab{50, 40});
+        simulation.apply(edit::MoveHand{{0.1, 0.5, 0.2}, 30});
+        simulation.apply(edit::Cut{{{19, 5}, {20, 6}, {32, 7}, {48, 41}, {49, 41}, {65, 9}, {78, 60}}});
+        simulation.advance(steps);
+        simulation.apply(edit::Release{});
+        simulation.advance(steps);
+      };
+      Simulation alone(preset, 1), switching(preset, 4);
+      std::set<int> seen;
+      if (precision == Precision::float_)
+        switch_threads<float>(switching, seen);
+      else
+        switch_threads<double>(switching, seen);
+      run(alone);
+      run(switching);
+      CHECK(seen == std::set{1, 2, 3, 4});
+      CHECK(test::identical(alone.read(), switching.read()));
+      CHECK(test::identical(alone.read_raw(), switching.read_raw()));
+      CHECK(alone.tears().torn_count() == switching.tears().torn_count());
+      CHECK(alone.engine().contacts().size() == switching.engine().contacts().size());
+      CHECK(alone.hand_force() == switching.hand_force());
+    }
+  }
+}
+
 TEST_CASE("threads find a divergence in the same step at the same particle") {
   Preset preset = large("verlet", Precision::float_);
   preset.dt = 0.004;
   preset.F_max = 0;
-  Simulation alone(preset, 1), team(preset, 4);
+  Simulation alone(preset, 1), team(preset, 4), switching(preset, 4);
+  std::set<int> seen;
+  switch_threads<float>(switching, seen);
   alone.advance(5000);
-  team.advance(5000);
   REQUIRE(alone.divergence().has_value());
-  REQUIRE(team.divergence().has_value());
-  CHECK(alone.divergence()->step == team.divergence()->step);
-  CHECK(alone.divergence()->i == team.divergence()->i);
-  CHECK(alone.divergence()->j == team.divergence()->j);
-  CHECK(test::all_finite(team.read()));
-  CHECK(test::identical(alone.read(), team.read()));
+  for (Simulation* other : {&team, &switching}) {
+    other->advance(5000);
+    REQUIRE(other->divergence().has_value());
+    CHECK(alone.divergence()->step == other->divergence()->step);
+    CHECK(alone.divergence()->i == other->divergence()->i);
+    CHECK(alone.divergence()->j == other->divergence()->j);
+    CHECK(test::all_finite(other->read()));
+    CHECK(test::identical(alone.read(), other->read()));
+  }
 }
 
 TEST_CASE("a restart repeats the run to the last bit") {

@@ -24,6 +24,7 @@ using Json = nlohmann::ordered_json;
 
 struct ThroughputOptions : BenchOptions {
   int repeats = 9;
+  bool beside_load = false;
 };
 
 Json row_json(const ThroughputRow& row) {
@@ -48,7 +49,9 @@ Json row_json(const ThroughputRow& row) {
           {"memory_limit_ns", row.memory_limit_ns},
           {"over_register_limit", over(row.register_limit_ns)},
           {"over_higher_limit", over(limit)},
-          {"bytes_per_particle", row.bytes_per_particle}};
+          {"bytes_per_particle", row.bytes_per_particle},
+          {"beside_load", row.beside_load},
+          {"over_one_thread", row.over_one_thread > 0 ? Json(row.over_one_thread) : Json()}};
 }
 
 /// As wide as the longest name of an integrator among the cases.
@@ -143,6 +146,42 @@ int throughput(const ThroughputOptions& options) {
   return bench_exit();
 }
 
+void print_pair(std::ostream& out, const std::array<ThroughputRow, 2>& rows) {
+  const auto& [one, many] = rows;
+  std::array<char, 256> line;
+  std::snprintf(line.data(), line.size(), "%4d x %-4d  %10.2f  %7d  %8.2f  %6.2f  %s\n", one.of.preset.rows,
+                one.of.preset.columns, one.ns_per_particle_step, many.threads_used, many.ns_per_particle_step,
+                many.over_one_thread, many.of.variant.c_str());
+  out << line.data() << std::flush;
+  flush_standard_output();
+}
+
+int throughput_beside_load(const ThroughputOptions& options) {
+  check_outputs(options.outputs());
+  std::ostream& out = people(options.outputs());
+  const int busy = processors() - 1;
+  out << machine_line() << "\nns per particle and step while " << counted(busy, "other thread")
+      << " kept processors busy: the median of " << counted(options.repeats, "run")
+      << ", and that of the ratios to one thread\n\n      cloth  one thread  threads    median   ratio\n";
+  const auto cases =
+      cases_beside_load(options.quick, options.threads > 0 ? options.threads : std::max(processors(), 2));
+  Json json = Json::array();
+  InterruptGuard guard;
+  Progress progress("bench throughput");
+  wake_processor();
+  for (const ThroughputCase& which : cases) {
+    if (InterruptGuard::interrupted()) break;
+    const auto rows = measure_beside_load(which, busy, options.repeats);
+    progress.clear();
+    print_pair(out, rows);
+    for (const ThroughputRow& row : rows) json.push_back(row_json(row));
+    progress.update(double(json.size()) / 2 / double(cases.size()));
+  }
+  progress.clear();
+  if (!options.json.empty()) write_output(options.json, bench_json("throughput", json).dump(2) + "\n");
+  return bench_exit();
+}
+
 }  // namespace
 
 void add_bench_throughput(CLI::App& bench, Action& action) {
@@ -157,9 +196,17 @@ void add_bench_throughput(CLI::App& bench, Action& action) {
       ->transform(whole_number_between(1, 1000));
   add_threads(*command, *options, "Threads beside one");
   add_json(*command, *options);
-  add_png(*command, *options, "Draw time over size");
-  command->footer("Example: tyglab bench throughput --json throughput.json --png throughput.png");
-  command->callback([&action, options] { action = [options] { return throughput(*options); }; });
+  CLI::Option* png = add_png(*command, *options, "Draw time over size");
+  command
+      ->add_flag("--beside-load", options->beside_load,
+                 "Instead compare several threads with one while all processors but one are kept busy")
+      ->excludes(png);
+  command->footer(
+      "Examples: tyglab bench throughput --json throughput.json --png throughput.png\n"
+      "          tyglab bench throughput --beside-load");
+  command->callback([&action, options] {
+    action = [options] { return options->beside_load ? throughput_beside_load(*options) : throughput(*options); };
+  });
 }
 
 }  // namespace tyglab

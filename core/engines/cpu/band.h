@@ -93,6 +93,8 @@ class Band {
   /// where there are several bands.
   Band(Cloth<R>& cloth, int begin, int end);
   static constexpr int least_rows = 8;
+  /// Covers other rows from now on: on no side where the first ones ended at the cloth's edge may these end within it.
+  void cover(int begin, int end) { begin_ = begin, end_ = end; }
   /// Allocates buffers, before the first sweep. `old_rows`: also for the positions before a pair is overwritten, for
   /// bodies and for watching the motion in methods with more vectors.
   void allocate(bool old_rows);

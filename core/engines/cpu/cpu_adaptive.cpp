@@ -138,7 +138,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   const int torn = tears.torn_count();
   if (cloth_.notes_contacts)
-    for (const auto& band : bands_)
+    for (const auto& band : bands())
       inner_contacts_.insert(inner_contacts_.end(), band->contacts().begin(), band->contacts().end());
   const StepsEnd end = guard_.judge(*this, 1, tears, fault).end;
   if (end != StepsEnd::complete) made_.end = end;
@@ -148,7 +148,7 @@ void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   std::swap(cloth_.vector(sweeps_.front().assignments.front().target),
             cloth_.vector(sweeps_.back().assignments.front().target));
   knows_first_a_ = torn == tears.torn_count() &&
-                   std::none_of(bands_.begin(), bands_.end(), [](const auto& band) { return band->collided(); });
+                   std::none_of(bands().begin(), bands().end(), [](const auto& band) { return band->collided(); });
   if (left_of_dt_ > 0) take_next_dt();
 }
 

@@ -51,13 +51,14 @@ constexpr int lines_apart = 23;  // between vectors' places in their pages, of 6
 }  // namespace
 
 template <class R, unsigned Present>
-CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads) {
+CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads)
+    : governor_(useful_threads(lattice, threads)) {
   cloth_.preset = preset;
   cloth_.lattice = lattice;
   cloth_.stride = row_stride<R>(lattice.columns);
   cloth_.sweeps = pair_sweeps<R>();
   cloth_.fixed_begin.assign(std::size_t(lattice.rows) + 1, 0);
-  team_ = std::make_unique<Team>(useful_threads(lattice, threads));
+  team_ = std::make_unique<Team>(governor_.threads());
   for (int n = 0; n < team_->size(); ++n)
     bands_.push_back(std::make_unique<Band<R, Present>>(cloth_, band_begin(n), band_begin(n + 1)));
   progress_ = std::vector<Progress>(std::size_t(team_->size()));
@@ -133,23 +134,39 @@ void CpuEngine<R, Present>::set_dt(double dt) {
   if (chooses_steps(*scheme_)) resolve_estimate();
 }
 
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::resize_team(int size) {
+  if (size == team_->size()) return;
+  team_->resize(size);
+  for (int n = 0; n < size; ++n) bands_[std::size_t(n)]->cover(band_begin(n), band_begin(n + 1));
+  wave_steps_ = steps_of_wave(size);
+}
+
 /// Several steps follow each other through the rows where the state does not stay in a core's own cache, and where
 /// threads would otherwise have to wait for each other in every step.
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::make_waves() {
+int CpuEngine<R, Present>::steps_of_wave(int threads) const {
   constexpr int most = 8;             // sweeps a thread: their rows must lie in its cache
   constexpr int rows_per_sweep = 16;  // the more sweeps, the longer the last thread waits for the first row
   constexpr std::size_t own_cache = 1 << 20;
-  const int rows = cloth_.lattice.rows, threads = team_->size();
-  int sweeps = std::min(rows / rows_per_sweep, most * threads);
+  const int rows = cloth_.lattice.rows;
+  const int sweeps = std::min(rows / rows_per_sweep, most * threads);
   const std::size_t state = cloth_.vectors.size() * rows * cloth_.vector(vector_x).pitch() * sizeof(R);
   if (is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_) ||
       cloth_.preset.kind == Kind::one_weight || sweeps < threads || (threads == 1 && state <= own_cache))
-    sweeps = 0;
-  const std::size_t steps = std::size_t(sweeps) / sweeps_.size();
-  waves_.resize(steps < 2 ? 0 : steps * sweeps_.size());
+    return 0;
+  const int steps = sweeps / int(sweeps_.size());
+  return steps < 2 ? 0 : steps;
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::make_waves() {
+  wave_steps_ = steps_of_wave(team_->size());
+  int most = 0;
+  for (int threads = 1; threads <= team_->capacity(); ++threads) most = std::max(most, steps_of_wave(threads));
+  waves_.resize(std::size_t(most) * sweeps_.size());
   for (auto& wave : waves_)
-    if (!wave) wave = std::make_unique<Band<R, Present>>(cloth_, 0, rows);
+    if (!wave) wave = std::make_unique<Band<R, Present>>(cloth_, 0, cloth_.lattice.rows);
   for (auto* list : {&bands_, &waves_})
     for (auto& band : *list) band->allocate(keeps_old_rows());
 }
@@ -253,13 +270,13 @@ void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tear
   ResolvedSweep look;
   look.position = position, look.velocity = velocity;
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
-  for (const auto& band : bands_) band->copy_halo(look);
-  for (const auto& band : bands_) band->accelerations(look, tears, out, of_step);
+  for (const auto& band : bands()) band->copy_halo(look);
+  for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
 }
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
-  for (const auto& band : bands_) band->assign(sweep.before, false);
+  for (const auto& band : bands()) band->assign(sweep.before, false);
   solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
                 [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); });
 }
@@ -268,7 +285,7 @@ template <class R, unsigned Present>
 std::vector<Contact> CpuEngine<R, Present>::contacts() const {
   if (scheme_->estimate) return inner_contacts_;
   std::vector<Contact> all;
-  for (const auto& band : bands_) all.insert(all.end(), band->contacts().begin(), band->contacts().end());
+  for (const auto& band : bands()) all.insert(all.end(), band->contacts().begin(), band->contacts().end());
   return all;
 }
 
@@ -359,7 +376,7 @@ std::vector<StepFeature> CpuEngine<R, Present>::features() const {
 
 template <class R, unsigned Present>
 std::string CpuEngine<R, Present>::name() const {
-  const int threads = team_->size();
+  const int threads = team_->capacity();
   return std::string("CPU, ") + cloth_.sweeps.target + ", " + std::to_string(threads) +
          (threads == 1 ? " thread" : " threads");
 }

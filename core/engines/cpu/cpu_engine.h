@@ -1,6 +1,7 @@
 // The CPU engine: runs every explicit scheme in place over rows, in SIMD.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -8,6 +9,7 @@
 #include "core/engines/cpu/implicit.h"
 #include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
+#include "core/engines/cpu/thread_governor.h"
 #include "core/engines/engine.h"
 #include "core/engines/step_guard.h"
 #include "core/integrators/scheme.h"
@@ -32,7 +34,10 @@ class CpuEngine final : public Engine, private GuardedSteps {
   PositionView positions() const override;
   StoredParticle stored(int i, int j) const override;
   std::size_t bytes() const override;
-  int threads() const override { return team_->size(); }
+  int threads() const override { return team_->capacity(); }
+  int threads_at_work() const override { return team_->size(); }
+  /// For tests: from now on every few steps are made by as many threads as this says, 1 … threads().
+  void force_threads(std::function<int()> next) { forced_threads_ = std::move(next); }
   SolveCounts solves() const override { return solver_.counts(); }
   InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
@@ -49,6 +54,13 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void resolve();
   void resolve_estimate();
   void make_waves();
+  /// How many steps that many threads can make in a wave; 0 where waves do not pay.
+  int steps_of_wave(int threads) const;
+  void resize_team(int size);
+  /// Those that work.
+  std::span<const std::unique_ptr<Band<R, Present>>> bands() const {
+    return std::span(bands_).first(std::size_t(team_->size()));
+  }
   bool keeps_old_rows() const;
   ResolvedSweep resolve(const Sweep& sweep) const;
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
@@ -90,6 +102,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void restart_control() { control_.restart(), knows_first_a_ = false; }
   /// Makes and judges steps until one asks to stop. `waves`: several steps at a time where that pays off.
   StepsMade run(int steps, Tears& tears, Fault& fault, bool waves);
+  int steps_of_run(int left) const;
+  /// The same with as many threads as the team has now.
+  StepsMade run_together(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
   /// A sweep that projects, with its assignments.
   void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
@@ -119,7 +134,11 @@ class CpuEngine final : public Engine, private GuardedSteps {
   int projected_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since the projector was prepared
   std::unique_ptr<Team> team_;
-  std::vector<std::unique_ptr<Band<R, Present>>> bands_;
+  ThreadGovernor governor_;
+  std::function<int()> forced_threads_;
+  double steps_per_second_ = 0;                           ///< of the last run; 0: not known
+  int wave_steps_ = 0;                                    ///< at most, of the threads that work
+  std::vector<std::unique_ptr<Band<R, Present>>> bands_;  ///< one for each thread
   std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< one for each sweep of a wave, over all rows
   std::vector<Progress> progress_;                        ///< of each thread's last sweep in a wave
   StepGuard guard_;

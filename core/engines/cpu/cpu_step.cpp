@@ -1,5 +1,6 @@
 // Stepping: bands side by side or in waves, then what needs the whole cloth: tearing and the search for faults.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -57,12 +58,12 @@ bool CpuEngine<R, Present>::find_fault(Tears& tears, Fault& fault, double& diver
 
 template <class R, unsigned Present>
 StepOutcome CpuEngine<R, Present>::outcome(int step) {
-  std::span<const std::unique_ptr<Band<R, Present>>> bands(bands_);
-  if (together_ > 1) bands = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
+  std::span<const std::unique_ptr<Band<R, Present>>> judged = bands();
+  if (together_ > 1) judged = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
   const bool hand = has(part::hand) && cloth_.held.particle >= 0, projected = projects(*scheme_);
   double largest = 0;
   StepOutcome result;
-  for (const auto& band : bands) {
+  for (const auto& band : judged) {
     largest = std::max(largest, band->max_displacement());
     result.left_inside += band->left_inside();
     if (hand && !projected && band->has_hand()) result.hand_force = band->hand_force();
@@ -128,7 +129,7 @@ void CpuEngine<R, Present>::read_hand(const Tears& tears) {
 
 template <class R, unsigned Present>
 int CpuEngine<R, Present>::steps_in_wave(int left) const {
-  const int most = std::min(left, int(waves_.size() / sweeps_.size()));
+  const int most = std::min(left, wave_steps_);
   const bool hand = has(part::hand) && cloth_.held.particle >= 0 && cloth_.preset.F_release > 0;
   return most <= 1 || hand ? 1 : guard_.steps_ahead(most);
 }
@@ -153,7 +154,7 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
 }
 
 template <class R, unsigned Present>
-StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+StepsMade CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fault, bool waves) {
   made_ = {};
   const auto plan = [&] {
     const int left = made_.end == StepsEnd::complete ? steps - made_.count : 0;
@@ -183,6 +184,36 @@ StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool
     }
   });
   return made_;
+}
+
+/// How many of the `left` steps to make before the governor may change the number of threads.
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::steps_of_run(int left) const {
+  const int least = std::max(wave_steps_, 1);
+  if (forced_threads_) return std::min(least, left);
+  if (team_->capacity() == 1) return left;
+  const double most = governor_.run_seconds() * steps_per_second_;
+  return most < left ? std::min(std::max(least, int(most) / least * least), left) : left;
+}
+
+template <class R, unsigned Present>
+StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+  using Clock = std::chrono::steady_clock;
+  StepsMade all;
+  while (all.count < steps && all.end == StepsEnd::complete) {
+    resize_team(forced_threads_ ? forced_threads_() : governor_.threads());
+    const std::int64_t evaluations = control_.counts().force_evaluations;
+    const auto begin = Clock::now();
+    const StepsMade made = run_together(steps_of_run(steps - all.count), tears, fault, waves);
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    all = {all.count + made.count, made.end};
+    if (made.count == 0) continue;
+    steps_per_second_ = made.count / seconds;
+    // Inner steps differ in number from step to step.
+    governor_.worked(chooses_steps(*scheme_) ? double(control_.counts().force_evaluations - evaluations) : made.count,
+                     seconds);
+  }
+  return all;
 }
 
 template <class R, unsigned Present>

@@ -41,21 +41,26 @@ void Progress::wait_for(int rows) const {
     wait_for_change(rows_, now);
 }
 
-Team::Team(int size) : size_(std::max(1, size)) {
+Team::Team(int capacity) : size_(std::max(1, capacity)), starts_(std::size_t(size_) - 1) {
   for (int n = 1; n < size_; ++n) threads_.emplace_back([this, n] { serve(n); });
 }
 
 Team::~Team() {
   closing_ = true;
-  ++started_;
-  started_.notify_all();
+  for (int n = 1; n < capacity(); ++n) start(n);
   for (std::thread& thread : threads_) thread.join();
 }
 
+void Team::start(int number) {
+  std::atomic<int>& runs = starts_[std::size_t(number) - 1].runs;
+  ++runs;
+  runs.notify_one();
+}
+
 void Team::serve(int number) {
-  for (int seen = 0;;) {
-    wait_for_change(started_, seen);
-    seen = started_.load();
+  const std::atomic<int>& runs = starts_[std::size_t(number) - 1].runs;
+  for (int seen = 0;; ++seen) {
+    wait_for_change(runs, seen);
     if (closing_) return;
     (*work_)(number);
     if (--working_ == 0) ++finished_, finished_.notify_all();
@@ -67,8 +72,7 @@ void Team::run(const std::function<void(int)>& work) {
   work_ = &work;
   working_ = size_ - 1;
   const int turn = finished_.load();
-  ++started_;
-  started_.notify_all();
+  for (int n = 1; n < size_; ++n) start(n);
   work(0);
   wait_for_change(finished_, turn);
 }
