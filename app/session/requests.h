@@ -10,6 +10,7 @@
 
 #include "core/edit.h"
 #include "core/fields/particle_field.h"
+#include "core/model/difference.h"
 
 namespace tyglab {
 
@@ -111,9 +112,9 @@ struct SavePicture {
 struct LoadTexture {
   std::string name;  ///< shipped name or path
 };
-/// A copy that moves in lockstep, with these settings instead of the present ones ("k_s=80").
+/// A copy that moves in lockstep, with these values instead of the present ones.
 struct AddCopy {
-  std::vector<std::string> differences;
+  std::vector<Difference> differences;
   bool as_reference = false;
 };
 struct RemoveCopy {

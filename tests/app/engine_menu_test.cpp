@@ -74,8 +74,9 @@ TEST_CASE("copies of a cloth on OpenCL take the CPU engine along where their met
     CHECK((copy.engine == EngineKind::cpu) == alone);
   }
   Preset preset = test::cloth(8, 8);
+  const Difference to_cpu{&Preset::engine, EngineKind::cpu};
   for (const CopyChoice& choice : copy_choices(preset))
-    CHECK(std::count(choice.differences.begin(), choice.differences.end(), "engine=cpu") == 0);
+    CHECK(std::count(choice.differences.begin(), choice.differences.end(), to_cpu) == 0);
   preset.integrator = "xpbd";
   for (const CopyChoice& choice : copy_choices(preset)) CHECK(choice.label != "OpenCL");
 }
@@ -99,7 +100,7 @@ TEST_CASE("a method of the CPU engine alone brings it along: one change, one und
     CHECK(app.preset() == on_opencl());
     CHECK_FALSE(app.history.can_undo());
     for (const CopyChoice& choice : copy_choices(app.preset()))
-      if (!choice.differences.empty() && choice.differences.front() == "integrator=" + std::string(method)) {
+      if (!choice.differences.empty() && choice.differences.front() == Difference{&Preset::integrator, method}) {
         add_copy(app, choice.differences, choice.reference);
         CHECK_FALSE(app.copies.lockstep.empty());
         app.copies.lockstep.clear();

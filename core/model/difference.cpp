@@ -1,0 +1,96 @@
+#include "core/model/difference.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "core/model/readable.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+/// The key of the row that stands for the field.
+template <class T>
+std::string key_of(std::span<const Row<T>> rows, const FieldOf<T>& field) {
+  for (const Row<T>& row : rows)
+    if (row.field == field) return std::string(row.key);
+  std::abort();  // a test holds that every field has a row
+}
+
+std::string text_of(double value, int digits) {
+  return short_number(value, digits);
+}
+std::string text_of(const glm::dvec3& v, int digits) {
+  return "[" + text_of(v.x, digits) + ", " + text_of(v.y, digits) + ", " + text_of(v.z, digits) + "]";
+}
+std::string text_of(const std::string& value, int) {
+  return value;
+}
+std::string text_of(EngineKind value, int) {
+  return std::string(name_of(value));
+}
+std::string text_of(Precision value, int) {
+  return std::string(name_of(value));
+}
+
+}  // namespace
+
+Difference::Constant Difference::constant_of(const PresetRow& row, double value) {
+  if (const auto* whole = std::get_if<int Preset::*>(&row.field)) return OfPreset<int>{*whole, int(std::lround(value))};
+  return OfPreset<double>{std::get<double Preset::*>(row.field), value};
+}
+
+Difference::Difference(const PresetRow& row, double value) : constant_(constant_of(row, value)) {}
+
+Difference::Difference(std::size_t body, const BodyRow& row, double value)
+    : constant_(OfBody<double>{body, std::get<double Body::*>(row.field), value}) {}
+
+bool Difference::apply(Preset& preset) const {
+  return std::visit(
+      [&](const auto& constant) {
+        if constexpr (requires { constant.body; }) {
+          if (constant.body >= preset.bodies.size()) return false;
+          preset.bodies[constant.body].*constant.field = constant.value;
+        } else {
+          preset.*constant.field = constant.value;
+        }
+        return true;
+      },
+      constant_);
+}
+
+std::optional<Difference> Difference::in(const Preset& preset) const {
+  return std::visit(
+      [&](const auto& constant) -> std::optional<Difference> {
+        if constexpr (requires { constant.body; }) {
+          if (constant.body >= preset.bodies.size()) return std::nullopt;
+          return Difference(constant.body, constant.field, preset.bodies[constant.body].*constant.field);
+        } else {
+          return Difference(constant.field, preset.*constant.field);
+        }
+      },
+      constant_);
+}
+
+std::string Difference::key() const {
+  return std::visit(
+      [](const auto& constant) -> std::string {
+        using Value = std::decay_t<decltype(constant.value)>;
+        if constexpr (requires { constant.body; })
+          return "bodies[" + std::to_string(constant.body) + "]." +
+                 key_of(body_notation(), FieldOf<Body>(constant.field));
+        else if constexpr (std::is_same_v<Value, EngineKind>)
+          return "engine";
+        else if constexpr (std::is_same_v<Value, Precision>)
+          return "precision";
+        else
+          return key_of(notation(), FieldOf<Preset>(constant.field));
+      },
+      constant_);
+}
+
+std::string Difference::value_text(int digits) const {
+  return std::visit([&](const auto& constant) { return text_of(constant.value, digits); }, constant_);
+}
+
+}  // namespace tyglab
