@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/cloth/start.h"
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
@@ -28,7 +28,7 @@ int steps_until(const Simulation& cloth, double t) {
 std::unique_ptr<Simulation> copied(const Simulation& original, const Snapshot& now,
                                    std::span<const Difference> differences, int threads) {
   const Preset preset = copied_preset(original.preset(), differences);
-  if (lattice_of(preset) != now.lattice || preset.kind != now.kind)
+  if (changes(original.preset(), preset).touches(Effect::rebuild))
     throw PresetError("A copy has the particles of its original: " + listed(differences) + " would change them.");
   auto copy = std::make_unique<Simulation>(preset, threads);
   copy->restore(now);

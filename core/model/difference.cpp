@@ -1,20 +1,23 @@
 #include "core/model/difference.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "core/model/fields.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
 namespace {
 
-/// The key of the row that stands for the field.
-template <class T>
-std::string key_of(std::span<const Row<T>> rows, const FieldOf<T>& field) {
-  for (const Row<T>& row : rows)
-    if (row.field == field) return std::string(row.key);
-  std::abort();  // a test holds that every field has a row
+std::string key_of(const PresetField::Member& member) {
+  const auto fields = preset_fields();
+  return std::string(
+      std::find_if(fields.begin(), fields.end(), [&](const auto& f) { return f.member == member; })->key);
+}
+std::string key_of(const FieldOf<Body>& member) {
+  const auto rows = body_notation();
+  return std::string(std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r.field == member; })->key);
 }
 
 std::string text_of(double value, int digits) {
@@ -75,16 +78,10 @@ std::optional<Difference> Difference::in(const Preset& preset) const {
 std::string Difference::key() const {
   return std::visit(
       [](const auto& constant) -> std::string {
-        using Value = std::decay_t<decltype(constant.value)>;
         if constexpr (requires { constant.body; })
-          return "bodies[" + std::to_string(constant.body) + "]." +
-                 key_of(body_notation(), FieldOf<Body>(constant.field));
-        else if constexpr (std::is_same_v<Value, EngineKind>)
-          return "engine";
-        else if constexpr (std::is_same_v<Value, Precision>)
-          return "precision";
+          return "bodies[" + std::to_string(constant.body) + "]." + key_of(FieldOf<Body>(constant.field));
         else
-          return key_of(notation(), FieldOf<Preset>(constant.field));
+          return key_of(PresetField::Member(constant.field));
       },
       constant_);
 }
