@@ -5,17 +5,17 @@
 #include <cmath>
 #include <limits>
 
-#include "core/cloth/start.h"
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
 
 constexpr double whole_step = 1e-6;  // of a step: rounding of times
 
-std::string listed(const std::vector<std::string>& differences) {
+std::string listed(std::span<const Difference> differences) {
   std::string text;
-  for (const std::string& difference : differences) text += (text.empty() ? "" : ", ") + difference;
+  for (const Difference& difference : differences) text += (text.empty() ? "" : ", ") + difference.text();
   return text.empty() ? "no difference" : text;
 }
 
@@ -26,9 +26,9 @@ int steps_until(const Simulation& cloth, double t) {
 
 /// A copy of the original, in its state.
 std::unique_ptr<Simulation> copied(const Simulation& original, const Snapshot& now,
-                                   const std::vector<std::string>& differences, int threads) {
+                                   std::span<const Difference> differences, int threads) {
   const Preset preset = copied_preset(original.preset(), differences);
-  if (lattice_of(preset) != now.lattice || preset.kind != now.kind)
+  if (changes(original.preset(), preset).touches(Effect::rebuild))
     throw PresetError("A copy has the particles of its original: " + listed(differences) + " would change them.");
   auto copy = std::make_unique<Simulation>(preset, threads);
   copy->restore(now);
@@ -52,13 +52,15 @@ void Lockstep::Cost::add(double simulated_s, double wall_s) {
   wall_ = kept * wall_ + wall_s;
 }
 
-Preset copied_preset(const Preset& original, const std::vector<std::string>& differences) {
-  Preset preset = with_settings(original, differences);
-  preset.device = original.device;  // in no file
+Preset copied_preset(const Preset& original, std::span<const Difference> differences) {
+  Preset preset = original;
+  for (const Difference& difference : differences)
+    if (!difference.apply(preset)) throw PresetError(difference.key() + ": there is no such body");
+  if (const auto problem = check_preset(preset); !problem.empty()) throw PresetError(problem);
   return preset;
 }
 
-void Lockstep::add(Simulation& original, std::vector<std::string> differences, int threads) {
+void Lockstep::add(Simulation& original, std::vector<Difference> differences, int threads) {
   if (copies_.size() >= most)
     throw PresetError("There are " + std::to_string(most) + " copies already; remove one first.");
   if (original.lattice().size() > largest)

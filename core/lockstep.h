@@ -3,9 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/model/difference.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -27,16 +29,16 @@ class Lockstep {
   };
 
   struct Copy {
-    std::vector<std::string> differences;  ///< settings as --set takes them: "integrator=rk4", "dt=0.001"
+    std::vector<Difference> differences;  ///< from the original, applied in order
     std::unique_ptr<Simulation> simulation;
     Cost cost;
     std::size_t seat = 0;  ///< below `most`, its own as long as it lives, whichever others go
   };
 
   /// Adds a copy that goes on from where the original is. Every cloth is loaded anew from its own state, so that equal
-  /// ones go on with equal bits; the hand lets go. Throws PresetError (a setting is wrong, too many, too large, another
+  /// ones go on with equal bits; the hand lets go. Throws PresetError (a value is wrong, too many, too large, another
   /// lattice), EngineError.
-  void add(Simulation& original, std::vector<std::string> differences, int threads = 1);
+  void add(Simulation& original, std::vector<Difference> differences, int threads = 1);
   void remove(std::size_t n) { copies_.erase(copies_.begin() + std::ptrdiff_t(n)); }
   void clear() { copies_.clear(); }
   bool empty() const { return copies_.empty(); }
@@ -66,6 +68,6 @@ class Lockstep {
 double rms_distance(Simulation& cloth, Simulation& from);
 
 /// The constants of a copy: the original's with the differences. Throws PresetError.
-Preset copied_preset(const Preset& original, const std::vector<std::string>& differences);
+Preset copied_preset(const Preset& original, std::span<const Difference> differences);
 
 }  // namespace tyglab

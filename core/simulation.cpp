@@ -5,6 +5,7 @@
 
 #include "core/cloth/start.h"
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 #include "core/model/readable.h"
 #include "core/theory/advice.h"
 
@@ -18,16 +19,10 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-/// Whether two presets of one lattice differ, but begin with the same state: what differs is seen, named or met later.
-bool begin_alike(const Preset& a, const Preset& b) {
-  if (a == b) return false;  // who asks for the same again asks for a fresh start
-  Preset as = a;
-  as.name = b.name, as.description = b.description;
-  as.mode = b.mode, as.texture = b.texture;
-  as.bodies = b.bodies, as.F_max = b.F_max, as.F_release = b.F_release;
-  as.tolerance = b.tolerance, as.iterations = b.iterations;
-  return as == b;
-}
+/// What no start depends on: it is seen, named or met later.
+constexpr EffectSet met_later = motionless | Effect::bodies | Effect::tearing | Effect::tolerance;
+/// For these the state must be read and loaded anew: another engine or another method's vectors.
+constexpr EffectSet conversion{Effect::integrator, Effect::precision, Effect::device, Effect::engine};
 
 Ledger::Source source_of(const Edit& edit) {
   if (std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit))
@@ -136,26 +131,26 @@ void Simulation::apply(const Edit& edit) {
 
 void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
-  const Preset old = preset_;
-  if (lattice_of(next) != lattice_ || next.kind != old.kind) {
-    build(next);
-    return;
-  }
-  if (steps_ == 0 && !begin_alike(next, old)) {
+  const EffectSet changed = changes(preset_, next);
+  if (changed.touches(Effect::rebuild)) return build(next);
+  if (restarts(changed)) {
     restart_untouched(next);
-  } else if (converts(next)) {
+  } else if (changed.touches(conversion)) {
     take_engine(next, read());
+  } else if (changed.within(motionless)) {
+    effective_preset_ = merge(preset_, next, std::move(effective_preset_));
+    preset_ = next;
   } else {
     rebase_time();
     take_constants(next);
   }
-  take_pins(old);
+  if (changed.touches(Effect::pins)) take_pins();
 }
 
-/// Whether the state must be read and loaded anew: another engine or another method's vectors.
-bool Simulation::converts(const Preset& next) const {
-  return next.precision != preset_.precision || next.engine != preset_.engine ||
-         next.integrator != preset_.integrator || (next.engine == EngineKind::opencl && next.device != preset_.device);
+/// Whether a change is a fresh start: before the first step, where what differs has a part in it. Who asks for the same
+/// again asks for one.
+bool Simulation::restarts(EffectSet changed) const {
+  return steps_ == 0 && (changed.empty() || !changed.within(met_later));
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {
@@ -183,8 +178,7 @@ int Simulation::update_gust() {
   return span.steps;
 }
 
-void Simulation::take_pins(const Preset& old) {
-  if (preset_.pins == old.pins) return;
+void Simulation::take_pins() {
   pinned_mask_ = pinned_particles(preset_);
   if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
   update_fixed();
@@ -194,16 +188,16 @@ bool Simulation::rebuilds(const Edit& edit) const {
   if (std::holds_alternative<edit::Restart>(edit)) return true;
   const auto* change = std::get_if<edit::Change>(&edit);
   if (change == nullptr) return false;
-  const Preset& next = change->preset;
-  if (lattice_of(next) != lattice_ || next.kind != preset_.kind) return true;
-  return steps_ == 0 ? !begin_alike(next, preset_) : converts(next);
+  const EffectSet changed = changes(preset_, change->preset);
+  return changed.touches(Effect::rebuild) || restarts(changed) || changed.touches(conversion);
 }
 
 std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   const auto* change = std::get_if<edit::Change>(&edit);
   const Preset& next = change != nullptr ? change->preset : preset_;
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
-  if (change == nullptr || lattice_of(next) != lattice_ || next.kind != preset_.kind) {
+  const EffectSet changed = changes(preset_, next);
+  if (change == nullptr || changed.touches(Effect::rebuild)) {
     auto fresh = std::make_unique<Simulation>(next, threads_);
     fresh->enable_ledger(watch_.has_value());
     return fresh;
@@ -215,7 +209,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
     State state;
     engine_->read(state, tears_);
     other->take_engine(next, state);
-    other->take_pins(preset_);
+    if (changed.touches(Effect::pins)) other->take_pins();
   }
   ++other->revision_;
   other->watch_edit(Ledger::Source::edits);

@@ -12,6 +12,7 @@
 #include "core/engines/engine.h"
 #include "core/forces/gust.h"
 #include "core/forces/readout.h"
+#include "core/model/effect.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
@@ -132,9 +133,9 @@ class Simulation {
   const Preset& acting() const { return gusts(preset_) ? effective_preset_ : preset_; }
   void take_constants(const Preset& next);
   int update_gust();
-  bool converts(const Preset& next) const;
+  bool restarts(EffectSet changed) const;
   void take_engine(const Preset& next, const State& state);
-  void take_pins(const Preset& old);
+  void take_pins();
   bool fixed(int i, int j) const { return pinned(i, j) || held_.particle == i * lattice_.columns + j; }
   glm::dvec3 velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const;
   void change(const Preset& preset);

@@ -4,13 +4,12 @@
 #include <array>
 #include <chrono>
 #include <limits>
-#include <set>
+#include <map>
+#include <span>
 
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
-#include "core/io/preset_io.h"
-#include "core/model/notation.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 
@@ -26,30 +25,30 @@ void say(Session& session, const std::vector<std::string>& gone) {
 }
 
 /// "k_s = 80", or of a method its title alone.
-std::string spoken(const std::string& setting) {
-  const Setting parsed = parse_setting(setting);
-  if (parsed.key == "integrator") return std::string(scheme(parsed.value).title);
-  if (parsed.key == "engine") return parsed.value == "cpu" ? "CPU" : "OpenCL";
-  if (parsed.key == "precision") return parsed.value;
-  return parsed.key + " = " + parsed.value;
+std::string spoken(const Difference& difference, int digits = 6) {
+  if (const auto* method = difference.value_of(&Preset::integrator)) return std::string(scheme(*method).title);
+  if (const auto* engine = difference.value_of(&Preset::engine)) return *engine == EngineKind::cpu ? "CPU" : "OpenCL";
+  if (const auto* precision = difference.value_of(&Preset::precision)) return std::string(name_of(*precision));
+  return difference.key() + " = " + difference.value_text(digits);
 }
 
-/// What a constant is in the original, as a setting.
-std::string present(const Preset& preset, const std::string& key) {
-  if (key == "integrator") return key + "=" + preset.integrator;
-  if (key == "engine") return key + "=" + std::string(name_of(preset.engine));
-  if (key == "precision") return key + "=" + std::string(name_of(preset.precision));
-  const PresetRow* row = find_row(key);
-  if (row == nullptr) return {};
-  const auto* number = std::get_if<double Preset::*>(&row->field);
-  return number != nullptr ? key + "=" + short_number(preset.**number) : "";
+/// What the original has where its copies differ from it: its method first, the rest by key.
+std::string name_of_original(const Session& session) {
+  std::map<std::string, Difference> own;
+  for (std::size_t n = 0; n < session.copies.lockstep.size(); ++n)
+    for (const Difference& difference : session.copies.lockstep[n].differences)
+      if (const auto here = difference.in(session.preset())) own.emplace(here->key(), *here);
+  std::string name(scheme(session.preset().integrator).title);
+  for (const auto& [key, here] : own)
+    if (!here.value_of(&Preset::integrator) && !here.value_of(&Preset::tolerance)) name += ", " + spoken(here, 4);
+  return name;
 }
 
 /// Whether a copy's method runs on the CPU engine alone.
-bool needs_cpu(const std::vector<std::string>& differences) {
-  return std::any_of(differences.begin(), differences.end(), [](const std::string& difference) {
-    const Setting setting = parse_setting(difference);
-    return setting.key == "integrator" && !runs_on_opencl(scheme(setting.value));
+bool needs_cpu(std::span<const Difference> differences) {
+  return std::any_of(differences.begin(), differences.end(), [](const Difference& difference) {
+    const std::string* method = difference.value_of(&Preset::integrator);
+    return method != nullptr && !runs_on_opencl(scheme(*method));
   });
 }
 
@@ -65,49 +64,43 @@ std::optional<std::size_t> seat_of_cloth(const Session& session, int n) {
 }
 
 std::string name_of_cloth(const Session& session, int n) {
+  if (n == Copies::original) return name_of_original(session);
   std::string name;
-  const auto add = [&](const std::string& setting) {
-    if (!setting.empty()) name += (name.empty() ? "" : ", ") + spoken(setting);
-  };
-  const Lockstep& lockstep = session.copies.lockstep;
-  if (n != Copies::original) {
-    for (const std::string& difference : lockstep[std::size_t(n)].differences) add(difference);
-    return name.empty() ? "equal copy" : name;
-  }
-  std::set<std::string> keys{"integrator"};
-  for (std::size_t k = 0; k < lockstep.size(); ++k)
-    for (const std::string& difference : lockstep[k].differences) keys.insert(parse_setting(difference).key);
-  add(present(session.preset(), "integrator"));
-  for (const std::string& key : keys)
-    if (key != "integrator" && key != "tolerance") add(present(session.preset(), key));
-  return name;
+  for (const Difference& difference : session.copies.lockstep[std::size_t(n)].differences)
+    name += (name.empty() ? "" : ", ") + spoken(difference);
+  return name.empty() ? "equal copy" : name;
 }
 
 std::vector<CopyChoice> copy_choices(const Preset& preset) {
   const bool single = preset.precision == Precision::float_, cpu = preset.engine == EngineKind::cpu;
   std::vector<CopyChoice> choices{{.label = "Reference: Dormand-Prince, error 1e-9 m a step",
-                                   .differences = {"integrator=dopri5", "tolerance=1e-9", "precision=double"},
+                                   .differences = {{&Preset::integrator, "dopri5"},
+                                                   {&Preset::tolerance, 1e-9},
+                                                   {&Preset::precision, Precision::double_}},
                                    .reference = true},
                                   {.label = "Equal copy", .differences = {}}};
+  const auto add = [&](std::string label, Difference difference, int group) {
+    choices.push_back({std::move(label), {std::move(difference)}, group});
+  };
   for (const Scheme& method : schemes())
     if (method.name != preset.integrator)
-      choices.push_back({std::string(method.title), {"integrator=" + std::string(method.name)}, 1});
+      add(std::string(method.title), {&Preset::integrator, std::string(method.name)}, 1);
   const auto with_dt = [&](const char* label, double dt) {
-    choices.push_back({label + short_number(dt) + " s", {"dt=" + short_number(dt, 6)}, 2});
+    add(label + short_number(dt) + " s", {&Preset::dt, rounded(dt, 6)}, 2);
   };
   with_dt("dt / 2 = ", preset.dt / 2), with_dt("dt · 2 = ", preset.dt * 2);
-  choices.push_back({single ? "double" : "float", {single ? "precision=double" : "precision=float"}, 2});
-  if (!cpu) choices.push_back({"CPU", {"engine=cpu"}, 2});
-  if (cpu && runs_on_opencl(scheme(preset.integrator))) choices.push_back({"OpenCL", {"engine=opencl"}, 2});
+  const Precision other = single ? Precision::double_ : Precision::float_;
+  add(std::string(name_of(other)), {&Preset::precision, other}, 2);
+  if (!cpu) add("CPU", {&Preset::engine, EngineKind::cpu}, 2);
+  if (cpu && runs_on_opencl(scheme(preset.integrator))) add("OpenCL", {&Preset::engine, EngineKind::opencl}, 2);
   for (CopyChoice& choice : choices)
-    if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back("engine=cpu");
+    if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back(&Preset::engine, EngineKind::cpu);
   return choices;
 }
 
-void add_copy(Session& session, const std::vector<std::string>& differences, bool as_reference) {
+void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference) {
   Copies& copies = session.copies;
-  if (session.rebuild.busy())
-    return session.messages.note("Another cloth is being built; add a copy when it is there.");
+  if (session.rebuild.busy()) return session.messages.note("Another cloth is being built; add a copy when it is there.");
   try {
     copies.lockstep.add(*session.simulation, differences, session.threads);
   } catch (const std::exception& error) {

@@ -42,14 +42,14 @@ std::string name_of_cloth(const Session& session, int n);
 /// What a copy may be made with: a row of the card's menu, and of the palette.
 struct CopyChoice {
   std::string label;
-  std::vector<std::string> differences;
+  std::vector<Difference> differences;
   int group = 0;           ///< rows of one group stand together
   bool reference = false;  ///< it becomes the one from which distances are measured
 };
 std::vector<CopyChoice> copy_choices(const Preset& preset);
 
-/// Adds a copy with these settings ("k_s=80"), or says why not.
-void add_copy(Session& session, const std::vector<std::string>& differences, bool as_reference);
+/// Adds a copy that differs in these constants, or says why not.
+void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference);
 void remove_copy(Session& session, std::size_t n);
 /// Removes all of them; returns whether there were any.
 bool put_away_copies(Session& session);

@@ -7,6 +7,7 @@
 #include "app/session/session.h"
 #include "core/cloth/start.h"
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 #include "core/model/resolution.h"
 
 namespace tyglab {
@@ -25,7 +26,7 @@ void spell_pins_as_saved(Session& session) {
 /// A new texture for the cloth, if the edit brings one. False where it is of no use.
 bool take_texture(Session& session, const Edit& edit) {
   const auto* change = std::get_if<edit::Change>(&edit);
-  if (change == nullptr || change->preset.texture == session.requested_preset().texture) return true;
+  if (change == nullptr || !changes(session.requested_preset(), change->preset).touches(Effect::texture)) return true;
   if (!session.show_texture) return true;
   const auto problem = session.show_texture(change->preset.texture);
   if (problem) session.messages.error(*problem);
@@ -33,14 +34,12 @@ bool take_texture(Session& session, const Edit& edit) {
 }
 
 void record(Session& session, const Preset& before, const Preset& now, unsigned gesture) {
-  Preset same_view = before;
-  same_view.mode = now.mode;
-  if (!(same_view == now)) session.history.record(before, gesture);
+  if (!changes(before, now).within(Effect::view)) session.history.record(before, gesture);
 }
 
 /// What changes while another cloth is in work is felt at once where that is quick.
 void change_present(Session& session, const Preset& before, const Preset& next) {
-  const edit::Change change{rebased(before, next, session.preset())};
+  const edit::Change change{merge(before, next, session.preset())};
   if (session.rebuild.holds_present() || change.preset == session.preset()) return;
   if (session.simulation->rebuilds(change) || needs_programs(session, change.preset)) return;
   const Preset old = session.preset();
@@ -88,8 +87,7 @@ std::optional<bool> build_beside(Session& session, const Edit& edit, unsigned ge
   order.target = next;
   order.restarts = restarts || rebuild.restarts();
   order.programs = !order.restarts && !session.simulation->rebuilds(edit);
-  order.fresh = order.programs || order.restarts || lattice_of(next) != session.simulation->lattice() ||
-                next.kind != session.preset().kind;
+  order.fresh = order.programs || order.restarts || changes(session.preset(), next).touches(Effect::rebuild);
   rebuild.order(session, std::move(order), history);
   return true;
 }
@@ -102,7 +100,7 @@ void follow_up(Session& session, const Preset& before) {
   // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
   if (session.picked && before.L != now.L) session.picked = site_in_resolution(*session.picked, before, now);
   if (session.picked && !lattice.contains(session.picked->i, session.picked->j)) session.picked.reset();
-  if (before.rows != now.rows || before.columns != now.columns || before.kind != now.kind) {
+  if (changes(before, now).touches(Effect::rebuild)) {
     ++session.counts.lattices;
     session.recorded.clear();
   }

@@ -1,27 +1,17 @@
 #include "app/session/rebuild.h"
 
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "app/session/document.h"
 #include "app/session/edits.h"
 #include "app/session/session.h"
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
 
 constexpr double many_particles = 1e5;  // built in about a frame's time
-
-using Values = nlohmann::json;
-
-Values rebased(const Values& before, const Values& after, const Values& present) {
-  if (!before.is_object() || !after.is_object() || !present.is_object()) return before == after ? present : after;
-  Values out = present;
-  for (const auto& [key, value] : after.items())
-    out[key] = rebased(before.value(key, Values()), value, present.value(key, Values()));
-  return out;
-}
 
 }  // namespace
 
@@ -29,16 +19,9 @@ double particles(const Preset& preset) {
   return double(lattice_of(preset).size());
 }
 
-Preset rebased(const Preset& before, const Preset& after, const Preset& present) {
-  const auto tree = [](const Preset& preset) { return Values::parse(preset_to_json(preset)); };
-  Preset next = parse_preset(rebased(tree(before), tree(after), tree(present)).dump(), "the constants");
-  next.device = after.device;  // in no file
-  return next;
-}
-
 bool needs_programs(const Session& session, const Preset& preset) {
   if (preset.engine != EngineKind::opencl || session.scripted) return false;
-  const bool same_device = session.preset().engine == EngineKind::opencl && session.preset().device == preset.device;
+  const bool same_device = !changes(session.preset(), preset).touches({Effect::engine, Effect::device});
   return !same_device || (session.rebuild.prepare_programs && !session.simulation->engine().ready_for(preset));
 }
 
@@ -126,7 +109,7 @@ void BackgroundRebuild::give_up(Session& session, const JobError& why) {
 bool BackgroundRebuild::available(const BuildOrder& made) const {
   if (dropped_) return false;
   if (!next_) return true;
-  const bool alike = lattice_of(made.target) == lattice_of(next_->target) && made.target.kind == next_->target.kind;
+  const bool alike = !changes(made.target, next_->target).touches(Effect::rebuild);
   return alike && !made.document && !next_->document && (made.fresh || !next_->fresh);
 }
 

@@ -99,8 +99,6 @@ bool needs_programs(const Session& session, const Preset& preset);
 bool takes_long(const Session& session, const Edit& edit);
 /// The same of a preset that is opened.
 bool takes_long(const Session& session, const Preset& preset);
-/// What was changed from `before` to `after`, changed in `present`.
-Preset rebased(const Preset& before, const Preset& after, const Preset& present);
 /// Takes a simulation in place of the present one.
 void swap_in(Session& session, std::unique_ptr<Simulation> simulation);
 

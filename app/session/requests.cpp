@@ -7,6 +7,7 @@
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
@@ -25,9 +26,8 @@ void follow_constants(Session& session, Preset& next) {
     return;
   }
   session.auto_dt->begin();
-  Preset as = session.requested_preset();
-  as.mode = next.mode, as.texture = next.texture, as.name = next.name, as.description = next.description;
-  if (as != next) next.dt = *dt;  // what is only seen changes no limit, and a halved dt stays
+  // What is only seen changes no limit, and a halved dt stays.
+  if (!changes(session.requested_preset(), next).within(appearance)) next.dt = *dt;
 }
 
 /// Another method that no OpenCL device runs brings the CPU engine with it. Returns what is to be said of that.
@@ -109,9 +109,8 @@ void apply(Session& session, const request::Quit& what) {
 }  // namespace
 
 bool unsaved(const Session& session) {
-  Preset saved = session.document.saved;
-  saved.mode = session.requested_preset().mode;
-  return !(saved == session.requested_preset());  // what is still being built would be lost as well
+  // What is still being built would be lost as well.
+  return !changes(session.document.saved, session.requested_preset()).within(Effect::view);
 }
 
 bool changed_since_divergence(const Session& session) {
@@ -119,10 +118,8 @@ bool changed_since_divergence(const Session& session) {
   return !same_model(session.simulation->diverged_preset(), session.preset());
 }
 
-bool same_model(Preset a, const Preset& b) {
-  a.mode = b.mode, a.texture = b.texture, a.name = b.name, a.description = b.description;
-  a.engine = b.engine, a.device = b.device, a.precision = b.precision;
-  return a == b;
+bool same_model(const Preset& a, const Preset& b) {
+  return changes(a, b).within(motionless | Effect::engine | Effect::device | Effect::precision);
 }
 
 void apply_requests(Session& session) {

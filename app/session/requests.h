@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/edit.h"
+#include "core/model/difference.h"
 
 namespace tyglab {
 
@@ -38,9 +39,9 @@ struct SavePreset {
 struct LoadTexture {
   std::string name;  ///< shipped name or path
 };
-/// A copy that moves in lockstep, with these settings instead of the present ones ("k_s=80").
+/// A copy that moves in lockstep, with these values instead of the present ones.
 struct AddCopy {
-  std::vector<std::string> differences;
+  std::vector<Difference> differences;
   bool as_reference = false;
 };
 struct RemoveCopy {
@@ -70,6 +71,6 @@ bool unsaved(const Session& session);
 /// Whether the motion has diverged, and constants of its model have been changed since.
 bool changed_since_divergence(const Session& session);
 /// Whether both say the same of the motion: they may differ in name, picture, engine and precision.
-bool same_model(Preset a, const Preset& b);
+bool same_model(const Preset& a, const Preset& b);
 
 }  // namespace tyglab

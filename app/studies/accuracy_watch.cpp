@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/integrators/scheme.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
@@ -14,11 +15,6 @@ constexpr double enough = 1e-7;  // m
 constexpr StudyEffort effort{.reference = 1e8, .point = 3e7};
 
 }  // namespace
-
-Preset moving(Preset preset) {
-  preset.mode = 1, preset.texture.clear(), preset.name.clear(), preset.description.clear();
-  return preset;
-}
 
 void AccuracyWatch::drop() {
   work_.drop();
@@ -70,7 +66,7 @@ void AccuracyWatch::begin(StudyMoment& moment) {
 
 void AccuracyWatch::poll(StudyMoment& moment) {
   const std::optional<AccuracyStudy> newest = work_.findings();
-  const bool changed = newest && moving(newest->of) != moving(moment.preset());
+  const bool changed = newest && !changes(newest->of, moment.preset()).within(motionless);
   if (changed) {
     work_.cancel();
     if (changed_ < 0) changed_ = moment.now;

@@ -13,9 +13,6 @@
 
 namespace tyglab {
 
-/// Constants without what no motion depends on.
-Preset moving(Preset preset);
-
 /// What is known so far of the motion from one moment on.
 struct AccuracyStudy {
   Preset of;     ///< the constants

@@ -1,6 +1,6 @@
 #include "app/studies/convergence_watch.h"
 
-#include "app/studies/accuracy_watch.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
@@ -38,7 +38,7 @@ void ConvergenceWatch::begin(StudyMoment& moment) {
 
 void ConvergenceWatch::poll(StudyMoment& moment) {
   const auto known = study();
-  const bool changed = known && moving(known->of) != moving(moment.preset());
+  const bool changed = known && !changes(known->of, moment.preset()).within(motionless);
   if (changed) {
     work_.cancel();
     if (changed_ < 0) changed_ = moment.now;

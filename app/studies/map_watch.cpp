@@ -1,15 +1,7 @@
 #include "app/studies/map_watch.h"
 
-#include "app/studies/accuracy_watch.h"
-
 namespace tyglab {
 namespace {
-
-/// Constants without what the map has on its axes, and without what no motion depends on.
-Preset mapped(Preset preset) {
-  preset.k_s = preset.k = preset.dt = 1;
-  return moving(std::move(preset));
-}
 
 bool holds(const MapGrid& grid, const Preset& preset) {
   const double stiffness = stiffness_of(preset);
@@ -52,7 +44,7 @@ void MapWatch::begin(const StudyMoment& moment) {
 void MapWatch::poll(StudyMoment& moment) {
   if (moment.simulation.lattice().size() > largest) return drop();
   const auto known = findings();
-  const bool fits = known && mapped(known->of) == mapped(moment.preset()) && holds(known->grid, moment.preset());
+  const bool fits = known && same_map(known->of, moment.preset()) && holds(known->grid, moment.preset());
   if (fits) {
     changed_ = -1;
     return work_.working() ? moment.ask_again_in(0.15) : void();

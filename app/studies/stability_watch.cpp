@@ -6,6 +6,7 @@
 
 #include "core/analysis/frequency.h"
 #include "core/integrators/scheme.h"
+#include "core/model/changes.h"
 #include "core/theory/amplification.h"
 
 namespace tyglab {
@@ -68,7 +69,7 @@ void StabilityWatch::poll(StudyMoment& moment) {
     if (auto outcome = work_.take(); auto* limits = std::get_if<StabilityLimits>(&outcome))
       limits_ = std::move(*limits);
   const Simulation& simulation = moment.simulation;
-  const bool new_constants = looked_for_ != simulation.preset(), moved = looked_at_ != simulation.time();
+  const bool new_constants = !looked_for_ || !changes(*looked_for_, simulation.preset()).within(motionless), moved = looked_at_ != simulation.time();
   if (!new_constants && (!moved || moment.now < begun_ + between_looks)) return;
   begun_ = moment.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;

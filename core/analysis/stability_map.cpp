@@ -9,6 +9,7 @@
 #include "core/cloth/start.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 #include "core/model/notation.h"
 #include "core/simulation.h"
 #include "core/theory/modes.h"
@@ -66,6 +67,10 @@ Preset at_place(Preset preset, double stiffness, double dt) {
   preset.*stiffness_field(preset) = stiffness;
   preset.dt = dt;
   return preset;
+}
+
+bool same_map(const Preset& a, const Preset& b) {
+  return changes(at_place(a, stiffness_of(b), b.dt), b).within(motionless | Effect::device | Effect::engine);
 }
 
 MapGrid map_grid(const Preset& preset, int columns, int rows) {

@@ -40,6 +40,9 @@ struct MapCell {
 std::string stiffness_key(const Preset& preset);
 double stiffness_of(const Preset& preset);
 Preset at_place(Preset preset, double stiffness, double dt);
+/// Whether both have one map: they differ at most in stiffness and dt, in the engine (cells run on the CPU's) and in
+/// what no motion depends on.
+bool same_map(const Preset& a, const Preset& b);
 
 /// Runs the scene from its start with a cell's constants: half a second or 60 steps if that is more, but no more steps
 /// than take some ten milliseconds. Throws Stopped.

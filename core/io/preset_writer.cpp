@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/preset_io.h"
+#include "core/model/changes.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 
@@ -101,13 +102,9 @@ std::string preset_to_json(const Preset& p) {
 }
 
 std::string preset_hash(const Preset& preset) {
-  Preset scene = preset;
-  scene.name.clear();
-  scene.description.clear();
-  scene.mode = Preset{}.mode;
-  scene.texture.clear();
   std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : preset_to_json(scene)) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  for (const char c : preset_to_json(cleared(preset, appearance)))
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
   std::array<char, 17> text{};
   std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(hash));
   return text.data();

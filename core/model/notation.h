@@ -9,20 +9,12 @@
 #include <variant>
 #include <vector>
 
+#include "core/model/effect.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
 enum class Scale { linear, logarithmic };
-
-/// What a change of the constant asks of a running simulation.
-enum class Effect {
-  constant,  ///< taken at the next step
-  rebuild,   ///< the cloth is built anew (rows, columns, kind)
-  start,     ///< counts at the next restart (where and how the cloth begins)
-  solver,    ///< a change of integrator, dt, engine or precision: velocities are kept
-  view       ///< nothing that is simulated
-};
 
 /// Field of T (Preset or Body) that a row stands for.
 template <class T>
@@ -39,12 +31,13 @@ struct Row {
   FieldOf<T> field;
   double min = 0, max = 0;      ///< allowed range, ends included (numbers alone)
   Scale scale = Scale::linear;  ///< of its slider
-  Effect effect = Effect::constant;
+  Effect effect = Effect::force;
   std::string_view equation;  ///< number in the report, empty where it has none
   std::string_view help;      ///< one sentence: what it does
   bool zero_is_off = false;   ///< 0 means never
   Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
   bool only_one_kind = false;
+  EffectSet of_weight = {};  ///< what a change asks for beside, of the one weight
 };
 
 using PresetRow = Row<Preset>;

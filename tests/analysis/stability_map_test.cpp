@@ -95,4 +95,25 @@ TEST_CASE("a map's CSV has a row a cell with its units") {
     CHECK(cell.dt_theory == doctest::Approx(map_limit(at_place(preset, cell.stiffness, cell.dt))));
 }
 
+TEST_CASE("a map stays as it is while stiffness, dt, looks and the engine change, and no longer") {
+  for (const Preset& of : {test::cloth(6, 6), test::one_weight()}) {
+    const auto stays = [&](auto change) {
+      Preset next = of;
+      change(next);
+      return same_map(of, next) && same_map(next, of);
+    };
+    const bool cloth = of.kind == Kind::cloth;
+    CHECK(stays([](Preset& p) { p.dt /= 3; }));
+    CHECK(stays([](Preset& p) { p.k_s *= 2, p.k *= 3; }));
+    CHECK(stays([](Preset& p) { p.mode = 2, p.texture = "a", p.name = "b", p.description = "c"; }));
+    CHECK(stays([](Preset& p) { p.engine = EngineKind::opencl, p.device = 1; }));
+    CHECK(stays([](Preset& p) { p.k_b += 1; }) == !cloth);
+    CHECK_FALSE(stays([](Preset& p) { p.k_d += 1; }));
+    CHECK_FALSE(stays([](Preset& p) { p.precision = Precision::float_; }));
+    CHECK_FALSE(stays([](Preset& p) { p.integrator = "rk4"; }));
+    CHECK_FALSE(stays([](Preset& p) { p.x_0.y += 1; }));
+    CHECK_FALSE(stays([cloth](Preset& p) { p.kind = cloth ? Kind::one_weight : Kind::cloth; }));
+  }
+}
+
 }  // namespace tyglab::stability_map_test

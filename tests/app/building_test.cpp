@@ -8,6 +8,7 @@
 
 #include "app/session/edits.h"
 #include "app/session/session.h"
+#include "core/model/changes.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
@@ -227,7 +228,7 @@ TEST_CASE("a change is carried over to other constants alone") {
   present.rows = 5, present.k_s = 1;
   Preset expected = present;
   expected.k_s = 9, expected.bodies.resize(2);
-  CHECK(rebased(before, after, present) == expected);
+  CHECK(merge(before, after, present) == expected);
 }
 
 /// The cloth that is built beside the frames is read from the present one. A worker that is held here, while the

@@ -68,8 +68,9 @@ TEST_CASE("copies of a cloth on OpenCL take the CPU engine along where their met
     CHECK((copy.engine == EngineKind::cpu) == alone);
   }
   Preset preset = test::cloth(8, 8);
+  const Difference to_cpu{&Preset::engine, EngineKind::cpu};
   for (const CopyChoice& choice : copy_choices(preset))
-    CHECK(std::count(choice.differences.begin(), choice.differences.end(), "engine=cpu") == 0);
+    CHECK(std::count(choice.differences.begin(), choice.differences.end(), to_cpu) == 0);
   preset.integrator = "xpbd";
   for (const CopyChoice& choice : copy_choices(preset)) CHECK(choice.label != "OpenCL");
 }
@@ -93,7 +94,7 @@ TEST_CASE("a method of the CPU engine alone brings it along: one change, one und
     CHECK(desk.session.preset() == on_opencl());
     CHECK_FALSE(desk.session.history.can_undo());
     for (const CopyChoice& choice : copy_choices(desk.session.preset()))
-      if (!choice.differences.empty() && choice.differences.front() == "integrator=" + std::string(method)) {
+      if (!choice.differences.empty() && choice.differences.front() == Difference{&Preset::integrator, method}) {
         add_copy(desk.session, choice.differences, choice.reference);
         CHECK_FALSE(desk.session.copies.lockstep.empty());
         desk.session.copies.lockstep.clear();

@@ -67,7 +67,7 @@ TEST_CASE("copies take a cut of springs to the same bits, in mid-run") {
   Lockstep copies;
   original.advance(40);
   copies.add(original, {});
-  copies.add(original, {"integrator=rk4"});
+  copies.add(original, {{&Preset::integrator, "rk4"}});
   original.advance(20), copies.follow(original.time());
   original.apply(slanting);
   CHECK(copies.apply(original, slanting).empty());
@@ -95,11 +95,11 @@ TEST_CASE("the OpenCL engine takes a cut of springs as the CPU engine does") {
 TEST_CASE("a copy keeps its seat when one before it goes, and a new one takes the free seat") {
   Simulation original(test::cloth(5, 5));
   Lockstep copies;
-  for (const char* k_s : {"k_s=60", "k_s=70", "k_s=80"}) copies.add(original, {k_s});
+  for (const double k_s : {60, 70, 80}) copies.add(original, {{&Preset::k_s, k_s}});
   copies.remove(0);
   CHECK(copies[0].seat == 1);
   CHECK(copies[1].seat == 2);
-  copies.add(original, {"k_s=90"});
+  copies.add(original, {{&Preset::k_s, 90}});
   CHECK(copies[2].seat == 0);
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("copies in gusts stay equal to the bit, and those of another dt feel t
   original.advance(37);
   Lockstep copies;
   copies.add(original, {});
-  copies.add(original, {"dt=0.000125"});
+  copies.add(original, {{&Preset::dt, 0.000125}});
   for (int n = 0; n < 10; ++n) original.advance(20), copies.follow(original.time());
   CHECK(test::identical(original.read_raw(), copies[0].simulation->read_raw()));
   CHECK(rms_distance(*copies[1].simulation, original) < 1e-4);

@@ -71,7 +71,7 @@ TEST_CASE("another copy added later leaves equal ones equal") {
   cloths.advance(31);
   cloths.copies.add(cloths.original, {});
   cloths.advance(31);
-  cloths.copies.add(cloths.original, {"integrator=rk4"});
+  cloths.copies.add(cloths.original, {{&Preset::integrator, "rk4"}});
   cloths.advance(31);
   CHECK(test::identical(cloths.original.read_raw(), cloths.copy().read_raw()));
   CHECK(rms_distance(cloths.copy(1), cloths.original) > 0);
@@ -79,7 +79,7 @@ TEST_CASE("another copy added later leaves equal ones equal") {
 
 TEST_CASE("a copy keeps its difference while the original's constants change") {
   Pair cloths(test::cloth(8, 8));
-  cloths.copies.add(cloths.original, {"k_s=30", "integrator=rk4"});
+  cloths.copies.add(cloths.original, {{&Preset::k_s, 30}, {&Preset::integrator, "rk4"}});
   Preset next = cloths.original.preset();
   next.k_s = 80, next.k_d = 0.01, next.integrator = "velocity_verlet";
   cloths.apply(edit::Change{next});
@@ -94,8 +94,8 @@ TEST_CASE("a copy keeps its difference while the original's constants change") {
 
 TEST_CASE("copies of another dt keep the same time to within one of their steps, the hand's too") {
   Pair cloths(test::cloth(8, 8));
-  cloths.copies.add(cloths.original, {"dt=0.0005"});
-  cloths.copies.add(cloths.original, {"dt=0.0007"});
+  cloths.copies.add(cloths.original, {{&Preset::dt, 0.0005}});
+  cloths.copies.add(cloths.original, {{&Preset::dt, 0.0007}});
   cloths.apply(edit::Grab{7, 7});
   const glm::dvec3 to{0.1, 0.2, 0.3};
   cloths.apply(edit::MoveHand{to, 84});  // of 1 ms, a whole number of all three
@@ -116,7 +116,7 @@ TEST_CASE("the distance between two cloths carries the one that lags to the othe
   Preset preset = test::cloth(4, 4);
   preset.pins.mode = Pins::Mode::none;
   Pair cloths(preset);
-  cloths.copies.add(cloths.original, {"dt=0.0007"});
+  cloths.copies.add(cloths.original, {{&Preset::dt, 0.0007}});
   cloths.advance(100);
   const double lag = cloths.original.time() - cloths.copy().time();
   CHECK(lag == doctest::Approx(0.1 - 142 * 0.0007));
@@ -125,8 +125,8 @@ TEST_CASE("the distance between two cloths carries the one that lags to the othe
 
 TEST_CASE("a copy that diverges stands still and the others go on; restarting mends it") {
   Pair cloths(test::cloth(8, 8));
-  cloths.copies.add(cloths.original, {"dt=0.02"});
-  cloths.copies.add(cloths.original, {"k_s=40"});
+  cloths.copies.add(cloths.original, {{&Preset::dt, 0.02}});
+  cloths.copies.add(cloths.original, {{&Preset::k_s, 40}});
   cloths.advance(3000);
   REQUIRE(cloths.copy(0).divergence().has_value());
   CHECK(std::isnan(rms_distance(cloths.copy(0), cloths.original)));
@@ -139,7 +139,7 @@ TEST_CASE("a copy that diverges stands still and the others go on; restarting me
 TEST_CASE("going back in time takes the copies along") {
   Pair cloths(test::cloth(8, 8));
   cloths.copies.add(cloths.original, {});
-  cloths.copies.add(cloths.original, {"k_s=30"});
+  cloths.copies.add(cloths.original, {{&Preset::k_s, 30}});
   cloths.advance(40);
   const Snapshot then = cloths.original.snapshot();
   cloths.advance(40);
@@ -153,9 +153,9 @@ TEST_CASE("going back in time takes the copies along") {
 
 TEST_CASE("what cannot be copied is refused, and a copy that cannot follow is gone with a word") {
   Pair cloths(test::cloth(8, 8));
-  CHECK_THROWS_WITH_AS(cloths.copies.add(cloths.original, {"rows=9"}),
+  CHECK_THROWS_WITH_AS(cloths.copies.add(cloths.original, {{&Preset::rows, 9}}),
                        "A copy has the particles of its original: rows=9 would change them.", PresetError);
-  CHECK_THROWS_AS(cloths.copies.add(cloths.original, {"k_s=-1"}), PresetError);
+  CHECK_THROWS_AS(cloths.copies.add(cloths.original, {{&Preset::k_s, -1}}), PresetError);
   for (std::size_t n = 0; n < Lockstep::most; ++n) cloths.copies.add(cloths.original, {});
   CHECK_THROWS_AS(cloths.copies.add(cloths.original, {}), PresetError);
 }
@@ -164,7 +164,7 @@ TEST_CASE("a copy that cannot follow a change is gone, with a word") {
   Preset preset = test::cloth(8, 8);
   preset.bodies.push_back({});
   Pair cloths(preset);
-  cloths.copies.add(cloths.original, {"bodies[0].r=0.1"});
+  cloths.copies.add(cloths.original, {{0u, &Body::r, 0.1}});
   Preset next = preset;
   next.bodies.clear();
   cloths.apply(edit::Change{next});

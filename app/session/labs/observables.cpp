@@ -9,6 +9,7 @@
 #include "app/session/session.h"
 #include "core/cloth/lattice.h"
 #include "core/integrators/names.h"
+#include "core/model/changes.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 
@@ -26,10 +27,15 @@ std::span<const std::string_view> no_or_yes() {
   return no_yes;
 }
 
+/// Whether a study of those constants says nothing of the present motion.
+bool moved_on(const Preset& of, const Session& session) {
+  return !changes(of, session.preset()).within(motionless);
+}
+
 /// The limits of the present constants; null while they are worked out, or nobody shows them.
 const StabilityLimits* present_limits(const Session& session) {
   const auto& limits = session.studies.stability.limits();
-  return limits && limits->of == session.preset() ? &*limits : nullptr;
+  return limits && !moved_on(limits->of, session) ? &*limits : nullptr;
 }
 
 Known crit(Session& session) {
@@ -58,7 +64,7 @@ Known zone_end(Session& session, std::string_view key) {
 /// The study of the accuracy card, once it has judged the present settings.
 std::optional<AccuracyStudy> present_study(const Session& session) {
   auto study = session.studies.accuracy.study();
-  if (!study || !study->present || study->of != session.preset()) return std::nullopt;
+  if (!study || !study->present || moved_on(study->of, session)) return std::nullopt;
   return study;
 }
 Known present_error(Session& session) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "app/base/numbers.h"
@@ -27,6 +26,7 @@ struct Line {
   int components = 1;
   double value[3]{}, saved[3]{none, none, none}, standard[3]{};
   std::function<void(const double* value, unsigned gesture)> set;
+  std::function<Difference(double value)> differing;  ///< of a copy; of one component alone
 };
 
 template <class T>
@@ -43,7 +43,8 @@ Line describe(const Row<T>& row) {
           .scale = row.scale,
           .effect = row.effect,
           .zero_is_off = row.zero_is_off,
-          .set = {}};
+          .set = {},
+          .differing = {}};
 }
 
 template <class T>
@@ -173,11 +174,7 @@ void copy_items(Ui& ui, const Line& line) {
   if (line.components != 1 || line.effect == Effect::rebuild || line.effect == Effect::start ||
       line.effect == Effect::view)
     return;
-  const auto add = [&](double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "=%.17g", rounded(value, 6));
-    ui.session.request(request::AddCopy{{line.key + text}});
-  };
+  const auto add = [&](double value) { ui.session.request(request::AddCopy{{line.differing(rounded(value, 6))}}); };
   ImGui::Separator();
   for (const double factor : {0.5, 2.0}) {
     const double value = line.integer ? std::round(factor * line.value[0]) : factor * line.value[0];
@@ -299,6 +296,7 @@ void constant_row(Ui& ui, const PresetRow& row) {
     write(row.field, next, value);
     ui.session.propose(std::move(next), gesture);
   };
+  line.differing = [&row](double value) { return Difference(row, value); };
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
   draw_line(ui, line);
   ImGui::PopID();
@@ -318,6 +316,7 @@ void body_row(Ui& ui, const BodyRow& row, int index) {
     write(row.field, next.bodies[index], value);
     ui.session.propose(std::move(next), gesture);
   };
+  line.differing = [&row, index](double value) { return Difference(std::size_t(index), row, value); };
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());
   draw_line(ui, line);
   ImGui::PopID();

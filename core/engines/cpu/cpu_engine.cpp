@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/model/changes.h"
+
 namespace tyglab::cpu {
 namespace {
 
@@ -35,15 +37,6 @@ void classify(ResolvedSweep& sweep, const Scheme& scheme) {
 int useful_threads(const Lattice& lattice, int asked) {
   constexpr int least_particles = 1500;
   return std::clamp(std::min(lattice.size() / least_particles, lattice.rows / Band<float>::least_rows), 1, asked);
-}
-
-/// Whether two presets differ in nothing that moves a cloth that is under way.
-bool moves_alike(const Preset& a, const Preset& b) {
-  Preset as = a;
-  as.name = b.name, as.description = b.description, as.mode = b.mode, as.texture = b.texture;
-  as.v_0 = b.v_0, as.tilt_deg = b.tilt_deg, as.initial_stretch = b.initial_stretch, as.offset = b.offset;
-  if (a.kind == Kind::cloth) as.x_0 = b.x_0;
-  return as == b;
 }
 
 constexpr int lines_apart = 23;  // between vectors' places in their pages, of 64 cache lines
@@ -209,11 +202,11 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
-  const Scheme& next = scheme(preset.integrator);
-  if (!moves_alike(preset, cloth_.preset)) restart_control();
+  const EffectSet changed = changes(cloth_.preset, preset);
+  if (!changed.within(motionless | Effect::start)) restart_control();  // nothing else moves a cloth that is under way
   // What lags half a step depends on dt, and the velocity must stay.
-  const bool shifts = scheme_->lags && preset.dt != cloth_.preset.dt;
-  if (&next != scheme_ || (shifts && !scheme_->keeps_displacement)) {
+  const bool shifts = scheme_->lags && changed.touches(Effect::dt);
+  if (changed.touches(Effect::integrator) || (shifts && !scheme_->keeps_displacement)) {
     State state;
     read(state, tears);
     cloth_.preset = preset;

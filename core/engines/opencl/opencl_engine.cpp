@@ -7,6 +7,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/forces/contact.h"
+#include "core/model/changes.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -258,7 +259,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
-  const bool shifts = scheme_->lags && preset.dt != preset_.dt;
+  const bool shifts = scheme_->lags && changes(preset_, preset).touches(Effect::dt);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
@@ -285,7 +286,7 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
 
 template <class R>
 bool OpenClEngine<R>::ready_for(const Preset& preset) const {
-  if (preset.integrator != preset_.integrator || preset.precision != preset_.precision) return false;
+  if (changes(preset_, preset).touches({Effect::integrator, Effect::precision})) return false;
   const std::string wanted = options(preset, notes_contacts_);
   return wanted == options_ || device_->has_run(program_name(preset, wanted));
 }
