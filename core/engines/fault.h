@@ -1,5 +1,13 @@
 // What ends a run: something that is not finite, a spring far too long. Shared by the engines; each looks only when the
 // way that particles have gone since the last look says that something might be wrong.
+//
+// To measure every spring in every step would cost time for what hardly ever happens. So an engine measures all springs
+// once, notes by how much the longest could still grow before it counts as diverged, and subtracts twice the largest
+// displacement of each step from this budget, since a spring cannot grow by more than its two ends move. Only when the
+// budget is used up, or something is not finite, does it look again. The state is backed up every steps_between_backups
+// steps; when a look finds a fault, the engine returns to the backup, repeats the good steps, which gives the same
+// bits, and stops before the bad one: what is reported is the step that did it, with a state that can still be seen and
+// saved. Tearing has a budget of the same kind.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,9 @@
 // Gusts: W swells and falls with simulated time. No part of the report's model, in which the wind is steady, and off
 // unless asked for. The forces stay a(x, v): the wind changes between two steps only, so that every stage of a step of
 // every method feels the same one.
+//
+// Simulation::advance_part gives the engine another W between steps, so no engine, method or formula knows of gusts;
+// where they are off they cost one comparison for each call of advance.
 #pragma once
 
 #include "core/model/preset.h"
