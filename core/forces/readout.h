@@ -1,5 +1,5 @@
 // The forces on one particle, gathered in double from a state: what panels and plots show. The sweeps of the engines
-// compute the same formulas (spring.h, wind.h), spring by spring.
+// compute the same formulas (spring-inl.h, wind-inl.h), spring by spring.
 #pragma once
 
 #include <array>

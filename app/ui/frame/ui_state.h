@@ -86,7 +86,7 @@ struct Dialog {
   int selected = -1;
 };
 
-/// What linear theory says of a divergence and of the ways out (remedy.h): kept, since it takes milliseconds and is
+/// What linear theory says of a divergence and of the ways out (advice.h): kept, since it takes milliseconds and is
 /// asked for in every frame.
 struct Advice {
   std::optional<Preset> then, now;  ///< what it is about: the constants that diverged, the present ones
