@@ -6,7 +6,6 @@ GROUND, FIELD, EDGE, TEXT, QUIET, ARROW = "#1d2027", "#14161b", "#333843", "#e6e
 TINTS = {"app": "#56b4e9", "core": "#e69f00"}
 WIDTH, MARGIN, GAP, LANE = 1000, 40, 28, 34  # pixels; a lane is where an arrow passes a floor
 BOX, FLOOR, TOP, BETWEEN = 44, 76, 44, 44  # heights: of a box, from floor to floor, above each part, between the parts
-CORE = "analysis"  # the first room of core/, whose floor begins the second part
 
 
 def drawn_arrows(floors, arrows):
@@ -124,12 +123,12 @@ def text(x, y, what, color, size, weight=400, anchor="middle"):
             f'text-anchor="{anchor}">{html.escape(what)}</text>')
 
 
-def draw(floors, arrows):
+def draw(floors, arrows, core):
+    """Floors of (room, words) from top to bottom, those of core/ from number `core` on; arrows (room, room), downwards."""
     words = {name: says for floor in floors for name, says in floor}
     rows, pieces = with_lanes(floors, drawn_arrows(floors, arrows))
     rows = in_order(rows, words, pieces)
     at = straightened(rows, words, pieces)
-    core = next(k for k, floor in enumerate(floors) if CORE in dict(floor))
     top = {item: TOP + 20 + k * FLOOR + (BETWEEN if k >= core else 0) for k, row in enumerate(rows) for item in row}
     height = TOP + len(rows) * FLOOR + BETWEEN + 10
 
