@@ -124,7 +124,7 @@ def text(x, y, what, color, size, weight=400, anchor="middle"):
 
 
 def draw(floors, arrows, core):
-    """Floors of (room, words) from top to bottom, those of core/ from number `core` on; arrows (room, room), downwards."""
+    """Floors of (room, words) from top to bottom, those of core/ from number `core` on; arrows (room, room), all down."""
     words = {name: says for floor in floors for name, says in floor}
     rows, pieces = with_lanes(floors, drawn_arrows(floors, arrows))
     rows = in_order(rows, words, pieces)
@@ -135,7 +135,8 @@ def draw(floors, arrows, core):
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {height}" '
            'font-family="DejaVu Sans, Segoe UI, Helvetica, Arial, sans-serif" role="img">',
            "<title>The rooms of the program, and what each includes: arrows point down</title>",
-           '<defs><marker id="tip" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" orient="auto">'
+           '<defs><marker id="tip" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" markerHeight="7" '
+           'orient="auto">'
            f'<path d="M0 1 L9 5 L0 9 z" fill="{ARROW}"/></marker></defs>',
            f'<rect width="{WIDTH}" height="{height}" rx="10" fill="{GROUND}"/>']
     for part, first, last in (("app", 0, core), ("core", core, len(rows))):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """apply_page.py PAGE ROOT OUT: does what a page says. Each code block of PAGE that stands behind a comment
-<!-- into FILE, before|behind the line: TEXT --> is put into a copy of ROOT/FILE, OUT/<name of FILE>, beside the only line
-that is TEXT (in quotation marks: with its spaces)."""
+<!-- into FILE, before|behind the line: TEXT --> is put into a copy of ROOT/FILE, OUT/<name of FILE>, beside the only
+line that is TEXT (in quotation marks: with its spaces)."""
 import pathlib
 import re
 import sys
