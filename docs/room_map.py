@@ -63,8 +63,7 @@ def side_by_side(row, widths, wished, weights):
 
 
 def straightened(rows, words, pieces):
-    """The middle of everything: rooms lean to the middle of the picture, lanes to where their arrow comes from and goes
-    to."""
+    """The middle of everything: rooms lean to the middle of the picture, and lanes run straight."""
     widths = widths_of(rows, words)
     middle = {item: x for row in rows
               for item, x in side_by_side(row, widths, dict.fromkeys(row, WIDTH / 2), dict.fromkeys(row, 1)).items()}
@@ -72,13 +71,16 @@ def straightened(rows, words, pieces):
     for a, b in pieces:
         beside[a].append(b)
         beside[b].append(a)
-    weights = {item: 1 if isinstance(item, tuple) else 4 for item in widths}
+    weights = {item: 4 if isinstance(item, tuple) else 1 for item in widths}
     for _ in range(200):
         for row in rows:
             wished = {}
             for item in row:
-                others = [middle[other] for other in beside[item]] + ([] if isinstance(item, tuple) else [WIDTH / 2])
-                wished[item] = sum(others) / len(others)
+                lane = isinstance(item, tuple)
+                # A lane follows the lane below it, so that it runs straight; at its end it follows what it leads to.
+                pulls = [middle[other] for other in beside[item] if not lane or isinstance(other, tuple)]
+                pulls = pulls or [middle[other] for other in beside[item]]
+                wished[item] = sum(pulls + ([] if lane else 2 * [WIDTH / 2])) / (len(pulls) + (0 if lane else 2))
             middle.update(side_by_side(row, widths, wished, weights))
     return {item: (middle[item] - widths[item] / 2, widths[item]) for item in widths}
 
@@ -124,7 +126,7 @@ def text(x, y, what, color, size, weight=400, anchor="middle"):
 
 
 def draw(floors, arrows, core):
-    """Floors of (room, words) from top to bottom, those of core/ from number `core` on; arrows (room, room), all down."""
+    """Floors of (room, words), top to bottom, those of core/ from number `core` on; arrows (room, room), all down."""
     words = {name: says for floor in floors for name, says in floor}
     rows, pieces = with_lanes(floors, drawn_arrows(floors, arrows))
     rows = in_order(rows, words, pieces)
