@@ -6,7 +6,7 @@
 #endif
 #define BODY_REAL3 JOIN(BODY_REAL, 3)
 
-/// As DeviceBody in device_body.h.
+/// As DeviceBody in device_constants.h.
 typedef struct {
   BODY_REAL c[3], r, y, friction, restitution;
   BODY_REAL touch;  // square of the distance from c (a plane: the height) under which a particle may touch it

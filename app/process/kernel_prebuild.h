@@ -1,4 +1,7 @@
 // Programs for OpenCL devices, built in a process of their own.
+//
+// The child makes three steps of a small cloth with the preset's constants; the driver, or disk_cache.h, keeps on disk
+// what it has built, and the window only loads it.
 #pragma once
 
 #include "core/model/preset.h"

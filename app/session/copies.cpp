@@ -100,7 +100,8 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
 
 void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference) {
   Copies& copies = session.copies;
-  if (session.rebuild.busy()) return session.messages.note("Another cloth is being built; add a copy when it is there.");
+  if (session.rebuild.busy())
+    return session.messages.note("Another cloth is being built; add a copy when it is there.");
   try {
     copies.lockstep.add(*session.simulation, differences, session.threads);
   } catch (const std::exception& error) {

@@ -1,5 +1,14 @@
 // Cloths that take longer to build than a frame lasts are built beside it, in a thread of their own; the present one
 // goes on meanwhile. So are the programs of OpenCL devices.
+//
+// From 100,000 particles on, whatever asks for new arrays (Simulation::rebuilds: another lattice, precision, engine or
+// method, a restart, a preset that is opened) is built beside the frames. Panels show and change the preset that was
+// asked for. Of what changes meanwhile the present cloth takes what is quick, and the new one takes all; another
+// request is built next, and what has become useless is thrown away, since a thread cannot be stopped halfway. A new
+// cloth with the old one's state (another precision while it moves) is read from the old one, which therefore stands
+// still until then; cuts, pins and releases are kept and made afterwards. With --frames everything is built at once, so
+// that the same frames come on every machine. Programs of OpenCL devices are built by a child process
+// (app/process/kernel_prebuild.h), of small cloths too: a feature that is switched on counts once its program is there.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,8 @@ void StabilityWatch::poll(StudyMoment& moment) {
     if (auto outcome = work_.take(); auto* limits = std::get_if<StabilityLimits>(&outcome))
       limits_ = std::move(*limits);
   const Simulation& simulation = moment.simulation;
-  const bool new_constants = !looked_for_ || !changes(*looked_for_, simulation.preset()).within(motionless), moved = looked_at_ != simulation.time();
+  const bool new_constants = !looked_for_ || !changes(*looked_for_, simulation.preset()).within(motionless),
+             moved = looked_at_ != simulation.time();
   if (!new_constants && (!moved || moment.now < begun_ + between_looks)) return;
   begun_ = moment.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;

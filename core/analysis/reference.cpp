@@ -168,7 +168,7 @@ Reference make_reference(const AccuracyScene& scene, bool quick, const Stop& sto
     reference.agreement_rms_m = rms_distance(reference.track, own_track(scene, method, steps, stop));
     reference.made_by = {
         "Boost.Odeint's runge_kutta_fehlberg78 with error control to " + short_number(tolerance, 1) +
-            ", on forces written apart from the engine",
+            ", on forces implemented independently of the engine",
         "this project's " + method + " in double with dt = " + short_number(sample_time(scene, 1) / steps, 3) + " s"};
   } else {
     reference = refined(scene, dt / 2, stop);

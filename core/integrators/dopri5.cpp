@@ -118,30 +118,30 @@ Scheme dopri5() {
           .order_damped = 5,
           .vectors = first_a + stages,
           .keeps_displacement = false,
-          .note = "Fifth order, and chooses its own steps within dt so that none errs by more than the tolerance.",
+          .note = "Fifth order. Chooses its own steps within dt so that no step's error exceeds the tolerance.",
           .stability = "shortens its steps where they would be unstable, hλ about 1 to 3.3 in size, and counts them",
-          .cost = "six evaluations of the force an inner step; a rejected one costs as much",
+          .cost = "six evaluations of the force per inner step; a rejected step costs as much",
           .formula =
               R"(Seven slopes of $y = (x, v)$, the last of which is the next step's first. Two sums of them, of )"
-              R"(fifth and of fourth order, differ by about what the step errs by. **`tolerance`** (m) is the )"
-              R"(largest such error of any coordinate of any particle, that of a velocity counted as the way it )"
-              R"(makes in one more step: $\max(|e_x|, h\,|e_v|) \le$ tolerance. A step beyond it is thrown away )"
-              R"(and tried again; the next is as long as the last two errors advise (a PI controller, $h' = )"
-              R"(0.9\,h\,\varepsilon^{-0.17}\,\varepsilon_{old}^{0.04}$ with $\varepsilon$ = error/tolerance, at )"
-              R"(most ten times longer and five times shorter), and the steps of a $dt$ fill it exactly. The )"
-              R"(fifth-order result is kept, so the error at a later time falls about in proportion to the )"
-              R"(tolerance. $dt$ is only the interval of output. Bodies and tearing act, and the hand's force is )"
-              R"(looked at, after each inner step; the hand lets go at the end of a $dt$. Contact is no smooth )"
-              R"(force and in no estimate: it errs by what a particle does within an inner step, whatever the )"
-              R"(tolerance is, so where bodies matter $dt$ must be short too.
+              R"(fifth and of fourth order, differ by about the error of the step. **`tolerance`** (m) is the )"
+              R"(largest such error of any coordinate of any particle, the error of a velocity counting as the )"
+              R"(distance it covers in one more step: $\max(|e_x|, h\,|e_v|) \le$ tolerance. A step with a larger )"
+              R"(error is discarded and tried again; the last two errors determine the length of the next (a PI )"
+              R"(controller, $h' = 0.9\,h\,\varepsilon^{-0.17}\,\varepsilon_{old}^{0.04}$ with $\varepsilon$ = )"
+              R"(error/tolerance, at most ten times longer and five times shorter), and the steps of a $dt$ fill it )"
+              R"(exactly. The fifth-order result is kept, so the error at a later time falls about in proportion to )"
+              R"(the tolerance. $dt$ is only the interval of output. Bodies and tearing act, and the force on the )"
+              R"(hand is measured, after each inner step; the hand lets go at the end of a $dt$. Contact is not a )"
+              R"(smooth force, and the error estimate does not include it: its error is what a particle does within )"
+              R"(an inner step, whatever the tolerance, so where bodies matter $dt$ must be short too.
 
-What limits a step is counted: *stability* where the fastest motion left between the last two stages, which )"
-              R"(both belong to the step's end, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"
-              R"(outside $|R(h\lambda)| \le 1$ (Hairer's test, which asks for $h|\lambda| > 3.25$, is the case of )"
-              R"(a motion that only decays); *dt* where one step covers it; *accuracy* otherwise. Where steps are )"
+The program counts what limits the steps: *stability* where the fastest motion left between the last two stages, )"
+              R"(which both belong to the step's end, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"
+              R"(outside $|R(h\lambda)| \le 1$ (Hairer's test, which asks for $h|\lambda| > 3.25$, is the case of a )"
+              R"(motion that only decays); *dt* where one step covers it; *accuracy* otherwise. Where steps are )"
               R"(limited by stability a smaller tolerance costs little, and an implicit method may be faster. An )"
-              R"(inner step is never shorter than $dt/10^4$, and no error under the last digit of the largest )"
-              R"(coordinate is chased: such a step is accepted, counted, and said.)",
+              R"(inner step is never shorter than $dt/10^4$, and errors below the last digit of the largest )"
+              R"(coordinate are ignored: such a step is accepted, counted and reported.)",
           .sweeps = sweeps(),
           .start = {},
           .lags = false,

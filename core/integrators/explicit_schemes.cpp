@@ -15,11 +15,11 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 1,
        .vectors = 2,
        .keeps_displacement = false,
-       .note = "First order. Feeds energy into every oscillation; stable only with enough damping.",
+       .note = "First order. Adds energy to every oscillation; stable only with enough damping.",
        .stability = "grows at every dt without damping; with it stable up to hω = 2ζ",
        .cost = "one evaluation of the force",
-       .formula = R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines look at the beginning of the step alone, )"
-                  R"(so every swing comes out a little larger, by $\sqrt{1 + (\omega\,dt)^2}$ a step: the report's )"
+       .formula = R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines use only the beginning of the step, so )"
+                  R"(every oscillation grows, by a factor of $\sqrt{1 + (\omega\,dt)^2}$ per step: the report's )"
                   R"(example of what not to do, and worth seeing.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
@@ -32,12 +32,12 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 1,
        .vectors = 2,
        .keeps_displacement = false,
-       .note = "A Taylor expansion of the position; its velocity is first order, so the method is.",
+       .note = "A Taylor expansion of the position; its velocity is first order, and so is the method.",
        .stability = "grows at every dt without damping, more slowly than Euler",
        .cost = "one evaluation of the force",
        .formula = R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to )"
-                  R"(second order, the velocity to first only, and the whole is as good as its worse half. A swing )"
-                  R"(grows by $\sqrt{1 + (\omega\,dt)^2/2}$ a step.)",
+                  R"(second order, the velocity only to first, and the method is only as good as the worse of the )"
+                  R"(two. An oscillation grows by a factor of $\sqrt{1 + (\omega\,dt)^2/2}$ per step.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
        .lags = false},
@@ -54,10 +54,10 @@ std::vector<Scheme> explicit_schemes() {
            "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
        .stability = "symplectic; stable up to hω = 2 without damping, 2(√(1 + ζ²) − ζ) with it",
        .cost = "one evaluation of the force",
-       .formula = R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, begun with $d = dt\,v - \tfrac12 dt^2 a$. $d$ is )"
-                  R"(kept, $2x - x_{old}$ never formed, which in float would lose the last digits of every step. )"
-                  R"(Damping sees a velocity of half a step ago, which costs an order. Energy wavers and does not )"
-                  R"(drift while no spring switches.)",
+       .formula = R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, starting with $d = dt\,v - \tfrac12 dt^2 a$. $d$ )"
+                  R"(is stored and $2x - x_{old}$ is never computed, which in float would lose the last digits in )"
+                  R"(every step. Damping sees the velocity of half a step ago, which costs an order. The energy )"
+                  R"(fluctuates but does not drift while no spring switches.)",
        .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
        .start = {{v, {{v, 1, 1}, {a, -0.5, 2}}}},
        .lags = true},
@@ -73,8 +73,8 @@ std::vector<Scheme> explicit_schemes() {
        .stability = "symplectic; as stable as Verlet",
        .cost = "one evaluation of the force",
        .formula =
-           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. Verlet's recurrence, read as an Euler step that uses )"
-           R"(its new velocity at once; the velocity it shows belongs half a step earlier, and that is its )"
+           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. Verlet's recurrence, read as an Euler step that uses its )"
+           R"(new velocity at once; the velocity that it reports belongs to half a step earlier, and that is its )"
            R"(first-order error.)",
        .sweeps = {{x, v, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}}}},
        .start = {},
@@ -91,13 +91,13 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 2,
        .vectors = 3,
        .keeps_displacement = false,
-       .note = "Second order with damping too, since the damping sees a predicted velocity. One evaluation a step.",
+       .note = "Second order with damping too, since the damping sees a predicted velocity. One evaluation per step.",
        .stability = "symplectic without damping; stable up to hω = 2, less with damping",
        .cost = "one evaluation of the force",
        .formula =
-           R"($h' = h + dt\,a(x, p)$, $\;x' = x + dt\,h'$, $\;p' = h' + \tfrac12 dt\,a(x, p)$: $h$ is the )"
-           R"(velocity between two steps, $p$ a prediction of the one at their end. The damping sees $p$, which )"
-           R"(errs by $O(dt^2)$ only, so nothing is lost by it.)",
+           R"($h' = h + dt\,a(x, p)$, $\;x' = x + dt\,h'$, $\;p' = h' + \tfrac12 dt\,a(x, p)$: $h$ is the velocity )"
+           R"(between two steps, $p$ a prediction of the velocity at the end of the step. The damping sees $p$, )"
+           R"(whose error is only $O(dt^2)$, so it costs no order.)",
        .sweeps = {{x, 2, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}, {2, {{v, 1, 0}, {a, 0.5, 1}}}}}},
        .start = {{2, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -0.5, 1}}}},
        .lags = true},
@@ -110,8 +110,8 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 4,
        .vectors = 6,
        .keeps_displacement = false,
-       .note = "Fourth order while no spring switches. Four evaluations a step; loses a little energy.",
-       .stability = "stable up to hω = 2√2; takes energy away, (hω)⁶/144 of a swing a step",
+       .note = "Fourth order while no spring switches. Four evaluations per step; loses a little energy.",
+       .stability = "stable up to hω = 2√2; removes energy: (hω)⁶/144 of the amplitude per step",
        .cost = "four evaluations of the force",
        .formula = R"(Four slopes of $y = (x, v)$, at the beginning, twice in the middle, at the end: $y' = y + )"
                   R"(\tfrac{dt}{6}(k_1 + 2k_2 + 2k_3 + k_4)$.)",
@@ -149,7 +149,7 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 2,
        .vectors = 6,
        .keeps_displacement = false,
-       .note = "Fourth order without damping for three evaluations a step, while no spring switches; second with it.",
+       .note = "Fourth order without damping for three evaluations per step, while no spring switches; second with it.",
        .stability = "stable up to hω = 2.59 without damping",
        .cost = "three evaluations of the force",
        .formula = R"(Runge-Kutta's idea for $\ddot x = a(x)$ itself: with $a_1 = a(x)$, $a_2 = a(x + \tfrac12 dt\,v + )"

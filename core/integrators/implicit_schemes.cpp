@@ -24,12 +24,11 @@ std::vector<Scheme> implicit_schemes() {
        .order_damped = 1,
        .vectors = 4,
        .keeps_displacement = false,
-       .note = "Stable at every dt and k_s, since it takes energy away: the more, the larger dt.",
-       .stability = "stable at every dt (L-stable); takes energy from all that swings",
-       .cost = "one solve: some steps of Newton's method, each some dozen products with the stiffness",
-       .formula =
-           R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$: the forces of the end of the step. A swing shrinks )"
-           R"(by $1/\sqrt{1 + (\omega\,dt)^2}$ a step.)",
+       .note = "Stable at every dt and k_s, since it removes energy: the larger dt, the more.",
+       .stability = "stable at every dt (L-stable); removes energy from all oscillations",
+       .cost = "one solve: a few steps of Newton's method, each a few dozen products with the stiffness",
+       .formula = R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$: the forces at the end of the step. An oscillation )"
+                  R"(shrinks by a factor of $1/\sqrt{1 + (\omega\,dt)^2}$ per step.)",
        .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
        .start = {},
        .lags = false},
@@ -44,9 +43,9 @@ std::vector<Scheme> implicit_schemes() {
        .note = "Second order, symplectic, stable at every dt while no spring switches; fast oscillations stay.",
        .stability = "symplectic, stable at every dt while no spring switches (A-stable)",
        .cost = "one solve",
-       .formula = R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' = )"
-                  R"(2v_m - v$. No swing grows or shrinks; those too fast for $dt$ turn at a wrong speed, with their )"
-                  R"(amplitude kept.)",
+       .formula = R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' )"
+                  R"(= 2v_m - v$. No oscillation grows or shrinks; those too fast for $dt$ have the wrong frequency )"
+                  R"(but keep their amplitude.)",
        .sweeps = {{2,
                    3,
                    0,
@@ -65,12 +64,12 @@ std::vector<Scheme> implicit_schemes() {
        .order_damped = 2,
        .vectors = 4,
        .keeps_displacement = false,
-       .note = "Second order, and takes fast oscillations away: what dt resolves stays, the rest calms. Two solves.",
-       .stability = "stable at every dt (L-stable); takes energy from what is too fast for dt",
+       .note = "Second order. Damps oscillations that dt does not resolve and keeps the others. Two solves.",
+       .stability = "stable at every dt (L-stable); removes energy from what is too fast for dt",
        .cost = "two solves and one evaluation of the force",
        .formula =
-           R"(The trapezium rule to $t + \gamma\,dt$, then the backward difference over the beginning, that )"
-           R"(point and the end, $\gamma = 2 - \sqrt2$, with which both solves have the same $\beta = \gamma/2$.)",
+           R"(The trapezium rule to $t + \gamma\,dt$, then the backward difference over the beginning, that point )"
+           R"(and the end, with $\gamma = 2 - \sqrt2$, for which both solves have the same $\beta = \gamma/2$.)",
        .sweeps = {{x, v, 0, {{2, {{x, 1, 0}, {v, gamma / 2, 1}}}, {3, {{v, 1, 0}, {a, gamma / 2, 1}}}}},
                   {2,
                    3,

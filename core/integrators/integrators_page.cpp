@@ -10,20 +10,19 @@ namespace {
 constexpr const char* head =
     R"(# Integrators
 
-*This page is made from the table of methods (core/integrators): a test holds it current, and )"
-    R"(`TYGLAB_WRITE_DOCS=1 build/release/bin/presets_tests` writes it anew.*
+*This page is generated from the table of methods (core/integrators) by `TYGLAB_WRITE_DOCS=1 )"
+    R"(build/release/bin/presets_tests`; a test checks that it is current.*
 
-A method carries position and velocity from one time step to the next, with $a = \ddot x(x, v)$ from all )"
-    R"(forces. `--integrator NAME`, `solver.integrator` in a preset and the first row of the sandbox's )"
-    R"(panel choose it; it can be changed while the cloth moves. Which one is the fastest for a wished )"
-    R"(error is measured in [accuracy.md](accuracy.md), where each becomes unstable in )"
-    R"([stability.md](stability.md); what all of them have in common stands in )"
-    R"([model.md](model.md#integrators).
+A method advances position and velocity from one time step to the next, with $a = \ddot x(x, v)$ from all forces. )"
+    R"(`--integrator NAME`, `solver.integrator` in a preset and the first row of the sandbox's panel choose it; it )"
+    R"(can be changed while the cloth moves. [accuracy.md](accuracy.md) measures which one is fastest for a given )"
+    R"(error, [stability.md](stability.md) where each becomes unstable; [model.md](model.md#integrators) describes )"
+    R"(what they have in common.
 
-*Order* is that of the whole method, position and velocity, on a smooth motion: order 2 means that half the )"
-    R"(step gives a quarter of the error. Springs that switch between pulling and slack take that away )"
-    R"(from any method. *h* is $dt$ (of `dopri5` an inner step), $\omega$ the fastest angular frequency )"
-    R"(of the cloth, $\zeta$ its damping ratio.
+*Order* is that of the whole method, position and velocity, on a smooth motion: order 2 means that half the step )"
+    R"(gives a quarter of the error. No method keeps its order where springs switch between pulling and slack. *h* )"
+    R"(is $dt$ (of `dopri5` an inner step), $\omega$ the fastest angular frequency of the cloth, $\zeta$ its damping )"
+    R"(ratio.
 
 )";
 
@@ -39,7 +38,7 @@ std::string particulars(const Scheme& scheme) {
   if (chooses_steps(scheme)) text += " It reads `tolerance`.";
   if (iterates(scheme)) text += " It reads `iterations`.";
   if (chooses_steps(scheme))
-    text += " It has no limit of $dt$ that linear theory could tell, so `stability boundary` leaves it out.";
+    text += " Linear theory gives no limit of $dt$ for it, so `stability boundary` leaves it out.";
   if (projects(scheme))
     text +=
         " It has no amplification matrix, since a step is not linear even where the cloth is: `stability boundary` "

@@ -27,7 +27,8 @@ Preset load_preset(const std::filesystem::path& file);
 std::string preset_to_json(const Preset& preset);
 /// Writes atomically: a temporary file beside it, then renamed. Throws OutputError.
 void save_preset(const Preset& preset, const std::filesystem::path& file);
-/// 64-bit FNV-1a of the JSON text without name, description, view and texture, in hex: tells scenes apart in state files.
+/// 64-bit FNV-1a of the JSON text without name, description, view and texture, in hex: tells scenes apart in state
+/// files.
 std::string preset_hash(const Preset& preset);
 
 /// The same for settings as --set takes them: k_s=500, "W=[0,0,0.02]", "bodies[0].r=0.3".

@@ -16,16 +16,17 @@ using enum Effect;
 
 const std::array<PresetRow, 25> rows{{
     {"cloth", "rows", "R", "Rows of particles", "Partikelrader", "", &Preset::rows, 2, 4096, logarithmic, rebuild, "",
-     "Particles from top to bottom; a change builds the cloth anew.", false, Kind::cloth, true},
+     "Particles from top to bottom; a change rebuilds the cloth.", false, Kind::cloth, true},
     {"cloth", "columns", "C", "Columns of particles", "Partikelkolumner", "", &Preset::columns, 1, 4096, logarithmic,
-     rebuild, "", "Particles from left to right; a change builds the cloth anew.", false, Kind::cloth, true},
+     rebuild, "", "Particles from left to right; a change rebuilds the cloth.", false, Kind::cloth, true},
     {"cloth", "L", "L", "Rest length of a spring", "Fjäders vilolängd", "m", &Preset::L, 1e-4, 10, logarithmic, force,
      "2.5", "Spacing of the lattice: diagonals rest at √2·L, bending springs at 2L.", false, Kind::cloth, true},
     {"cloth", "m", "m", "Mass of a particle", "Partikelmassa", "kg", &Preset::m, 1e-9, 1e3, logarithmic, force, "2.1",
      "A lighter particle moves faster and needs a smaller time step."},
     {"cloth", "x_0", "x_0", "Original position (middle of the top row)", "Ursprungsposition", "m", &Preset::x_0, -1e3,
-     1e3, linear, start, "2.3", "Where the cloth begins; for the one weight x_0.y is where the spring rests.", false,
-     Kind::cloth, false, force},
+     1e3, linear, start, "2.3",
+     "Where the cloth begins; for the mass on a spring, x_0.y is where the spring is at rest.", false, Kind::cloth,
+     false, force},
     {"cloth", "v_0", "v_0", "Original velocity", "Ursprungshastighet", "m/s", &Preset::v_0, -1e3, 1e3, linear, start,
      "", "The same for all free particles."},
     {"cloth", "tilt_deg", "θ", "Tilt (90 hangs, 0 lies flat)", "Lutning", "°", &Preset::tilt_deg, -360, 360, linear,
@@ -34,7 +35,7 @@ const std::array<PresetRow, 25> rows{{
      &Preset::initial_stretch, 0.1, 10, linear, start, "", "Above 1 every spring starts taut.", false, Kind::cloth,
      true},
     {"cloth", "offset", "y_start", "Start above the rest position", "Startläge över viloläget", "m", &Preset::offset,
-     -1e3, 1e3, linear, start, "2.3", "Where the one weight is let go.", false, Kind::one_weight, true},
+     -1e3, 1e3, linear, start, "2.3", "Where the mass on a spring is released.", false, Kind::one_weight, true},
 
     {"forces", "k_s", "k_s", "Spring constant, stretching", "Fjäderkonstant töjning", "N/m", &Preset::k_s, 0, 1e9,
      logarithmic, force, "2.5", "Stiffness against stretching. The higher, the smaller the time step must be.", false,
@@ -43,36 +44,36 @@ const std::array<PresetRow, 25> rows{{
      logarithmic, force, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
     {"forces", "k_d", "k_d", "Damping constant", "Fjäderkonstant dämpning", "N s/m", &Preset::k_d, 0, 1e6, logarithmic,
      force, "2.6", "Resistance to relative motion along stretch springs: from denim (low) to rubber mat (high)."},
-    {"forces", "k", "k", "Spring constant of the one weight", "Fjäderkonstant", "N/m", &Preset::k, 0, 1e9, logarithmic,
-     force, "2.3", "Hooke's two-sided spring of figure 3.2.", false, Kind::one_weight, true},
+    {"forces", "k", "k", "Spring constant of the mass on a spring", "Fjäderkonstant", "N/m", &Preset::k, 0, 1e9,
+     logarithmic, force, "2.3", "Hooke's two-sided spring of figure 3.2.", false, Kind::one_weight, true},
     {"forces", "g", "g", "Gravitational acceleration", "Tyngdacceleration", "m/s²", &Preset::g, -100, 100, linear,
      force, "2.2", "Acts along -y: F_g = m·g."},
     {"forces", "W", "W", "Wind", "Vind", "N", &Preset::W, -1e3, 1e3, linear, force, "2.16",
      "Force on each triangle along its normal: N (N·W).", false, Kind::cloth, true},
-    {"forces", "gust", "W_gust", "Strength of gusts, as a part of W", "Vindbyarnas styrka", "", &Preset::gust, 0, 10,
-     linear, force, "", "The wind swells and falls by up to so many times W; 0 is the report's steady wind.", false,
-     Kind::cloth, true},
+    {"forces", "gust", "W_gust", "Strength of gusts, as a fraction of W", "Vindbyarnas styrka", "", &Preset::gust, 0,
+     10, linear, force, "", "The wind rises and falls by up to this fraction of W; 0 is the report's steady wind.",
+     false, Kind::cloth, true},
     {"forces", "gust_period", "T_gust", "Period of the gusts", "Vindbyarnas period", "s", &Preset::gust_period, 0.01,
-     1e3, logarithmic, force, "", "Time from one gust to the next; two shorter swells are laid over it.", false,
+     1e3, logarithmic, force, "", "Time from one gust to the next; two shorter waves are added to it.", false,
      Kind::cloth, true},
 
-    {"tearing", "F_max", "F_max", "Greatest force that a spring bears", "Maximal fjäderkraft", "N", &Preset::F_max, 0,
-     1e9, logarithmic, tearing, "", "A stretch spring whose F_s is larger breaks, for good.", true, Kind::cloth, true},
-    {"tearing", "F_release", "F_release", "Force at which the hand lets go", "Kraft då greppet släpper", "N",
-     &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "The held particle is let go above it.", true, Kind::cloth,
+    {"tearing", "F_max", "F_max", "Largest force that a spring can carry", "Maximal fjäderkraft", "N", &Preset::F_max,
+     0, 1e9, logarithmic, tearing, "", "A stretch spring whose F_s is larger breaks for good.", true, Kind::cloth,
      true},
+    {"tearing", "F_release", "F_release", "Force at which the hand lets go", "Kraft då greppet släpper", "N",
+     &Preset::F_release, 0, 1e9, logarithmic, constant, "", "Above it the held particle is released.", true,
+     Kind::cloth, true},
 
     {"solver", "integrator", "", "Integrator", "Approximationsmetod", "", &Preset::integrator, 0, 0, linear, integrator,
-     "2.10", "How x and ẋ are carried from one time step to the next."},
+     "2.10", "How x and ẋ are advanced from one time step to the next."},
     {"solver", "dt", "dt", "Time step", "Tidssteg", "s", &Preset::dt, 1e-7, 1, logarithmic, dt, "2.10",
      "Too large a step makes the simulation unstable."},
     {"solver", "tolerance", "tol", "Tolerance of adaptive methods", "Tolerans", "m", &Preset::tolerance, 1e-12, 1,
      logarithmic, tolerance, "", "Error allowed in a step by methods that choose their own steps."},
-    {"solver", "iterations", "n_iter", "Most iterations of a step", "Iterationer", "", &Preset::iterations, 1, 1000,
-     logarithmic, tolerance, "",
-     "Implicit methods: Newton steps of a solve at most, 1 takes a linear one as it is. xpbd: passes over the springs "
-     "in a "
-     "step."},
+    {"solver", "iterations", "n_iter", "Largest number of iterations in a step", "Iterationer", "", &Preset::iterations,
+     1, 1000, logarithmic, tolerance, "",
+     "Implicit methods: largest number of Newton steps in a solve; 1 makes a single linear solve. xpbd: passes over "
+     "the springs per step."},
 
     {"view", "mode", "", "View", "Vy", "", &Preset::mode, 1, 5, linear, view, "",
      "1 triangles, 2 connections, 3 both, 4 outlines, 5 points."},
@@ -81,8 +82,8 @@ const std::array<PresetRow, 25> rows{{
 }};
 
 const std::array<BodyRow, 5> body_rows{{
-    {"bodies", "c", "c", "Centre of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, bodies, "2.9",
-     "Where the sphere stands."},
+    {"bodies", "c", "c", "Center of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, bodies, "2.9",
+     "Where the sphere is."},
     {"bodies", "r", "r", "Radius of a sphere", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, bodies, "2.9",
      "A particle is inside where (x - c)·(x - c) < r²."},
     {"bodies", "y", "y", "Height of a plane", "Planets höjd", "m", &Body::y, -1e3, 1e3, linear, bodies, "",
@@ -210,16 +211,17 @@ SliderRange slider_range(const PresetRow& row, double preset_value) {
 std::string notation_markdown() {
   std::ostringstream out;
   out << "# Notation\n\nMade from the notation table (`core/model/notation.cpp`) by `tyglab presets notation`; a "
-         "test holds it current. Symbols are those of table B.1 of the report, units are SI, ranges include their "
+         "test checks that it is current. Symbols are those of table B.1 of the report, units are SI, ranges include "
+         "their "
          "ends.\n\n"
          "## Constants of a preset\n\n";
   table<Preset>(out, rows);
-  out << "\nBeside them: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
+  out << "\nOther keys: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
          "`top_corners`, `four_corners`, `left_column`, `boundary` or a list of [i, j]), `solver.engine` (`cpu` or "
          "`opencl`), `solver.precision` (`float` or `double`).\n\n## Constants of a body\n\nEach entry of `bodies` has "
          "a `shape`: `sphere` (c, r) or `plane` (y).\n\n";
   table<Body>(out, body_rows);
-  out << "\n## Variables\n\nRead out for the picked particle, and plotted.\n\n| Symbol | Quantity | Storhet | Unit | "
+  out << "\n## Variables\n\nShown for the picked particle, and plotted.\n\n| Symbol | Quantity | Storhet | Unit | "
          "Equation | Meaning |\n|---|---|---|---|---|---|\n";
   for (const Variable& v : variable_rows) {
     const std::string symbol = v.key == "v" ? "ẋ" : v.key == "a" ? "ẍ" : std::string(v.symbol);

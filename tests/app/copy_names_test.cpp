@@ -2,27 +2,27 @@
 #include <doctest/doctest.h>
 
 #include "app/session/copies.h"
-#include "app/ui/app.h"
+#include "app/session/session.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::copy_names_test {
 
 TEST_CASE("a copy is called by its differences, the original by what its copies change") {
-  App app;
+  Session session;
   Preset preset = test::cloth(6, 6);
   preset.k_s = 51.23456, preset.bodies.resize(1);
-  app.simulation = std::make_unique<Simulation>(preset);
+  session.simulation = std::make_shared<Simulation>(preset);
   const auto add = [&](std::vector<Difference> differences) {
-    app.copies.lockstep.add(*app.simulation, std::move(differences));
-    return name_of_cloth(app, int(app.copies.lockstep.size()) - 1);
+    session.copies.lockstep.add(*session.simulation, std::move(differences));
+    return name_of_cloth(session, int(session.copies.lockstep.size()) - 1);
   };
-  CHECK(name_of_cloth(app, Copies::original) == "Verlet");
+  CHECK(name_of_cloth(session, Copies::original) == "Verlet");
   CHECK(add({}) == "equal copy");
   CHECK(add({{&Preset::k_s, 30}, {&Preset::integrator, "rk4"}}) == "k_s = 30, Runge-Kutta 4");
   CHECK(add({{&Preset::tolerance, 1e-9}, {&Preset::precision, Precision::float_}}) == "tolerance = 1e-9, float");
   CHECK(add({{&Preset::iterations, 20}, {&Preset::dt, 0.1 / 128}}) == "iterations = 20, dt = 7.8125e-4");
   CHECK(add({{0, &Body::r, 0.25}}) == "bodies[0].r = 0.25");
-  CHECK(name_of_cloth(app, Copies::original) ==
+  CHECK(name_of_cloth(session, Copies::original) ==
         "Verlet, bodies[0].r = 0.2, dt = 0.001, iterations = 10, k_s = 51.23, double");
 }
 

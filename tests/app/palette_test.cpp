@@ -85,7 +85,7 @@ TEST_CASE("a constant comes first by its key") {
 TEST_CASE("constants that play no part in the scene are left out") {
   test::Desk desk(test::one_weight());
   CHECK(first_for(desk, "stretching").find("Constant") != 0);
-  CHECK(first_for(desk, "constant of the one weight").find("Constant: k ") == 0);
+  CHECK(first_for(desk, "constant of the mass on a spring").find("Constant: k ") == 0);
 }
 
 TEST_CASE("what is found does what it says") {

@@ -1,4 +1,11 @@
 // The lab in work: which step, what was predicted, what holds; and the labs that there are.
+//
+// A lab's file is read line by line and refused whole, with its line (lab_file.cpp). Presets, settings and words of
+// checks are looked up there and then, so a lab that is read can be played. watch_lab asks the checks of the present
+// step in every frame, and keeps at the moment of its completion what the next step compares with. Where a step says
+// `stop`, up_to_stop shortens the frame's steps, so that the motion pauses at exactly that simulated time and two runs
+// can be compared particle by particle. While another preset than the step's is open, the lab waits (lab_waits). None
+// of it knows the window: tests/app/lab_play_test.cpp plays every lab without one.
 #pragma once
 
 #include <filesystem>
@@ -50,8 +57,8 @@ struct LabState {
   std::vector<Lab> list;
   std::vector<std::string> problems;  ///< of files that were refused
   std::optional<LabRun> run;
-  std::optional<bool> opencl;  ///< whether there is a device; none: nobody has asked yet
-  std::string opened;          ///< label of the preset that a step opened last
+  std::optional<bool> opencl;           ///< whether there is a device; none: nobody has asked yet
+  std::string opened;                   ///< label of the preset that a step opened last
   std::map<std::string, int> progress;  ///< by its name: how many of a lab's steps are done
 };
 

@@ -201,7 +201,8 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
       {"positions are drawn from", drawn_from(ui.session.costs.way()), why.empty() ? "" : "Copied, since " + why});
   const std::size_t copied = ui.session.costs.last_copied();
   facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B"});
-  if (bytes_read(engine) > 0) facts.push_back({"read by others", megabytes(ui.session.costs.recent_read()) + " a frame"});
+  if (bytes_read(engine) > 0)
+    facts.push_back({"read by others", megabytes(ui.session.costs.recent_read()) + " a frame"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
   facts.push_back(
       {"masks and read-outs", megabytes(double(ui.session.simulation->bytes() + ui.session.sleep.bytes()))});

@@ -1,5 +1,13 @@
 // The implicit stages of a method on a device (newton.h, kernels/implicit.cl): vectors stay there, and the host reads
 // only the sums that Newton's method needs.
+//
+// The residual is one more sweep; the linearized force is kept as four numbers a spring. Conjugate gradients with the
+// blocks of the diagonal run in two launches a step: one multiplies, each particle gathering from its twelve springs;
+// one updates. Each work-item or group leaves its part of the sums, and whoever needs the whole sum adds the parts in
+// the same order: nothing is read back, no launch is made for a sum, and every run has the same bits. The host queues
+// as many steps as the last system took, then looks; launches that come too late do nothing. Small cloths are solved by
+// one group in a single launch. Where conjugate gradients do not converge, the host reads the four numbers a spring and
+// factorizes (direct_solve.h); where that would take too long, the solve counts as unconverged, as on the CPU engine.
 #pragma once
 
 #include <array>
