@@ -12,6 +12,7 @@
 #include "core/engines/opencl/device_constants.h"
 #include "core/engines/opencl/device_solver.h"
 #include "core/engines/opencl/device_state.h"
+#include "core/engines/opencl/make_opencl_engine.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/integrators/scheme.h"
 
@@ -157,9 +158,5 @@ class OpenClEngine final : public Engine {
   End end_ = End::none;
   glm::dvec3 hand_force_{0};
 };
-
-/// Throws EngineError where there is no such device or it cannot run the preset. `width`: particles that a work-item
-/// works on at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
-std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width = 0);
 
 }  // namespace tyglab::opencl
