@@ -11,12 +11,24 @@ target_compile_options(tyglab_options INTERFACE -fno-math-errno -fno-trapping-ma
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-maybe-uninitialized>)
 # GCC's own memory is looked through for garbage less often: a tenth of its time, for 200 MB more of memory.
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+# What outputs and reports call this version.
+target_compile_definitions(tyglab_options INTERFACE TYGLAB_VERSION="${PROJECT_VERSION}")
+# The oldest instruction set that the sweep is compiled for is SSE4, of 2008.
+target_compile_definitions(tyglab_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
 if(TYGLAB_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
-  add_link_options(-fsanitize=address,undefined)
-  # Compiled to be run once: little optimising, no more debug information than the lines of a report's stack, and checks
-  # of addresses by calls, which take a third less to compile than checks in place and hardly longer to run.
-  add_compile_options(-O1 -g1 $<$<CXX_COMPILER_ID:GNU>:--param=asan-instrumentation-with-call-threshold=0>)
+  if(TYGLAB_SANITIZE STREQUAL "address")
+    add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined)
+    add_link_options(-fsanitize=address,undefined)
+    # Checks of addresses by calls take a third less to compile than checks in place and hardly longer to run.
+    add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=asan-instrumentation-with-call-threshold=0>)
+  elseif(TYGLAB_SANITIZE STREQUAL "thread")
+    add_compile_options(-fsanitize=thread)
+    add_link_options(-fsanitize=thread)
+  else()
+    message(FATAL_ERROR "TYGLAB_SANITIZE is \"${TYGLAB_SANITIZE}\"; it can be address or thread, or empty.")
+  endif()
+  # Compiled to be run once: little optimising, and no more debug information than the lines of a report's stack.
+  add_compile_options(-O1 -g1 -fno-omit-frame-pointer)
   add_compile_definitions(TYGLAB_WHOLE_ENGINES)
   # One instruction set, since the other builds run each that the machine has: one with vectors, where it is known that
   # the machine has it, so that reads beyond a row's end are seen.

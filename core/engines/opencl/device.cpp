@@ -277,12 +277,6 @@ std::shared_ptr<Device> open_device(int number) {
 
 namespace tyglab {
 
-int preferred_device(const std::vector<OpenClDevice>& devices) {
-  const auto card =
-      std::find_if(devices.begin(), devices.end(), [](const OpenClDevice& device) { return device.card; });
-  return card == devices.end() ? 0 : int(card - devices.begin());
-}
-
 std::string no_device_words(const std::string& problem) {
   return "No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
          ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.";

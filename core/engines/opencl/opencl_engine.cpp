@@ -397,11 +397,3 @@ template class OpenClEngine<float>;
 template class OpenClEngine<double>;
 
 }  // namespace tyglab::opencl
-
-namespace tyglab {
-
-bool runs_on_opencl(const Scheme& method) {
-  return !projects(method) && !chooses_steps(method);
-}
-
-}  // namespace tyglab

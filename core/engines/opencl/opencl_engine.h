@@ -34,6 +34,7 @@
 #include "core/engines/opencl/device_constants.h"
 #include "core/engines/opencl/device_solver.h"
 #include "core/engines/opencl/device_state.h"
+#include "core/engines/opencl/make_opencl_engine.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/engines/step_guard.h"
 #include "core/engines/vertex_sharing.h"
@@ -174,9 +175,5 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool tears_each_ = false;    ///< the steps that are being judged have each broken overloaded springs
   bool tears_unread_ = false;  ///< some were broken that `tears` does not have yet
 };
-
-/// Throws EngineError if there is no such device or it cannot run the preset. `width`: particles that a work-item
-/// processes at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
-std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width = 0);
 
 }  // namespace tyglab::opencl
