@@ -5,7 +5,7 @@
 #include <iostream>
 
 #include "app/cli/command_line.h"
-#include "app/cli/interrupt.h"
+#include "app/process/interrupt.h"
 #include "core/analysis/machine.h"
 
 namespace tyglab {

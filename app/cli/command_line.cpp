@@ -13,8 +13,8 @@
 #include <sstream>
 
 #include "app/base/data_files.h"
-#include "app/cli/interrupt.h"
 #include "app/cli/preset_argument.h"
+#include "app/process/interrupt.h"
 #include "app/render/graphics_error.h"
 #include "app/session/labs/lab.h"
 #include "core/engines/engine.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "app/cli/command_line.h"
-#include "app/cli/interrupt.h"
+#include "app/process/interrupt.h"
 #include "core/io/text.h"
 
 namespace tyglab {

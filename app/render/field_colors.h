@@ -5,7 +5,7 @@
 #include <span>
 
 #include "app/render/cloth_renderer.h"
-#include "app/ui/kit/color_map.h"
+#include "app/render/color_map.h"
 #include "core/fields/particle_field.h"
 
 namespace tyglab {

@@ -4,7 +4,7 @@
 // number that all but two in a hundred values stay below; it grows at once, shrinks once it was not needed for forty
 // frames in which the cloth moved (SteadyTop), or is typed. Values beyond it have the color of its end, and the
 // legend's ends are then arrows. Values go into a texture of one float a particle; fragments interpolate values, not
-// colors, and look them up in 256 colors that are evenly spaced in Oklab (app/ui/kit/color_map.h). Shaders are the
+// colors, and look them up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). Shaders are the
 // usual files, compiled a second time with COLORED once a cloth is colored. What colors the cloth is remembered with
 // the settings, and stands in no preset.
 #pragma once

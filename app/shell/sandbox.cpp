@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "app/cli/interrupt.h"
+#include "app/process/interrupt.h"
 #include "app/process/kernel_prebuild.h"
 #include "app/render/graphics_error.h"
 #include "app/session/document.h"
@@ -15,7 +15,7 @@
 #include "app/ui/frame/panels.h"
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"

@@ -9,7 +9,7 @@
 #include "app/base/settings.h"
 #include "app/render/cloth_texture.h"
 #include "app/shell/sandbox.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

@@ -3,7 +3,7 @@
 
 #include "app/session/session.h"
 #include "app/tools/pointer.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab::test {
 

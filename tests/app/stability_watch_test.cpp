@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "app/ui/constants/stability_row.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 #include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 

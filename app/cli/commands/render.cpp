@@ -6,11 +6,11 @@
 
 #include "app/cli/color_option.h"
 #include "app/cli/film.h"
-#include "app/cli/interrupt.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/size_option.h"
 #include "app/cli/stepping.h"
+#include "app/process/interrupt.h"
 #include "core/io/destination.h"
 #include "core/output/obj.h"
 

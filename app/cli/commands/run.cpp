@@ -7,10 +7,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/cli/interrupt.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/stepping.h"
+#include "app/process/interrupt.h"
 #include "app/process/kernel_prebuild.h"
 #include "core/analysis/engine_choice.h"
 #include "core/analysis/tolerance.h"

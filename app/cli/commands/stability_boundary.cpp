@@ -8,9 +8,9 @@
 
 #include "app/cli/bench_output.h"
 #include "app/cli/commands/stability.h"
-#include "app/cli/interrupt.h"
 #include "app/cli/outputs.h"
 #include "app/cli/progress.h"
+#include "app/process/interrupt.h"
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/curves.h"
 #include "core/analysis/boundary.h"

@@ -7,10 +7,10 @@
 
 #include "app/cli/bench_output.h"
 #include "app/cli/commands/stability.h"
-#include "app/cli/interrupt.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/progress.h"
+#include "app/process/interrupt.h"
 #include "app/ui/kit/map_chart.h"
 #include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"

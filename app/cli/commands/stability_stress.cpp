@@ -9,10 +9,10 @@
 
 #include "app/cli/bench_output.h"
 #include "app/cli/commands/stability.h"
-#include "app/cli/interrupt.h"
 #include "app/cli/outputs.h"
 #include "app/cli/progress.h"
 #include "app/process/child_cases.h"
+#include "app/process/interrupt.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/stress.h"
 #include "core/io/destination.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/ui/kit/chart.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

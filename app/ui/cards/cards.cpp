@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

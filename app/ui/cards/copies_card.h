@@ -1,7 +1,7 @@
 // The copies in lockstep as a card: which there are, what each costs, how far apart they are.
 #pragma once
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

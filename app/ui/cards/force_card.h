@@ -1,7 +1,7 @@
 // The forces of the picked particle, their sums or their largest, over time.
 #pragma once
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

@@ -1,7 +1,7 @@
 // The height of the one weight over time, beside the curves of figure 3.2.
 #pragma once
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

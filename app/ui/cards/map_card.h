@@ -1,7 +1,7 @@
 // The map of stiffness against dt as a plot: a click goes there.
 #pragma once
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

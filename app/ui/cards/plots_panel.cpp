@@ -17,7 +17,7 @@
 #include "app/ui/cards/inside_card.h"
 #include "app/ui/cards/map_card.h"
 #include "app/ui/cards/performance.h"
-#include "app/ui/frame/panels.h"
+#include "app/ui/cards/plots_panel.h"
 #include "app/ui/kit/card_tabs.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/plot_card.h"

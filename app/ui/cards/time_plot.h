@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "app/ui/kit/plot.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

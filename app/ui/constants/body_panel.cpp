@@ -7,8 +7,7 @@
 #include "app/base/data_files.h"
 #include "app/tools/wind_arrow.h"
 #include "app/ui/constants/constant_row.h"
-#include "app/ui/frame/commands.h"
-#include "app/ui/frame/panels.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
@@ -78,15 +77,15 @@ void tool_rows(Ui& ui) {
     tooltip(ui, gui::item_id(),
             "What a left drag cuts: the springs upwards of each particle near it, as in the report, or every spring "
             "and edge of a triangle that it crosses, through all layers.",
-            row_of("toggle_cut_path").keys);
+            ui.keys_of("toggle_cut_path"));
   });
   labelled_row(ui, "hand", [&](float) {
     if (check(ui, "slow motion", handling.slow_hand)) ui.command("toggle_slow_hand");
-    tooltip(ui, gui::item_id(), "A quarter of the speed while you grab or cut.", row_of("toggle_slow_hand").keys);
+    tooltip(ui, gui::item_id(), "A quarter of the speed while you grab or cut.", ui.keys_of("toggle_slow_hand"));
     ImGui::SameLine(0, ui.theme.px(16));
     if (check(ui, "wind arrow", wind_arrow_shown(ui.tools))) ui.command("toggle_wind_arrow");
     tooltip(ui, gui::item_id(), "The wind W as an arrow in the picture: drag its tip.",
-            row_of("toggle_wind_arrow").keys);
+            ui.keys_of("toggle_wind_arrow"));
   });
 }
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <string_view>
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 #include "core/model/notation.h"
 
 namespace tyglab {

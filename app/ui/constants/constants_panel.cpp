@@ -9,8 +9,8 @@
 
 #include "app/base/numbers.h"
 #include "app/ui/constants/constant_row.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/constants/stability_row.h"
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "app/ui/frame/panels.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"

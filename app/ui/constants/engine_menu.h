@@ -4,9 +4,11 @@
 #include <span>
 #include <string>
 
-#include "app/ui/ui.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
+
+struct Ui;
 
 /// Where the cloth is computed, and how exactly.
 struct EngineMode {

@@ -6,7 +6,7 @@
 
 #include "app/studies/stability_watch.h"
 #include "app/ui/kit/slider.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

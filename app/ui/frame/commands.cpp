@@ -95,7 +95,7 @@ std::string no_copies(const Ui& ui) {
 }
 
 void next_color(Ui& ui) {
-  color_by(ui, next_field(ui.scene));
+  ui.color_by(next_field(ui.scene));
 }
 
 /// Opens the card that shows it, where it is measured from the present moment on.
@@ -470,9 +470,8 @@ std::string why_not(const Ui& ui, const CommandRow& row) {
   return row.why_not != nullptr ? row.why_not(ui) : std::string();
 }
 
-void color_by(Ui& ui, std::optional<ParticleField> field) {
-  ui.scene.colors.choose(field);
-  ui.settings.color = field ? info(*field).name : "";
+const char* Ui::keys_of(std::string_view id) const {
+  return row_of(id).keys;
 }
 
 void Ui::command(std::string_view id) {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 
@@ -48,8 +48,5 @@ std::vector<CommandRow> export_rows();
 const CommandRow& row_of(std::string_view id);
 /// Why it cannot be done now, a sentence; empty: it can.
 std::string why_not(const Ui& ui, const CommandRow& row);
-
-/// What colours the cloth from now on; none: its own look. Remembered for the next session.
-void color_by(Ui& ui, std::optional<ParticleField> field);
 
 }  // namespace tyglab

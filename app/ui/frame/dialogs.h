@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

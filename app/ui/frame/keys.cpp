@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "app/ui/frame/commands.h"
-#include "app/ui/ui.h"
 
 namespace tyglab {
 namespace {

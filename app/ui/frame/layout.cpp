@@ -2,19 +2,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/ui/cards/plots_panel.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/frame/dialogs.h"
 #include "app/ui/frame/palette.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/frame/tour.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
+#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {
-
-constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
 
 constexpr float least_plots = 180;  // height of their column beside a lab's strip, pixels at scale 1
 
@@ -26,7 +25,8 @@ void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& w
   ImGui::SetNextWindowSize(region.size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
-  if (ImGui::Begin(id, nullptr, (fixed & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground)) {
+  if (ImGui::Begin(id, nullptr,
+                   (region_flags & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground)) {
     ImGui::InvisibleButton("grip", region.size);
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
@@ -56,20 +56,6 @@ float side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
 }
 
 }  // namespace
-
-bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding) {
-  ImGui::SetNextWindowPos(region.at);
-  ImGui::SetNextWindowSize(region.size);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, ground);
-  return ImGui::Begin(name, nullptr, fixed);
-}
-
-void end_region() {
-  ImGui::End();
-  ImGui::PopStyleColor();
-  ImGui::PopStyleVar();
-}
 
 void draw_layout(Ui& ui, ImVec2 window) {
   Layout& layout = ui.settings.layout;

@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "app/base/preset_files.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/constants/engine_menu.h"
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "app/ui/overlay/viewport_panel.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 
@@ -110,7 +111,7 @@ void add_views(std::vector<PaletteEntry>& list) {
 }
 
 void add_colors(const Ui& ui, std::vector<PaletteEntry>& list) {
-  const auto colored = [](std::optional<ParticleField> field) { return [field](Ui& u) { color_by(u, field); }; };
+  const auto colored = [](std::optional<ParticleField> field) { return [field](Ui& u) { u.color_by(field); }; };
   list.push_back({"Colour", "Own colours", "", "cloth texture", "", colored(std::nullopt)});
   for (const FieldInfo& field : particle_fields())
     if (why_not_colored(ui.scene, field.field).empty())

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "app/tools/wind_arrow.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "core/model/words.h"

@@ -1,7 +1,7 @@
 // A handful of cards that show a newcomer round: once at the first start, and again from the help.
 #pragma once
 
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

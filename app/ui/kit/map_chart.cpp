@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/base/numbers.h"
-#include "app/ui/kit/color_map.h"
+#include "app/render/color_map.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {

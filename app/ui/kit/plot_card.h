@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "app/ui/frame/panels.h"
+#include "app/ui/kit/region.h"
 
 namespace tyglab {
 

@@ -8,10 +8,10 @@
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "app/ui/overlay/viewport_panel.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
 

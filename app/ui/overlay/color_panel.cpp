@@ -4,14 +4,13 @@
 #include <vector>
 
 #include "app/base/numbers.h"
-#include "app/ui/frame/commands.h"
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/color_legend.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/slider.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {
@@ -21,7 +20,7 @@ void choice(Ui& ui, std::optional<ParticleField> field, const char* title, const
   const std::string why = field ? why_not_colored(ui.scene, *field) : "";
   const bool now = field == (chosen ? std::optional(chosen->field) : std::nullopt);
   if (ImGui::Selectable(title, now, why.empty() ? 0 : ImGuiSelectableFlags_Disabled))
-    ui.act([field](Ui& u) { color_by(u, field); });
+    ui.act([field](Ui& u) { u.color_by(field); });
   report_control(ui, std::string("colour.") + (field ? std::string(info(*field).name) : "none"));
   tooltip(ui, gui::item_id(), why.empty() ? help : why.c_str());
 }
@@ -81,7 +80,7 @@ void color_menu(Ui& ui, float width) {
       choice(ui, field.field, std::string(field.title).c_str(), std::string(field.help).c_str());
     end_combo();
   } else {
-    tooltip(ui, gui::item_id(), "What colours the cloth", row_of("next_color").keys);
+    tooltip(ui, gui::item_id(), "What colours the cloth", ui.keys_of("next_color"));
   }
 }
 

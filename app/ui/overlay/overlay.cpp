@@ -6,10 +6,10 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

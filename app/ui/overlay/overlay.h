@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/ui/kit/theme.h"
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 

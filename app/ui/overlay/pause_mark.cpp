@@ -2,9 +2,9 @@
 #include <array>
 #include <cmath>
 
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/overlay/overlay.h"
+#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

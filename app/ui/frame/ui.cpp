@@ -1,4 +1,4 @@
-#include "app/ui/ui.h"
+#include "app/ui/state/ui.h"
 
 #include <utility>
 
@@ -10,6 +10,11 @@ namespace tyglab {
 void Ui::run_actions() {
   // What these ask for in turn is done in the next frame.
   for (const auto& action : std::exchange(actions, {})) action(*this);
+}
+
+void Ui::color_by(std::optional<ParticleField> field) {
+  scene.colors.choose(field);
+  settings.color = field ? info(*field).name : "";
 }
 
 void Ui::follow() {

@@ -1,4 +1,4 @@
-#include "app/ui/kit/color_map.h"
+#include "app/render/color_map.h"
 
 #include <algorithm>
 #include <array>

@@ -142,6 +142,10 @@ struct Ui : UiContext {
   void act(std::function<void(Ui&)> action) { actions.push_back(std::move(action)); }
   /// The same of a command, by the id of its row (commands.h).
   void command(std::string_view id);
+  /// A command's keys as people call them, empty where it has none.
+  const char* keys_of(std::string_view id) const;
+  /// What colors the cloth from now on; none: its own look. Remembered for the next session.
+  void color_by(std::optional<ParticleField> field);
   /// Does what was asked for, in order.
   void run_actions();
   /// Follows what became of the session since the last call.

@@ -1,13 +1,13 @@
-#include "app/cli/interrupt.h"
+#include "app/process/interrupt.h"
 
 #include <unistd.h>
 
 #include <string_view>
 
-#include "app/cli/command_line.h"
-
 namespace tyglab {
 namespace {
+
+constexpr int exit_interrupted = 130;  // by convention 128 + SIGINT
 
 // A signal handler reaches nothing but a global.
 volatile std::sig_atomic_t was_interrupted = 0;

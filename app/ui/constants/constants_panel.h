@@ -1,0 +1,25 @@
+// The left column: every constant of the notation table that plays a part in the scene, and the picked particle.
+#pragma once
+
+#include <string_view>
+
+#include "app/ui/kit/region.h"
+#include "app/ui/state/ui.h"
+#include "core/model/notation.h"
+
+namespace tyglab {
+
+void constants_panel(Ui& ui, const Region& region);
+/// Its contents, section by section.
+void constants_sections(Ui& ui);
+void body_sections(Ui& ui);
+void view_section(Ui& ui);
+/// The picked particle's variables of table B.1.
+void particle_panel(Ui& ui);
+float particle_panel_height(const Ui& ui);
+/// Brings a constant's row into sight, with its slider in focus.
+void show_constant(Ui& ui, std::string_view key);
+/// Whether the constant plays a part in this scene.
+bool applies(const PresetRow& row, const Preset& preset);
+
+}  // namespace tyglab

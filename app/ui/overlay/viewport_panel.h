@@ -1,0 +1,24 @@
+// The cloth's picture, and the marks over it.
+#pragma once
+
+#include <array>
+
+#include "app/ui/kit/region.h"
+#include "app/ui/state/ui.h"
+
+namespace tyglab {
+
+/// The five views (2.4), in the order of their keys.
+inline constexpr std::array<const char*, 5> view_names{"1 Triangles", "2 Connections", "3 Both", "4 Outlines",
+                                                       "5 Points"};
+
+void viewport_panel(Ui& ui, const Region& region);
+/// The list of what can color the cloth, at the cursor, and the legend of what does.
+void color_menu(Ui& ui, float width);
+/// As wide as it should be.
+float color_menu_width(const Ui& ui);
+void color_legend(Ui& ui);
+void banner(Ui& ui);
+void message_list(Ui& ui);
+
+}  // namespace tyglab
