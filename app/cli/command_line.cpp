@@ -16,7 +16,7 @@
 #include "app/cli/preset_argument.h"
 #include "app/process/interrupt.h"
 #include "app/render/graphics_error.h"
-#include "app/session/labs/lab.h"
+#include "app/session/lab.h"
 #include "core/engines/engine.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"

@@ -15,7 +15,7 @@
 #include "app/session/copies.h"
 #include "app/session/document.h"
 #include "app/session/history.h"
-#include "app/session/labs/lab_state.h"
+#include "app/session/lab_state.h"
 #include "app/session/pacing.h"
 #include "app/session/recorded.h"
 #include "app/session/reference_curves.h"

@@ -61,8 +61,8 @@ const std::array<PresetRow, 25> rows{{
      0, 1e9, logarithmic, tearing, "", "A stretch spring whose F_s is larger breaks for good.", true, Kind::cloth,
      true},
     {"tearing", "F_release", "F_release", "Force at which the hand lets go", "Kraft då greppet släpper", "N",
-     &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "Above it the held particle is released.", true,
-     Kind::cloth, true},
+     &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "Above it the held particle is released.", true, Kind::cloth,
+     true},
 
     {"solver", "integrator", "", "Integrator", "Approximationsmetod", "", &Preset::integrator, 0, 0, linear, integrator,
      "2.10", "How x and ẋ are advanced from one time step to the next."},

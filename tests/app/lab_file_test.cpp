@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "app/session/edits.h"
-#include "app/session/labs/lab_state.h"
-#include "app/session/labs/observables.h"
+#include "app/session/lab_state.h"
+#include "app/session/observables.h"
 #include "app/session/session.h"
 #include "tests/support/files.h"
 

@@ -1,7 +1,7 @@
 // Every shipped lab, played: done right its checks hold and its answers are true; not done, they do not hold.
 #include <doctest/doctest.h>
 
-#include "app/session/labs/observables.h"
+#include "app/session/observables.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/io/preset_io.h"
 #include "tests/app/desk.h"

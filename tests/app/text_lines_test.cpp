@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "app/base/text_lines.h"
-#include "app/session/labs/lab_state.h"
+#include "app/session/lab_state.h"
 
 namespace tyglab::text_lines_test {
 

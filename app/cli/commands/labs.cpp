@@ -4,7 +4,7 @@
 #include <iostream>
 #include <memory>
 
-#include "app/session/labs/lab_state.h"
+#include "app/session/lab_state.h"
 
 namespace tyglab {
 namespace {

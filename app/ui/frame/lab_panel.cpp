@@ -7,7 +7,7 @@
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
-#include "app/session/labs/observables.h"
+#include "app/session/observables.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"

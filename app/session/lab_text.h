@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session/labs/lab.h"
+#include "app/session/lab.h"
 
 namespace tyglab {
 

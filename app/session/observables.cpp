@@ -1,4 +1,4 @@
-#include "app/session/labs/observables.h"
+#include "app/session/observables.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/session/labs/lab_state.h"
+#include "app/session/lab_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "app/base/numbers.h"
 #include "app/base/preset_files.h"
 #include "app/base/settings.h"
-#include "app/session/labs/observables.h"
+#include "app/session/observables.h"
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/model/notation.h"

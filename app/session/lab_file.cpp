@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "app/base/preset_files.h"
-#include "app/session/labs/lab.h"
-#include "app/session/labs/lab_condition.h"
-#include "app/session/labs/lab_text.h"
+#include "app/session/lab.h"
+#include "app/session/lab_condition.h"
+#include "app/session/lab_text.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
 

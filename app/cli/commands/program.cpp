@@ -1,4 +1,4 @@
-#include "app/cli/program.h"
+#include "app/cli/commands/program.h"
 
 #include "app/cli/command_line.h"
 #include "app/cli/commands/bench.h"

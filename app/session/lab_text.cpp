@@ -1,4 +1,4 @@
-#include "app/session/labs/lab_text.h"
+#include "app/session/lab_text.h"
 
 #include <charconv>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session/labs/lab.h"
+#include "app/session/lab.h"
 #include "app/studies/studies.h"
 #include "core/cloth/state.h"
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "app/session/labs/lab.h"
+#include "app/session/lab.h"
 
 namespace tyglab {
 

@@ -1,10 +1,10 @@
-#include "app/session/labs/lab_condition.h"
+#include "app/session/lab_condition.h"
 
 #include <algorithm>
 #include <array>
 
-#include "app/session/labs/lab_text.h"
-#include "app/session/labs/observables.h"
+#include "app/session/lab_text.h"
+#include "app/session/observables.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 
