@@ -234,6 +234,7 @@ void Sandbox::draw_panels() {
   slider.order = 0;
   slider.focused_seen = false;
   ui_.hover_seen = false;
+  ui_.covered = ui_.help;
   gui_.begin_frame(input_);
   draw_layout(ui_, ImGui::GetIO().DisplaySize);
   // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
