@@ -40,7 +40,7 @@ TEST_CASE("what no device runs is not measured") {
 }
 
 TEST_CASE("times are measured once and then read from disk, for scenes of the same kind") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   const test::TemporaryFolder folder;
   ::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
   const Preset preset = test::cloth(24, 24);

@@ -146,7 +146,7 @@ struct SlowCompiler {
 };
 
 TEST_CASE("the ledger is kept once the program that notes contacts has been built beside the frames") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(20, 20);
   preset.engine = EngineKind::opencl;
   preset.bodies = {Body{}};
@@ -170,7 +170,7 @@ TEST_CASE("the ledger is kept once the program that notes contacts has been buil
 }
 
 TEST_CASE("a feature that a device builds a program for is switched on beside the frames") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset without = test::cloth(20, 20);
   without.engine = EngineKind::opencl;
   without.k_b = 0, without.k_d = 0;
@@ -201,7 +201,7 @@ TEST_CASE("a feature that a device builds a program for is switched on beside th
 }
 
 TEST_CASE("who takes the feature back meanwhile waits for nothing, and two features come one after the other") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset without = test::cloth(20, 20, "velocity_verlet");
   without.engine = EngineKind::opencl;
   without.k_b = 0, without.k_d = 0;

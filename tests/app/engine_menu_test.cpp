@@ -76,7 +76,7 @@ TEST_CASE("copies of a cloth on OpenCL take the CPU engine along where their met
 }
 
 TEST_CASE("a method of the CPU engine alone brings it along: one change, one undo, and a note") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const char* method : {"xpbd", "dopri5"}) {
     CAPTURE(std::string(method));
     test::Desk desk(on_opencl());

@@ -65,7 +65,7 @@ Preset on_device() {
 }
 
 TEST_CASE("a device that is lost: the CPU engine goes on from the last state that was kept, cuts and pins too") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Session session = app_that_loses_its_device(on_device(), 25);
   session.simulation->apply(edit::Cut{{{10, 10}, {10, 11}}});
   session.simulation->apply(edit::Pin{5, 5, true});
@@ -95,7 +95,7 @@ TEST_CASE("a device that is lost: the CPU engine goes on from the last state tha
 
 TEST_CASE(
     "a device that is lost before anything was kept: the CPU engine begins anew; and it is never its own rescue") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Session session = app_that_loses_its_device(on_device(), 0);
   CHECK_THROWS_AS(session.simulation->advance(1), EngineError);
   fall_back(session, "Lost.");

@@ -5,7 +5,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <string>
@@ -16,16 +15,14 @@
 #include "tests/app/picture_pair.h"
 #include "tests/support/gl_sharing_double.h"
 #include "tests/support/scenes.h"
+#include "tests/support/skip.h"
 
 namespace tyglab::gl_sharing_test {
 
-bool double_there() {
-  static const bool there = [] {
-    const bool offered = opencl_offers_gl_sharing(0);
-    if (!offered) std::printf("NOT TESTED: no OpenCL device here looks as if it shared buffers with OpenGL.\n");
-    return offered;
-  }();
-  return there;
+bool skipped_without_double() {
+  static const bool there = opencl_offers_gl_sharing(0);
+  if (!there) test::skip("no OpenCL device here looks as if it shared buffers with OpenGL");
+  return !there;
 }
 
 /// What the double is to do; it looks anew in every call.
@@ -71,7 +68,7 @@ class Finishes {
 
 TEST_SUITE("gl_sharing") {
   TEST_CASE("OpenGL draws from a buffer that the device writes, and no byte is copied") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     for (const char* words : {"", "no_events"})
       for (const Precision precision : {Precision::float_, Precision::double_}) {
         CAPTURE(words);
@@ -94,7 +91,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("over many frames nothing that grows with the cloth is read of the device") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     std::uint64_t read[2];
     for (const int large : {0, 1}) {
       test::PicturePair stage;
@@ -116,7 +113,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("another lattice, a cut, another view, method, precision or engine: the picture is that of copies") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     test::PicturePair stage;
     Simulation simulation(scene());
     test::check_pictures_of_changes(stage, simulation, VertexWay::shared_buffer);
@@ -126,7 +123,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("a cloth that tears, one that diverges, and one that is finer than the picture") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     test::PicturePair stage;
     Preset preset = scene();
     preset.F_max = 0.05;
@@ -155,7 +152,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("normals on the device have the bits of those that the program computes") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     const HeadlessContext context;
     for (const Precision precision : {Precision::float_, Precision::double_})
       for (const bool torn : {false, true}) {
@@ -198,7 +195,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("where nothing can be shared positions are copied, and the device says why") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     const auto way_when = [](const char* words, std::string& problem) {
       const Told told(words);
       test::PicturePair stage;
@@ -220,7 +217,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("a device that was opened before there was an OpenGL context is opened anew with it") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     Simulation before(scene());
     test::PicturePair stage;
     CHECK(stage.copied_for(before, 1) > 0);
@@ -235,7 +232,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("of one particle no more is read than stands near it") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       Simulation simulation(scene(precision, 60, 70));
       simulation.advance(40);
@@ -257,7 +254,7 @@ TEST_SUITE("gl_sharing") {
   }
 
   TEST_CASE("nothing shared is left over, whatever goes first") {
-    if (!double_there()) return;
+    if (skipped_without_double()) return;
     {
       std::optional<test::PicturePair> stage(std::in_place);
       std::optional<Simulation> simulation(scene());

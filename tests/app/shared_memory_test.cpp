@@ -17,7 +17,7 @@ Preset scene(EngineKind engine, Precision precision) {
 }
 
 TEST_CASE("the vertex buffer shows what kernels wrote, and no byte is copied") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
     test::PicturePair stage;
@@ -37,14 +37,14 @@ TEST_CASE("the vertex buffer shows what kernels wrote, and no byte is copied") {
 TEST_CASE(
     "another lattice, a cut, another view, method, precision or engine: what is drawn is right, and what can be is "
     "shared") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   test::PicturePair stage;
   Simulation simulation(scene(EngineKind::opencl, Precision::float_));
   test::check_pictures_of_changes(stage, simulation, VertexWay::shared_memory);
 }
 
 TEST_CASE("an engine goes on in its memory where the renderer that drew it is gone") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   test::PicturePair stage;
   Simulation plain(scene(EngineKind::opencl, Precision::float_)), lent(plain.preset());
   CHECK(stage.copied_by_a_sibling(lent) == 0);
@@ -54,7 +54,7 @@ TEST_CASE("an engine goes on in its memory where the renderer that drew it is go
 }
 
 TEST_CASE("the memory of engines that are gone is given back") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   test::PicturePair stage;
   std::size_t bytes = 0;
   for (int n = 0; n < 5; ++n) {

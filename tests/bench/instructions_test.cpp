@@ -10,6 +10,7 @@
 
 #include "app/cli/bench_instructions.h"
 #include "tests/support/files.h"
+#include "tests/support/skip.h"
 
 namespace tyglab::instructions_test {
 
@@ -24,16 +25,22 @@ std::string compiler() {
 #endif
 }
 
-/// Why nothing can be counted here; empty if it can.
-std::string obstacle(const InstructionCounter& counter) {
+/// Skips the test case if instructions cannot be counted here.
+bool skipped_without_counts(const InstructionCounter& counter) {
 #ifndef NDEBUG
-  return "this is no optimised build";
+  test::skip("instructions are counted in an optimized build alone", test::Missing::of_machine);
+  return true;
 #endif
-  if (!counter.available()) return "valgrind is missing: apt-get install valgrind";
+  if (!counter.available()) {
+    test::skip("valgrind is missing: apt-get install valgrind");
+    return true;
+  }
   const std::string set = counter.instruction_set();
-  if (set.empty()) return "valgrind cannot run tyglab here";
-  if (set != "AVX2") return "under valgrind the engine picks " + set + ", and the counts are those of AVX2";
-  return {};
+  if (set == "AVX2") return false;
+  test::skip(set.empty() ? "valgrind cannot run tyglab here"
+                         : "under valgrind the engine picks " + set + ", and the counts are those of AVX2",
+             test::Missing::of_machine);
+  return true;
 }
 
 struct Counts {
@@ -68,10 +75,7 @@ void write_counts(const std::map<std::string, Counts>& known) {
 
 TEST_CASE("a step of the default cloth costs no more instructions than it did") {
   const InstructionCounter counter(TYGLAB_BINARY);
-  if (const std::string why = obstacle(counter); !why.empty()) {
-    MESSAGE("Not checked, since ", why);
-    return;
-  }
+  if (skipped_without_counts(counter)) return;
   // The default cloth is the one with bending on.
   const auto in_float = counter.per_particle_step({"bending", SkipState::on, Precision::float_});
   const auto in_double = counter.per_particle_step({"bending", SkipState::on, Precision::double_});
@@ -83,8 +87,9 @@ TEST_CASE("a step of the default cloth costs no more instructions than it did") 
     write_counts(known);
   }
   if (!known.contains(compiler())) {
-    MESSAGE("Not checked: ", counts_file.string(), " has no line for ", compiler(), ", which takes ", *in_float,
-            " and ", *in_double, ". TYGLAB_WRITE_INSTRUCTIONS=1 bench_tests adds it.");
+    test::skip(counts_file.string() + " has no line for " + compiler() + ", which takes " + std::to_string(*in_float) +
+                   " and " + std::to_string(*in_double) + ". TYGLAB_WRITE_INSTRUCTIONS=1 bench_tests adds it",
+               test::Missing::of_machine);
     return;
   }
   CAPTURE(compiler());
@@ -95,10 +100,7 @@ TEST_CASE("a step of the default cloth costs no more instructions than it did") 
 }
 
 TEST_CASE("a feature that is off costs at most 1 % more instructions than an engine without it") {
-  if (const std::string why = obstacle(InstructionCounter(TYGLAB_BINARY)); !why.empty()) {
-    MESSAGE("Not checked, since ", why);
-    return;
-  }
+  if (skipped_without_counts(InstructionCounter(TYGLAB_BINARY))) return;
   const test::TemporaryFolder folder;
   const auto outcome = test::tyglab(folder.path(), {"bench", "skip", "--quick", "--side", "64", "--json", "skip.json"});
   CAPTURE(outcome.err);

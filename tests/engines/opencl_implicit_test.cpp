@@ -25,7 +25,7 @@ std::unique_ptr<Engine> engine_of(const Preset& preset, int width, Tears& tears)
 }
 
 TEST_CASE("solves: wind, pins, bodies, the hand, cuts, as on the CPU engine") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const char* method : implicit_methods) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       CAPTURE(std::string(method));
@@ -36,7 +36,7 @@ TEST_CASE("solves: wind, pins, bodies, the hand, cuts, as on the CPU engine") {
 }
 
 TEST_CASE("solves: a large dt, with and without bending and damping") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const Precision precision : {Precision::float_, Precision::double_})
     for (const double k_b : {0.0, 5.0}) {
       CAPTURE(int(precision));
@@ -55,7 +55,7 @@ TEST_CASE("solves: a large dt, with and without bending and damping") {
 }
 
 TEST_CASE("solves: what was done is counted as the CPU engine counts it") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(40, 37, "implicit_euler");
   preset.dt = 1e-3;
   Pair pair(preset);
@@ -70,7 +70,7 @@ TEST_CASE("solves: what was done is counted as the CPU engine counts it") {
 }
 
 TEST_CASE("solves: the same springs tear") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(40, 37, "implicit_euler");
   preset.pins.mode = Pins::Mode::left_column;
   preset.F_max = 0.01, preset.dt = 1e-3;
@@ -84,7 +84,7 @@ TEST_CASE("solves: the same springs tear") {
 }
 
 TEST_CASE("solves: where conjugate gradients do not get there, the host solves directly, as the CPU engine does") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(60, 4, "implicit_euler");
   preset.precision = Precision::float_;
   preset.k_s = preset.k_b = 1e9, preset.k_d = 0, preset.dt = 1;
@@ -98,7 +98,7 @@ TEST_CASE("solves: where conjugate gradients do not get there, the host solves d
 }
 
 TEST_CASE("solves: one weight") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const char* method : implicit_methods) {
     Pair pair(test::one_weight(method));
     pair.advance(100);
@@ -107,7 +107,7 @@ TEST_CASE("solves: one weight") {
 }
 
 TEST_CASE("solves: work-items of one particle, and vectors of any width, in one launch and in many") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const int rows : {33, 170}) {
     Preset preset = everything(Precision::float_, "implicit_euler");
     preset.rows = rows, preset.columns = rows + 14;
@@ -127,7 +127,7 @@ TEST_CASE("solves: work-items of one particle, and vectors of any width, in one 
 }
 
 TEST_CASE("solves: every run has the same bits, whatever the pieces in which steps are made") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const int width : {0, 1})
     for (const int rows : {33, 150}) {
       CAPTURE(width);

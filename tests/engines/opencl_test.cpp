@@ -18,7 +18,7 @@ using test::Pair;
 using test::tolerance;
 
 TEST_CASE("every integrator that runs on OpenCL moves a cloth of any size as the CPU engine does") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const Scheme& method : schemes()) {
     if (!runs_on_opencl(method)) continue;
     for (const Precision precision : {Precision::float_, Precision::double_}) {
@@ -37,7 +37,7 @@ TEST_CASE("every integrator that runs on OpenCL moves a cloth of any size as the
 }
 
 TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
     check_handling(Pair(everything(precision)));
@@ -45,7 +45,7 @@ TEST_CASE("wind, pins, bodies with friction and restitution, the hand, cuts") {
 }
 
 TEST_CASE("the hand feels the same force wherever it holds, on the border of two bands too") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const int row : {12, 13, 14, 15, 16, 17}) {
     CAPTURE(row);
     Pair pair(everything(Precision::double_));
@@ -60,7 +60,7 @@ TEST_CASE("the hand feels the same force wherever it holds, on the border of two
 }
 
 TEST_CASE("steps that are made again, up to the one in which the hand lets go, know its present velocity") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(33, 21);
   preset.precision = Precision::double_, preset.F_release = 3;
   Pair pair(preset);
@@ -77,7 +77,7 @@ TEST_CASE("steps that are made again, up to the one in which the hand lets go, k
 }
 
 TEST_CASE("constants change while it moves, and switch features on and off") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const char* integrator : {"verlet", "velocity_verlet"}) {
     CAPTURE(std::string(integrator));
     Preset preset = test::cloth(20, 21, integrator);
@@ -94,7 +94,7 @@ TEST_CASE("constants change while it moves, and switch features on and off") {
 }
 
 TEST_CASE("the same springs tear, in the same steps") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const Precision precision : {Precision::float_, Precision::double_}) {
     CAPTURE(int(precision));
     Preset preset = test::cloth(40, 37);
@@ -118,7 +118,7 @@ TEST_CASE("the same springs tear, in the same steps") {
 }
 
 TEST_CASE("divergence is found in the same step, and the state before it is kept") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const char* integrator : {"verlet", "euler", "rk4"}) {
     CAPTURE(std::string(integrator));
     Preset preset = test::cloth(19, 22, integrator);
@@ -136,7 +136,7 @@ TEST_CASE("divergence is found in the same step, and the state before it is kept
 }
 
 TEST_CASE("batches of steps give the bits of single steps, and every run the same") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = everything(Precision::float_);
   preset.engine = EngineKind::opencl;
   preset.F_max = 0.02;
@@ -151,7 +151,7 @@ TEST_CASE("batches of steps give the bits of single steps, and every run the sam
 }
 
 TEST_CASE("the hand lets go in the same step") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(20, 20);
   preset.F_release = 0.05;
   Pair pair(preset);
@@ -168,7 +168,7 @@ TEST_CASE("the hand lets go in the same step") {
 }
 
 TEST_CASE("work-items of one particle, as on graphics cards, and vectors of any width do the same") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   const Preset preset = everything(Precision::float_);
   const Lattice lattice = lattice_of(preset);
   Preset on_cpu = preset;
@@ -188,7 +188,7 @@ TEST_CASE("work-items of one particle, as on graphics cards, and vectors of any 
 }
 
 TEST_CASE("one weight, and the ledger with what bodies stop") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Pair weight(test::one_weight());
   weight.advance(100);
   weight.check();
@@ -214,7 +214,7 @@ TEST_CASE("what does not run says so and how to go on") {
   preset.device = 99;
   CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains("--engine cpu"), EngineError);
   preset.device = -1;
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const char* integrator : {"dopri5", "xpbd"}) {
     preset.integrator = integrator;
     CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains(integrator), EngineError);
@@ -222,7 +222,7 @@ TEST_CASE("what does not run says so and how to go on") {
 }
 
 TEST_CASE("a simulation goes from one engine to the other and back") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(20, 30);
   Simulation both(preset), cpu(preset);
   both.advance(30);

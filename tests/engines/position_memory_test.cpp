@@ -76,7 +76,7 @@ void show_and_step(Simulation& simulation, Pages& pages, int steps) {
 }
 
 TEST_CASE("positions in lent memory move with the same bits, and what is shown is never written") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   for (const Scheme& method : schemes()) {
     if (!runs_on_opencl(method)) continue;
     CAPTURE(std::string(method.name));
@@ -96,7 +96,7 @@ TEST_CASE("positions in lent memory move with the same bits, and what is shown i
 }
 
 TEST_CASE("in double the memory shows the positions in float") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   const Preset preset = scene("verlet", Precision::double_);
   Simulation plain(preset), lent(preset);
   Pages pages(lent.engine().vertex_sharing()->wanted_slot_bytes());
@@ -111,7 +111,7 @@ TEST_CASE("in double the memory shows the positions in float") {
 }
 
 TEST_CASE("what is shown stays where a state is loaded, a step is made again, or a run diverges") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = scene("verlet", Precision::float_);
   preset.F_max = 2;
   Simulation plain(preset), lent(preset);

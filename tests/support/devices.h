@@ -3,7 +3,8 @@
 
 namespace tyglab::test {
 
-/// Says plainly, once a program, where there is none.
 bool device_there();
+/// Skips the test case if there is none: `if (test::skipped_without_device()) return;`.
+bool skipped_without_device();
 
 }  // namespace tyglab::test

@@ -237,7 +237,7 @@ TEST_CASE("a simulation does what the effect of a field says, at its start and u
         CAPTURE(std::string(field.key));
         CAPTURE(int(kind));
         CAPTURE(steps);
-        if (field.key == "engine" && !test::device_there()) continue;
+        if (field.key == "engine" && test::skipped_without_device()) continue;
         const Preset preset = scene(kind);
         check_change(preset, changed(preset, field), steps);
       }

@@ -77,7 +77,7 @@ TEST_CASE("copies take a cut of springs to the same bits, in mid-run") {
 }
 
 TEST_CASE("the OpenCL engine takes a cut of springs as the CPU engine does") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = test::cloth(20, 24);
   Simulation cpu(preset);
   preset.engine = EngineKind::opencl;

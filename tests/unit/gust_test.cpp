@@ -136,7 +136,7 @@ TEST_CASE("a snapshot brings its gust back") {
 }
 
 TEST_CASE("the OpenCL engine blows the same gusts") {
-  if (!test::device_there()) return;
+  if (test::skipped_without_device()) return;
   Preset preset = windy();
   Simulation cpu(preset);
   preset.engine = EngineKind::opencl;
