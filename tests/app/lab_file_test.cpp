@@ -87,24 +87,24 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK(says(problem_of("Text\n"), "my.md:1: a lab begins with its title"));
   CHECK(says(problem_of("# A lab\n"), "at least one step"));
   CHECK(says(problem_of("# A lab\n## \n"), "my.md:2"));
-  CHECK(says(problem_of("# A lab\n\n## A step\n"), "my.md:3: this step says nothing"));
+  CHECK(says(problem_of("# A lab\n\n## A step\n"), "my.md:3: this step has no text"));
   CHECK(says(problem_of("# A lab\n\n## A step\nText\n```python\n"), "my.md:5: the only block"));
   CHECK(says(problem_of(head + "do: it\n"), "my.md:7: this block is never closed"));
   CHECK(says(problem_of(head + "```\n\n```lab\n"), "my.md:10: this step has a ```lab block already"));
   CHECK(says(problem_of("# A lab\n```lab\n```\n"), "belongs to a step"));
-  CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is no key of a lab; did you mean check?"));
+  CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is not a key of a lab; did you mean check?"));
   CHECK(says(problem_in("just words"), "has no colon"));
   CHECK(says(problem_in("check:"), "says nothing"));
   CHECK(says(problem_in("check: enregy > 1 J"), "did you mean energy?"));
-  CHECK(says(problem_in("check: t => 1 s"), "stands one of"));
+  CHECK(says(problem_in("check: t => 1 s"), "write one of"));
   CHECK(says(problem_in("check: t > 1 m"), "the unit is s, not m"));
-  CHECK(says(problem_in("check: t > soon"), "\"soon\" is nothing"));
+  CHECK(says(problem_in("check: t > soon"), "\"soon\" is not a quantity"));
   CHECK(says(problem_in("check: integrator > euler"), "is a word"));
   CHECK(says(problem_in("check: integrator = eulr"), "did you mean euler?"));
   CHECK(says(problem_in("check: energy > before.energy"), "no step before the first"));
   CHECK(says(problem_in("check: apart > 0 m"), "none before the first"));
   CHECK(says(problem_in("predict: How?"), "my.md:8: this prediction has no answer"));
-  CHECK(says(problem_in("predict: How?\nanswer: 3 m"), "my.md:9: an answer says how far"));
+  CHECK(says(problem_in("predict: How?\nanswer: 3 m"), "my.md:9: an answer needs a tolerance"));
   CHECK(says(problem_in("predict: How?\nchoice: a\nchoice: b"), "exactly one"));
   CHECK(says(problem_in("answer: 3 m within 1 %"), "needs a question"));
   CHECK(says(problem_in("set: k_s=3"), "write a line open:"));
@@ -119,7 +119,7 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK_FALSE(says(settings, "--set"));
   const std::string both = problem_in("open: hanging\nset: k_s=-4\npredict: How?\nanswer: 0 m within 5 %");
   CHECK(says(both, "my.md:9: set: "));
-  CHECK(says(both, "my.md:11: a part of 0"));
+  CHECK(says(both, "my.md:11: a percentage of 0"));
   CHECK_FALSE(says(both, "no answer"));
   CHECK(problem_in("open: hanging\nset: pins=[[39, 39]]\nset: rows=40\nset: columns=40") == "none");
   for (const char* wrong : {"nan within 5 %", "inf m within 1 m", "3 m within nan %", "3 m within inf"})

@@ -27,7 +27,7 @@ std::string compiler() {
 /// Why nothing can be counted here; empty if it can.
 std::string obstacle(const InstructionCounter& counter) {
 #ifndef NDEBUG
-  return "this is no optimised build";
+  return "this is no optimized build";
 #endif
   if (!counter.available()) return "valgrind is missing: apt-get install valgrind";
   const std::string set = counter.instruction_set();
