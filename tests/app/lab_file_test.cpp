@@ -94,7 +94,7 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK(says(problem_of("# A lab\n```lab\n```\n"), "belongs to a step"));
   CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is not a key of a lab; did you mean check?"));
   CHECK(says(problem_in("just words"), "has no colon"));
-  CHECK(says(problem_in("check:"), "says nothing"));
+  CHECK(says(problem_in("check:"), "has no value"));
   CHECK(says(problem_in("check: enregy > 1 J"), "did you mean energy?"));
   CHECK(says(problem_in("check: t => 1 s"), "write one of"));
   CHECK(says(problem_in("check: t > 1 m"), "the unit is s, not m"));
