@@ -27,7 +27,7 @@ if(TYGLAB_SANITIZE)
   else()
     message(FATAL_ERROR "TYGLAB_SANITIZE is \"${TYGLAB_SANITIZE}\"; it can be address or thread, or empty.")
   endif()
-  # Compiled to be run once: little optimising, and no more debug information than the lines of a report's stack.
+  # Compiled to be run once: little optimizing, and no more debug information than the lines of a report's stack.
   add_compile_options(-O1 -g1 -fno-omit-frame-pointer)
   add_compile_definitions(TYGLAB_WHOLE_ENGINES)
   # One instruction set, since the other builds run each that the machine has: one with vectors, where it is known that

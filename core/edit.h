@@ -28,7 +28,7 @@ struct MoveHand {
   int steps;
 };
 struct Release {};
-/// These particles lose their springs upwards (2.3.4).
+/// These particles lose their springs upward (2.3.4).
 struct Cut {
   std::vector<Pins::Site> sites;
 };
@@ -41,7 +41,7 @@ struct Pin {
   int i, j;
   bool pinned;
 };
-/// Moves body `index` to centre `c` (sphere) or height `c.y` (plane).
+/// Moves body `index` to center `c` (sphere) or height `c.y` (plane).
 struct MoveBody {
   int index;
   glm::dvec3 c;

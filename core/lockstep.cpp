@@ -29,7 +29,7 @@ std::unique_ptr<Simulation> copied(const Simulation& original, const Snapshot& n
                                    std::span<const Difference> differences, int threads) {
   const Preset preset = copied_preset(original.preset(), differences);
   if (changes(original.preset(), preset).touches(Effect::rebuild))
-    throw PresetError("A copy has the particles of its original: " + listed(differences) + " would change them.");
+    throw PresetError("A copy has the same particles as its original: " + listed(differences) + " would change them.");
   auto copy = std::make_unique<Simulation>(preset, threads);
   copy->restore(now);
   return copy;

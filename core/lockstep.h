@@ -39,7 +39,7 @@ class Lockstep {
     std::size_t seat = 0;  ///< below `most`, its own as long as it lives, whichever others go
   };
 
-  /// Adds a copy that goes on from where the original is. Every cloth is loaded anew from its own state, so that equal
+  /// Adds a copy that goes on from where the original is. Every cloth is loaded again from its own state, so that equal
   /// ones go on with equal bits; the hand lets go. Throws PresetError (a value is wrong, too many, too large, another
   /// lattice), EngineError.
   void add(Simulation& original, std::vector<Difference> differences, int threads = 1);

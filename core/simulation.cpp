@@ -21,7 +21,7 @@ Overloaded(F...) -> Overloaded<F...>;
 
 /// What no start depends on: it is seen, named or met later.
 constexpr EffectSet met_later = motionless | Effect::bodies | Effect::tearing | Effect::tolerance;
-/// For these the state must be read and loaded anew: another engine or another method's vectors.
+/// For these the state must be read and loaded again: another engine or another method's vectors.
 constexpr EffectSet conversion{Effect::integrator, Effect::precision, Effect::device, Effect::engine};
 
 Ledger::Source source_of(const Edit& edit) {
@@ -340,14 +340,14 @@ void Simulation::diverge(const Advance& part) {
   d.i = part.i, d.j = part.j, d.di = part.di, d.dj = part.dj;
   d.quantity = part.quantity;
   d.value = part.value;
-  d.cause = part.quantity == "spring length" ? "a spring grew past 1000 times its rest length"
+  d.cause = part.quantity == "spring length" ? "a spring is longer than 1000 times its rest length"
             : part.quantity == "distance from x_0"
-                ? "the weight is more than 1000 times L, or its offset if that is more, away from x_0"
+                ? "the mass is farther from x_0 than 1000 times L (or its offset, if that is more)"
                 : "a " + part.quantity + " is no longer a finite number";
   const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
   if (springs_too_weak(preset_)) {
-    d.cause += preset_.kind == Kind::cloth ? ": weight and wind are more than the springs can hold; "
-                                           : ": m·g is more than the spring can hold; ";
+    d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight and wind; "
+                                           : ": the spring is too weak for m·g; ";
     d.cause += preset_.integrator + " is stable here " + dt;
     d.advice = advice_for_weak_springs(preset_);
   } else {

@@ -1,4 +1,4 @@
-// One cloth (or one weight) in motion: ties presets, engines and edits together. No window, no clock.
+// One cloth (or a mass on a spring) in motion: ties presets, engines and edits together. No window, no clock.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ struct ParticleReadout {
   glm::dvec3 F{0}, F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0}, F_int{0}, F_ext{0};
   glm::dvec3 x{0}, v{0}, a{0};
   bool pinned = false, held = false;
-  bool on_body = false;  ///< a body bears on it, which neither F nor a contains
+  bool on_body = false;  ///< a body tolerates on it, which neither F nor a contains
 };
 
 /// One number for the whole cloth a frame: what the plots' "sum" and "maximum" show. Magnitudes, N.
@@ -41,13 +41,13 @@ struct Snapshot {
   std::int64_t steps = 0;
   std::optional<glm::dvec3> begun_with{};  ///< m/s, of every free particle, while no step has been made
   std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes(); }
-  /// At least so much will it be.
+  /// At least that much will it be.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
 };
 
 class Simulation {
  public:
-  /// Builds the cloth at its start; `threads`: at most so many. Throws EngineError; the preset must be valid
+  /// Builds the cloth at its start; `threads`: at most that many. Throws EngineError; the preset must be valid
   /// (check_preset).
   explicit Simulation(const Preset& preset, int threads = 1);
   ~Simulation();
@@ -60,7 +60,7 @@ class Simulation {
   glm::dvec3 wind() const { return acting().W; }
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
-  /// The constants with which it diverged; of use only while divergence() holds one.
+  /// The constants with which it diverged; available only while divergence() holds one.
   const Preset& diverged_preset() const { return diverged_preset_; }
   Engine& engine() { return *engine_; }
   /// Goes on with what is made of the present engine: tests see one fail in this way.
@@ -137,7 +137,7 @@ class Simulation {
   void take_engine(const Preset& next, const State& state);
   void take_pins();
   bool fixed(int i, int j) const { return pinned(i, j) || held_.particle == i * lattice_.columns + j; }
-  glm::dvec3 velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const;
+  glm::dvec3 velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const;
   void change(const Preset& preset);
   void restart_untouched(const Preset& preset);
   void grab(const edit::Grab& edit);
@@ -155,7 +155,7 @@ class Simulation {
   void watch_edit(Ledger::Source source);
 
   Preset preset_;
-  Preset effective_preset_;  ///< the same with the wind of this moment, which the engine has; of use only while there
+  Preset effective_preset_;  ///< the same with the wind of this moment, which the engine has; valid only while there
                              ///< are gusts
   int threads_;
   Lattice lattice_;

@@ -36,7 +36,7 @@ State Simulation::read_raw() {
 }
 
 /// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
-glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredParticle& stored, int i, int j) const {
+glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const {
   if (fixed(i, j)) return stored.v;
   if (initial_velocity_) return *initial_velocity_;
   if (stored.lag == 0) return stored.v;
@@ -46,8 +46,8 @@ glm::dvec3 Simulation::velocity_at(const Neighbourhood& near, const StoredPartic
 
 ParticleReadout Simulation::particle(int i, int j) const {
   // Only what stands round it: to read a whole cloth takes longer than all the rest of a frame.
-  constexpr int reach = Neighbourhood::reach;
-  Neighbourhood near(i, j);
+  constexpr int reach = Neighborhood::reach;
+  Neighborhood near(i, j);
   const auto visit = [&](int far, const auto& what) {
     for (int ni = std::max(i - far, 0); ni <= std::min(i + far, lattice_.rows - 1); ++ni)
       for (int nj = std::max(j - far, 0); nj <= std::min(j + far, lattice_.columns - 1); ++nj) what(ni, nj);
@@ -56,7 +56,7 @@ ParticleReadout Simulation::particle(int i, int j) const {
     const StoredParticle stored = engine_->stored(ni, nj);
     near.x(ni, nj) = stored.x, near.v(ni, nj) = stored.v_seen;
   });
-  Neighbourhood now = near;
+  Neighborhood now = near;
   visit(1, [&](int ni, int nj) { now.v(ni, nj) = velocity_at(near, engine_->stored(ni, nj), ni, nj); });
   const ParticleForces forces = forces_on_particle(acting(), tears_, now, i, j);
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
@@ -66,7 +66,7 @@ ParticleReadout Simulation::particle(int i, int j) const {
   out.F_ext = forces.F_ext();
   out.pinned = pinned(i, j);
   out.held = held_.particle == int(p);
-  // What holds a particle (pin or hand) bears the rest of its force; the hand's belongs to F_ext.
+  // What holds a particle (pin or hand) tolerates the rest of its force; the hand's belongs to F_ext.
   if (out.held) out.F_ext -= out.F_int + out.F_ext;
   out.F = out.F_int + out.F_ext;
   out.x = now.x(i, j), out.v = now.v(i, j);

@@ -44,7 +44,7 @@ Patch::Patch(const Simulation& simulation, int i, int j)
       i_(i),
       j_(j) {
   const Lattice& lattice = simulation.lattice();
-  const int reach = 2 * int(method_.sweeps.size()) + Neighbourhood::reach;
+  const int reach = 2 * int(method_.sweeps.size()) + Neighborhood::reach;
   top_ = std::max(i - reach, 0), bottom_ = std::min(i + reach, lattice.rows - 1);
   left_ = std::max(j - reach, 0), right_ = std::min(j + reach, lattice.columns - 1);
   vectors_.assign(std::size_t(std::max(method_.vectors, 2)),
@@ -67,12 +67,12 @@ bool Patch::fixed(int i, int j) const {
 }
 
 TracedStage Patch::evaluated(const Sweep& sweep, int i, int j) const {
-  constexpr int reach = Neighbourhood::reach;
+  constexpr int reach = Neighborhood::reach;
   const double per = std::pow(preset_.dt, sweep.velocity_dt_power);
-  // Where an implicit stage is solved, the table's vectors are not there yet: the beginning is what can be told.
+  // Where an implicit stage is solved, the table's vectors are not there yet: the beginning is what can be shown.
   const bool solves = sweep.solves != 0;
   const int position = solves ? vector_x : sweep.position, velocity = solves ? vector_v : sweep.velocity;
-  Neighbourhood near(i, j);
+  Neighborhood near(i, j);
   for (int ni = std::max(i - reach, top_); ni <= std::min(i + reach, bottom_); ++ni)
     for (int nj = std::max(j - reach, left_); nj <= std::min(j + reach, right_); ++nj)
       near.x(ni, nj) = at(position, ni, nj), near.v(ni, nj) = per * at(velocity, ni, nj);
@@ -103,8 +103,8 @@ void Patch::assign(const Sweep& sweep, int i, int j, const glm::dvec3& a, std::v
 }
 
 TracedStage Patch::sweep(const Sweep& sweep) {
-  // All forces first: no particle moves before its neighbours have looked at it.
-  constexpr int reach = Neighbourhood::reach;
+  // All forces first: no particle moves before its neighbors have looked at it.
+  constexpr int reach = Neighborhood::reach;
   std::vector<glm::dvec3> accelerations(vectors_[0].size());
   TracedStage traced;
   const Lattice& lattice = simulation_.lattice();

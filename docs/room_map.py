@@ -85,7 +85,7 @@ def straightened(rows, words, pieces):
     return {item: (middle[item] - widths[item] / 2, widths[item]) for item in widths}
 
 
-def centred(rows, words):
+def centered(rows, words):
     """The left edge and the width of everything, each floor in the middle."""
     widths = widths_of(rows, words)
     out = {}
@@ -99,7 +99,7 @@ def centred(rows, words):
 
 def length(rows, words, pieces):
     """How far the pieces of arrows lean, the measure of an order of the rows."""
-    at = centred(rows, words)
+    at = centered(rows, words)
     return sum(abs(at[a][0] + at[a][1] / 2 - at[b][0] - at[b][1] / 2) for a, b in pieces)
 
 

@@ -6,7 +6,7 @@ import math
 
 GROUND, FIELD, GRID, TEXT, QUIET = "#1d2027", "#14161b", "#333843", "#e6e9ef", "#9aa3b2"
 COLORS = ["#56b4e9", "#e69f00", "#009e73", "#cc79a7"]
-DASHES = ["", "9 5", "2 5", "12 4 2 4"]  # colours are not told apart by everybody
+DASHES = ["", "9 5", "2 5", "12 4 2 4"]  # colors are not told apart by everybody
 WIDTH, HEIGHT, EDGE, HEAD, FOOT = 480, 400, 56, 84, 96  # of a panel, pixels
 
 

@@ -15,14 +15,14 @@ typedef struct {
 
 enum { passes = 4 };  // as in contact.cpp
 
-INLINE BODY_REAL3 centre(global const Body* body) { return (BODY_REAL3)(body->c[0], body->c[1], body->c[2]); }
+INLINE BODY_REAL3 center(global const Body* body) { return (BODY_REAL3)(body->c[0], body->c[1], body->c[2]); }
 
 INLINE BODY_REAL depth_in(global const Body* body, BODY_REAL3 x) {
-  return body->plane ? body->y - x.y : body->r - sqrt(dot(x - centre(body), x - centre(body)));
+  return body->plane ? body->y - x.y : body->r - sqrt(dot(x - center(body), x - center(body)));
 }
 
 INLINE BODY_REAL3 normal_of(global const Body* body, BODY_REAL3 x) {
-  const BODY_REAL3 up = (BODY_REAL3)(0, 1, 0), out = x - centre(body);
+  const BODY_REAL3 up = (BODY_REAL3)(0, 1, 0), out = x - center(body);
   const BODY_REAL length2 = dot(out, out);
   return body->plane || !(length2 > 0) ? up : out / sqrt(length2);
 }
@@ -30,14 +30,14 @@ INLINE BODY_REAL3 normal_of(global const Body* body, BODY_REAL3 x) {
 /// 8 units in the last place of the largest of |x|, |c|, r.
 INLINE BODY_REAL tolerance_at(global const Body* body, BODY_REAL3 x, BODY_REAL epsilon) {
   const BODY_REAL far = body->plane ? fmax(fabs(x.y), fabs(body->y))
-                                    : fmax(fmax(sqrt(dot(x, x)), sqrt(dot(centre(body), centre(body)))), body->r);
+                                    : fmax(fmax(sqrt(dot(x, x)), sqrt(dot(center(body), center(body)))), body->r);
   return 8 * epsilon * far;
 }
 
 /// Where the line from x, inside, along n leaves the body.
 INLINE BODY_REAL3 way_out(global const Body* body, BODY_REAL3 x, BODY_REAL3 n) {
   if (body->plane) return (BODY_REAL3)(x.x, body->y, x.z);
-  const BODY_REAL3 q = x - centre(body);
+  const BODY_REAL3 q = x - center(body);
   const BODY_REAL along = dot(q, n);
   return x + (sqrt(along * along - dot(q, q) + body->r * body->r) - along) * n;
 }
@@ -64,9 +64,9 @@ INLINE void collide_one(global const Body* body, BODY_REAL dt, BODY_REAL epsilon
   *v = corrected_velocity(body, *v, n);
   *x = old + dt * *v;
   if (!(depth_in(body, *x) > 0)) return;
-  const int at_centre = !body->plane && !(dot(*x - centre(body), *x - centre(body)) > 0);
+  const int at_center = !body->plane && !(dot(*x - center(body), *x - center(body)) > 0);
   *x = body->plane ? (BODY_REAL3)((*x).x, body->y, (*x).z)
-                   : centre(body) + body->r * (at_centre ? n : normal_of(body, *x));
+                   : center(body) + body->r * (at_center ? n : normal_of(body, *x));
 }
 
 /// Corrects x and v for all bodies; returns whether x is still inside one.

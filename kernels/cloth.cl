@@ -67,7 +67,7 @@ typedef struct {
   REAL wind[3];                  // W/3
   REAL smallest;                 // the least normal number
   REAL dt, to_way, to_velocity;  // what a stored velocity is multiplied with to be a way, m, and to be a velocity, m/s
-  REAL k, middle;                // of the one weight: its spring's, and the height where it rests
+  REAL k, middle;                // of the mass on a spring: its spring's, and the height where it rests
   REAL c[16];                    // of the sweep's sums
 } Constants;
 

@@ -14,7 +14,7 @@ static uint ordered(float a) {
   return (bits >> 31) != 0 ? ~bits : bits | 0x80000000u;
 }
 
-/// Copies every so many rows and columns of x, the last ones included. `box`: the least x, y and z so far, then the
+/// Copies every n-th of the rows and columns of x, the last ones included. `box`: the least x, y and z so far, then the
 /// greatest, as ordered() says, of those that are finite.
 kernel void write_positions(global const REAL* x, int stride, global float* to, int rows, int columns, int every,
                             int last_row, int last_column, global uint* box) {

@@ -1,4 +1,4 @@
-// One particle a work-item, which gathers the forces on it from its twelve neighbours: for devices of many small
+// One particle a work-item, which gathers the forces on it from its twelve neighbors: for devices of many small
 // processors, where to compute a spring at both of its ends is quicker than to hand its force over.
 #if WIDTH == 1
 /// The block of particles that a work-item looks at: pointers to its first one.

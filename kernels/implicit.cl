@@ -38,7 +38,7 @@ typedef struct {
       global REAL *z, global REAL *q, int stride, int mask_pitch, int rows, int columns, const Linear linear
 #define SYSTEM {masks, coefficients, blocks, d, r, z, q, stride, mask_pitch, rows, columns, linear}
 
-/// A work-item's particles: on processors some whole rows, in blocks of WIDTH; on cards every so many-th particle.
+/// A work-item's particles: on processors some whole rows, in blocks of WIDTH; on cards every n-th particle.
 #define ITEM const int item = (int)get_global_id(0), items = (int)get_global_size(0)
 #if WIDTH == 1
 #define FOR_ROWS for (int n = item; n < rows * columns; n += items)
@@ -198,7 +198,7 @@ INLINE vec direction(const System* s, global const REAL* p, REAL keep, int at) {
   return plus_scaled(load(s->z + at, s->stride), keep, load(p + at, s->stride));
 }
 
-/// p = z + keep p, and q = A p; returns Σ p·q. The directions of neighbours are worked out again, so that nobody waits
+/// p = z + keep p, and q = A p; returns Σ p·q. The directions of neighbors are worked out again, so that nobody waits
 /// for them.
 INLINE SUM multiply_share(const System* s, global const REAL* from, global REAL* to, REAL keep, int item, int items) {
   const int rows = s->rows, columns = s->columns, pitch = s->mask_pitch, below = 3 * s->stride;
@@ -211,8 +211,8 @@ INLINE SUM multiply_share(const System* s, global const REAL* from, global REAL*
       global const REAL* c = s->coefficients + place(row, column, up);
       const vec own = direction(s, from, keep, at);
       vec f = scaled(s->linear.own, own);
-#define RESIST(coefficient, neighbour) \
-  f = minus(f, resistance(coefficient, pitch, minus(direction(s, from, keep, at + (neighbour)), own)))
+#define RESIST(coefficient, neighbor) \
+  f = minus(f, resistance(coefficient, pitch, minus(direction(s, from, keep, at + (neighbor)), own)))
       RESIST(c, 1), RESIST(c - 1, -1);
       RESIST(c + spring, below), RESIST(c + spring - up, -below);
       RESIST(c + 2 * spring, below + 1), RESIST(c + 2 * spring - up - 1, -below - 1);

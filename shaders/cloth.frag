@@ -12,7 +12,7 @@ uniform sampler2D cloth;  // its first row is the cloth's top edge
 #endif
 uniform vec3 hem;         // sRGB
 uniform vec2 hem_width;   // in units of `across`
-out vec4 colour;
+out vec4 color;
 
 #ifdef COLORED
 vec3 own_color() { return linear(value_color(value)); }
@@ -50,14 +50,14 @@ void main() {
   float grazing = 1.0 - clamp(dot(n, to_eye), 0.0, 1.0);
   vec3 light = ambient(n) * (1.1 - 0.5 * grazing) + key_light * (lit * diffuse);
 #ifdef COLORED
-  // As much light as folds need to be seen, and as little as colours need to be compared with the legend: between two
+  // As much light as folds need to be seen, and as little as colors need to be compared with the legend: between two
   // thirds of them and all.
   float shade = clamp(dot(light, vec3(0.3, 0.6, 0.1)) / 1.3, 0.0, 1.0);
-  colour = vec4(display(albedo * mix(0.45, 1.0, shade)), 1.0);
+  color = vec4(display(albedo * mix(0.45, 1.0, shade)), 1.0);
 #else
   vec3 halfway = normalize(to_light.xyz + to_eye);
   float sheen = (0.22 + 0.5 * dark) * grazing * grazing * grazing;
   float gloss = facing > 0.0 ? 0.05 * pow(clamp(dot(n, halfway), 0.0, 1.0), 14.0) : 0.0;
-  colour = vec4(display(exposed(albedo * light * (1.0 + sheen * 2.0) + sheen * 0.05 * sky_light + gloss * lit)), 1.0);
+  color = vec4(display(exposed(albedo * light * (1.0 + sheen * 2.0) + sheen * 0.05 * sky_light + gloss * lit)), 1.0);
 #endif
 }

@@ -1,7 +1,7 @@
 #version 330 core
 #include "frame.glsl"
 in vec3 position;
-out vec4 colour;  // premultiplied
+out vec4 color;  // premultiplied
 
 // Coverage of lines `width` pixels thick at whole numbers of `at`; fades to its mean where lines crowd.
 float lines(vec2 at, float width) {
@@ -19,5 +19,5 @@ void main() {
   float line = max(0.24 * lines(at, 1.0), 0.44 * lines(at / 5.0, 1.2)) * fade;
   // A pool of light under the scene.
   float pool = 0.22 / (1.0 + away * away * (1.0 + away * away));
-  colour = vec4(grid.rgb * line + pool * background_top.rgb * (1.0 - background_top.rgb), line);
+  color = vec4(grid.rgb * line + pool * background_top.rgb * (1.0 - background_top.rgb), line);
 }

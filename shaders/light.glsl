@@ -1,10 +1,10 @@
-// Light in linear colour. Display values are squared and rooted (gamma 2), which is near sRGB and cheap.
+// Light in linear color. Display values are squared and rooted (gamma 2), which is near sRGB and cheap.
 uniform sampler2DShadow shadow_map;
 
 vec3 linear(vec3 display) { return display * display; }
-vec3 display(vec3 linear_colour) { return sqrt(max(linear_colour, 0.0)); }
+vec3 display(vec3 linear_color) { return sqrt(max(linear_color, 0.0)); }
 
-// Bends bright light over, so that a light cloth in full light keeps its colour.
+// Bends bright light over, so that a light cloth in full light keeps its color.
 vec3 exposed(vec3 light) { return light * (1.14 + 0.30 * light) / (1.0 + light); }
 
 const vec3 key_light = vec3(1.48, 1.39, 1.26);

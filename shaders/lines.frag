@@ -1,7 +1,7 @@
 #version 330 core
 in float strength;
 uniform vec4 ink;  // sRGB and opacity
-out vec4 colour;   // premultiplied
+out vec4 color;   // premultiplied
 
 #ifdef COLORED
 #include "value.glsl"
@@ -11,4 +11,4 @@ vec3 own_color() { return value_color(value); }
 vec3 own_color() { return ink.rgb; }
 #endif
 
-void main() { colour = vec4(own_color(), 1.0) * (ink.a * strength); }
+void main() { color = vec4(own_color(), 1.0) * (ink.a * strength); }

@@ -25,7 +25,7 @@ void corner(vec4 at, vec2 offset_px, float s) {
 float width_at(vec4 at) { return min(0.13 * spacing * eye.w / at.w, max_width); }
 float strength_at(vec4 at, float width) {
 #ifdef COLORED
-  return clamp(width, 0.3, 1.0);  // colours are to be compared with a legend, near and far
+  return clamp(width, 0.3, 1.0);  // colors are to be compared with a legend, near and far
 #endif
   float depth = (at.w - length(eye.xyz - focus.xyz)) / focus.w;  // -1 nearest to 1 farthest, about
   return clamp(width, 0.3, 1.0) * clamp(0.8 - 0.35 * depth, 0.3, 1.0);

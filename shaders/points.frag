@@ -4,7 +4,7 @@ flat in float radius;
 uniform vec4 ink;    // sRGB and opacity
 uniform float rim;   // px of dark rim round a mark, 0: a plain ball
 uniform float ring;  // px of thickness of an empty ring, 0: filled
-out vec4 colour;     // premultiplied
+out vec4 color;     // premultiplied
 #ifdef COLORED
 #include "value.glsl"
 in float value;
@@ -29,5 +29,5 @@ void main() {
     float light = 1.0 - 0.30 * length(from_middle - vec2(-0.3, -0.4));
     ball *= min(light * 1.12, 1.0) * clamp(radius - rim - r + 0.5, rim > 0.0 ? 0.08 : 1.0, 1.0);
   }
-  colour = vec4(ball, 1.0) * (cover * strength * ink.a);
+  color = vec4(ball, 1.0) * (cover * strength * ink.a);
 }

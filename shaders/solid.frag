@@ -5,8 +5,8 @@ in vec3 position;
 in vec3 normal;
 uniform vec3 base;  // sRGB
 uniform float gloss;
-uniform float own_light;  // 1: shows its colour as it is, unlit
-out vec4 colour;
+uniform float own_light;  // 1: shows its color as it is, unlit
+out vec4 color;
 
 void main() {
   vec3 n = normalize(normal);
@@ -18,5 +18,5 @@ void main() {
   float shine = gloss * pow(clamp(dot(n, halfway), 0.0, 1.0), 40.0) * lit;
   vec3 light = ambient(n) * (1.1 - 0.5 * grazing) + key_light * (lit * max(facing, 0.0));
   vec3 shaded = display(exposed(linear(base) * light + shine + 0.06 * grazing * grazing * grazing * sky_light));
-  colour = vec4(mix(shaded, base, own_light), 1.0);
+  color = vec4(mix(shaded, base, own_light), 1.0);
 }

@@ -1,4 +1,4 @@
-// The colour of a value, sRGB: what a cloth that is coloured by values has in place of its own.
+// The color of a value, sRGB: what a cloth that is colored by values has in place of its own.
 uniform sampler2D color_map;  // one row, from the least value to the greatest
 uniform vec2 value_range;     // the least; 1 / (greatest - least)
 

@@ -24,18 +24,18 @@ def write_png(path, palette, rows):
     """An 8-bit palette PNG. `rows` are bytes objects of palette indices."""
     height, width = len(rows), len(rows[0])
     body = b"".join(b"\0" + row for row in rows)
-    colours = b"".join(bytes(colour) for colour in palette)
+    colors = b"".join(bytes(color) for color in palette)
     path.write_bytes(
         b"\x89PNG\r\n\x1a\n"
         + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0))
-        + chunk(b"PLTE", colours)
+        + chunk(b"PLTE", colors)
         + chunk(b"IDAT", zlib.compress(body, 9))
         + chunk(b"IEND", b"")
     )
 
 
 def ramp(dark, light, steps):
-    """Colours from dark to light, ends included."""
+    """Colors from dark to light, ends included."""
     return [
         tuple(round(a + (b - a) * k / (steps - 1)) for a, b in zip(dark, light)) for k in range(steps)
     ]
@@ -89,8 +89,8 @@ def roundness(texel, width):
 def denim():
     """A 3/1 twill: indigo warp over three pale weft threads, under one, which rises to the right."""
     width, steps = 4, 48
-    warp_colours = ramp((13, 27, 66), (84, 124, 192), steps)
-    weft_colours = ramp((48, 72, 124), (158, 178, 212), steps)
+    warp_colors = ramp((13, 27, 66), (84, 124, 192), steps)
+    weft_colors = ramp((48, 72, 124), (158, 178, 212), steps)
     threads = FINE // width
     warp, weft = thread_tables(11, threads, 90, FINE), thread_tables(12, threads, 50, FINE)
     rows = []
@@ -100,7 +100,7 @@ def denim():
         for x in range(FINE):
             a = x // width
             phase = (a + b) % 4
-            # The floats of neighbouring threads join into ridges that run up to the right.
+            # The floats of neighboring threads join into ridges that run up to the right.
             ridge = math.cos(2 * math.pi * (x + y - 2.5 * width) / (4 * width))
             if phase:
                 # A float of the warp spans three weft threads, and is highest over the middle one.
@@ -111,13 +111,13 @@ def denim():
                 shade = 0.10 + 0.20 * weft[b][x] + 0.36 * roundness(y, width) * roundness(x, width)
                 row.append(steps + index(shade, steps))
         rows.append(bytes(row))
-    return warp_colours + weft_colours, rows
+    return warp_colors + weft_colors, rows
 
 
 def linen():
     """Plain weave of uneven natural threads with slubs."""
     width, steps = 5, 64
-    colours = ramp((112, 98, 76), (236, 226, 204), steps)
+    colors = ramp((112, 98, 76), (236, 226, 204), steps)
     warp, weft = thread_tables(21, FINE // width + 1, 120, FINE), thread_tables(22, FINE // width + 1, 70, FINE)
     rows = []
     for y in range(FINE):
@@ -131,7 +131,7 @@ def linen():
             shade = 0.34 + 0.30 * tone + 0.36 * crown + (0.04 if over else 0.0)
             row.append(index(shade, steps))
         rows.append(bytes(row))
-    return colours, rows
+    return colors, rows
 
 
 def flag():
@@ -157,7 +157,7 @@ def flag():
 def rubber():
     """Black rubber with ribs across and a fine grain."""
     rib, steps = 16, 64
-    colours = ramp((22, 23, 26), (122, 124, 130), steps)
+    colors = ramp((22, 23, 26), (122, 124, 130), steps)
     rows = []
     for y in range(SIZE):
         t = (y % rib) / rib
@@ -170,7 +170,7 @@ def rubber():
             shade = 0.20 + 0.24 * profile - groove + 0.10 * grain
             row.append(index(shade, steps))
         rows.append(bytes(row))
-    return colours, rows
+    return colors, rows
 
 
 # ---- the grid -------------------------------------------------------------------------------------------------------
@@ -200,24 +200,24 @@ GLYPHS = {
 }
 
 
-def write_text(rows, text, left, top, scale, colour):
+def write_text(rows, text, left, top, scale, color):
     for n, letter in enumerate(text):
         for dy, line in enumerate(GLYPHS[letter].split()):
             for dx, dot in enumerate(line):
                 if dot == "1":
                     x, y = left + (6 * n + dx) * scale, top + dy * scale
                     for yy in range(y, y + scale):
-                        rows[yy][x : x + scale] = bytes([colour]) * scale
+                        rows[yy][x : x + scale] = bytes([color]) * scale
 
 
 def hue(h, lightness):
-    """A soft colour of hue h (turns)."""
+    """A soft color of hue h (turns)."""
     channels = [0.5 + 0.5 * math.cos(2 * math.pi * (h - k / 3)) for k in range(3)]
     return tuple(round(255 * lightness * (0.45 + 0.55 * c)) for c in channels)
 
 
 def uv_grid():
-    """Eight by eight labelled cells: A to H along u (to the right), 1 to 8 along v (upwards), to check orientation."""
+    """Eight by eight labeled cells: A to H along u (to the right), 1 to 8 along v (upwards), to check orientation."""
     cells = 8
     cell = SIZE // cells
     palette, rows = [(24, 26, 30), (250, 250, 250)], [bytearray(SIZE) for _ in range(SIZE)]

@@ -23,7 +23,7 @@ fs::path data_file(std::string_view name) {
   std::error_code error;
   if (!fs::exists(file, error)) {
     throw DataFileError("The program's file " + file.string() +
-                        " is missing. Build again (app/run), or install again with cmake --install.");
+                        " is missing. Rebuild (app/run), or reinstall with cmake --install.");
   }
   return file;
 }

@@ -40,7 +40,7 @@ class FrameCosts {
   /// Starts to watch with what went before: loading the program, and reading what it was called with.
   FrameCosts() { started(StartPart::program); }
 
-  /// Counts the time from its making to its end towards a part.
+  /// Counts the time from its making to its end toward a part.
   class Timer {
    public:
     Timer(FrameCosts& costs, Part part) : watch_(costs.now_[std::size_t(part)]) {}

@@ -1,4 +1,4 @@
-// What keyboard and pointer did since the last frame, in order, as GLFW's callbacks told it. Dear ImGui samples once a
+// Keyboard and pointer events since the last frame, in order, as GLFW's callbacks report it. Dear ImGui samples once a
 // frame and drops short presses when frames are long; this queue does not.
 #pragma once
 

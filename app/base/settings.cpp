@@ -32,7 +32,7 @@ class Fault : public std::runtime_error {
 class Section {
  public:
   Section(const Json& json, std::string name) : json_(json), name_(std::move(name)) {
-    if (!json_.is_object()) throw Fault((name_.empty() ? "the file" : "“" + name_ + "”") + " is not a group { … }");
+    if (!json_.is_object()) throw Fault((name_.empty() ? "the file" : "“" + name_ + "”") + " is not an object { … }");
   }
   bool has(const char* key) const { return json_.contains(key); }
   const Json& at(const char* key) const {
@@ -47,7 +47,7 @@ class Section {
     try {
       value = json_.at(key).get<T>();
     } catch (const Json::exception&) {
-      throw Fault("“" + path(key) + "” has a value of the wrong kind");
+      throw Fault("“" + path(key) + "” has a value of the wrong type");
     }
   }
 
@@ -127,13 +127,13 @@ Settings settings_from(const Json& json) {
   return settings;
 }
 
-/// Moves a file that is of no use out of the way; says where to, or what became of it.
+/// Moves a file that is unusable out of the way; says where to, or what became of it.
 std::string put_aside(const fs::path& file) {
   fs::path aside = file;
   aside += ".broken";
   std::error_code error;
   fs::rename(file, aside, error);
-  if (error) return "It stays where it is until the window closes, and is then replaced; copy it if you need it.";
+  if (error) return "It will be overwritten when the window closes; copy it if you need it.";
   return "The old file is kept as " + aside.string() + ".";
 }
 
@@ -201,7 +201,7 @@ Settings load_settings(std::string& problem) {
     if (!in) throw Fault("it cannot be opened");
     return settings_from(parsed(text.str()));
   } catch (const std::exception& error) {
-    problem = "The settings in " + file.string() + " are of no use: " + error.what() + ". The defaults are taken. " +
+    problem = "The settings in " + file.string() + " cannot be used: " + error.what() + ". The defaults are used. " +
               put_aside(file);
     return {};
   }
@@ -212,7 +212,7 @@ void save_settings(const Settings& settings) {
   if (file.empty()) return;
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
-  if (error) throw OutputError(file.parent_path().string() + ": the folder cannot be made: " + error.message());
+  if (error) throw OutputError(file.parent_path().string() + ": the folder cannot be created: " + error.message());
   write_atomically(file, to_json(settings).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

@@ -23,7 +23,7 @@ struct Layout {
 
 /// How the pointer's tools work, and what they show.
 struct ToolSettings {
-  bool cut_along_path = false;  ///< a cut takes what the pointer's way crosses; otherwise springs upwards (2.3.4)
+  bool cut_along_path = false;  ///< a cut takes what the pointer's path crosses; otherwise springs upward (2.3.4)
   bool slow_hand = false;       ///< slow motion while the hand is in the cloth
   std::set<std::string> arrows{"F_s", "F_b", "F_d", "F_g"};  ///< variables drawn at the picked particle
 };
@@ -45,7 +45,7 @@ struct Settings {
   ToolSettings handling;
   bool plot_log = false;
   bool all_effects = false;  ///< however slow they are to draw
-  std::string color;         ///< name of the field that colours the cloth; empty: none
+  std::string color;         ///< name of the field that colors the cloth; empty: none
   bool tour_seen = false;
   std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<LastSession> session;
@@ -56,7 +56,7 @@ struct Settings {
 std::filesystem::path config_folder();
 std::filesystem::path user_preset_folder();
 
-/// The settings, or the defaults and in `problem` a few sentences when the file is there but of no use; it is then
+/// The settings, or the defaults and in `problem` a few sentences when the file is there but unusable; it is then
 /// renamed to settings.json.broken, so that nothing of it is lost.
 Settings load_settings(std::string& problem);
 /// Writes them atomically. Throws OutputError.

@@ -11,7 +11,7 @@ constexpr std::string_view no_break = "\u00a0";
 constexpr std::array<std::string_view, 9> relations{"=", "≈", "≠", "<", ">", "≤", "≥", "∝", "≪"};
 constexpr std::array<std::string_view, 6> operators{"−", "+", "·", "/", "×", "±"};
 
-/// Its neighbours and a sign stay together.
+/// Its neighbors and a sign stay together.
 void bind(std::string& text, std::string_view sign) {
   const std::string loose = " " + std::string(sign) + " ";
   const std::string bound = std::string(no_break) + std::string(sign) + std::string(no_break);

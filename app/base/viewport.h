@@ -15,7 +15,7 @@ struct Viewport {
   };
   Box box;
   int columns = 1, rows = 1;  ///< pictures of one camera side by side: the cloth's, then its copies', row by row
-  float buttons = 0;          ///< so much of each picture's height lies under the view's buttons, pixels
+  float buttons = 0;          ///< that much of each picture's height lies under the view's buttons, pixels
   std::vector<Box> covers;    ///< buttons and banners over it: presses there are theirs
   bool blocked = false;       ///< a menu or dialog is open: every press is its own
   glm::vec2 whole() const { return box.hi - box.lo; }
@@ -29,7 +29,7 @@ struct Viewport {
   }
   /// The picture under a pixel of the window; the nearest one where none is.
   int tile_at(glm::vec2 p) const;
-  /// Divides the viewport for so many pictures.
+  /// Divides the viewport for that many pictures.
   void divide(int pictures);
   bool takes(glm::vec2 p) const {
     if (blocked || !box.contains(p)) return false;

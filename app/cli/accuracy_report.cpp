@@ -62,13 +62,13 @@ Json reference_json(const AccuracyResult& result) {
 }
 
 /// When a method reaches an error, if it does and the reference can tell.
-std::optional<Reached> told(std::span<const AccuracyRow> method, double error, const Reference& reference) {
+std::optional<Reached> reached_by(std::span<const AccuracyRow> method, double error, const Reference& reference) {
   return can_tell(reference, error) ? reached(method, error) : std::nullopt;
 }
 
 void add_reached(Json& list, std::span<const AccuracyRow> method, const Reference& reference) {
   for (const double error : decades)
-    if (const auto at = told(method, error, reference))
+    if (const auto at = reached_by(method, error, reference))
       list.push_back({{"scene", method.front().scene},
                       {"integrator", method.front().integrator},
                       {"precision", name_of(method.front().precision)},
@@ -176,10 +176,10 @@ void print_scene(std::ostream& out, const AccuracyResult& result) {
 void print_method(std::ostream& out, const std::vector<AccuracyRow>& rows, const Reference& reference) {
   if (rows.empty()) return;
   const AccuracyRow& first = rows.front();
-  const std::string name = first.integrator + (first.engine == EngineKind::cpu ? "" : ", OpenCL, on the wall");
+  const std::string name = first.integrator + (first.engine == EngineKind::cpu ? "" : ", OpenCL, wall time");
   std::string text = printed("  %-41s %-6s", name.c_str(), std::string(name_of(first.precision)).c_str());
   for (const double error : decades) {
-    const auto at = told(rows, error, reference);
+    const auto at = reached_by(rows, error, reference);
     text += at ? printed("%9.3g%s", at->seconds * 1e3, at->at_largest_dt ? "*" : " ") : printed("%10s", "- ");
   }
   const auto less = [](const AccuracyRow& a, const AccuracyRow& b) { return a.error_rms_m < b.error_rms_m; };
@@ -196,7 +196,7 @@ void print_winners(std::ostream& out, const std::vector<AccuracyWinner>& winners
   for (const AccuracyWinner& w : winners) {
     std::string text = "  " + short_number(w.error_rms_m, 1) + " m: " + w.integrator + " (" +
                        std::string(name_of(w.precision)) + "), " + short_number(w.seconds * 1e3, 3) + " ms";
-    if (w.at_largest_dt) text += ", as coarse as is stable";
+    if (w.at_largest_dt) text += ", at the largest stable dt";
     if (!w.odeint.empty())
       text += "; " + w.odeint + " (" + std::string(name_of(w.odeint_precision)) + ") " +
               short_number(w.odeint_seconds * 1e3, 3) + " ms, " + short_number(w.odeint_seconds / w.seconds, 2) +

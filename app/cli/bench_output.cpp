@@ -28,7 +28,7 @@ CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::stri
 }
 
 void add_threads(CLI::App& command, BenchOptions& options, const std::string& does) {
-  command.add_option("--threads", options.threads, does + "; otherwise one a processor")
+  command.add_option("--threads", options.threads, does + "; default: one per CPU")
       ->type_name("N")
       ->transform(whole_number_between(1, 256));
 }
@@ -54,7 +54,7 @@ nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordere
 
 int bench_exit() {
   if (!InterruptGuard::interrupted()) return exit_done;
-  std::cerr << "tyglab: Interrupted; the figures measured so far are whole.\n";
+  std::cerr << "tyglab: Interrupted; the results measured so far are complete.\n";
   return exit_interrupted;
 }
 

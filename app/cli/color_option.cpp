@@ -12,7 +12,7 @@ void add_color_option(CLI::App& command, std::string& name, bool copies) {
     names.emplace_back(field.name);
     all += (all.empty() ? "" : "|") + names.back();
   }
-  command.add_option("--color", name, "Colours the cloth by a value of each particle, with a legend")
+  command.add_option("--color", name, "Colors the cloth by a value of each particle, with a legend")
       ->type_name(all)
       ->check(CLI::IsMember(names));
 }

@@ -66,7 +66,7 @@ std::string command_problem(const CLI::App& program, std::span<const char* const
     const std::vector<std::string_view> known(names.begin(), names.end());
     const auto near = nearest(word, known);
     const std::string meant = near ? " Did you mean '" + std::string(*near) + "'?" : "";
-    if (at != &program) return typed + ": '" + word + "' is none of its commands: " + listed(names) + "." + meant;
+    if (at != &program) return typed + ": '" + word + "' is not one of its commands: " + listed(names) + "." + meant;
     // Beside commands, the program itself takes presets.
     if (!near || is_preset(word)) return {};
     return "'" + word + "' is neither a command nor a preset." + meant;
@@ -81,8 +81,7 @@ std::string unexpected(const CLI::ExtrasError& error) {
   std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
   std::string list;
   for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
-  return "Not expected here: " + list +
-         ". Options stand behind the command that they belong to, as in `tyglab run denim --steps 4`.";
+  return "Not expected here: " + list + ". Options come after their command, as in `tyglab run denim --steps 4`.";
 }
 
 }  // namespace
@@ -91,7 +90,7 @@ void prepare_process() {
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
-  // reading alone, so that what is written to it fails and is told.
+  // reading alone, so that what is written to it fails and is reported.
   int descriptor = 0;
   do {
     descriptor = ::open("/dev/null", O_RDONLY);
@@ -148,7 +147,7 @@ int run_action(const Action& action) {
   } catch (const std::bad_alloc&) {
     return say("There is not enough memory for a cloth of this size; ask for fewer rows or columns.", exit_engine);
   } catch (const std::exception& error) {
-    return say(std::string("A fault in the program: ") + error.what(), exit_violation);
+    return say(std::string("Internal error: ") + error.what(), exit_violation);
   }
 }
 

@@ -33,7 +33,7 @@ class UsageError : public std::runtime_error {
 using Action = std::function<int()>;
 
 /// Gives streams that were closed (>&-) to nothing, so that no file that is opened later takes their place; makes
-/// writing beyond a limit (ulimit -f) or to nobody (| head) an error that is told instead of the process's end.
+/// writing beyond a limit (ulimit -f) or to nobody (| head) an error that is reported instead of the process's end.
 void prepare_process();
 /// Ends the program's parsing: prints help (0) or what is wrong with the command line (2). `words` are those typed
 /// after the program's name: one that should be a command and is none is named, with those that there are.
@@ -46,7 +46,7 @@ int run_action(const Action& action);
 /// "1 step", "2 steps".
 std::string counted(std::int64_t count, const std::string& noun);
 
-/// Checks that an option's text is a number in that range, ends included, and says so in people's words: "0 to 1e9 s".
+/// Checks that an option's text is a number in that range, ends included, and says so in words: "0 to 1e9 s".
 /// Given to CLI::Option::transform, since it also rewrites whole numbers for the parser, which would read 010 as 8 and
 /// not read 1e6 at all.
 CLI::Validator number_between(double lowest, double highest, const std::string& unit = {});

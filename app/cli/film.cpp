@@ -21,7 +21,7 @@ Film::Film(const Preset& preset, int view, PictureSize size, std::optional<Parti
   renderer_.set_color_map(map_colors(colors_->map(false), map_size));
 }
 
-/// What was drawn last, with what its colours mean in a corner.
+/// What was drawn last, with what its colors mean in a corner.
 Image Film::with_legend() const {
   constexpr float height_at_1 = 720, least_scale = 0.6f;
   Theme theme;

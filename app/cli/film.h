@@ -18,8 +18,8 @@ struct PictureSize {
 /// Draws a scene with a fixed camera and writes pictures.
 class Film {
  public:
-  /// `view`: 1 to 5, 0: the preset's own. A texture that cannot be read is told on stderr. Throws GraphicsError.
-  /// `color`: what colours the cloth, with a legend in the picture; none: it has its own look.
+  /// `view`: 1 to 5, 0: the preset's own. A texture that cannot be read is reported on stderr. Throws GraphicsError.
+  /// `color`: what colors the cloth, with a legend in the picture; none: it has its own look.
   Film(const Preset& preset, int view, PictureSize size, std::optional<ParticleField> color = {});
   /// Throws OutputError.
   void shoot(Simulation& simulation, const std::filesystem::path& file);

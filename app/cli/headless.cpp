@@ -26,7 +26,7 @@ fs::path new_folder() {
   std::error_code error;
   for (int n = 2; !fs::create_directory(folder, error); ++n) {
     if (!fs::exists(fs::symlink_status(folder)))
-      throw OutputError(folder.string() + ": the folder cannot be made: " + error.message());
+      throw OutputError(folder.string() + ": the folder cannot be created: " + error.message());
     folder = "tyglab-out-" + std::to_string(n);
   }
   return folder;
@@ -41,11 +41,11 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   Film film(options.preset, 0, size);
   Simulation simulation(options.preset, options.threads);
   const fs::path folder = new_folder();
-  std::cerr << "There is no display here, so Tyglab works without a window: it simulates and draws '"
+  std::cerr << "There is no display here, so Tyglab runs without a window: it simulates and draws '"
             << options.preset_label << "' into the new folder " << folder.string() << ".\n";
   if (options.frames > 0)
-    std::cerr << "--frames " << options.frames << " is taken as " << seconds << " s of simulated time, at "
-              << frames_a_second << " frames a second.\n";
+    std::cerr << "--frames " << options.frames << " is interpreted as " << seconds << " s of simulated time, at "
+              << frames_a_second << " frames per second.\n";
   const InterruptGuard guard;
   Stepper stepper(simulation, steps, options.preset_label, options.auto_dt);
   FrameCosts costs;
@@ -81,7 +81,7 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   if (simulation.divergence())
     std::cerr << "tyglab: " << options.preset_label << ' ' << divergence_text(*simulation.divergence()) << '\n';
   if (!stepper.interrupted()) return exit_done;
-  std::cerr << "tyglab: Interrupted; the files named above are whole.\n";
+  std::cerr << "tyglab: Interrupted; the files named above are complete.\n";
   return exit_interrupted;
 }
 

@@ -33,12 +33,11 @@ void require_writable(const std::string& file) {
   if (!path.has_filename()) throw OutputError(file + ": is the name of a folder; name a file in it");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error))
-    throw OutputError(file + ": the folder " + folder.string() + " is not there; make it first (mkdir -p)");
+    throw OutputError(file + ": the folder " + folder.string() + " does not exist; create it first (mkdir -p)");
   const bool device = fs::exists(path, error) && !fs::is_regular_file(path, error);
-  if (device && ::access(file.c_str(), W_OK) != 0)
-    throw OutputError(file + ": may not be written; choose another name");
+  if (device && ::access(file.c_str(), W_OK) != 0) throw OutputError(file + ": is not writable; choose another name");
   if (!device && ::access(folder.c_str(), W_OK) != 0)
-    throw OutputError(file + ": nothing may be written in " + folder.string() + "; choose another folder");
+    throw OutputError(file + ": the folder " + folder.string() + " is not writable; choose another");
 }
 
 }  // namespace
@@ -48,14 +47,14 @@ void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
     if (a->file.empty()) continue;
     if (a->binary && is_standard_output(a->file) && ::isatty(STDOUT_FILENO) == 1)
       throw UsageError(a->option +
-                       " -: standard output is a terminal, which cannot show such a file; send it into a "
-                       "file (> F) or a program (| …)");
+                       " -: standard output is a terminal, which cannot show such a file; redirect it to a "
+                       "file (> F) or pipe it to a program (| …)");
     for (auto b = outputs.begin(); b != a; ++b)
       if (!b->file.empty() && same_file(a->file, b->file))
         throw UsageError(b->option + " and " + a->option + ": both go to " + output_name(a->file) +
-                         "; name a file for one of them");
+                         "; use a different file for one of them");
     if (!input.empty() && same_file(a->file, input))
-      throw UsageError(a->option + " " + a->file + ": would replace the preset that is read; name another file");
+      throw UsageError(a->option + " " + a->file + ": would overwrite the preset that is read; use another file");
     require_writable(a->file);
   }
 }
@@ -71,9 +70,9 @@ void make_output_folder(const std::string& option, const std::string& folder) {
     throw UsageError(option + " -: several files cannot go to standard output; name a folder");
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error) throw OutputError(folder + ": the folder cannot be made: " + error.message());
+  if (error) throw OutputError(folder + ": the folder cannot be created: " + error.message());
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw OutputError(folder + ": nothing may be written in this folder; choose another");
+    throw OutputError(folder + ": is not writable; choose another folder");
 }
 
 CLI::Option* add_output(CLI::App& command, const std::string& option, std::string& file, const std::string& what) {

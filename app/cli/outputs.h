@@ -1,4 +1,4 @@
-// The options of a command that name files to be written, judged before any work: not after hours of it.
+// The options of a command that name files to be written, checked before any work: not after hours of it.
 #pragma once
 
 #include <CLI/CLI.hpp>

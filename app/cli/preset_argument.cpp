@@ -25,7 +25,7 @@ void warn_of_missing_texture(const Preset& preset) {
   const fs::path picture = texture_file(preset.texture);
   std::error_code error;
   if (!fs::is_regular_file(picture, error))
-    std::cerr << "tyglab: view.texture: there is no picture '" << printable(preset.texture)
+    std::cerr << "tyglab: view.texture: there is no image '" << printable(preset.texture)
               << "', so the cloth would be drawn without one; check the name and the folder.\n";
 }
 
@@ -54,16 +54,16 @@ std::optional<int> device_number(std::string_view engine) {
 
 void PresetArgument::add_engine(CLI::App& command) {
   if (engines == Engines::cpu) {
-    command.add_option("--engine", engine, "cpu, the only engine of this command")
+    command.add_option("--engine", engine, "cpu, the only engine for this command")
         ->type_name("cpu")
         ->check(not_empty());
     return;
   }
   command
       .add_option("--engine", engine,
-                  "Where it runs: cpu, or opencl, on the first graphics card or else the first OpenCL device, or\n"
-                  "opencl:N on the device that `tyglab devices` gives that number; or auto: the one that is quickest\n"
-                  "in short runs of this scene, whose times are kept")
+                  "Engine: cpu; opencl, on the first GPU or else the first OpenCL device;\n"
+                  "opencl:N, on the device with that number in `tyglab devices`; or auto: the fastest\n"
+                  "in short runs of this scene, whose times are cached")
       ->type_name("cpu|opencl[:N]|auto")
       ->check(not_empty());
 }
@@ -76,7 +76,7 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   command
       .add_option("--set", settings,
                   "Set a constant by the key of the preset file: --set k_s=500 --set \"W=[0,0,0.02]\"\n"
-                  "--set \"bodies[0].r=0.3\". Can be given many times")
+                  "--set \"bodies[0].r=0.3\". Can be repeated")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -87,25 +87,26 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   command
       .add_option("--dt", dt,
                   "Time step, s; or auto: the largest that linear theory allows for these constants, with a margin,\n"
-                  "halved while the energy ledger finds the integrator making energy")
+                  "halved while the energy ledger finds that the integrator adds energy")
       ->type_name("S|auto")
       ->check(not_empty());
   command
-      .add_option("--tolerance", tolerance,
-                  "Choose --integrator and --dt, and --precision if float cannot hold it, so that positions err by at\n"
-                  "most so much (m, root mean square) in the first second: by short trial runs of this very scene.\n"
-                  "A method or a precision that is typed stays")
+      .add_option(
+          "--tolerance", tolerance,
+          "Choose --integrator and --dt, and --precision if float is too coarse, so that the error of positions is at\n"
+          "most this (m, root mean square) in the first second: by short trial runs of the same scene.\n"
+          "A method or a precision given as an option is kept")
       ->type_name("M")
       ->transform(number_between(1e-12, 1, "m"));
   add_engine(command);
-  command.add_option("--precision", precision, "Numbers of 32 or of 64 bits")
+  command.add_option("--precision", precision, "Floating-point numbers of 32 or 64 bits")
       ->type_name("float|double")
       ->check(not_empty());
   command
       .add_option(
           "--threads", threads,
-          "Threads of the CPU engine, 1 to 256: at most so many, fewer for cloths too small for them to pay and "
-          "while other programs hold processors (all processors if it is not given). The result is the same to "
+          "Largest number of threads of the CPU engine, 1 to 256: fewer are used for cloths too small for them and "
+          "while other programs are using the CPUs (default: one per CPU). The result is identical to "
           "the last bit")
       ->type_name("N")
       ->transform(whole_number_between(1, 256));
@@ -142,19 +143,20 @@ void PresetArgument::check_engine() const {
   if (engine.empty()) return;
   if (engines == Engines::cpu) {
     if (engine == "cpu") return;
-    throw UsageError("--engine " + engine + ": this command works on the CPU engine alone; leave --engine out");
+    throw UsageError("--engine " + engine + ": this command runs only on the CPU engine; omit --engine");
   }
   if (std::find(known.begin(), known.end(), engine) != known.end() || device_number(engine)) return;
   const auto meant = nearest(std::string_view(engine).substr(0, engine.find(':')), known);
   throw UsageError("--engine " + engine +
-                   ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` tells each device's N" +
+                   ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` lists each device's N" +
                    (meant ? "; did you mean " + std::string(*meant) + "?" : ""));
 }
 
 void PresetArgument::keep_to_cpu(Preset& scene) const {
   if (scene.engine == EngineKind::cpu) return;
-  if (sets("engine")) throw UsageError("--set engine=opencl: this command works on the CPU engine alone; leave it out");
-  std::cerr << "tyglab: the preset asks for OpenCL, but this command works on the CPU engine alone, so that is used.\n";
+  if (sets("engine")) throw UsageError("--set engine=opencl: this command runs only on the CPU engine; omit it");
+  std::cerr
+      << "tyglab: the preset asks for OpenCL, but this command runs only on the CPU engine, which is used instead.\n";
   scene.engine = EngineKind::cpu;
 }
 
@@ -162,21 +164,21 @@ void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
   const auto chosen = AutoStep::choose(resolved.preset);
   if (!chosen)
     throw UsageError("--dt auto: " + resolved.preset.integrator +
-                     " has no stable dt with these constants; take another --integrator (verlet is stable), or more "
+                     " has no stable dt with these constants; use another --integrator (verlet is stable), or more "
                      "damping with --set k_d=…");
   resolved.preset.dt = *chosen;
-  std::cerr << "tyglab: --dt auto took " << short_number(*chosen) << " s for " << resolved.preset.integrator << ".\n";
+  std::cerr << "tyglab: --dt auto chose " << short_number(*chosen) << " s for " << resolved.preset.integrator << ".\n";
 }
 
 void PresetArgument::choose_engine(ResolvedPreset& resolved) const {
-  if (sets("engine")) throw UsageError("--engine auto: chooses the engine itself; leave out --set engine");
+  if (sets("engine")) throw UsageError("--engine auto: chooses the engine itself; omit --set engine");
   resolved.engine_choice = std::make_shared<EngineChoice>(tyglab::choose_engine(resolved.preset, resolved.threads));
   resolved.preset.engine = resolved.engine_choice->engine, resolved.preset.device = resolved.engine_choice->device;
   std::cerr << "tyglab: --engine auto chose " << resolved.engine_choice->why << ".\n";
 }
 
 void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const {
-  if (!dt.empty() || sets("dt")) throw UsageError("--tolerance: chooses dt itself; leave out --dt and --set dt");
+  if (!dt.empty() || sets("dt")) throw UsageError("--tolerance: chooses dt itself; omit --dt and --set dt");
   const ToleranceKeeps keeps{!integrator.empty() || sets("integrator"), !precision.empty() || sets("precision")};
   const double shown = seconds.value_or(0);
   try {

@@ -16,7 +16,7 @@ PictureSize parse_size(const std::string& text, PictureSize least) {
   const auto height = std::from_chars(cross ? width.ptr + 1 : end, end, size.height);
   const bool whole = cross && height.ec == std::errc{} && height.ptr == end;
   if (!whole || size.width < least.width || size.height < least.height || std::max(size.width, size.height) > most)
-    throw UsageError("--size " + text + ": must be WIDTHxHEIGHT in pixels, as 1280x720; at least " +
+    throw UsageError("--size " + text + ": must be WIDTHxHEIGHT in pixels, such as 1280x720; at least " +
                      std::to_string(least.width) + "x" + std::to_string(least.height) + ", and each at most " +
                      std::to_string(most));
   return size;

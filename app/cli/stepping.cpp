@@ -13,7 +13,7 @@
 namespace tyglab {
 
 void Length::add_to(CLI::App& command, bool with_steps) {
-  CLI::Option* by_time = command.add_option("--seconds", seconds, "Simulated time, s (4 if it is not given)");
+  CLI::Option* by_time = command.add_option("--seconds", seconds, "Simulated time, s (default 4)");
   by_time->type_name("T")->transform(number_between(0, 1e9, "s"));
   if (with_steps)
     command.add_option("--steps", steps, "Number of steps, instead of a time")
@@ -25,7 +25,7 @@ void Length::add_to(CLI::App& command, bool with_steps) {
 std::int64_t Length::in_steps(double dt, double default_seconds) const {
   if (steps) return *steps;
   const double count = seconds.value_or(default_seconds) / dt;
-  if (count > 1e12) throw UsageError("--seconds: that many seconds are more than 1e12 steps of dt; ask for fewer");
+  if (count > 1e12) throw UsageError("--seconds: more than 1e12 steps of dt; use fewer seconds");
   return std::llround(count);
 }
 
@@ -35,7 +35,7 @@ void Length::warn_if_too_short(double dt) const {
   append_number(text, *seconds, 6);
   text += " is less than half a step of dt = ";
   append_number(text, dt, 6);
-  std::cerr << text << " s, so no step is made; give more seconds or a smaller --dt.\n";
+  std::cerr << text << " s, so no step is computed; use more seconds or a smaller --dt.\n";
 }
 
 FramePlan::FramePlan(std::optional<double> fps, double dt, std::int64_t steps)
@@ -45,7 +45,7 @@ FramePlan::FramePlan(std::optional<double> fps, double dt, std::int64_t steps)
   if (steps_a_frame < 1 - rounding) {
     std::string limit;
     append_number(limit, 1 / dt, 6);
-    throw UsageError("--fps: frames would lie closer together than the steps; at this dt it is at most " + limit);
+    throw UsageError("--fps: frames would be closer together than steps; at this dt the largest is " + limit);
   }
   count_ = static_cast<std::int64_t>(std::floor(double(steps) / steps_a_frame + rounding)) + 1;
 }
@@ -110,7 +110,7 @@ void Stepper::look_at_ledger() {
   progress_.clear();
   std::string text = "tyglab: at t = ";
   append_number(text, timeline_.t, 4);
-  text += " s " + next.integrator + " was making energy; dt is ";
+  text += " s " + next.integrator + " was adding energy; dt is ";
   append_number(text, *dt, 3);
   std::cerr << text << " s from here on.\n";
 }

@@ -56,7 +56,7 @@ class Stepper {
   Stepper(Simulation& simulation, std::int64_t steps, const std::string& what, bool auto_dt = false);
   /// Advances to that step. False if it ended before: diverged, interrupted, or dt has changed (changed()).
   bool advance_to(std::int64_t step);
-  /// Whether dt has changed since the last call, so that what is planned in steps is to be planned anew.
+  /// Whether dt has changed since the last call, so that what is planned in steps is to be planned again.
   bool changed();
   const Timeline& timeline() const { return timeline_; }
   /// The step with which the run ends.

@@ -20,11 +20,11 @@ void end_at_once(std::string_view sentence) {
 }
 
 extern "C" void exit_on_interrupt(int) {
-  end_at_once("tyglab: Interrupted before it was done.\n");
+  end_at_once("tyglab: Interrupted before it finished.\n");
 }
 
 extern "C" void note_interrupt(int) {
-  if (was_interrupted != 0) end_at_once("\ntyglab: Interrupted twice, so it ended at once.\n");
+  if (was_interrupted != 0) end_at_once("\ntyglab: Interrupted twice, so it stopped immediately.\n");
   was_interrupted = 1;
 }
 

@@ -74,7 +74,7 @@ Fit fit(std::span<const glm::vec2> points, float slope) {
 
 /// The eye's place that leaves as much room on one side as on the other, for an eye that far ahead: the narrowest slope
 /// that still fits is found by halving.
-float centred(std::span<const glm::vec2> points, float slope, float ahead) {
+float centered(std::span<const glm::vec2> points, float slope, float ahead) {
   float narrow = 0, wide = slope;
   for (int n = 0; n < 30; ++n) {
     const float middle = (narrow + wide) / 2;
@@ -100,7 +100,7 @@ void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 pa
   const glm::vec2 slope = part * glm::vec2(tan_y * aspect, tan_y * (1 - covered));
   distance = std::clamp(middle - std::min(fit(across, slope.x).ahead, fit(upright, slope.y).ahead), 1e-3f, 1e6f);
   const float ahead = middle - distance;
-  target = centred(across, slope.x, ahead) * right() + (centred(upright, slope.y, ahead) + lean * ahead) * up() +
+  target = centered(across, slope.x, ahead) * right() + (centered(upright, slope.y, ahead) + lean * ahead) * up() +
            middle * forward();
 }
 

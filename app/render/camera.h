@@ -1,4 +1,4 @@
-// A camera that orbits a point. Angles in radians, lengths in metres, pixels with y down from the top left corner.
+// A camera that orbits a point. Angles in radians, lengths in meters, pixels with y down from the top left corner.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -34,7 +34,7 @@ struct Camera {
   /// Positive steps come nearer, an eighth of the distance a step.
   void zoom(float wheel_steps);
   /// Comes as near as it can while the points keep within that part of the picture's width and height; keeps the
-  /// direction. The points then stand in the middle of the picture. Something covers so much of its height along the
+  /// direction. The points then stand in the middle of the picture. Something covers that much of its height along the
   /// upper edge (`covered`, 0 to 0.3): only what is left counts as the picture.
   void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered = 0);
   /// Goes back along its direction until the points keep within that part of the picture.
@@ -44,7 +44,7 @@ struct Camera {
 
   /// Pixel of a point, none when it is behind the camera. `size` is the viewport's, in pixels.
   std::optional<glm::vec2> project(glm::dvec3 world, glm::vec2 size) const;
-  /// Metres that a pixel shows at the depth of a place.
+  /// Meters that a pixel shows at the depth of a place.
   double metres_per_pixel(glm::dvec3 at, float viewport_height) const;
   /// The point under the pixel in the plane through `through` that is parallel to the camera plane ("The hand").
   glm::dvec3 unproject_in_camera_plane(glm::vec2 pixel, glm::dvec3 through, glm::vec2 size) const;
@@ -80,7 +80,7 @@ struct Bounds {
 Bounds bounds(const PositionView& positions);
 /// The box of a preset's start and of where it will hang, with its spheres: what a first look should see.
 Bounds scene_bounds(const Preset& preset);
-/// A camera in the house's favourite direction that frames scene_bounds, below what covers so much of the picture's
+/// A camera in the house's favorite direction that frames scene_bounds, below what covers that much of the picture's
 /// height along its upper edge.
 Camera scene_camera(const Preset& preset, float aspect, float covered = 0);
 /// Height of the drawn ground: that of the highest plane below the start if there is one, else a little below all that

@@ -46,13 +46,13 @@ void ClothRenderer::Parts::draw_background() {
 }
 
 void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
-  const glm::vec3 centre = (framed.lo + framed.hi) / 2.0f;
+  const glm::vec3 center = (framed.lo + framed.hi) / 2.0f;
   // The lines have faded out before the square ends (ground.frag).
   const float half = 8.6f * scene_radius();
   glEnable(GL_BLEND);
   glBindVertexArray(shared->nothing.id());
   shared->ground.use();
-  shared->ground.set("area", glm::vec4(centre.x - half, centre.z - half, centre.x + half, centre.z + half));
+  shared->ground.set("area", glm::vec4(center.x - half, center.z - half, center.x + half, center.z + half));
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   if (options.shadows && !box.empty()) {
     shared->ground_shadow.use();
@@ -85,17 +85,17 @@ void ClothRenderer::Parts::draw_bodies(const ViewOptions& options) {
 
 void ClothRenderer::Parts::draw_weight(const ViewOptions& options) {
   const glm::vec4 here(0, 0, 0, 1);
-  const Palette& colours = options.palette;
-  draw_solid(hanger, here, 0.6f * colours.body, 0.05f);
-  draw_solid(spring, here, colours.body, 0.5f);
-  draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colours.lines, 0.25f);
+  const Palette& colors = options.palette;
+  draw_solid(hanger, here, 0.6f * colors.body, 0.05f);
+  draw_solid(spring, here, colors.body, 0.5f);
+  draw_solid(shared->sphere, glm::vec4(weight_model.weight, weight_model.radius), colors.lines, 0.25f);
   shared->solid.set("own_light", 1.0f);
-  draw_solid(rest_line, here, 0.8f * colours.points, 0);
-  draw_solid(equilibrium_line, here, colours.pins, 0);
+  draw_solid(rest_line, here, 0.8f * colors.points, 0);
+  draw_solid(equilibrium_line, here, colors.pins, 0);
   shared->solid.set("own_light", 0.0f);
 }
 
-/// Uses a program: of a coloured cloth the second one, with what colours it.
+/// Uses a program: of a colored cloth the second one, with what colors it.
 const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl::Program* colored,
                                              const ViewOptions& options) {
   const gl::Program& program = options.colored && colored != nullptr ? *colored : plain;
@@ -132,7 +132,7 @@ void ClothRenderer::Parts::draw_lines(ClothMesh::List list, const ViewOptions& o
   glDisable(GL_BLEND);
 }
 
-/// In a colour of their own, whatever colours the cloth.
+/// In a color of their own, whatever colors the cloth.
 void ClothRenderer::Parts::draw_bending(const ViewOptions& options) {
   ViewOptions own = options;
   own.colored.reset();
@@ -144,7 +144,7 @@ void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
   const gl::Program& points = use(shared->points, shared->colored ? &shared->colored->points : nullptr, options);
   points.set("spacing", spacing());
   points.set("diameter", glm::vec3(0.42f, 1.6f, options.point_size));
-  points.set("towards", 0.0f);
+  points.set("toward", 0.0f);
   points.set("ink", glm::vec4(options.palette.points, 1));
   points.set("rim", 0.0f);
   points.set("ring", 0.0f);
@@ -156,7 +156,7 @@ void ClothRenderer::Parts::draw_points(const ViewOptions& options) {
 void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
   shared->points.use();
   shared->points.set("spacing", spacing());
-  shared->points.set("towards", 0.03f);
+  shared->points.set("toward", 0.03f);
   glEnable(GL_BLEND);
   shared->points.set("diameter", glm::vec3(0.5f, 4.0f, options.point_size));
   shared->points.set("ink", glm::vec4(options.palette.pins, 1));
@@ -176,13 +176,13 @@ void ClothRenderer::Parts::draw_marks(const ViewOptions& options) {
 }
 
 /// Seen through whatever hangs before it, since it is there to be compared.
-void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 colour, float width) {
+void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 color, float width) {
   const WeightModel& weight = other.weight_model;
-  if (other.one_weight()) return draw_solid(shared->sphere, glm::vec4(weight.weight, weight.radius), colour, 0.25f);
+  if (other.one_weight()) return draw_solid(shared->sphere, glm::vec4(weight.weight, weight.radius), color, 0.25f);
   shared->lines.use();
   shared->lines.set("spacing", other.spacing());
   shared->lines.set("max_width", width);
-  shared->lines.set("ink", glm::vec4(colour, ghost_opacity));
+  shared->lines.set("ink", glm::vec4(color, ghost_opacity));
   glEnable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   other.mesh.draw(ClothMesh::List::outlines, GL_LINES);

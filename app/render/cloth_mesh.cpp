@@ -91,7 +91,7 @@ void ClothMesh::take_positions(const PositionView& view, bool moved, RenderWork&
 /// Positions, and normals if asked for, as the engine's device writes them into buffers of their own.
 void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, RenderWork& work) {
   if (!moved && !normals) return;
-  if (way_ != VertexWay::shared_buffer) beside_tears_.reset();  // the device has not been told of them
+  if (way_ != VertexWay::shared_buffer) beside_tears_.reset();  // the device has not been informed of them
   if (normals && !beside_tears_) {
     beside_tears_ = particles_beside_tears(lattice_, stride_, scene.tears);
     std::vector<TornSite> torn;

@@ -25,12 +25,12 @@ std::function<bool(int, int)> pins_of(const Simulation& simulation) {
 /// Why something had to be copied to be drawn: a part of a sentence.
 std::string why_copied(const Engine& engine, const ClothMesh& mesh, const ViewOptions& options) {
   const VertexSharing* sharing = engine.vertex_sharing();
-  if (sharing == nullptr) return "the CPU engine makes its steps in place";
+  if (sharing == nullptr) return "the CPU engine keeps positions in main memory";
   if (std::string why = sharing->copy_reason(); !why.empty()) return why;
   if (std::string why = mesh.problem(); !why.empty()) return why;
-  if (options.every > 1) return "the cloth is finer than the picture, so that not all of it is drawn";
+  if (options.every > 1) return "the cloth is finer than the picture, so only some particles are drawn";
   if (options.longest_edge > 0) return "the edges of a diverged cloth are measured before they are drawn";
-  return "it was drawn before it came to the engine's device";
+  return "it was drawn before it moved to the engine's device";
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ void ClothRenderer::update(Simulation& simulation, const ViewOptions& options) {
   p.simulation = &simulation;
   p.revision = simulation.revision();
   p.tear_revision = simulation.tear_revision();
-  const auto copied_since_last = [&] {  // another engine counts anew
+  const auto copied_since_last = [&] {  // another engine counts again
     const std::uint64_t before = std::exchange(p.engine_copied, bytes_read(simulation.engine()));
     return std::size_t(p.engine_copied - std::min(p.engine_copied, before));
   };
@@ -150,7 +150,7 @@ void ClothRenderer::Parts::take_preset(const Preset& next) {
 }
 
 void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& options, int width, int height) {
-  const glm::vec3 centre = (framed.lo + framed.hi) / 2.0f;
+  const glm::vec3 center = (framed.lo + framed.hi) / 2.0f;
   const float radius = scene_radius();
   const glm::vec3 extent = box.empty() ? glm::vec3(1) : box.hi - box.lo;
   FrameBlock block;
@@ -160,7 +160,7 @@ void ClothRenderer::Parts::fill_frame(const Camera& camera, const ViewOptions& o
   block.eye = glm::vec4(camera.eye(), 0.5f * float(height) * projection[1][1]);
   block.to_light = glm::vec4(to_light, !options.shadows ? 0 : options.soft_shadows ? 1 : 2);
   block.viewport = glm::vec4(width, height, glm::length(extent) / ShadowMap::size, ground_y);
-  block.focus = glm::vec4(centre, radius);
+  block.focus = glm::vec4(center, radius);
   block.background_top = glm::vec4(options.palette.background_top, 1);
   block.background_bottom = glm::vec4(options.palette.background_bottom, 1);
   block.grid = glm::vec4(options.palette.grid, grid_spacing(radius));
@@ -203,7 +203,7 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   p.draw_background();
   if (options.ground) p.draw_ground(options);
   if (!p.one_weight()) p.draw_blended(options);
-  for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.colour, options.line_width);
+  for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.color, options.line_width);
   p.target.resolve();
   p.timer.end();
   p.mesh.drawn();

@@ -1,4 +1,4 @@
-// Draws a simulation: cloth (or one weight), bodies, ground, in the five views of 2.4. OpenGL 3.3 core.
+// Draws a simulation: cloth (or a mass on a spring), bodies, ground, in the five views of 2.4. OpenGL 3.3 core.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace tyglab {
 
-/// Colours of a theme, sRGB 0 to 1. The defaults are the dark theme's.
+/// Colors of a theme, sRGB 0 to 1. The defaults are the dark theme's.
 struct Palette {
   glm::vec3 background_top{0.169f, 0.188f, 0.231f};     // #2B303B
   glm::vec3 background_bottom{0.086f, 0.094f, 0.114f};  // #16181D
@@ -46,7 +46,7 @@ inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f
                                        .highlight = {0.0f, 0.0f, 0.0f},
                                        .body = {0.545f, 0.569f, 0.608f}};
 
-/// Which values the ends of the colour map stand for.
+/// Which values the ends of the color map stand for.
 struct ValueRange {
   float lo = 0, hi = 1;
   bool operator==(const ValueRange&) const = default;
@@ -66,9 +66,9 @@ struct ViewOptions {
   /// Triangles and lines with an edge longer than this are left out, m; 0: none is. Of a diverged cloth it leaves what
   /// still looks like cloth.
   float longest_edge = 0;
-  int every = 1;    ///< draws every so many rows and columns: cloth finer than the picture (drawn_every)
+  int every = 1;    ///< draws every n-th of the rows and columns: cloth finer than the picture (drawn_every)
   int samples = 4;  ///< multisampling, 1: none
-  /// The cloth has the colours of its particles' values (set_values), not its own.
+  /// The cloth has the colors of its particles' values (set_values), not its own.
   std::optional<ValueRange> colored;
   /// Whether the view shows surfaces of the cloth, which need normals and cast shadows.
   bool lit() const { return mode == 1 || mode == 3; }
@@ -95,7 +95,7 @@ struct ClothScene {
 /// What updates and drawings took; 0: it was skipped.
 struct RenderWork {
   Duration normals, upload;
-  Duration index_lists;  ///< what a view draws of them: made anew where it lacks some
+  Duration index_lists;  ///< what a view draws of them: made again where it lacks some
   Duration shadow;       ///< a part of draw()
   bool moved = false;    ///< the cloth had moved
   VertexWay way = VertexWay::copied;
@@ -112,7 +112,7 @@ class ClothRenderer;
 /// Another cloth, drawn as lines over the picture of the first.
 struct Ghost {
   const ClothRenderer* cloth = nullptr;  ///< updated with view 4
-  glm::vec3 colour{1};
+  glm::vec3 color{1};
 };
 
 class ClothRenderer {
@@ -139,9 +139,9 @@ class ClothRenderer {
   /// The same without a Simulation. `topology_changed`: lattice, tears or pins differ from last time.
   void update(const ClothScene& scene, const ViewOptions& options, bool topology_changed);
 
-  /// What colours this cloth: a value of each particle that is drawn, row after row. One that is not a number is grey.
+  /// What colors this cloth: a value of each particle that is drawn, row after row. One that is not a number is gray.
   void set_values(std::span<const float> values, int rows, int columns);
-  /// The colours from the least value to the greatest, as bytes red, green, blue, opacity; siblings have the same.
+  /// The colors from the least value to the greatest, as bytes red, green, blue, opacity; siblings have the same.
   void set_color_map(std::span<const std::uint32_t> colors);
 
   /// Draws into its own multisampled target of that size (pixels) and resolves it. Restores framebuffer and viewport.
@@ -150,7 +150,7 @@ class ClothRenderer {
 
   /// The resolved RGBA8 texture, for ImGui::Image: its first row is the picture's bottom one (uv0 (0,1), uv1 (1,0)).
   unsigned texture_id() const;
-  /// What the graphics card took for the last drawing that it has told of, ms: a frame or two ago; 0 before that.
+  /// What the graphics card took for the last drawing that it has reported, ms: a frame or two ago; 0 before that.
   double drawn_ms();
   /// What was done since the last call.
   RenderWork take_work();

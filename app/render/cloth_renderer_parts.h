@@ -24,7 +24,7 @@
 
 namespace tyglab {
 
-/// What only a cloth needs that is coloured by values.
+/// What only a cloth needs that is colored by values.
 struct ColoredCloth {
   gl::Program cloth{{"cloth.vert", "cloth.frag", {}, "COLORED"}};
   gl::Program lines{{"lines.vert", "lines.frag", "lines.geom", "COLORED"}};
@@ -98,7 +98,7 @@ struct ClothRenderer::Parts {
   void draw_bending(const ViewOptions& options);
   void draw_points(const ViewOptions& options);
   void draw_marks(const ViewOptions& options);
-  void draw_ghost(const Parts& other, glm::vec3 colour, float width);
+  void draw_ghost(const Parts& other, glm::vec3 color, float width);
   void draw_opaque(const ViewOptions& options);
   void draw_blended(const ViewOptions& options);
   float scene_radius() const { return std::max(glm::length(framed.hi - framed.lo) / 2, 1e-4f); }

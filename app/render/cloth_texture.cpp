@@ -65,7 +65,7 @@ void ClothTexture::take(const ClothPicture& picture) {
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
   if (image.width > largest || image.height > largest) {
     throw std::runtime_error(picture.file.string() + " has more than the " + std::to_string(largest) +
-                             " pixels a side that this graphics driver takes. Make it smaller.");
+                             " pixels a side that this graphics driver supports. Make it smaller.");
   }
   texture_ = upload(picture.sizes);
 }

@@ -19,7 +19,7 @@ ClothPicture read_picture(const std::filesystem::path& file);
 
 class ClothTexture {
  public:
-  /// A plain light grey.
+  /// A plain light gray.
   ClothTexture();
   /// Takes a picture with its halvings (read_picture). Throws std::runtime_error with a sentence and keeps the old one.
   void take(const ClothPicture& picture);

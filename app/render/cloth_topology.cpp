@@ -19,7 +19,7 @@ Edge edge_between(Corner a, Corner b, int i, int j) {
     const Direction& d = directions[direction];
     if (d.di == b.di - a.di && d.dj == b.dj - a.dj) return {direction, i + a.di, j + a.dj};
   }
-  return {0, i, j};  // not reached: any two corners of a quad are neighbours
+  return {0, i, j};  // not reached: any two corners of a quad are neighbors
 }
 
 template <class Visit>

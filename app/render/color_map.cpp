@@ -18,7 +18,7 @@ constexpr Anchors magnitude{{{0.32, 0.01, -0.12}, {0.60, -0.10, 0.01}, {0.90, -0
 // A cloth must be seen before its ground: lightness keeps away from the ground's at the end that is near it.
 constexpr Anchors magnitude_on_dark{{{0.44, 0.00, -0.14}, {0.68, -0.11, 0.01}, {0.92, -0.02, 0.13}}};
 constexpr Anchors magnitude_on_light{{{0.28, 0.01, -0.11}, {0.56, -0.09, 0.01}, {0.84, -0.02, 0.14}}};
-// Blue against vermilion is what every kind of colour blindness tells apart.
+// Blue against vermilion is what every kind of color blindness tells apart.
 constexpr Anchors diverging_on_dark{{{0.52, -0.03, -0.15}, {0.90, 0.00, 0.005}, {0.52, 0.14, 0.09}}};
 constexpr Anchors diverging_on_light{{{0.42, -0.02, -0.14}, {0.86, 0.00, 0.005}, {0.42, 0.12, 0.08}}};
 

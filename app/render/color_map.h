@@ -1,4 +1,4 @@
-// Colours for values: evenly spaced to the eye, and told apart by the colour-blind. All are interpolated in Oklab
+// Colors for values: evenly spaced to the eye, and distinguished by the color-blind. All are interpolated in Oklab
 // (B. Ottosson 2020).
 #pragma once
 
@@ -11,14 +11,14 @@ namespace tyglab {
 /// From dark blue (0) over green to pale yellow (1), lightness rising evenly.
 ImU32 magnitude_color(double part);
 
-/// Which colours a cloth has by its values.
+/// Which colors a cloth has by its values.
 struct ColorMap {
   bool diverging = false;  ///< from blue over a pale middle to vermilion, both ends equally dark; else as a magnitude
   bool on_light = false;   ///< made to be seen before a light ground: the pale end is less pale, the dark one darker
   bool operator==(const ColorMap&) const = default;
 };
 ImU32 map_color(const ColorMap& map, double part);
-/// So many of them, from the least to the greatest.
+/// That many of them, from the least to the greatest.
 std::vector<ImU32> map_colors(const ColorMap& map, int count);
 
 }  // namespace tyglab

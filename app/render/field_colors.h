@@ -1,4 +1,4 @@
-// The scale of a coloured cloth: which values its colours stand for.
+// The scale of a colored cloth: which values its colors stand for.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 namespace tyglab {
 
 /// The top of a scale that follows a quantity and does not flicker: a round number (1, 2, 3 or 5 times a power of ten)
-/// that grows at once, and shrinks once it was not needed for so many looks, to what they needed.
+/// that grows at once, and shrinks once it was not needed for that many looks, to what they needed.
 class SteadyTop {
  public:
   static constexpr int patience = 40;
@@ -35,13 +35,13 @@ struct FieldColors {
   double top() const { return fixed.value_or(automatic.now() > 0 ? automatic.now() : 1); }
   ValueRange range() const { return {info(field).is_signed ? -float(top()) : 0.f, float(top())}; }
   ColorMap map(bool on_light) const { return {info(field).is_signed, on_light}; }
-  /// Whether a value is beyond the scale, and has the colour of its end.
+  /// Whether a value is beyond the scale, and has the color of its end.
   bool beyond() const;
   /// The values have changed to those with that span.
   void look(const std::optional<FieldSpan>& span);
 };
 
-/// Of the renderer's colour map.
+/// Of the renderer's color map.
 inline constexpr int map_size = 256;
 
 }  // namespace tyglab

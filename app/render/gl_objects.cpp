@@ -14,7 +14,7 @@ namespace {
 std::string shader_text(std::string_view name) {
   const auto file = data_file("shaders/" + std::string(name));
   std::ifstream stream(file);
-  if (!stream) throw GraphicsError("The shader " + file.string() + " cannot be read. Check that you may read it.");
+  if (!stream) throw GraphicsError("The shader " + file.string() + " cannot be read. Check its permissions.");
   std::ostringstream text;
   for (std::string line; std::getline(stream, line);) {
     if (line.starts_with("#include \"")) {
@@ -42,7 +42,7 @@ void attach(GLuint program, GLenum stage, std::string_view name, std::string_vie
     glGetShaderInfoLog(shader, sizeof log, nullptr, log);
     glDeleteShader(shader);
     throw GraphicsError("The shader shaders/" + std::string(name) +
-                        " does not compile with this graphics driver. A newer Mesa may cure it; the log says:\n" + log);
+                        " does not compile with this graphics driver. A newer Mesa may fix it; the log says:\n" + log);
   }
   glAttachShader(program, shader);
   glDeleteShader(shader);
@@ -72,7 +72,7 @@ Program::Program(const Files& files) {
     char log[4096] = "";
     glGetProgramInfoLog(program, sizeof log, nullptr, log);
     throw GraphicsError("The shaders " + std::string(files.vertex) + " and " + std::string(files.fragment) +
-                        " do not fit together with this graphics driver; the log says:\n" + log);
+                        " do not link with this graphics driver; the log says:\n" + log);
   }
   const GLuint block = glGetUniformBlockIndex(program, "Frame");
   if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, 0);

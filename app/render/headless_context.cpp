@@ -24,11 +24,11 @@ namespace {
 EGLDisplay surfaceless_display() {
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (extensions == nullptr || std::strstr(extensions, "EGL_MESA_platform_surfaceless") == nullptr) {
-    fail("EGL has no surfaceless platform here");
+    fail("this EGL has no surfaceless platform");
   }
   const auto get_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  if (get_display == nullptr) fail("EGL cannot open a display of a platform");
+  if (get_display == nullptr) fail("EGL cannot open a platform display");
   return get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
 }
 
@@ -50,7 +50,7 @@ HeadlessContext::HeadlessContext() {
   if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr)) fail("EGL could not be started");
   if (!eglBindAPI(EGL_OPENGL_API)) fail("EGL offers no OpenGL");
   context_ = core_context(display_);
-  if (context_ == EGL_NO_CONTEXT) fail("OpenGL 3.3 core is not there");
+  if (context_ == EGL_NO_CONTEXT) fail("OpenGL 3.3 core is not available");
   if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
     eglDestroyContext(display_, context_);
     fail("The OpenGL context cannot be used without a window");
@@ -61,7 +61,7 @@ HeadlessContext::HeadlessContext() {
 
 HeadlessContext::~HeadlessContext() {
   in_use_.reset();
-  // The display is shared by the process and is left initialised for the next context.
+  // The display is shared by the process and is left initialized for the next context.
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
 }

@@ -39,21 +39,21 @@ constexpr int largest_side = STBI_MAX_DIMENSIONS;
 std::vector<unsigned char> read_all(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) {
-    throw std::runtime_error("There is no picture " + file.string() + ". Check the name and the folder.");
+    throw std::runtime_error("There is no image " + file.string() + ". Check the name and the folder.");
   }
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw std::runtime_error(file.string() + " is not a file. Choose a PNG, JPEG, BMP or TGA picture.");
+    throw std::runtime_error(file.string() + " is not a file. Choose a PNG, JPEG, BMP or TGA image.");
   }
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > largest_file) {
     throw std::runtime_error(file.string() +
-                             " is larger than 64 MB. Save the picture smaller, 2048 pixels a side is "
+                             " is larger than 64 MB. Save a smaller image; 2048 pixels a side is "
                              "plenty.");
   }
   std::vector<unsigned char> bytes(size);
   std::ifstream stream(file, std::ios::binary);
   if (!stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(size))) {
-    throw std::runtime_error(file.string() + " cannot be read. Check that you may read it.");
+    throw std::runtime_error(file.string() + " cannot be read. Check its permissions.");
   }
   return bytes;
 }
@@ -78,7 +78,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
   };
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3) == 0) {
-    throw OutputError("The picture " + file.string() + " could not be made: is there memory left?");
+    throw OutputError("The image " + file.string() + " could not be encoded. Is there enough memory?");
   }
   write_output(file, bytes);
 }
@@ -98,19 +98,19 @@ Image read_image(const std::filesystem::path& file) {
   const int length = int(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels) == 0) {
-    throw std::runtime_error(file.string() + " is not a picture that can be read (" + stbi_failure_reason() +
+    throw std::runtime_error(file.string() + " is not an image that can be read (" + stbi_failure_reason() +
                              "). Use PNG, JPEG, BMP or TGA, at most " + std::to_string(largest_side) +
                              " pixels a side.");
   }
   if (width > largest_side || height > largest_side) {
     throw std::runtime_error(file.string() + " is " + std::to_string(width) + " x " + std::to_string(height) +
                              " pixels; at most " + std::to_string(largest_side) +
-                             " a side can be used. Make it smaller.");
+                             " a side are allowed. Make it smaller.");
   }
   unsigned char* const pixels = stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4);
   if (pixels == nullptr) {
     throw std::runtime_error(file.string() + " is damaged (" + stbi_failure_reason() +
-                             "). Open it in a picture program and save it again.");
+                             "). Open it in an image editor and save it again.");
   }
   Image image{width, height, without_alpha(pixels, std::size_t(width) * height)};
   stbi_image_free(pixels);

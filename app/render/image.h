@@ -22,7 +22,7 @@ void write_png(const std::filesystem::path& file, const Image& image);
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi);
 
 /// Reads PNG, JPEG, BMP or TGA (transparency is laid over white). At most 8192 pixels a side and 64 MB as a file.
-/// Throws std::runtime_error with a sentence that names the file and the cure.
+/// Throws std::runtime_error with a sentence that names the file and the fix.
 Image read_image(const std::filesystem::path& file);
 
 /// A picture, then its halves down to one pixel, each pixel the mean of four: against shimmering where it is drawn

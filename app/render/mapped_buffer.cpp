@@ -12,7 +12,7 @@ bool MappedBuffer::available() {
 }
 
 MappedBuffer::MappedBuffer(int slots, std::size_t bytes) {
-  if (!available()) throw GraphicsError("OpenGL has no ARB_buffer_storage here");
+  if (!available()) throw GraphicsError("this OpenGL has no ARB_buffer_storage");
   constexpr std::size_t page = PositionMemory::page;
   slot_bytes_ = (bytes + page - 1) / page * page;
   whole_ = std::size_t(slots) * slot_bytes_ + page;  // OpenGL may begin it anywhere in a page
@@ -23,7 +23,7 @@ MappedBuffer::MappedBuffer(int slots, std::size_t bytes) {
   mapped_ = static_cast<std::byte*>(glMapBufferRange(GL_ARRAY_BUFFER, 0, GLsizeiptr(whole_), access));
   if (mapped_ == nullptr) {
     glGetError();  // this sentence is its report
-    throw GraphicsError("OpenGL has no room for a buffer that stays mapped");
+    throw GraphicsError("OpenGL could not allocate a persistently mapped buffer");
   }
   first_ = mapped_ + (page - reinterpret_cast<std::uintptr_t>(mapped_) % page) % page;
   std::memset(mapped_, 0, whole_);

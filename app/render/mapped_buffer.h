@@ -15,7 +15,7 @@ class MappedBuffer {
   static constexpr int most_slots = 3;
   /// Whether the present context has such buffers (ARB_buffer_storage).
   static bool available();
-  /// So many slots of at least so many bytes, each beginning on a page, full of zeros. Throws GraphicsError where there
+  /// `slots` of at least that many bytes, each beginning on a page, full of zeros. Throws GraphicsError where there
   /// is no room.
   MappedBuffer(int slots, std::size_t bytes);
   ~MappedBuffer();

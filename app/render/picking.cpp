@@ -131,9 +131,9 @@ std::vector<Pins::Site> particles_near_path(const PositionView& positions, const
   return sites;
 }
 
-std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 centre, double r) {
-  const glm::dvec3 to_centre = centre - eye;
-  const double along = glm::dot(ray, to_centre), half_chord2 = r * r - (glm::dot(to_centre, to_centre) - along * along);
+std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 center, double r) {
+  const glm::dvec3 to_center = center - eye;
+  const double along = glm::dot(ray, to_center), half_chord2 = r * r - (glm::dot(to_center, to_center) - along * along);
   if (along <= 0 || half_chord2 < 0) return std::nullopt;
   return along - std::sqrt(half_chord2);
 }

@@ -22,14 +22,14 @@ struct Hit {
 std::optional<Hit> nearest_particle(const PositionView& positions, const Camera& camera, glm::vec2 pixel,
                                     glm::vec2 size, float reach_px, const std::function<bool(int, int)>& skip = {});
 
-/// The particles that a cut takes on the pointer's way from `from` to `to` (2.3.4): at each point of the way, two
+/// The particles that a cut takes on the pointer's path from `from` to `to` (2.3.4): at each point of the way, two
 /// pixels or less apart, the nearest particle within reach. Each stands once, in the order of the way.
 std::vector<Pins::Site> particles_near_path(const PositionView& positions, const Camera& camera, glm::vec2 from,
                                             glm::vec2 to, glm::vec2 size, float reach_px);
 
 /// How far from the eye along the ray (of length 1) the near side of a sphere is, m; none where the ray misses it or it
 /// lies behind.
-std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 centre, double r);
+std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 center, double r);
 
 /// Index of the sphere under the pixel that is nearest to the eye. Planes cannot be dragged and are never met.
 std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& camera, glm::vec2 pixel, glm::vec2 size);

@@ -8,8 +8,8 @@ namespace {
 
 void check_complete(int width, int height) {
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return;
-  throw GraphicsError("A picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                      " pixels cannot be drawn with this graphics driver. Choose a smaller one.");
+  throw GraphicsError("An image of " + std::to_string(width) + " x " + std::to_string(height) +
+                      " pixels cannot be drawn with this graphics driver. Choose a smaller size.");
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ void RenderTarget::make() {
   if (width_ < 1 || height_ < 1 || width_ > largest || height_ > largest) {
     const std::string size = std::to_string(width_) + " x " + std::to_string(height_);
     width_ = height_ = 0;
-    throw GraphicsError("A picture of " + size + " pixels cannot be drawn; each side may be 1 to " +
+    throw GraphicsError("An image of " + size + " pixels cannot be drawn; each side may be 1 to " +
                         std::to_string(largest) + ".");
   }
   const int samples = samples_ > 1 ? std::min(samples_, int(most_samples)) : 0;
@@ -48,9 +48,9 @@ void RenderTarget::make() {
   check_complete(width_, height_);
 
   glBindFramebuffer(GL_FRAMEBUFFER, parts_->drawn.id());
-  glBindRenderbuffer(GL_RENDERBUFFER, parts_->colour.id());
+  glBindRenderbuffer(GL_RENDERBUFFER, parts_->color.id());
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_RGBA8, width_, height_);
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, parts_->colour.id());
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, parts_->color.id());
   glBindRenderbuffer(GL_RENDERBUFFER, parts_->depth.id());
   glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT24, width_, height_);
   glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, parts_->depth.id());

@@ -10,7 +10,7 @@ namespace tyglab {
 
 class RenderTarget {
  public:
-  /// Binds it for drawing, made anew where size or samples differ from last time. Throws GraphicsError.
+  /// Binds it for drawing, made again where size or samples differ from last time. Throws GraphicsError.
   void begin(int width, int height, int samples);
   /// Resolves what was drawn into texture().
   void resolve();
@@ -20,7 +20,7 @@ class RenderTarget {
  private:
   struct Parts {
     gl::Framebuffer drawn, resolving;
-    gl::Renderbuffer colour, depth;
+    gl::Renderbuffer color, depth;
     gl::Texture resolved;
   };
   void make();

@@ -22,7 +22,7 @@ ShadowMap::ShadowMap() {
   glReadBuffer(GL_NONE);
   const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!complete) throw GraphicsError("This graphics driver cannot draw a shadow map. A newer Mesa may cure it.");
+  if (!complete) throw GraphicsError("This graphics driver cannot draw a shadow map. A newer Mesa may fix it.");
 }
 
 glm::mat4 ShadowMap::fit(const Bounds& box, glm::vec3 to_light) {

@@ -48,7 +48,7 @@ SolidGeometry sphere_geometry(int meridians, int parallels) {
   return g;
 }
 
-SolidGeometry box_geometry(glm::vec3 centre, glm::vec3 half) {
+SolidGeometry box_geometry(glm::vec3 center, glm::vec3 half) {
   SolidGeometry g;
   for (int axis = 0; axis < 3; ++axis) {
     for (const float sign : {-1.0f, 1.0f}) {
@@ -57,7 +57,7 @@ SolidGeometry box_geometry(glm::vec3 centre, glm::vec3 half) {
       w = glm::cross(n, u);
       const auto first = std::uint32_t(g.vertices.size());
       for (const auto& [a, b] : {std::pair{-1.f, -1.f}, {1.f, -1.f}, {1.f, 1.f}, {-1.f, 1.f}}) {
-        g.vertices.push_back({centre + half * (n + a * u + b * w), n});
+        g.vertices.push_back({center + half * (n + a * u + b * w), n});
       }
       g.indices.insert(g.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
     }

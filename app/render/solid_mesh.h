@@ -1,4 +1,4 @@
-// Small triangle meshes with normals: the sphere, and the spring of the one weight.
+// Small triangle meshes with normals: the sphere, and the spring of the mass on a spring.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct SolidGeometry {
 
 /// Unit sphere round the origin.
 SolidGeometry sphere_geometry(int meridians, int parallels);
-/// Box with half sides `half` round `centre`.
-SolidGeometry box_geometry(glm::vec3 centre, glm::vec3 half);
+/// Box with half sides `half` round `center`.
+SolidGeometry box_geometry(glm::vec3 center, glm::vec3 half);
 /// A coil of wire from `top` straight down to `bottom` with straight ends.
 SolidGeometry coil_geometry(glm::vec3 top, glm::vec3 bottom, int turns, float radius, float wire_radius);
 

@@ -1,4 +1,4 @@
-// Numbers that shaders look up: a value of every particle, and the colours that values have.
+// Numbers that shaders look up: a value of every particle, and the colors that values have.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@ namespace tyglab {
 
 class ValueTexture {
  public:
-  /// `filter`: GL_NEAREST, or GL_LINEAR between neighbours.
+  /// `filter`: GL_NEAREST, or GL_LINEAR between neighbors.
   explicit ValueTexture(GLint filter);
   /// Rows of numbers.
   void take(std::span<const float> values, int rows, int columns);
-  /// One row of colours, as bytes red, green, blue, opacity.
+  /// One row of colors, as bytes red, green, blue, opacity.
   void take(std::span<const std::uint32_t> colors);
   /// Binds it to a texture unit.
   void bind(int unit) const;

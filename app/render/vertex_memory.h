@@ -60,7 +60,7 @@ class LentPositions {
 /// Memory for normals, beside lent positions.
 class MappedNormals {
  public:
-  /// Where so many bytes of normals are to be written that will be drawn next; null where there is no room.
+  /// Where that many bytes of normals are to be written that will be drawn next; null where there is no room.
   float* next(std::size_t bytes);
   VertexSource source() const { return {buffer_->id(), *buffer_->offset_of(buffer_->slot(slot_))}; }
   void drawn();

@@ -25,7 +25,7 @@ struct FloatRows {
 /// ((row − i + 1)·2 + column − j + 1)·2 + which, by the quad's upper left corner and its triangle (quad_triangles).
 std::uint32_t whole_triangles(const Lattice& lattice, const Tears& tears, int i, int j);
 
-/// Normals on the front side, not of unit length: the cross product of the differences to the neighbours down and along
+/// Normals on the front side, not of unit length: the cross product of the differences to the neighbors down and along
 /// the row. Those of `beside_tears` are the sum over their whole triangles instead, so that the other side of a tear
 /// does not count; without a whole triangle (0, 0, 1). `normals` are laid out as the positions are, and only written.
 void compute_normals(const FloatRows& positions, const Tears& tears, std::span<const std::uint32_t> beside_tears,

@@ -1,4 +1,4 @@
-// The one weight on its spring (figure 3.2) as things to draw.
+// The mass on a spring (figure 3.2) as things to draw.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,7 +12,7 @@ struct WeightModel {
   SolidGeometry spring, hanger;
   SolidGeometry rest;         ///< an unbroken line at x_0
   SolidGeometry equilibrium;  ///< a broken line where gravity and spring balance, at x_0 − m g/k
-  glm::vec3 weight{0};        ///< centre of the weight
+  glm::vec3 weight{0};        ///< center of the weight
   float radius = 0;           ///< of the weight, m
 };
 

@@ -36,7 +36,7 @@ VertexBox WrittenVertices::write_new(VertexSharing& device, const VertexRequest&
   bytes_ = bytes;
   vertices_->set_tears(torn_);
   const std::optional<VertexBox> box = device.write(*vertices_, request);
-  if (!box) throw EngineError("The device cannot write the buffers that it has been given");
+  if (!box) throw EngineError("The device cannot write to the buffers it was given");
   return *box;
 }
 
@@ -46,7 +46,7 @@ void WrittenVertices::look_at(const VertexBox& box, const DrawnSites& sites) con
   glGetBufferSubData(GL_ARRAY_BUFFER, 0, GLsizeiptr(bytes_), seen.data());
   const Bounds there = finite_bounds({sites.rows(), sites.columns(), sites.columns(), seen.data()});
   if (there.lo != box.lo || there.hi != box.hi)
-    throw EngineError("OpenGL does not see what the device has written into its buffer");
+    throw EngineError("OpenGL does not see what the device wrote into its buffer");
 }
 
 }  // namespace tyglab

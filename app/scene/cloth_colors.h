@@ -1,4 +1,4 @@
-// What colours the cloths of the window: worked out only where it is shown and something has moved.
+// What colors the cloths of the window: worked out only where it is shown and something has moved.
 //
 // Copies share one scale, so the values of all pictures are worked out before any is drawn. The scale ends at a round
 // number that all but two in a hundred values stay below; it grows at once, shrinks once it was not needed for forty
@@ -63,11 +63,11 @@ class ClothColors {
   std::optional<ColorMap> map_;
 };
 
-/// Whether the viewport's ground is light, which asks for other colours.
+/// Whether the viewport's ground is light, which asks for other colors.
 bool light_ground(const Scene& scene);
-/// Nothing where the cloth can be coloured by that now; otherwise a sentence why not.
+/// Nothing where the cloth can be colored by that now; otherwise a sentence why not.
 std::string why_not_colored(const Scene& scene, ParticleField field);
-/// What colours the cloth at present; null where it has its own look.
+/// What colors the cloth at present; null where it has its own look.
 const FieldColors* shown_colors(const Scene& scene);
 /// The field after the present one that can be shown, or after the last none.
 std::optional<ParticleField> next_field(const Scene& scene);

@@ -1,4 +1,4 @@
-// The pictures of the cloth and its copies: drawn anew only where something in them has changed.
+// The pictures of the cloth and its copies: drawn again only where something in them has changed.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class ClothViews {
  public:
   /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window.
   void draw(Scene& scene, glm::vec2 magnified);
-  /// Copies have been made anew, perhaps where old ones stood, with the same count of changes.
+  /// Copies have been made again, perhaps where old ones stood, with the same count of changes.
   void forget_copies() { copies_.clear(); }
   /// The texture with the n-th picture of the viewport.
   unsigned picture(const Scene& scene, int tile) const;

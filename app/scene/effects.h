@@ -8,7 +8,7 @@
 
 namespace tyglab {
 
-/// Effects are left out in this order, one at a time, once drawing takes longer than too_long_ms in the mean of a few
+/// Effects are left out in this order, one at a time, once drawing takes longer than too_long_ms averaged over a few
 /// frames; and brought back in the opposite order, if what they cost then would leave drawing well below that. Who has
 /// come back in vain stays away longer. Frames after a change of size do not count.
 class Effects {
@@ -28,7 +28,7 @@ class Effects {
   /// How many are left out.
   int left_out() const { return mode == Mode::all ? 0 : mode == Mode::few ? count : left_out_; }
   void apply(ViewOptions& view) const;
-  /// "soft shadows and smooth edges": what is left out; empty: nothing is.
+  /// "soft shadows and smooth edges": what is turned off; empty: nothing is.
   std::string words() const;
 
  private:

@@ -44,7 +44,7 @@ std::string name_of_original(const Session& session) {
   return name;
 }
 
-/// Whether a copy's method runs on the CPU engine alone.
+/// Whether a copy's method runs only on the CPU engine.
 bool needs_cpu(std::span<const Difference> differences) {
   return std::any_of(differences.begin(), differences.end(), [](const Difference& difference) {
     const std::string* method = difference.value_of(&Preset::integrator);
@@ -73,7 +73,7 @@ std::string name_of_cloth(const Session& session, int n) {
 
 std::vector<CopyChoice> copy_choices(const Preset& preset) {
   const bool single = preset.precision == Precision::float_, cpu = preset.engine == EngineKind::cpu;
-  std::vector<CopyChoice> choices{{.label = "Reference: Dormand-Prince, error 1e-9 m a step",
+  std::vector<CopyChoice> choices{{.label = "Reference: Dormand-Prince, error 1e-9 m per step",
                                    .differences = {{&Preset::integrator, "dopri5"},
                                                    {&Preset::tolerance, 1e-9},
                                                    {&Preset::precision, Precision::double_}},
@@ -101,7 +101,7 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
 void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference) {
   Copies& copies = session.copies;
   if (session.rebuild.busy())
-    return session.messages.note("Another cloth is being built; add a copy when it is there.");
+    return session.messages.note("Another cloth is being built; add a copy when it is ready.");
   try {
     copies.lockstep.add(*session.simulation, differences, session.threads);
   } catch (const std::exception& error) {
@@ -110,7 +110,7 @@ void add_copy(Session& session, const std::vector<Difference>& differences, bool
   if (as_reference) copies.reference = int(copies.lockstep.size()) - 1;
   copies.t = session.simulation->time();
   copies.forget();
-  // All have been loaded anew, and the hand has let go.
+  // All have been loaded again, and the hand has let go.
   ++session.counts.hands, ++session.counts.cloths, ++session.counts.copies_added;
 }
 

@@ -58,7 +58,7 @@ void copies_apply(Session& session, const Edit& edit);
 void copies_resume(Session& session);
 /// The copies make the steps that the original has made; `wall_s` is what those took.
 void copies_follow(Session& session, double wall_s);
-/// The original has diverged: the copies go on by themselves, for so many of its steps. Returns them.
+/// The original has diverged: the copies go on by themselves, for that many of its steps. Returns them.
 int copies_go_on(Session& session, int steps);
 void sample_copies(Session& session);
 

@@ -40,7 +40,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
     return std::make_unique<Simulation>(preset, threads);
   } catch (const EngineError& error) {
     if (preset.engine == EngineKind::cpu) throw;
-    fallback = sentence(error.what()) + " So the CPU runs it.";
+    fallback = sentence(error.what()) + " The CPU engine runs it instead.";
     return std::make_unique<Simulation>(on_cpu(preset), threads);
   }
 }
@@ -68,7 +68,7 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
     session.rebuild.drop();
     take_built(session, std::move(simulation), {preset, true, false, document});
   } catch (const std::bad_alloc&) {
-    session.messages.error("There is not enough memory for " + file.string() + ". The old cloth stays.");
+    session.messages.error("There is not enough memory for " + file.string() + ". The present cloth is kept.");
   } catch (const std::exception& error) {
     session.messages.error(error.what());
   }
@@ -84,7 +84,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
     const std::filesystem::path folder = file.parent_path();
     if (folder == user_preset_folder()) std::filesystem::create_directories(folder, ignored);
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
-      throw OutputError("The folder " + folder.string() + " is not there; make it first, or choose another.");
+      throw OutputError("The folder " + folder.string() + " does not exist; create it first, or choose another.");
     save_preset(preset, file);
   } catch (const std::exception& error) {
     session.not_saved = SaveProblem{file, name, error.what()};

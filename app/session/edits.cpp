@@ -23,7 +23,7 @@ void spell_pins_as_saved(Session& session) {
   apply_to_all(session, edit::Change{next});
 }
 
-/// A new texture for the cloth, if the edit brings one. False where it is of no use.
+/// A new texture for the cloth, if the edit brings one. False if it is unusable.
 bool take_texture(Session& session, const Edit& edit) {
   const auto* change = std::get_if<edit::Change>(&edit);
   if (change == nullptr || !changes(session.requested_preset(), change->preset).touches(Effect::texture)) return true;
@@ -37,7 +37,7 @@ void record(Session& session, const Preset& before, const Preset& now, unsigned 
   if (!changes(before, now).within(Effect::view)) session.history.record(before, gesture);
 }
 
-/// What changes while another cloth is in work is felt at once where that is quick.
+/// What changes while another cloth is being built is felt at once where that is quick.
 void change_present(Session& session, const Preset& before, const Preset& next) {
   const edit::Change change{merge(before, next, session.preset())};
   if (session.rebuild.holds_present() || change.preset == session.preset()) return;
@@ -55,7 +55,7 @@ bool defer(Session& session, const Edit& edit) {
   return true;
 }
 
-/// Whether an edit of all constants is to be made beside the frames, together with what is in work there.
+/// Whether an edit of all constants is to be made beside the frames, together with what is running there.
 bool goes_beside(const Session& session, const Edit& edit) {
   const BackgroundRebuild& rebuild = session.rebuild;
   if (rebuild.holds_present()) return true;
@@ -65,7 +65,7 @@ bool goes_beside(const Session& session, const Edit& edit) {
          (change != nullptr && needs_programs(session, change->preset));
 }
 
-/// Sees to an edit that takes long, or that comes while another cloth is in work: says whether it was taken. Nothing:
+/// Handles an edit that takes long, or that comes while another cloth is being built: says whether it was. Nothing:
 /// it is to be made here and now.
 std::optional<bool> build_beside(Session& session, const Edit& edit, unsigned gesture) {
   BackgroundRebuild& rebuild = session.rebuild;
@@ -126,7 +126,8 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     follow_up(session, before);
     return true;
   } catch (const std::bad_alloc&) {
-    session.messages.error("There is not enough memory for that. Nothing was changed; try fewer rows and columns.");
+    session.messages.error(
+        "There is not enough memory for that cloth. Nothing was changed; try fewer rows and columns.");
   } catch (const std::exception& error) {
     session.messages.error(error.what());
   }

@@ -12,7 +12,8 @@ void fall_back(Session& session, const std::string& why) {
   auto simulation = std::make_unique<Simulation>(next, session.threads);
   if (const Snapshot* then = session.rewind.before(*simulation, session.simulation->time(), 0))
     simulation->restore(*then);
-  session.messages.error(why + " The CPU engine goes on from t = " + time_number(simulation->time(), next.dt) + " s.");
+  session.messages.error(why + " The CPU engine continues from t = " + time_number(simulation->time(), next.dt) +
+                         " s.");
   ++session.counts.hands;
   swap_in(session, std::move(simulation));
 }

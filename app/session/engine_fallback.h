@@ -1,4 +1,4 @@
-// What becomes of the cloth when its device is lost in mid-run.
+// What becomes of the cloth when its device is lost during the run.
 #pragma once
 
 #include <string>

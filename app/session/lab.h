@@ -11,7 +11,7 @@
 
 namespace tyglab {
 
-/// A lab's file is wrong. `what()` names file, line and cure.
+/// A lab's file is wrong. `what()` names file, line and fix.
 class LabError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -27,12 +27,12 @@ std::string known_name(const std::string& name) {
   if (is_observable(name)) return name;
   const auto known = observable_names();
   const auto meant = nearest(name, known);
-  throw LabError("\"" + name + "\" is nothing that a check can ask for" +
-                 (meant ? "; did you mean " + std::string(*meant) + "?" : "; docs/labs/README.md lists what it can"));
+  throw LabError("\"" + name + "\" is not a quantity or state that a check can use" +
+                 (meant ? "; did you mean " + std::string(*meant) + "?" : "; docs/labs/README.md lists them"));
 }
 
 Operand word_operand(const std::string& name, const std::vector<std::string>& words) {
-  if (words.size() != 3) throw LabError(name + " is one word, such as check: integrator = euler");
+  if (words.size() != 3) throw LabError(name + " is compared with one word, such as check: integrator = euler");
   const auto known = find_observable(name)->words();
   if (std::find(known.begin(), known.end(), words[2]) == known.end()) {
     std::string all;
@@ -69,7 +69,7 @@ Operand operand(const std::vector<std::string>& words, std::size_t from, std::st
   if (given.before && first_step)
     throw LabError("there is no step before the first, so it can have no before." + given.name);
   if (given.before && given.name == "apart")
-    throw LabError("apart is itself measured from the step before; compare another quantity");
+    throw LabError("apart is already measured from the step before; compare another quantity");
   return given;
 }
 
@@ -84,14 +84,14 @@ Condition parse_condition(std::string_view value, bool first_step) {
   const auto sign = std::find_if(relation_signs.begin(), relation_signs.end(),
                                  [&](const RelationSign& s) { return words.size() > 1 && s.sign == words[1]; });
   if (sign == relation_signs.end())
-    throw LabError("between " + words[0] + " and its value stands one of <, <=, =, !=, >= and >, with spaces round it");
+    throw LabError("write one of <, <=, =, !=, >= and > between " + words[0] + " and its value, with spaces around it");
   given.relation = sign->relation;
   if (!is_word(given.name)) {
     given.right = operand(words, 2, unit_of(given.name), first_step);
     return given;
   }
   if (given.relation != Relation::equal && given.relation != Relation::unlike)
-    throw LabError(given.name + " is a word: compare it by = or !=");
+    throw LabError(given.name + " is a word: compare it with = or !=");
   given.right = word_operand(given.name, words);
   return given;
 }
@@ -102,7 +102,7 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
   const auto after = std::size_t(words.end() - within);
   const auto off = after > 1 ? plain_number(*(within + 1)) : std::nullopt;
   if (!off || *off <= 0 || within == words.begin())
-    throw LabError("an answer says how far a prediction may be off: answer: 0.098 m within 10 %");
+    throw LabError("an answer needs a tolerance for the prediction: answer: 0.098 m within 10 %");
   given.relative = after == 3 && *(within + 2) == "%";
   given.within = given.relative ? *off / 100 : *off;
   words.erase(within, words.end());
@@ -114,8 +114,9 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
   given.answer = operand(words, 0, "", first_step);
   if (!given.answer.name.empty()) given.unit = unit_of(given.answer.name);
   if (given.relative && given.answer.name.empty() && given.answer.factor == 0)
-    throw LabError("a part of 0 is 0, so nothing near it would be right; say how far off in its unit: answer: 0 " +
-                   (given.unit.empty() ? "" : given.unit + " ") + "within 0.01");
+    throw LabError(
+        "a percentage of 0 is 0, so no other number would be right; give the tolerance in its unit: answer: 0 " +
+        (given.unit.empty() ? "" : given.unit + " ") + "within 0.01");
 }
 
 std::string words_of(const Condition& condition) {

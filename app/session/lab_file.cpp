@@ -96,7 +96,7 @@ void LabReader::note(const LabError& error) {
   problems_ += (problems_.empty() ? "" : "\n") + std::string(error.what());
 }
 
-/// What is wrong in one line of a block says nothing of the lines after it, so all such lines are told at once; where
+/// What is wrong in one line of a block says nothing of later lines, so all such lines are reported at once; where
 /// headings are wrong the reading ends.
 void LabReader::take_or_note(std::string_view line) {
   if (!in_block_) return take_line(line);
@@ -122,7 +122,7 @@ void LabReader::take_line(std::string_view line) {
   if (in_block_ && line == "```") return end_block();
   if (in_block_) return line.empty() ? void() : take_key(line);
   if (line.starts_with("```")) {
-    if (line != "```lab") fail("the only block that a lab may have is ```lab; remove this one, or call it so");
+    if (line != "```lab") fail("the only block that a lab may have is ```lab; remove this one, or rename it");
     return begin_block();
   }
   if (line.starts_with("## ")) return begin_step(trimmed(line.substr(3)));
@@ -167,7 +167,7 @@ void LabReader::end_step() {
   } else {
     step().text = prose_.take();
   }
-  if (step().text.empty()) fail_at(step_line_, "this step says nothing; write what it is about under its title");
+  if (step().text.empty()) fail_at(step_line_, "this step has no text; write some under its title");
 }
 
 /// A prediction has its sentences, of which one is right, or its number.
@@ -178,7 +178,7 @@ void LabReader::end_prediction() {
   if (!given.choices.empty() && answered_)
     fail_at(predict_line_, "this prediction has an answer and choices; keep one of them");
   if (!given.choices.empty() && (rights_ != 1 || given.choices.size() < 2))
-    fail_at(predict_line_, "of the sentences to choose from exactly one begins with right:, the others with choice:");
+    fail_at(predict_line_, "exactly one of the choices begins with right:, the others with choice:");
 }
 
 void LabReader::end_block() {
@@ -224,11 +224,11 @@ void LabReader::take_key(std::string_view line) {
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
   if (std::find(lab_keys.begin(), lab_keys.end(), key) == lab_keys.end()) {
     const auto meant = nearest(key, lab_keys);
-    fail("\"" + std::string(key) + "\" is no key of a lab" +
+    fail("\"" + std::string(key) + "\" is not a key of a lab" +
          (meant ? "; did you mean " + std::string(*meant) + "?"
                 : "; known: open, set, predict, answer, choice, right, do, stop, check, needs"));
   }
-  if (value.empty()) fail(std::string(key) + ": says nothing; write its value after the colon, or remove the line");
+  if (value.empty()) fail(std::string(key) + ": has no value; write it after the colon, or remove the line");
   take_value(key, value);
 }
 
@@ -268,12 +268,12 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
   } else if (key == "needs") {
     take_needs(value);
   } else {
-    fail("within stands in the line of the answer: answer: 0.098 m within 10 %");
+    fail("within belongs on the line of the answer: answer: 0.098 m within 10 %");
   }
 }
 
 void LabReader::take_needs(std::string_view value) {
-  if (value != "opencl") fail("the one thing that a step can need is opencl, not \"" + std::string(value) + "\"");
+  if (value != "opencl") fail("a step can need only opencl, not \"" + std::string(value) + "\"");
   step().needs_opencl = true;
 }
 
@@ -287,7 +287,7 @@ void LabReader::take_seconds(std::string_view value) {
 
 void LabReader::take_answer(std::string_view value) {
   Prediction& given = prediction("answer");
-  answered_ = true;  // if perhaps not well: that is told for itself
+  answered_ = true;  // if perhaps not well: that is reported separately
   placed([&] { parse_answer(value, first_step(), given); });
 }
 
@@ -306,7 +306,7 @@ Lab load_lab(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  if (!in) throw LabError(file.string() + ": the file cannot be read; is it there, and may it be read?");
+  if (!in) throw LabError(file.string() + ": cannot be read; check that it exists and its permissions");
   Lab lab = parse_lab(text.str(), file.string(), file.parent_path());
   lab.label = file.stem().string();
   return lab;

@@ -44,7 +44,7 @@ bool looks_back(const LabStep& step) {
          (step.prediction && step.prediction->answer.before);
 }
 
-/// The last step up to `done` at which one can begin anew.
+/// The last step up to `done` at which one can begin again.
 std::size_t resumed_at(const Lab& lab, int done) {
   std::size_t at = std::size_t(done) < lab.steps.size() ? std::size_t(done) : 0;
   while (at > 0 && (!lab.steps[at].open || looks_back(lab.steps[at]))) --at;
@@ -180,7 +180,7 @@ void begin_lab(Session& session, std::string_view label) {
   const std::vector<Lab>& list = find_labs(session);
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return session.messages.error("There is no lab " + std::string(label) + ".");
-  if (put_away_copies(session)) session.messages.note("The copies have been put away: a lab begins with one cloth.");
+  if (put_away_copies(session)) session.messages.note("The copies were removed: a lab begins with one cloth.");
   ++session.counts.labs_begun;
   LabRun& run = session.labs.run.emplace();
   run.lab = *lab;

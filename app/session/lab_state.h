@@ -1,4 +1,4 @@
-// The lab in work: which step, what was predicted, what holds; and the labs that there are.
+// The current lab: which step, what was predicted, what holds; and the labs that there are.
 //
 // A lab's file is read line by line and refused whole, with its line (lab_file.cpp). Presets, settings and words of
 // checks are looked up there and then, so a lab that is read can be played. watch_lab asks the checks of the present
@@ -90,10 +90,10 @@ bool cannot_be_done(Session& session);
 
 /// Whether another preset has been opened than the step's: the lab then waits, and looks at nothing.
 bool lab_waits(const Session& session);
-/// Puts the lab's cloth back: at the step in work, or the last one before it that opens one.
+/// Puts the lab's cloth back: at the current step, or the last one before it that opens one.
 void resume_lab(Session& session);
 
-/// What the checks of the step in work need to be worked out.
+/// What the checks of the current step need to be worked out.
 Wants lab_wants(const Session& session);
 /// Called in every update: looks which checks hold, and whether the step is done.
 void watch_lab(Session& session);

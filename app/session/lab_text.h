@@ -29,7 +29,7 @@ std::optional<double> plain_number(std::string_view text);
 class Gathered {
  public:
   void add(std::string_view line);
-  /// What has been gathered, as the card sets it; begins anew.
+  /// What has been gathered, as the card sets it; begins again.
   Paragraphs take();
 
  private:

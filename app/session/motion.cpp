@@ -23,7 +23,7 @@ bool rewind(Session& session) {
   session.rewind.go_back(*session.simulation, t, rewinds_s);
   copies_resume(session);
   if (!session.copies.lockstep.empty())
-    session.messages.note("The copies have no past of their own: they go on from here too.");
+    session.messages.note("Copies are not rewound separately: they also continue from this state.");
   ++session.counts.hands;
   session.recorded.clear();
   session.pacing.restart_measure();
@@ -73,7 +73,7 @@ void toggle_auto_dt(Session& session) {
   const auto dt = AutoStep::choose(next);
   if (!dt) {
     session.messages.error(next.integrator +
-                           " has no stable dt with these constants. Take another method, or more k_d.");
+                           " has no stable dt with these constants. Use another method, or more k_d.");
     return;
   }
   next.dt = *dt;
@@ -86,7 +86,7 @@ void watch_dt(Session& session) {
   Preset next = session.preset();
   next.dt = *dt;
   apply_edit(session, edit::Change{next});
-  session.messages.note(next.integrator + " was making energy: dt is halved to " + short_number(*dt) + " s.");
+  session.messages.note(next.integrator + " was adding energy: dt is halved to " + short_number(*dt) + " s.");
 }
 
 }  // namespace tyglab

@@ -61,7 +61,7 @@ Known zone_end(Session& session, std::string_view key) {
   return std::nullopt;
 }
 
-/// The study of the accuracy card, once it has judged the present settings.
+/// The study of the accuracy card, once it has checked the present settings.
 std::optional<AccuracyStudy> present_study(const Session& session) {
   auto study = session.studies.accuracy.study();
   if (!study || !study->present || moved_on(study->of, session)) return std::nullopt;
@@ -146,7 +146,7 @@ Known time_of_divergence(Session& session) {
   return divergence ? Known(divergence->t) : std::nullopt;
 }
 
-constexpr std::string_view limits_hint = "Show the constants; it is worked out in a moment.",
+constexpr std::string_view limits_hint = "Show the constants; it is computed in a moment.",
                            study_hint = "Open the card Accuracy; it measures for a few seconds.",
                            pick_hint = "Right-click a particle to pick it.";
 
@@ -177,25 +177,26 @@ const std::array rows{
                [](Session& session) { return zone_end(session, "k_d"); }, &Wants::stability},
     Observable{"omega", "1/s", "The cloth's fastest angular frequency as it hangs now.", limits_hint, fastest_omega,
                &Wants::stability},
-    Observable{"energy", "J", "Energy of motion, springs and height (zero at y = 0).", "",
+    Observable{"energy", "J", "Kinetic energy plus that of springs and height (zero at y = 0).", "",
                [](Session& session) -> Known { return session.simulation->energy().energy.total(); }},
-    Observable{"kinetic", "J", "Energy of motion.", "",
+    Observable{"kinetic", "J", "Kinetic energy.", "",
                [](Session& session) -> Known { return session.simulation->energy().energy.kinetic; }},
-    Observable{"made", "", "Energy that nothing explains, as a part of the scene's: above 0 the integrator made it.",
+    Observable{"made", "",
+               "Energy that no force explains, as a fraction of the scene's: above 0 the integrator added it.",
                "Open the card Energy.", ledger_share},
-    Observable{"error", "m", "Error (rms) of the present settings over the time that the card Accuracy says.",
+    Observable{"error", "m", "Error (rms) of the present settings over the time shown on the card Accuracy.",
                study_hint, present_error},
     Observable{"agreement", "m", "How far two references of that card differ.", study_hint, references_agreement},
-    Observable{"cost", "", "Processor seconds that a simulated second takes with the present settings.", study_hint,
-               present_cost},
+    Observable{"cost", "", "CPU seconds per simulated second with the present settings.", study_hint, present_cost},
     Observable{"apart", "m",
-               "Distance (rms over the particles) from where they were when the step before was completed.",
+               "Distance (rms over the particles) from their positions when the step before was completed.",
                "Complete the step before with the same cloth.", distance_to_before},
     Observable{"picked", "", "Whether a particle is picked.", "", nullptr, nullptr,
                [](const Session& session) { return said(session.picked.has_value()); }, no_or_yes},
-    Observable{"x", "m", "Position of the picked particle (or the weight), to the right.", pick_hint, position_of<0>},
+    Observable{"x", "m", "Position of the picked particle (or of the mass on a spring), to the right.", pick_hint,
+               position_of<0>},
     Observable{"y", "m", "Its height.", pick_hint, position_of<1>},
-    Observable{"z", "m", "Towards the viewer.", pick_hint, position_of<2>},
+    Observable{"z", "m", "Toward the viewer.", pick_hint, position_of<2>},
     Observable{"v", "m/s", "Its speed.", pick_hint, length_of<&ParticleReadout::v>},
     Observable{"a", "m/s²", "Magnitude of its acceleration.", pick_hint, length_of<&ParticleReadout::a>},
     Observable{"F", "N", "Magnitude of the total force on it.", pick_hint, length_of<&ParticleReadout::F>},

@@ -9,7 +9,7 @@ namespace tyglab {
 class Pacing {
  public:
   bool playing = true;
-  double speed = 1;  ///< simulated seconds per real second wished
+  double speed = 1;  ///< simulated seconds per real second requested
   static constexpr double slow_motion = 0.25;
   double slowed = 1;  ///< times which, while the hand is in the cloth
   /// Simulated seconds per real second that are aimed at now.
@@ -33,7 +33,7 @@ class Pacing {
     const double affordable = step_cost_s_ > 0 ? std::max(1.0, budget_s / step_cost_s_) : first_guess;
     return int(std::min({steps, affordable, 1e7}));
   }
-  /// Tells what became of them. What could not be made is dropped: the simulation then runs slower than wished.
+  /// Tells what became of them. What could not be made is dropped: the simulation then runs slower than requested.
   void made(int steps, double dt, double wall_seconds) {
     if (steps > 0) {
       const double cost = wall_seconds / steps;
@@ -47,7 +47,7 @@ class Pacing {
     wished_ = got_ = elapsed_ = 0;
   }
   void forget_cost() { step_cost_s_ = 0; }
-  /// Starts measuring anew (after a pause, a change of speed).
+  /// Starts measuring again (after a pause, a change of speed).
   void restart_measure() { wished_ = got_ = elapsed_ = owed_ = 0; }
 
   double step_cost_s() const { return step_cost_s_; }

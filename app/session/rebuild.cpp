@@ -100,9 +100,9 @@ void BackgroundRebuild::poll(Session& session) {
 void BackgroundRebuild::give_up(Session& session, const JobError& why) {
   making_.reset(), next_.reset();
   session.history = std::move(before_);
-  session.messages.error(why.out_of_memory
-                             ? "There is not enough memory for that. Nothing was changed; try fewer rows and columns."
-                             : why.what);
+  session.messages.error(
+      why.out_of_memory ? "There is not enough memory for that cloth. Nothing was changed; try fewer rows and columns."
+                        : why.what);
 }
 
 /// Whether what has been made is what is wanted, or on the way to it.

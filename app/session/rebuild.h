@@ -53,9 +53,9 @@ class BackgroundRebuild {
   bool busy() const { return making_.has_value(); }
   /// Whether the present cloth is being read, so that it may neither step nor change.
   bool holds_present() const { return making_ && !making_->fresh; }
-  /// Frames that were drawn while something was in work.
+  /// Frames that were drawn while something was being built.
   std::int64_t frames_beside() const { return frames_beside_; }
-  /// The constants that have been asked for, while they are in work; otherwise null, and where a preset is opened.
+  /// The constants that have been asked for, while they are being built; otherwise null, and where a preset is opened.
   const Preset* requested_preset() const { return wish() != nullptr && !opens() ? &wish()->target : nullptr; }
   /// The lattice of the cloth that will be shown next; none where it is the present one.
   std::optional<Lattice> lattice() const {
@@ -67,13 +67,13 @@ class BackgroundRebuild {
   bool restarts() const { return wish() != nullptr && wish()->restarts; }
   bool opens() const { return wish() != nullptr && wish()->document.has_value(); }
 
-  /// Builds that; what is in work is not wanted any more. `before`: the history to return to if it cannot be built.
+  /// Builds that; what is running is not wanted any more. `before`: the history to return to if it cannot be built.
   void order(const Session& session, BuildOrder order, History before);
   /// What has been asked for is not wanted any more.
   void drop() { next_.reset(), dropped_ = busy(); }
-  /// Keeps an edit for the cloth in work.
+  /// Keeps an edit for the cloth being built.
   void defer(Edit edit) { deferred_.push_back(std::move(edit)); }
-  /// The cloth in work gets another name.
+  /// The cloth being built gets another name.
   void rename(const std::string& name);
   /// Called in every frame: takes the cloth that is ready, if one is.
   void poll(Session& session);

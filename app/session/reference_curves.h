@@ -1,4 +1,4 @@
-// Figure 3.2 live: companions of the one weight that the report's other methods move, and its exact motion.
+// Figure 3.2 live: companions of the mass on a spring that the report's other methods move, and its exact motion.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace tyglab {
 
 class ReferenceCurves {
  public:
-  /// The curves, in the colours of figure 3.2; the last is the closed form.
+  /// The curves, in the colors of figure 3.2; the last is the closed form.
   static constexpr std::array<std::string_view, 4> curves{"euler", "improved_euler", "verlet", "exact"};
   static constexpr std::array<std::string_view, 4> titles{"Euler", "improved Euler", "Verlet", "exact"};
   using Heights = std::array<double, curves.size()>;
 
   /// Makes the `steps` that the weight has just made, with its constants and dt, from where it began; returns y by each
   /// curve, m: not a number once a companion has diverged. Where the weight has moved unseen, its constants may have
-  /// changed on the way: all begin anew from where it is, or from its start where it has made no other steps.
+  /// changed on the way: all begin again from where it is, or from its start where it has made no other steps.
   Heights follow(Simulation& weight, std::int64_t steps);
   void clear() { companions_ = {}; }
 

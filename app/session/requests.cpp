@@ -36,12 +36,12 @@ std::string take_engine_along(const Session& session, Preset& next) {
   const Scheme& method = scheme(next.integrator);
   if (runs_on_opencl(method)) return {};
   next.engine = EngineKind::cpu;
-  return std::string(method.title) + " runs on the CPU engine alone, so that was taken.";
+  return std::string(method.title) + " runs only on the CPU engine, so that engine was chosen.";
 }
 
 void ask_about_changes(Session& session, Request then) {
   session.question = Question{Question::About::unsaved_changes,
-                              "The changes of " + session.preset().name + " have not been saved.", std::move(then)};
+                              "The changes to " + session.preset().name + " have not been saved.", std::move(then)};
 }
 
 void apply(Session& session, const request::Apply& what) {
@@ -53,7 +53,7 @@ void apply(Session& session, const request::Apply& what) {
       const std::string size = std::to_string(change->preset.rows) + " × " + std::to_string(change->preset.columns);
       session.question = Question{Question::About::large_cloth,
                                   size + " is " + short_number(count / 1e6, 3) +
-                                      " million particles. A frame may then take seconds. Build it all the same?",
+                                      " million particles. A frame may take seconds. Build it anyway?",
                                   std::move(agreed)};
       return;
     }

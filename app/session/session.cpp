@@ -117,7 +117,7 @@ void Session::warn_of(const Advance& advance) {
   }
   if (simulation->engine().solves().unconverged > 0 && !warned_unconverged) {
     messages.warning(
-        "Newton's method does not reach its tolerance, so this is not quite the method's motion. Take a smaller dt or "
+        "Newton's method does not reach its tolerance, so this is not quite the method's motion. Use a smaller dt or "
         "k_s.");
     warned_unconverged = true;
   }

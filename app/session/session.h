@@ -1,4 +1,4 @@
-// One experiment in work: the cloth, what is asked of it, its past, its copies, its lab. No window, no picture, no
+// The current experiment: the cloth, what is asked of it, its past, its copies, its lab. No window, no picture, no
 // Dear ImGui: the window, the tests and whoever else runs an experiment call update() and read what it says.
 #pragma once
 
@@ -43,7 +43,7 @@ struct SessionInput {
 struct SessionCounts {
   std::uint64_t documents = 0;  ///< a preset was opened
   std::uint64_t cloths = 0;     ///< pictures are out of date, though revisions may be the same
-  std::uint64_t copies = 0;     ///< copies were made anew or are gone
+  std::uint64_t copies = 0;     ///< copies were made again or are gone
   std::uint64_t copies_added = 0;
   std::uint64_t lattices = 0;  ///< the cloth has another shape
   std::uint64_t labs_begun = 0;
@@ -86,7 +86,7 @@ struct Session {
   bool warned_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
   bool quit = false;
 
-  /// Goes on by so much real time (s): applies what was requested, steps, samples, judges the lab's checks, goes on
+  /// Goes on by that much real time (s): applies what was requested, steps, samples, checks the lab's checks, goes on
   /// with the studies that are wanted. Throws EngineError only where the CPU engine itself fails.
   void update(double real_seconds, const SessionInput& input);
 

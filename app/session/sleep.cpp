@@ -8,7 +8,7 @@ namespace tyglab {
 namespace {
 
 // Parts of the cloth's side. What swings with a period of 2πτ or less covers, in a window of 2τ, at least 1 − cos 1 =
-// 0.46 of its amplitude, so it sleeps with a hundredth of the error allowed. What creeps, strongly damped, towards
+// 0.46 of its amplitude, so it sleeps with a hundredth of the error allowed. What creeps, strongly damped, toward
 // where it will hang keeps within that error while it needs less than a hundred windows for the way that is left.
 constexpr double still_part = 1e-6, error_part = 1e-4;
 

@@ -4,7 +4,7 @@
 // Until three particles have been still for τ/2 the others are not looked at. Where a cloth sleeps it is within 1e-4 ℓ,
 // a fraction of a pixel, of where it would have gone, as long as what is left of its creep is spent in a hundred such
 // spans; tests/app/sleep_test.cpp measures that on a strongly damped cloth, which creeps longest. Any edit wakes it. A
-// cloth in wind, in the hand, or with one weight alone never sleeps. While it sleeps simulated time stands still, and
+// cloth in wind, in the hand, or with a mass on a spring alone never sleeps. While it sleeps time stands still, and
 // the status bar says so.
 #pragma once
 

@@ -157,7 +157,8 @@ Document Sandbox::first_document() {
   try {
     return {session.file.empty() ? session.saved : load_preset(session.file), session.label, session.file};
   } catch (const std::exception& error) {
-    session_.messages.warning(std::string(error.what()) + " The last session's state is shown; save it under a name.");
+    session_.messages.warning(std::string(error.what()) +
+                              " The state of the last session is shown; save it under a name.");
     return {session_.preset(), session.label, {}};
   }
 }
@@ -379,7 +380,7 @@ void Sandbox::remember() {
   try {
     save_settings(settings);
   } catch (const OutputError& error) {
-    std::fprintf(stderr, "tyglab: %s. The settings of this session are not remembered.\n", error.what());
+    std::fprintf(stderr, "tyglab: %s. The settings of this session are not saved.\n", error.what());
   }
 }
 

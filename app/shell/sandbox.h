@@ -22,7 +22,7 @@ struct SandboxOptions {
   std::filesystem::path screenshot;      ///< PNG of the last frame, empty: none
   std::filesystem::path time_report;     ///< JSON of the frame's cost by part, empty: none
   std::filesystem::path session_report;  ///< JSON of what goes on, rewritten all the time, empty: none
-  std::optional<ParticleField> color;    ///< what colours the cloth; none: as in the last session
+  std::optional<ParticleField> color;    ///< what colors the cloth; none: as in the last session
   std::optional<Effects::Mode> effects;  ///< none: all with `frames`, else as in the last session
   int width = 0, height = 0;             ///< of the window; 0: as in the last session
 };

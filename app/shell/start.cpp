@@ -20,7 +20,7 @@ Settings settings_for(const SandboxOptions& options, Messages& messages) {
     save_settings(settings);  // now, while there is somebody to read that it does not work
   } catch (const OutputError& error) {
     messages.warning(std::string(error.what()) +
-                     ". This session's settings will not be remembered. Make the folder writable, or name another "
+                     ". The settings of this session will not be remembered. Make the folder writable, or name another "
                      "one in TYGLAB_CONFIG_DIR.");
   }
   return settings;
@@ -40,7 +40,7 @@ void take_options(const SandboxOptions& options, Ui& ui) {
   scene.colors.choose(options.color ? options.color : field_called(ui.settings.color));
   if (options.color)
     if (const std::string why = why_not_colored(scene, *options.color); !why.empty())
-      session.messages.note("The cloth is not coloured yet. " + why);
+      session.messages.note("The cloth is not colored yet. " + why);
 }
 
 FoundPicture find_picture(const std::string& texture) {

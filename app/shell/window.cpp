@@ -123,8 +123,9 @@ bool start_glfw() {
 
 Window::Window(int width, int height, const Settings& settings, InputQueue& queue) {
   if (!start_glfw())
-    throw GraphicsError("There is no display to open a window on (" + glfw_problem() +
-                        "). Start it in a desktop session or under xvfb-run, or use tyglab render, which needs none.");
+    throw GraphicsError(
+        "There is no display for a window (" + glfw_problem() +
+        "). Start Tyglab in a desktop session or under xvfb-run, or use tyglab render, which needs no display.");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
@@ -137,7 +138,7 @@ Window::Window(int width, int height, const Settings& settings, InputQueue& queu
     const std::string problem = glfw_problem();
     glfwTerminate();
     throw GraphicsError("A window with OpenGL 3.3 could not be opened (" + problem +
-                        "). Install a driver (on Debian: libgl1-mesa-dri draws on the processor).");
+                        "). Install a driver (on Debian, libgl1-mesa-dri draws on the CPU).");
   }
   glfwSetWindowSizeLimits(window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
   if (!given && settings.x >= 0 && on_a_monitor(settings.x, settings.y))
@@ -284,7 +285,7 @@ void Gui::show_typing(InputQueue& input) {
       waiting_.push_back({{GLFW_KEY_UNKNOWN, 0, false}, input.text[next].character});
     if (n == input.keys.size()) break;
     const KeyEvent& event = input.keys[n];
-    const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;  // told by the mods
+    const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;  // in the mods
     if (event.key >= 0 && !event.repeat && !modifier && !only_types(event.key, event.mods))
       waiting_.push_back({event, 0});
   }

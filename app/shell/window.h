@@ -72,7 +72,7 @@ class Gui {
   void begin_frame(InputQueue& input);
   /// Ends the frame and draws it.
   void draw();
-  /// The font atlas was filled anew.
+  /// The font atlas was filled again.
   void fonts_changed();
 
  private:

@@ -26,13 +26,13 @@ struct AccuracyStudy {
 
 class AccuracyWatch {
  public:
-  static constexpr int largest = 256 * 256;  ///< particles that are judged beside the window
+  static constexpr int largest = 256 * 256;  ///< particles that are checked beside the window
   static constexpr double window = 0.25;     ///< s of motion, where it does not take too long
 
   /// Called in every frame in which it is wanted: begins a study where constants have changed, or the cloth has moved
   /// on since the last.
   void poll(StudyMoment& moment);
-  /// Nobody wants it any more: what is in work is stopped and forgotten.
+  /// Nobody wants it any more: what is running is stopped and forgotten.
   void drop();
   /// A copy of what is known; none while nothing is.
   std::optional<AccuracyStudy> study() const;

@@ -14,11 +14,11 @@ class ConvergenceWatch {
  public:
   static constexpr double window = 0.25;  ///< s of motion, where it does not take too long
 
-  /// Measures from the present moment on; what was in work is dropped.
+  /// Measures from the present moment on; what was running is dropped.
   void begin(StudyMoment& moment);
-  /// Called in every frame in which it is wanted: begins where nothing is known, and anew once constants have changed.
+  /// Called in every frame in which it is wanted: begins where nothing is known, and again once constants have changed.
   void poll(StudyMoment& moment);
-  /// What is in work is stopped and forgotten.
+  /// What is running is stopped and forgotten.
   void drop();
   /// A copy of what is known; none while nothing is.
   std::optional<Convergence> study() const;

@@ -110,7 +110,7 @@ class Job {
       try {
         this->outcome.emplace(work(this->control));
       } catch (const std::bad_alloc&) {
-        this->outcome.emplace(JobError{"There is not enough memory for that.", true});
+        this->outcome.emplace(JobError{"There is not enough memory.", true});
       } catch (const std::exception& error) {
         this->outcome.emplace(JobError{error.what()});
       }

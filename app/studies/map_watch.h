@@ -27,7 +27,7 @@ class MapWatch {
   /// Called in every frame in which the map is wanted: begins one where there is none, or where constants other than
   /// stiffness and dt have changed or these have left it.
   void poll(StudyMoment& moment);
-  /// Nobody wants it any more: what is in work is stopped and forgotten.
+  /// Nobody wants it any more: what is running is stopped and forgotten.
   void drop();
   /// A copy of what is known; none while nothing is.
   std::optional<MapFindings> findings() const;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float nick = 6;  // half of the stroke that is shown before the press, pixels at scale 1
 
-/// What the pointer's way of this frame has crossed.
+/// What the pointer's path of this frame has crossed.
 void cut_along_path(Tools& tools) {
   Tool& tool = tools.tool;
   const Simulation& cloth = cloth_in_tile(tools.scene, tool.tile);
@@ -27,7 +27,7 @@ void cut_along_path(Tools& tools) {
   if (!cut.springs.empty()) apply_edit(tools.session, std::move(cut));
 }
 
-/// The report's cut: the particles near the pointer's way lose their springs upwards.
+/// The report's cut: the particles near the pointer's path lose their springs upward.
 void cut_upwards(Tools& tools) {
   Tool& tool = tools.tool;
   std::vector<Pins::Site> sites;

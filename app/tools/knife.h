@@ -1,6 +1,6 @@
-// The knife: a held left button cuts upwards, as in the report (2.3.4), or along the pointer's path.
+// The knife: a held left button cuts upward, as in the report (2.3.4), or along the pointer's path.
 //
-// Upwards it cuts springs of the particles near the path (particles_near_path); along the path it cuts the springs
+// Upward it cuts springs of the particles near the path (particles_near_path); along the path it cuts the springs
 // whose two ends lie on either side of the stroke (springs_across), with a rule for points on it, so that strokes that
 // follow each other miss nothing. Both end in the same masks of tears, so engines know nothing of knives.
 #pragma once

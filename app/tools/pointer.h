@@ -24,7 +24,7 @@ struct Tool {
   int tile = 0;               ///< the picture that was pressed
   glm::vec2 press{0}, at{0};  ///< pixels in that picture
   double press_time = 0;
-  std::vector<glm::vec2> path;  ///< the pointer's way in this frame, for cuts
+  std::vector<glm::vec2> path;  ///< the pointer's path in this frame, for cuts
   /// A knife's way through a picture, as it is still seen.
   struct StrokePoint {
     glm::vec2 at{0};  ///< pixels in that picture

@@ -40,7 +40,7 @@ glm::dvec3 snapped(const glm::dvec3& W) {
   return on_axis;
 }
 
-/// Components with so many digits as the largest needs for three.
+/// Components with that many digits as the largest needs for three.
 glm::dvec3 tidy(const glm::dvec3& W) {
   const glm::dvec3 size = glm::abs(W);
   const double largest = std::max({size.x, size.y, size.z});

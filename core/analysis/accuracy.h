@@ -47,7 +47,7 @@ inline constexpr double least_dt = 1e-7;
 
 /// Whether the reference can tell an error of that size.
 bool can_tell(const Reference& reference, double error_rms_m);
-/// The status of a finished run: an error under ten times what the references differ by cannot be told.
+/// The status of a finished run: an error under ten times what the references differ by is not resolved.
 AccuracyStatus judged(const Reference& reference, double error_rms_m);
 /// Numbers of steps from one sample to the next, largest dt first, down to the least dt of presets.
 std::vector<int> accuracy_ladder(const AccuracyScene& scene, double largest_dt, const AccuracyEffort& effort);

@@ -64,7 +64,7 @@ Preset on_sphere() {
 }  // namespace
 
 std::vector<AccuracyScene> accuracy_scenes() {
-  return {{"one_weight", "one weight on a spring", one_weight(), 2},
+  return {{"one_weight", "mass on a spring", one_weight(), 2},
           {"hanging", "hanging cloth with damping", cloth(), 0.4},
           {"swinging", "swinging sheet without damping", swinging(), 0.2},
           {"flag", "flag in the wind", flag(), 0.3},

@@ -18,7 +18,7 @@ struct AccuracyScene {
 /// Times at which positions are compared: the end, and as many equal parts before it.
 inline constexpr int accuracy_samples = 4;
 
-/// One weight, then the cloths.
+/// A mass on a spring, then the cloths.
 std::vector<AccuracyScene> accuracy_scenes();
 
 }  // namespace tyglab

@@ -43,11 +43,11 @@ class Perturbed {
     const double part =
         difference(state.v.x, rest_.v.x) + difference(state.v.y, rest_.v.y) + difference(state.v.z, rest_.v.z);
     const double grown = std::sqrt(size() * size() + part / (omega * omega)) / beginning_, factor = 1 / grown;
-    const auto towards = [&](Array<double>& now, const Array<double>& rest) {
+    const auto toward = [&](Array<double>& now, const Array<double>& rest) {
       for (std::size_t p = 0; p < now.size(); ++p) now[p] = rest[p] + factor * (now[p] - rest[p]);
     };
-    towards(state.x.x, rest_.x.x), towards(state.x.y, rest_.x.y), towards(state.x.z, rest_.x.z);
-    towards(state.v.x, rest_.v.x), towards(state.v.y, rest_.v.y), towards(state.v.z, rest_.v.z);
+    toward(state.x.x, rest_.x.x), toward(state.x.y, rest_.x.y), toward(state.x.z, rest_.x.z);
+    toward(state.v.x, rest_.v.x), toward(state.v.y, rest_.v.y), toward(state.v.z, rest_.v.z);
     load(state);
     return grown;
   }

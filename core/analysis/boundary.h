@@ -41,7 +41,7 @@ BoundaryRow measure_growth(const Preset& sheet);
 
 /// The hanging cloth of `side` x `side`, undamped or not, in double.
 Preset slack_cloth(int side, double k_d, const std::string& integrator);
-/// Bisects the dt at which it diverges (docs/model.md) within so many steps; predicted as it hangs after 2 s.
+/// Bisects the dt at which it diverges (docs/model.md) within that many steps; predicted as it hangs after 2 s.
 BoundaryRow measure_slack(const Preset& cloth, int steps);
 
 /// Everything that `stability boundary` measures.

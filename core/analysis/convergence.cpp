@@ -50,9 +50,12 @@ double slope(std::span<const std::pair<double, double>> points) {
 /// What can keep a method from its order in this scene.
 std::string why_lower(const Convergence& study) {
   const Preset& preset = study.of;
-  if (study.torn > 0) return printed("%d springs tore, each at the end of a step: that leaves order 1.", study.torn);
-  if (!preset.bodies.empty()) return "Contact with bodies begins in the middle of a step, which leaves order 1.";
-  if (preset.kind == Kind::cloth) return "Springs that tighten and slacken put kinks into the forces, which lower it.";
+  if (study.torn > 0)
+    return printed("%d springs tore, each at the end of a step, which reduces the order to 1.", study.torn);
+  if (!preset.bodies.empty())
+    return "Contact with bodies begins in the middle of a step, which reduces the order to 1.";
+  if (preset.kind == Kind::cloth)
+    return "Springs that tighten and slacken put kinks in the forces, which lower the order.";
   return "A smaller dt may come closer to it.";
 }
 
@@ -74,12 +77,12 @@ int nominal_order(const Preset& preset) {
 }
 
 bool by_reference(const Convergence& study) {
-  const auto told = std::count_if(study.points.begin(), study.points.end(), [](const ConvergencePoint& point) {
+  const auto resolved = std::count_if(study.points.begin(), study.points.end(), [](const ConvergencePoint& point) {
     return point.resolved && std::isfinite(point.error_rms_m) && point.error_rms_m > 0;
   });
   const bool others = std::any_of(study.points.begin(), study.points.end(),
                                   [](const ConvergencePoint& point) { return point.difference_rms_m > 0; });
-  return study.referenced && (told >= 2 || !others);
+  return study.referenced && (resolved >= 2 || !others);
 }
 
 std::optional<double> shown_error(const Convergence& study, const ConvergencePoint& point) {
@@ -100,23 +103,24 @@ std::optional<MeasuredOrder> measured_order(const Convergence& study) {
 }
 
 std::string convergence_words(const Convergence& study) {
-  if (!study.problem.empty()) return "There is nothing to measure: " + study.problem;
+  if (!study.problem.empty()) return "The order cannot be measured: " + study.problem;
   const auto order = measured_order(study);
   const int nominal = nominal_order(study.of);
   const std::string method(scheme(study.of.integrator).title);
   std::string words = diverged_words(study);
   if (!order)
-    return words + (words.empty() ? "The error is smaller than can be told from the reference's own. Take a larger dt."
-                                  : "Take a smaller dt.");
+    return words + (words.empty()
+                        ? "The error is below that of the reference, so it cannot be measured. Use a larger dt."
+                        : "Use a smaller dt.");
   words += printed("Measured order %.2f", order->order);
-  if (order->by_differences) words += " of runs compared with each other, for want of a reference that is sure enough";
-  words += printed("; %s has %d on smooth motion. ", method.c_str(), nominal);
+  if (order->by_differences) words += " from differences between runs, since no reference is accurate enough";
+  words += printed("; %s has %d for smooth motion. ", method.c_str(), nominal);
   if (order->order < nominal - as_promised) words += why_lower(study) + " ";
-  if (order->order > nominal + as_promised) words += "The coarsest dt are too coarse for a clean slope. ";
+  if (order->order > nominal + as_promised) words += "The largest dt are too large for a clean slope. ";
   const auto hidden =
       std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.resolved; });
   if (!order->by_differences && hidden != study.points.end())
-    words += "From dt = " + short_number(hidden->dt, 3) + " s on the error cannot be told from the reference's own, " +
+    words += "From dt = " + short_number(hidden->dt, 3) + " s down the error is below that of the reference, " +
              short_number(study.reference.agreement_rms_m, 2) + " m. ";
   words.pop_back();
   return words;

@@ -1,4 +1,4 @@
-// The order that a method shows in a scene: its error with dt, dt/2, dt/4, …, and the slope through them.
+// The measured order of a method in a scene: its error with dt, dt/2, dt/4, …, and the slope through them.
 #pragma once
 
 #include <functional>
@@ -40,14 +40,14 @@ struct MeasuredOrder {
   bool by_differences = false;      ///< of runs from each other, for want of a reference (Richardson)
 };
 
-/// Whether errors against the reference are shown: at least two of them can be told, or nothing has diverged but all is
+/// Whether errors against the reference show: at least two of them are resolved, or nothing has diverged but all is
 /// still to come. Otherwise runs are compared with each other.
 bool by_reference(const Convergence& study);
-/// What a point is off by, so or so, m; none where that is not known, or cannot be told.
+/// What a point is off by, so or so, m; none where that is not known, or not resolved.
 std::optional<double> shown_error(const Convergence& study, const ConvergencePoint& point);
 /// The order of the method for that scene's damping, as its table says of smooth motion.
 int nominal_order(const Preset& preset);
-/// Through the finest points that can be told, four at most, by least squares of logarithms. None while there are fewer
+/// Through the finest resolved points, four at most, by least squares of logarithms. None while there are fewer
 /// than two points.
 std::optional<MeasuredOrder> measured_order(const Convergence& study);
 /// What came out and what spoils it, in sentences: of a study that is done.

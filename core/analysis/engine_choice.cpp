@@ -115,7 +115,7 @@ EngineChoice only_cpu(const std::string& why) {
 }  // namespace
 
 EngineChoice choose_among(std::vector<EngineTime> times, bool measured) {
-  if (!(times[0].ns > 0)) return only_cpu("this scene does not last long enough to be measured");
+  if (!(times[0].ns > 0)) return only_cpu("this scene is too short to be measured");
   EngineChoice choice;
   const EngineTime* best = &times[0];
   const EngineTime* other = nullptr;  // the quickest of those that were not taken
@@ -130,7 +130,7 @@ EngineChoice choose_among(std::vector<EngineTime> times, bool measured) {
     choice.why = best->name + ", since no other engine runs this scene";
     if (times.size() > 1 && !times[1].fault.empty()) choice.why += ": " + times[1].fault;
   } else {
-    choice.why = best->name + ": " + ns_text(best->ns) + " for a particle and step of this scene, against " +
+    choice.why = best->name + ": " + ns_text(best->ns) + " per particle and step in this scene, against " +
                  ns_text(other->ns) + " with " + other->name +
                  (measured ? ", measured just now" : ", measured on an earlier run");
   }
@@ -140,7 +140,7 @@ EngineChoice choose_among(std::vector<EngineTime> times, bool measured) {
 
 EngineChoice choose_engine(const Preset& preset, int threads) {
   const Scheme& method = scheme(preset.integrator);
-  if (!runs_on_opencl(method)) return only_cpu("no other runs " + std::string(method.name));
+  if (!runs_on_opencl(method)) return only_cpu("no other engine runs " + std::string(method.name));
   const OpenClInventory inventory = opencl_devices();
   if (inventory.devices.empty())
     return only_cpu("there is no OpenCL device" + (inventory.problem.empty() ? "" : " (" + inventory.problem + ")"));

@@ -26,7 +26,7 @@ struct EngineChoice {
   std::string why;                ///< a sentence
 };
 
-/// Measures the CPU engine with so many threads and every OpenCL device on the preset's cloth (of at most 1024 x 1024
+/// Measures the CPU engine with that many threads and every OpenCL device on the preset's cloth (of at most 1024 x 1024
 /// particles), a few hundredths of a second each, three times in turn. Times are kept on disk, by device, driver,
 /// threads, method, precision, features and size to a power of two, and read from there the next time. Where two are
 /// within 5 % the CPU engine is taken, which waits for no compiler.

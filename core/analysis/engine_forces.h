@@ -8,7 +8,7 @@
 
 namespace tyglab {
 
-/// On one thread, for a cloth without tears, bodies and hand, or for the one weight.
+/// On one thread, for a cloth without tears, bodies and hand, or for the mass on a spring.
 template <class R>
 class EngineForces {
  public:

@@ -28,8 +28,7 @@ Track follow(const StudyStart& start, const Preset& preset, int steps, const Sto
   Track track;
   for (int n = 0; n < accuracy_samples; ++n) {
     advance_study(simulation, steps, stop);
-    if (simulation.divergence())
-      throw std::runtime_error("the motion cannot be followed: " + simulation.divergence()->cause);
+    if (simulation.divergence()) throw std::runtime_error("the motion diverged: " + simulation.divergence()->cause);
     track.push_back(positions_of(simulation));
   }
   return track;
@@ -39,14 +38,14 @@ Track follow(const StudyStart& start, const Preset& preset, int steps, const Sto
 
 StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop) {
   constexpr double finer = 16;       // than the coarsest stable dt of Verlet
-  constexpr double longest = 0.001;  // s: what moves slowly is followed closely all the same
+  constexpr double longest = 0.001;  // s: what moves slowly is followed closely anyway
   Preset preset = start.preset;
   preset.precision = Precision::double_, preset.integrator = reference_method(preset);
   const double coarse = std::clamp(stable_dt(preset, "verlet") / finer, least_dt, longest);
   // Two runs, the second of twice the steps.
   const double a_second = 3 * step_effort(preset) / coarse;
   seconds = std::min(seconds, effort.reference / a_second);
-  // Comparing where the present dt ends its steps judges the settings as they are.
+  // Comparing where the present dt ends its steps checks the settings as they are.
   constexpr double patience = 4;  // times the effort, for a long dt
   const double whole = accuracy_samples * start.preset.dt;
   if (whole <= patience * seconds) {

@@ -18,7 +18,7 @@ struct StudyStart {
   std::optional<Snapshot> from;
 };
 
-/// What one setting errs by, and what it costs.
+/// Error and cost of one setting.
 struct ErrorPoint {
   std::string integrator;
   Precision precision = Precision::double_;
@@ -30,7 +30,7 @@ struct ErrorPoint {
   bool resolved = true;    ///< false: the error is under ten times what two references differ by
 };
 
-/// Over which time a motion can be judged, and what it is judged by.
+/// Over which time a motion can be checked, and what it is checked by.
 struct StudyReference {
   double seconds = 0;          ///< of motion that is compared
   Track track;                 ///< positions at accuracy_samples equal times in it
@@ -43,7 +43,7 @@ struct StudyReference {
 struct StudyEffort {
   double reference = 3e8;  ///< particles times force evaluations, about 4 ns each, of a reference
   double point = 1e8;      ///< and of one setting
-  double cost = 1e9;       ///< processor seconds for a simulated second that a setting of use may take
+  double cost = 1e9;       ///< processor seconds for a simulated second that a setting available may take
 };
 
 /// The reference from that start over at most `seconds`: less where a cloth is so large, or so stiff, that it would
@@ -54,7 +54,7 @@ StudyReference study_reference(const StudyStart& start, double seconds, const St
 ErrorPoint measure_point(const StudyStart& start, const StudyReference& reference, const Stop& stop);
 
 /// Settings of one method from the coarsest that is stable on, each half of the one before it (a tenth, where the
-/// method takes a tolerance), until the error is below `enough` (m), cannot be told, stops falling, or the next would
+/// method takes a tolerance), until the error is below `enough` (m), is not resolved, stops falling, or the next would
 /// cost more than the effort.
 std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& reference, double enough,
                                      const StudyEffort& effort, const Stop& stop);

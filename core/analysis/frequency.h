@@ -42,7 +42,7 @@ class Linearisation {
 
   int rows_, columns_, stride_;
   bool damped_;
-  Mode weight_;  ///< the one weight's, which is no lattice
+  Mode weight_;  ///< the mass on a spring's, which is no lattice
   bool lattice_;
   std::vector<int> fixed_;      ///< i·columns + j
   Array<double> coefficients_;  ///< of K/m, as in stiffness.h

@@ -1,4 +1,4 @@
-// The one weight of figure 3.2: its motion in closed form, and how far an integrator strays from it.
+// The mass on a spring of figure 3.2: its motion in closed form, and how far an integrator strays from it.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct WeightMotion {
 /// undamped, overdamped, or without a spring.
 WeightMotion exact_weight(const Preset& preset, double t);
 
-/// A run of one weight beside the exact motion, a value a step and one for the start.
+/// A run of a mass on a spring beside the exact motion, a value a step and one for the start.
 struct WeightRun {
   Preset preset;
   std::vector<double> t = {}, y = {}, exact = {};  ///< s, m, m
@@ -26,7 +26,7 @@ struct WeightRun {
   bool diverged = false;  ///< and ended there
 };
 
-/// Runs the preset, which must be one weight, for so many steps; `stop` is asked now and then, and ends it.
+/// Runs the preset, which must be a mass on a spring, for that many steps; `stop` is asked now and then, and ends it.
 WeightRun run_weight(const Preset& preset, int steps, const std::function<bool()>& stop);
 
 }  // namespace tyglab

@@ -28,7 +28,7 @@ PlainForces::PlainForces(const Preset& preset) : preset_(preset) {
     }
 }
 
-/// Those from (i, j) to the right and downwards, each once (2.4, 2.7).
+/// Those from (i, j) to the right and downward, each once (2.4, 2.7).
 void PlainForces::add_springs(int i, int j) {
   const auto add_one = [&](int to_i, int to_j, double rest, bool bending) {
     if (to_i >= preset_.rows || to_j < 0 || to_j >= preset_.columns) return;

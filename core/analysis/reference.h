@@ -43,7 +43,7 @@ Reference make_reference(const AccuracyScene& scene, bool quick, const Stop& sto
 /// The scene's motion by Boost.Odeint's Runge-Kutta-Fehlberg 7(8) with that tolerance (m and m/s), on PlainForces: a
 /// cloth without bodies.
 Track odeint_track(const AccuracyScene& scene, double tolerance, const Stop& stop);
-/// The scene's motion by an integrator of this project in double, with so many steps from a sample to the next. Throws
+/// The scene's motion by an integrator of this project in double, with `steps` steps between samples. Throws
 /// std::runtime_error if it diverges.
 Track own_track(const AccuracyScene& scene, const std::string& integrator, int steps, const Stop& stop);
 

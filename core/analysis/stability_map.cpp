@@ -27,12 +27,12 @@ double Preset::*stiffness_field(const Preset& preset) {
   return preset.kind == Kind::cloth ? &Preset::k_s : &Preset::k;
 }
 
-/// `centre` with so much on either side, within what the constant may be, and with `inside`.
-std::pair<double, double> span_of(std::string_view key, double centre, double reach, double inside) {
+/// `center` with that much on either side, within what the constant may be, and with `inside`.
+std::pair<double, double> span_of(std::string_view key, double center, double reach, double inside) {
   const PresetRow& row = *find_row(key);
   const double least = row.min > 0 ? row.min : 1e-3;
   const auto allowed = [&](double value) { return std::clamp(value, least, row.max); };
-  return {allowed(std::min(centre / reach, inside / 1.5)), allowed(std::max(centre * reach, inside * 1.5))};
+  return {allowed(std::min(center / reach, inside / 1.5)), allowed(std::max(center * reach, inside * 1.5))};
 }
 
 double between(double least, double most, double part) {

@@ -1,4 +1,4 @@
-// A map of stiffness against dt: which of both a method bears in a scene, by linear theory and by short runs of that
+// A map of stiffness against dt: what a method tolerates in a scene, by linear theory and by short runs of that
 // very scene. Springs of a slack cloth bear more than theory's bound, some less than it hangs with: the map shows it.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace tyglab {
 
-/// Cells of equal size in logarithms of stiffness (k_s, N/m; of one weight k) and dt (s).
+/// Cells of equal size in logarithms of stiffness (k_s, N/m; of a mass on a spring k) and dt (s).
 struct MapGrid {
   double least_stiffness = 1, most_stiffness = 1, least_dt = 1, most_dt = 1;
   int columns = 1, rows = 1;  ///< of stiffness, of dt; the first row has the least dt
@@ -36,7 +36,7 @@ struct MapCell {
   double share = 0;  ///< energy that the method made (above 0) or ate, in parts of what the scene can hold
 };
 
-/// The constant that the map's x axis stands for: "k_s", or "k" of one weight; its value; and the preset with both set.
+/// The constant on the map's x axis: "k_s", or "k" of a mass on a spring; its value; and the preset with both set.
 std::string stiffness_key(const Preset& preset);
 double stiffness_of(const Preset& preset);
 Preset at_place(Preset preset, double stiffness, double dt);

@@ -119,7 +119,7 @@ class StressRun {
     if (!finite(simulation_->time())) fail("the time is not finite");
   }
 
-  /// The longest whole spring in rest lengths; the way of one weight in its own measure.
+  /// The longest whole spring in rest lengths; the way of a mass on a spring in its own measure.
   double longest() const {
     const Preset& p = simulation_->preset();
     const PositionView x = simulation_->positions();

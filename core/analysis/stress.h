@@ -32,7 +32,7 @@ struct StressResult {
 
 /// The scene of case `number` of a seed, which depends on nothing else.
 Preset stress_preset(std::uint64_t seed, std::uint64_t number);
-/// Runs that case to its end: so many steps that all take about the same time, fewer than 4,000.
+/// Runs that case to its end: that many steps that all take about the same time, fewer than 4,000.
 StressResult run_stress(std::uint64_t seed, std::uint64_t number);
 
 }  // namespace tyglab

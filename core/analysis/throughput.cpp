@@ -138,7 +138,7 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   times.reserve(std::size_t(repeats));
   for (int n = 0; n < repeats; ++n) times.push_back(seconds_of(simulation, steps) * 1e9 / steps / particles);
   ThroughputRow row = row_of(which, simulation, times);
-  // The limits are this processor's, in so many threads.
+  // The limits are this processor's, in that many threads.
   if (row.threads_used > processors()) return row;
   row.register_limit_ns = cpu::register_limit_ns(which.preset.precision, 15) / row.threads_used;
   const std::size_t moved = std::size_t(particles) * 6 * (which.preset.precision == Precision::float_ ? 4 : 8);
@@ -163,7 +163,7 @@ std::array<ThroughputRow, 2> measure_beside_load(const ThroughputCase& which, in
   std::vector<double> times_of_one, times_of_many, ratios;
   const double per = 1e9 / steps / one.lattice().size();
   for (int n = 0; n < repeats; ++n) {
-    // A scheduler may favour whoever comes second: each does in turn.
+    // A scheduler may favor whoever comes second: each does in turn.
     if (n % 2 == 0) times_of_one.push_back(seconds_of(one, steps) * per);
     times_of_many.push_back(seconds_of(many, steps) * per);
     if (n % 2 != 0) times_of_one.push_back(seconds_of(one, steps) * per);

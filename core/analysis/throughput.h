@@ -44,7 +44,7 @@ std::vector<ThroughputCase> throughput_cases(bool quick, int threads);
 /// diverge.
 ThroughputRow measure_throughput(const ThroughputCase& which, int repeats);
 
-/// The cloths that are measured beside load, smallest first, with so many threads. `quick`: fewer sizes.
+/// The cloths that are measured beside load, smallest first, with that many threads. `quick`: fewer sizes.
 std::vector<ThroughputCase> cases_beside_load(bool quick, int threads);
 
 /// Measures one thread, and then the case's threads, while `busy` other threads do nothing but keep processors busy: in

@@ -19,13 +19,13 @@ namespace {
 constexpr std::array candidates{"verlet", "velocity_verlet", "rk4", "rkn4", "dopri5", "implicit_midpoint"};
 constexpr double aim = 0.5;       // of the tolerance: the trial is short
 constexpr double longest = 1;     // s of motion in a trial
-constexpr int shorter_tries = 5;  // halvings of it, where it cannot be judged so long
+constexpr int shorter_tries = 5;  // halvings of it, where it cannot be checked so long
 
 std::string number(double value) {
   return short_number(value, 2);
 }
 
-/// The reference over as much of the motion as can be told apart from a tenth of the tolerance.
+/// The reference over as much of the motion as can be distinguished from a tenth of the tolerance.
 StudyReference judge(const StudyStart& start, double tolerance, double seconds, const Stop& stop) {
   seconds = std::min(seconds, longest);
   StudyReference reference;
@@ -34,9 +34,9 @@ StudyReference judge(const StudyStart& start, double tolerance, double seconds, 
     if (10 * reference.agreement_rms_m <= tolerance) return reference;
   }
   throw ToleranceError(
-      "this motion cannot be told to " + number(tolerance) + " m: over its first " + number(reference.seconds) +
+      "this motion cannot be predicted to " + number(tolerance) + " m: over its first " + number(reference.seconds) +
       " s two fine runs (" + reference.method + ", dt = " + number(2 * reference.dt) + " s and half of it) differ by " +
-      number(reference.agreement_rms_m) + " m. Ask for " + number(20 * reference.agreement_rms_m) + " or more.");
+      number(reference.agreement_rms_m) + " m. Use " + number(20 * reference.agreement_rms_m) + " or more.");
 }
 
 struct Found {
@@ -72,14 +72,14 @@ std::string settings_of(const ErrorPoint& point) {
 std::string ToleranceChoice::words(double tolerance) const {
   ErrorPoint used = chosen;
   if (used.tolerance == 0) used.dt = preset.dt;
-  std::string text = settings_of(used) + ": errs by " + (chosen.resolved ? "" : "less than ") +
+  std::string text = settings_of(used) + ": error " + (chosen.resolved ? "" : "below ") +
                      number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
                      " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) +
-                     " m were asked for, and takes " + number(chosen.cost) +
-                     " s of one processor for a simulated second.";
+                     " m were requested; it takes " + number(chosen.cost) + " s of CPU time per simulated second.";
   if (reached.size() > 1)
-    text += " Next is " + settings_of(reached[1]) + " with " + number(reached[1].cost / chosen.cost) + " times that.";
-  return text + " Errors grow with time: what comes later may be further off.";
+    text += " The next best is " + settings_of(reached[1]) + " with " + number(reached[1].cost / chosen.cost) +
+            " times that.";
+  return text + " Errors grow with time, so later results may be less accurate.";
 }
 
 ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, double seconds,
@@ -107,11 +107,11 @@ ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, dou
   if (found.empty() && !keeps.precision && preset.precision == Precision::float_) try_all(Precision::double_);
   if (found.empty())
     throw ToleranceError(
-        "nothing reaches " + number(tolerance) + " m here with a margin of two" +
+        "no method reaches " + number(tolerance) + " m here with a margin of two" +
         (std::isfinite(least.error_rms_m)
              ? "; the best was " + settings_of(least) + " with " + number(least.error_rms_m) + " m"
              : "") +
-        ". Ask for a larger one" + (keeps.integrator ? " or leave the method open" : "") +
+        ". Use a larger tolerance" + (keeps.integrator ? " or leave the method open" : "") +
         (keeps.precision && preset.precision == Precision::float_ ? " or leave the precision open" : "") + ".");
   std::stable_sort(found.begin(), found.end(),
                    [](const Found& a, const Found& b) { return a.point.cost < b.point.cost; });

@@ -30,8 +30,8 @@ class ToleranceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Settings whose positions err by at most `tolerance` (m, root mean square over the particles) in the first `seconds`
-/// of motion, or in as much of it as can be judged; half of it is aimed at. Throws ToleranceError or Stopped.
+/// Settings with positions off by at most `tolerance` (m, root mean square over the particles) in the first `seconds`
+/// of motion, or in as much of it as can be checked; half of it is aimed at. Throws ToleranceError or Stopped.
 ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, double seconds,
                                      const ToleranceKeeps& keeps, const Stop& stop);
 

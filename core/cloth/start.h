@@ -10,12 +10,12 @@
 
 namespace tyglab {
 
-/// R x C of the preset's cloth, 1 x 1 for the one weight.
+/// R x C of the preset's cloth, 1 x 1 for the mass on a spring.
 Lattice lattice_of(const Preset& preset);
 /// Positions and velocities at the start; pinned particles have v = 0.
 StateRows start_rows(const Preset& preset);
 State start_state(const Preset& preset);
-/// That of every free particle, m/s; the one weight moves along y alone.
+/// That of every free particle, m/s; the mass on a spring moves along y alone.
 glm::dvec3 starting_velocity(const Preset& preset);
 /// Mask over i·columns + j of the particles that the preset pins.
 std::vector<std::uint8_t> pinned_particles(const Preset& preset);

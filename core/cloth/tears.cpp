@@ -8,7 +8,7 @@ bool Tears::tear(int direction, int i, int j) {
   if (masks_.empty()) masks_.assign(std::size_t(lattice_.size()) + 2 * lattice_.columns + 128, all_springs);
   masks_[index(i, j)] &= std::uint8_t(~(1u << direction));
   ++torn_;
-  // A bending spring lies over two E (or two S) springs: over the torn one and its neighbour on either side.
+  // A bending spring lies over two E (or two S) springs: over the torn one and its neighbor on either side.
   if (direction == 0) {
     masks_[index(i, j)] &= std::uint8_t(~bit_EE);
     if (j > 0) masks_[index(i, j - 1)] &= std::uint8_t(~bit_EE);

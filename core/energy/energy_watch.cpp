@@ -57,8 +57,8 @@ std::optional<Divergence> EnergyWatch::divergence(const Preset& preset, const St
     if (speed > fastest) fastest = speed, d.i = int(n) / columns, d.j = int(n) % columns;
   }
   d.quantity = "unexplained energy", d.value = reading.unexplained();
-  d.cause = preset.integrator + " has made " + short_number(reading.unexplained(), 3) + " J that nothing explains, " +
-            short_number(reading.share(), 2) + " times what the scene can hold, at dt = " + short_number(preset.dt) +
+  d.cause = preset.integrator + " has added " + short_number(reading.unexplained(), 3) + " J that no force explains, " +
+            short_number(reading.share(), 2) + " times the scene's energy scale, at dt = " + short_number(preset.dt) +
             " s";
   d.advice = advice(preset);
   return d;

@@ -45,7 +45,7 @@ struct LongestSquared {
 template <class R>
 double growth_left(const Preset& preset, const LongestSquared& longest);
 
-/// Square of the distance from particle (i, j) to its neighbour in that direction, m².
+/// Square of the distance from particle (i, j) to its neighbor in that direction, m².
 template <class R>
 double distance2(const StateView<R>& state, int i, int j, const Direction& to);
 

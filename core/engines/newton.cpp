@@ -49,7 +49,7 @@ void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) 
   ++counts.force_evaluations;
   // A step that moves nothing by more than the last digits of a position cannot be bettered.
   const double last_digits = 4 * rules.epsilon * stage.start_size();
-  bool direct = false;  // every stage tries anew: a repeated step must give the same bits
+  bool direct = false;  // every stage tries again: a repeated step must give the same bits
   bool solved = first == 0;
   double norm = first;
   for (int n = 0; n < rules.most && !solved && std::isfinite(norm); ++n) {

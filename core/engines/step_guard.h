@@ -43,9 +43,9 @@ class GuardedSteps {
   GuardedSteps(const GuardedSteps&) = delete;
   GuardedSteps& operator=(const GuardedSteps&) = delete;
 
-  /// Makes up to `most` steps, has the guard judge() them, and returns its verdict on all of them together.
+  /// Makes up to `most` steps, has the guard check() them, and returns its verdict on all of them together.
   virtual StepsMade make_steps(int most, Tears& tears, Fault& fault) = 0;
-  /// Of the steps that are being judged, the first of which is 0.
+  /// Of the steps that are being checked, the first of which is 0.
   virtual StepOutcome outcome(int step) = 0;
   /// Breaks the springs that are overloaded in the present state. Returns by how much any other spring may grow before
   /// it can be overloaded, m.

@@ -14,11 +14,11 @@ constexpr std::array<FieldInfo, 5> infos{
     {{ParticleField::tension, "tension", "Tension", "F_s", "N", false,
       "The largest force of the stretch springs at a particle: a spring tears where it exceeds F_max."},
      {ParticleField::strain, "strain", "Strain", "", "", true,
-      "How much longer (or, below 0, shorter) than at rest the stretch springs at a particle are, in the mean."},
+      "Mean relative elongation of the stretch springs at a particle; below 0 they are shorter than at rest."},
      {ParticleField::speed, "speed", "Speed", "v", "m/s", false, "How fast a particle moves."},
      {ParticleField::kinetic, "kinetic", "Kinetic energy", "", "J", false, "m v²/2 of a particle."},
      {ParticleField::distance, "distance", "Distance from the reference", "", "m", false,
-      "How far a particle is from where the same particle of the reference copy is."}}};
+      "Distance of a particle from the same particle of the reference copy."}}};
 
 /// What the springs say of one row of particles: of each of the eight directions those that are whole.
 template <class R>

@@ -1,4 +1,4 @@
-// One number for each particle, by which the cloth is coloured: what its springs do, how it moves, how far it is from
+// One number for each particle, by which the cloth is colored: what its springs do, how it moves, how far it is from
 // where a reference is.
 #pragma once
 

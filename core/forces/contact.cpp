@@ -9,7 +9,7 @@ namespace {
 
 constexpr int passes = 4;  // enough for the wedge of two bodies; more only helps where three meet
 
-/// Unit normal of the body's surface seen from x; +y at a sphere's centre.
+/// Unit normal of the body's surface seen from x; +y at a sphere's center.
 glm::dvec3 normal(const Body& body, const glm::dvec3& x) {
   if (body.shape == Body::Shape::plane) return {0, 1, 0};
   const glm::dvec3 out = x - body.c;
@@ -17,9 +17,9 @@ glm::dvec3 normal(const Body& body, const glm::dvec3& x) {
   return length > 0 ? out / length : glm::dvec3(0, 1, 0);
 }
 
-glm::dvec3 nearest_surface_point(const Body& body, const glm::dvec3& x, const glm::dvec3& centre_normal) {
+glm::dvec3 nearest_surface_point(const Body& body, const glm::dvec3& x, const glm::dvec3& center_normal) {
   if (body.shape == Body::Shape::plane) return {x.x, body.y, x.z};
-  const glm::dvec3 n = x == body.c ? centre_normal : normal(body, x);
+  const glm::dvec3 n = x == body.c ? center_normal : normal(body, x);
   return body.c + body.r * n;
 }
 
@@ -46,7 +46,7 @@ void collide_one(const Body& body, double dt, double epsilon, ContactStep& p) {
   const glm::dvec3 n = normal(body, p.old_x);
   if (depth(body, p.old_x) > contact_tolerance(body, p.old_x, epsilon)) {
     // It was inside already (the body was moved, a bad start): out along n, the nearest way from where it was. From a
-    // sphere's centre that is up, even if gravity has just moved it below.
+    // sphere's center that is up, even if gravity has just moved it below.
     p.x = way_out(body, p.x, n);
     p.v -= std::min(0.0, glm::dot(p.v, n)) * n;
     return;

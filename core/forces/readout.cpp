@@ -92,11 +92,11 @@ ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Sta
   return forces_at(p, tears, StateLook{state, tears.lattice().columns}, i, j);
 }
 
-ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Neighbourhood& near, int i, int j) {
+ParticleForces forces_on_particle(const Preset& p, const Tears& tears, const Neighborhood& near, int i, int j) {
   return forces_at(p, tears, near, i, j);
 }
 
-std::vector<SpringForce> springs_on_particle(const Preset& p, const Tears& tears, const Neighbourhood& near, int i,
+std::vector<SpringForce> springs_on_particle(const Preset& p, const Tears& tears, const Neighborhood& near, int i,
                                              int j) {
   std::vector<SpringForce> springs;
   each_spring(p, tears, near, i, j, [&](const SpringForce& spring) { springs.push_back(spring); });

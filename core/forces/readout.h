@@ -33,10 +33,10 @@ ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, cons
 
 /// The surroundings of one particle, three rows and columns in each direction: enough for the forces on it and on its
 /// neighbors.
-class Neighbourhood {
+class Neighborhood {
  public:
   static constexpr int reach = 3;
-  Neighbourhood(int i, int j) : i_(i), j_(j) {}
+  Neighborhood(int i, int j) : i_(i), j_(j) {}
   glm::dvec3& x(int i, int j) { return x_[index(i, j)]; }
   glm::dvec3& v(int i, int j) { return v_[index(i, j)]; }
   const glm::dvec3& x(int i, int j) const { return x_[index(i, j)]; }
@@ -49,9 +49,9 @@ class Neighbourhood {
   std::array<glm::dvec3, std::size_t(side) * side> x_{}, v_{};
 };
 /// The same from its surroundings: (i, j) is the particle in the middle or a neighbor of it.
-ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i, int j);
+ParticleForces forces_on_particle(const Preset& preset, const Tears& tears, const Neighborhood& near, int i, int j);
 /// All whole springs at a particle of a cloth, one by one.
-std::vector<SpringForce> springs_on_particle(const Preset& preset, const Tears& tears, const Neighbourhood& near, int i,
+std::vector<SpringForce> springs_on_particle(const Preset& preset, const Tears& tears, const Neighborhood& near, int i,
                                              int j);
 
 }  // namespace tyglab

@@ -66,7 +66,7 @@ HWY_INLINE double stretch_tension(double k_s, double rest, double r2) {
   return std::max(0.0, k_s * (std::sqrt(r2) - rest));
 }
 
-/// Force of the one weight's two-sided spring (2.3) and its damping: F = -k (x - x_0) - k_d v.
+/// Force of the mass on a spring's two-sided spring (2.3) and its damping: F = -k (x - x_0) - k_d v.
 HWY_INLINE double hooke(double x, double x_0, double k, double v, double k_d) {
   return -k * (x - x_0) - k_d * v;
 }

@@ -53,7 +53,7 @@ struct Sweep {
 
 /// What a method that chooses its own steps knows of the step it has just tried, as sums of state vectors.
 struct Estimate {
-  std::vector<Term> x, v;                       ///< what the step errs by, m and m/s
+  std::vector<Term> x, v;                       ///< error of the step, m and m/s
   std::vector<Term> stage_x, stage_v, stage_a;  ///< by how much the last two stages differ, both at the step's end
   std::vector<double> growth;                   ///< coefficients of R(z): a step takes y of y' = λ y to R(λ dt) y
 };

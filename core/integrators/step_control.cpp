@@ -12,7 +12,7 @@ namespace {
 constexpr double beta = 0.04, exponent = 0.2 - 0.75 * beta;  // of fifth order
 constexpr double safety = 0.9, most_shrink = 5, most_growth = 10;
 constexpr double least_old_error = 1e-4;
-constexpr int steps_near_limit = 6;  // so many stable ones in a row end a phase that stability limits, as Hairer counts
+constexpr int steps_near_limit = 6;  // this many stable ones end a phase that stability limits, as Hairer counts
 
 }  // namespace
 

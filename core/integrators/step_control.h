@@ -20,7 +20,7 @@ struct InnerSteps {
   std::int64_t force_evaluations = 0;
 };
 
-/// What a tried step is judged by.
+/// What a tried step is checked by.
 struct TriedStep {
   double error = 0;       ///< m; not finite where the step left all bounds
   double tolerance = 0;   ///< m

@@ -32,9 +32,9 @@ bool reader_is_gone() {
 
 std::string lost_output(const std::filesystem::path& file, int error) {
   if (error == EPIPE || (error == 0 && is_standard_output(file) && reader_is_gone()))
-    return output_name(file) + ": nobody reads it any longer, so what was still to come is lost";
+    return output_name(file) + ": its reader has closed it, so the rest of the output is lost";
   const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : std::string();
-  return output_name(file) + ": cannot be written" + why + "; send it elsewhere, or make room";
+  return output_name(file) + ": cannot be written" + why + "; write it elsewhere, or free disk space";
 }
 
 void write_output(const std::filesystem::path& file, std::string_view bytes) {

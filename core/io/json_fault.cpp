@@ -39,10 +39,10 @@ class Walker {
   std::optional<JsonFault> fault() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     skip_space();
-    if (ended()) return JsonFault{0, true, "there is nothing in it; a preset is at least {}"};
+    if (ended()) return JsonFault{0, true, "it is empty; a preset is at least {}"};
     if (value()) {
       skip_space();
-      if (!ended()) fail("the preset has ended before this; remove what follows its closing }");
+      if (!ended()) fail("the preset ends before this; remove what follows its closing }");
     }
     return fault_;
   }
@@ -85,20 +85,20 @@ class Walker {
   /// What to say where a value should begin and does not.
   bool no_value() {
     const char c = now();
-    if (ended()) return fail_end("it ends where a value should come");
+    if (ended()) return fail_end("it ends where a value is expected");
     if (comment() || not_text()) return false;
-    if (depth_ == 0) return fail("a preset is a block {…} of JSON, so it begins with {");
-    if (c == '\'') return fail("texts stand in double quotes: \"…\", not '…'");
-    if (c == '+') return fail("a number bears no + in front; remove it");
+    if (depth_ == 0) return fail("a preset is a JSON object, so it begins with {");
+    if (c == '\'') return fail("strings are written in double quotes: \"…\", not '…'");
+    if (c == '+') return fail("a number has no + sign; remove it");
     if (c == '.') return fail("a number begins with a digit: 0.5, not .5");
     if (c == ',') return fail("a value is missing before this comma");
     const std::string name = word();
     if (name == "NaN" || name == "nan" || name == "Infinity" || name == "inf")
       return fail("a number must be finite, such as 1.5 or 2e-3");
-    if (name == "True" || name == "False") return fail("write true or false in small letters");
-    if (name == "None") return fail("write null in place of None");
-    if (!name.empty()) return fail("texts stand in double quotes: \"" + name + "\"");
-    return fail("a value was expected here: a number, a \"text\", a [list] or a block {…}");
+    if (name == "True" || name == "False") return fail("write true or false in lowercase");
+    if (name == "None") return fail("write null instead of None");
+    if (!name.empty()) return fail("strings are written in double quotes: \"" + name + "\"");
+    return fail("a value was expected here: a number, a \"string\", a [list] or an object {…}");
   }
   /// Says so, and returns true, if bytes stand here that are no text at all.
   bool not_text() {
@@ -164,7 +164,7 @@ class Walker {
     const std::string key(text_.substr(begin, std::min<std::size_t>(at_ - begin, 60)));
     skip_space();
     if (ended()) return fail_end("it ends after the key " + key + "; a colon and its value are missing");
-    if (sees('=')) return fail("between a key and its value stands a colon, not =");
+    if (sees('=')) return fail("write a colon between a key and its value, not =");
     if (!sees(':')) return fail("a colon is missing after the key " + key);
     ++at_;
     skip_space();
@@ -172,8 +172,8 @@ class Walker {
   }
   bool no_key() {
     if (comment()) return false;
-    if (sees('\'')) return fail("keys stand in double quotes: \"…\", not '…'");
-    if (is_letter(now())) return fail("keys stand in double quotes: " + quoted_word());
+    if (sees('\'')) return fail("keys are written in double quotes: \"…\", not '…'");
+    if (is_letter(now())) return fail("keys are written in double quotes: " + quoted_word());
     if (sees(',')) return fail("one comma is enough; remove this one");
     return not_text() ? false : fail("a key in double quotes was expected here, such as \"k_s\"");
   }
@@ -181,8 +181,9 @@ class Walker {
   bool string() {
     const std::size_t open = at_++;
     while (!sees('"')) {
-      if (ended() || sees('\n') || sees('\r')) return fail_at(open, "the text that begins here lacks its closing \"");
-      if (static_cast<unsigned char>(now()) < ' ') return fail("a text holds no such character; write \\t for a tab");
+      if (ended() || sees('\n') || sees('\r')) return fail_at(open, "the string that begins here lacks its closing \"");
+      if (static_cast<unsigned char>(now()) < ' ')
+        return fail("a string cannot contain this character; write \\t for a tab");
       if (sees('\\')) {
         if (!escape()) return false;
         continue;
@@ -198,7 +199,7 @@ class Walker {
     const char c = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
     if (c == 'u') return unicode_escape();
     if (c == '\0' || std::string_view("\"\\/bfnrt").find(c) == std::string_view::npos)
-      return fail("this backslash begins nothing that JSON knows; write \\\\ for a backslash");
+      return fail("JSON has no such escape; write \\\\ for a backslash");
     at_ += 2;
     return true;
   }
@@ -217,7 +218,7 @@ class Walker {
     if (code < 0xD800 || code > 0xDFFF) return true;
     const int second = unicode();
     if (code > 0xDBFF || second < 0xDC00 || second > 0xDFFF)
-      return fail_at(begin, "half a character; write the character itself");
+      return fail_at(begin, "half a surrogate pair; write the character itself");
     at_ += 6;
     return true;
   }
@@ -233,7 +234,7 @@ class Walker {
     const bool zero = sees('0');
     if (!digits()) return fail_at(begin, "digits are missing after the minus");
     if (zero && at_ - begin > (text_[begin] == '-' ? 2u : 1u))
-      return fail_at(begin, "a number does not begin with a further 0; remove it");
+      return fail_at(begin, "a number has no leading 0; remove it");
     if (sees('.') && (++at_, !digits())) return fail_at(begin, "digits are missing after the point: 1.0 or 1");
     if (sees('e') || sees('E')) {
       ++at_;
@@ -241,9 +242,9 @@ class Walker {
       if (!digits()) return fail_at(begin, "digits are missing after the e, as in 1e-3");
     }
     if (is_letter(now()) || sees('.'))
-      return fail_at(begin, "this is no number that JSON knows; write one such as 1000, 1.5 or 2e-3");
+      return fail_at(begin, "this is not a JSON number; write one such as 1000, 1.5 or 2e-3");
     if (std::isinf(std::strtod(std::string(text_.substr(begin, at_ - begin)).c_str(), nullptr)))
-      return fail_at(begin, "this number is too large to be held; write a smaller one");
+      return fail_at(begin, "this number is too large; write a smaller one");
     return true;
   }
 

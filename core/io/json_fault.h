@@ -11,7 +11,7 @@ namespace tyglab {
 struct JsonFault {
   std::size_t at = 0;  ///< byte at which it is seen
   bool end = false;    ///< the text ends too early; `at` is its last character
-  std::string why;     ///< what was expected, and the cure
+  std::string why;     ///< what was expected, and the fix
 };
 
 /// The first place at which the text breaks JSON's grammar; none where it does not. Asked only when a parser has

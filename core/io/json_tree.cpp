@@ -63,8 +63,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(string_t& v) override {
-    if (stack_.back()->members.size() >= max_keys) return fail("too many keys in one block for a preset");
-    if (stack_.back()->find(v)) return fail("the key \"" + v + "\" stands twice; keep one of them");
+    if (stack_.back()->members.size() >= max_keys) return fail("too many keys in one object for a preset");
+    if (stack_.back()->find(v)) return fail("the key \"" + v + "\" appears twice; keep one of them");
     key_ = std::move(v);
     return true;
   }
@@ -168,11 +168,11 @@ std::string_view type_name(JsonNode::Type type) {
     case JsonNode::Type::number:
       return "a number";
     case JsonNode::Type::text:
-      return "a text";
+      return "a string";
     case JsonNode::Type::list:
       return "a list";
     case JsonNode::Type::object:
-      return "a block {…}";
+      return "an object {…}";
   }
   return "";
 }

@@ -29,7 +29,7 @@ struct JsonNode::Member {
   JsonNode value;
 };
 
-/// "a number", "a text", … for error messages.
+/// "a number", "a string", … for error messages.
 std::string_view type_name(JsonNode::Type type);
 
 /// With control characters as spaces: a key of a file must not end an error message early, or reach a terminal as code.

@@ -49,7 +49,7 @@ std::string value_problem(const Row<T>& row, const T& object) {
         } else if constexpr (std::is_same_v<Value, std::string>) {
           if (row.key == "integrator" && !is_integrator(value)) {
             const auto meant = nearest(value, integrator_names());
-            return "\"" + value + "\" is no integrator" +
+            return "\"" + value + "\" is not an integrator" +
                    (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
                    " Known: " + listed(integrator_names());
           }
@@ -65,7 +65,7 @@ std::string pins_problem(const Preset& p) {
   if (p.pins.mode != Pins::Mode::list) return {};
   for (const auto [i, j] : p.pins.list)
     if (i < 0 || i >= p.rows || j < 0 || j >= p.columns)
-      return "[" + std::to_string(i) + ", " + std::to_string(j) + "] lies outside the cloth; allowed: [0, 0] to [" +
+      return "[" + std::to_string(i) + ", " + std::to_string(j) + "] is outside the cloth; allowed: [0, 0] to [" +
              std::to_string(p.rows - 1) + ", " + std::to_string(p.columns - 1) + "]";
   return {};
 }
@@ -92,7 +92,7 @@ class Reader {
   template <class Enum, std::size_t N>
   void choice(const JsonNode& node, const std::string& path, const std::array<std::string_view, N>& names,
               Enum& out) const {
-    if (node.type != Type::text) wrong_type(node, path, "a text, one of " + listed(names));
+    if (node.type != Type::text) wrong_type(node, path, "a string, one of " + listed(names));
     const auto it = std::find(names.begin(), names.end(), node.text);
     if (it == names.end()) {
       const auto meant = nearest(node.text, names);
@@ -113,15 +113,15 @@ class Reader {
     out = int(std::clamp(node.number, -2147483648.0, 2147483647.0));
   }
   void value(const JsonNode& node, const std::string& path, std::string& out) const {
-    if (node.type != Type::text) wrong_type(node, path, "a text");
+    if (node.type != Type::text) wrong_type(node, path, "a string");
     out = node.text;
   }
-  /// A text that is drawn in every frame, of at most so many bytes.
+  /// A text that is drawn in every frame, of at most that many bytes.
   void words(const JsonNode& node, const std::string& path, std::size_t most, std::string& out) const {
     value(node, path, out);
     if (out.size() > most)
       fail(node.line, path,
-           "must be a text of at most " + std::to_string(most) + " bytes; it has " + std::to_string(out.size()));
+           "must be a string of at most " + std::to_string(most) + " bytes; it has " + std::to_string(out.size()));
   }
   void value(const JsonNode& node, const std::string& path, glm::dvec3& out) const {
     if (node.type != Type::list) wrong_type(node, path, "a list of three numbers");
@@ -161,7 +161,7 @@ class Reader {
   }
 
   void body(const JsonNode& node, const std::string& path, Body& out) const {
-    if (node.type != Type::object) wrong_type(node, path, "a block {…}");
+    if (node.type != Type::object) wrong_type(node, path, "an object {…}");
     out = {};
     for (const auto& [key, child] : node.members) body_key(key, child, path + "." + key, out);
   }
@@ -215,7 +215,7 @@ void check_version(const Reader& reader, const JsonNode& node) {
     reader.fail(node.line, "tyglab_preset",
                 "this preset has version " + shortest_number(node.number) +
                     ", made by a newer Tyglab; this one reads up to " + std::to_string(preset_version) +
-                    ". Update Tyglab, or save the preset from it in the older form");
+                    ". Update Tyglab, or save the preset in the older form");
   if (node.number < 1) reader.fail(node.line, "tyglab_preset", "versions begin at 1");
 }
 
@@ -284,7 +284,7 @@ void apply_to_body(const std::string& key, const JsonNode& node, const Reader& r
   std::size_t index = 0;
   std::string inner;
   if (!body_setting(key, index, inner))
-    reader.fail(0, key, "one value of a body is set like bodies[0].r=0.3, and all bodies like bodies=[{\"r\": 0.3}]");
+    reader.fail(0, key, "set one value of a body like bodies[0].r=0.3, and all bodies like bodies=[{\"r\": 0.3}]");
   const std::size_t count = p.bodies.size();
   if (index >= count)
     reader.fail(0, key,
@@ -324,7 +324,7 @@ void apply_setting(const Setting& setting, Preset& p) {
 Preset parse_preset(std::string_view text, std::string_view source) {
   const JsonNode root = parse_json(text, source, Lines::told);
   const Reader reader(source);
-  if (root.type != Type::object) reader.wrong_type(root, "", "a block {…}");
+  if (root.type != Type::object) reader.wrong_type(root, "", "an object {…}");
   if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
   Preset preset;
   int pins_line = 0;
@@ -335,7 +335,7 @@ Preset parse_preset(std::string_view text, std::string_view source) {
       known.insert(known.end(), {"tyglab_preset", "kind", "name", "description"});
       reader.unknown(node.line, name, name, known);
     }
-    if (node.type != Type::object) reader.wrong_type(node, name, "a block {…}");
+    if (node.type != Type::object) reader.wrong_type(node, name, "an object {…}");
     for (const auto& [key, child] : node.members) {
       reader.key(name, key, child, name + "." + key, preset);
       if (key == "pins") pins_line = child.line;

@@ -39,7 +39,7 @@ class Difference {
 
   /// As --set names it: "dt", "bodies[0].r".
   std::string key() const;
-  /// The value to be read by people; numbers have up to so many significant digits.
+  /// The value to be read by people; numbers have up to that many significant digits.
   std::string value_text(int digits = 6) const;
   /// "dt=0.001"
   std::string text() const { return key() + "=" + value_text(); }

@@ -18,11 +18,11 @@ enum class Effect {
   force,       ///< masses, forces, rest lengths: counts from the next step
   pins,        ///< which particles stay where they are
   dt,          ///< counts from the next step; velocities are kept
-  integrator,  ///< the method's own vectors are made anew; velocities are kept
+  integrator,  ///< the method's own vectors are made again; velocities are kept
   precision,   ///< another engine takes over the state
   device,      ///< the same, on another OpenCL device
   engine,      ///< the same
-  rebuild      ///< the cloth is built anew
+  rebuild      ///< the cloth is built again
 };
 
 class EffectSet {

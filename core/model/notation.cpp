@@ -195,14 +195,14 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
 SliderRange slider_range(const PresetRow& row, double preset_value) {
   const double v = std::abs(preset_value);
   if (row.scale == Scale::logarithmic) {
-    // With 0 in the preset there is no value to centre on: fall back on the field's default, then on 1.
+    // With 0 in the preset there is no value to center on: fall back on the field's default, then on 1.
     static const Preset defaults{};
-    double centre = v;
-    if (centre == 0)
-      if (const auto* field = std::get_if<double Preset::*>(&row.field)) centre = defaults.**field;
-    if (centre == 0) centre = 1;
-    const double low = row.min == 0 ? 0 : std::max(row.min, centre / 31.6);
-    return {low, std::clamp(centre * 31.6, row.min, row.max)};
+    double center = v;
+    if (center == 0)
+      if (const auto* field = std::get_if<double Preset::*>(&row.field)) center = defaults.**field;
+    if (center == 0) center = 1;
+    const double low = row.min == 0 ? 0 : std::max(row.min, center / 31.6);
+    return {low, std::clamp(center * 31.6, row.min, row.max)};
   }
   const double reach = v > 0 ? 3 * v : 1;
   return {std::max(row.min, -reach), std::min(row.max, reach)};

@@ -37,7 +37,7 @@ struct Row {
   bool zero_is_off = false;   ///< 0 means never
   Kind only = Kind::cloth;    ///< with only_one_kind: the kind that uses it
   bool only_one_kind = false;
-  EffectSet of_weight = {};  ///< what a change asks for beside, of the one weight
+  EffectSet of_weight = {};  ///< what a change asks for beside, of the mass on a spring
 };
 
 using PresetRow = Row<Preset>;

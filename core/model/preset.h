@@ -29,7 +29,7 @@ struct Pins {
 struct Body {
   enum class Shape { sphere, plane };
   Shape shape = Shape::sphere;
-  glm::dvec3 c{0, 0, 0};   ///< centre of a sphere, m
+  glm::dvec3 c{0, 0, 0};   ///< center of a sphere, m
   double r = 0.2;          ///< radius of a sphere, m
   double y = 0;            ///< height of a plane, m
   double friction = 0;     ///< Coulomb's μ
@@ -52,13 +52,13 @@ struct Preset {
   double tilt_deg = 85;
   double initial_stretch = 1;
   Pins pins;
-  double offset = 0.1;  ///< one weight only
+  double offset = 0.1;  ///< a mass on a spring only
 
   // forces
   double k_s = 50;
   double k_b = 5;
   double k_d = 0.002;
-  double k = 50;  ///< one weight only
+  double k = 50;  ///< a mass on a spring only
   double g = 9.82;
   glm::dvec3 W{0, 0, 0};
   double gust = 0;         ///< 0: the wind is steady

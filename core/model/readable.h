@@ -5,8 +5,8 @@
 
 namespace tyglab {
 
-/// Up to so many significant digits, "310", "0.002", "1.2e-4": without an exponent from 0.001 to 100,000, where every
-/// digit before the point is told.
+/// Up to that many significant digits, "310", "0.002", "1.2e-4": without an exponent from 0.001 to 100,000, where every
+/// digit before the point is written.
 std::string short_number(double value, int digits = 4);
 /// "1.20e-04", as printf writes it, as "1.20e-4".
 std::string short_exponent(std::string text);

@@ -27,7 +27,7 @@ PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
   if (!out_) fail();
   if (std::fseek(out_.get(), 0, SEEK_SET) != 0)
     throw OutputError(file_.string() +
-                      ": a point cache counts its samples at its head, so it cannot go into a pipe; name a file, or -");
+                      ": a point cache has its sample count at the start, so it cannot be piped; name a file, or -");
   std::string header("POINTCACHE2");
   header.push_back('\0');
   append_little_endian<std::int32_t>(header, 1);

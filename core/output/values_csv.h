@@ -1,4 +1,4 @@
-// What the particles' values are now, as a CSV: the numbers that colour the cloth.
+// What the particles' values are now, as a CSV: the numbers that color the cloth.
 #pragma once
 
 #include <string>

@@ -33,10 +33,10 @@ R nearest(const R* x, std::ptrdiff_t stride, int columns, const R* point) {
   using V = Vec3<D>;
   constexpr int lanes = int(hn::MaxLanes(D()));
   const auto far = hn::Set(D(), std::numeric_limits<R>::infinity());
-  const V centre{{hn::Set(D(), point[0])}, {hn::Set(D(), point[1])}, {hn::Set(D(), point[2])}};
+  const V center{{hn::Set(D(), point[0])}, {hn::Set(D(), point[1])}, {hn::Set(D(), point[2])}};
   auto least = far;
   for (int j = 0; j < columns; j += lanes) {
-    const V way = V::load(x + j, stride) - centre;
+    const V way = V::load(x + j, stride) - center;
     const auto inside = hn::FirstN(D(), std::size_t(columns - j));
     least = hn::Min(least, hn::IfThenElse(inside, dot(way, way).v, far));
   }

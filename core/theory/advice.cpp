@@ -34,11 +34,10 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
   const std::string tolerance = "The tolerance " + short_number(p.tolerance) + " m is ";
   const std::string precision = p.precision == Precision::float_ ? "float" : "double";
   if (inner.below_digits > 0)
-    return tolerance + "below what " + precision +
-           " can hold: the last digit of the largest coordinate is more. Take " +
-           (p.precision == Precision::float_ ? "a larger one, or the precision double." : "a larger one.");
+    return tolerance + "below what " + precision + " resolves: the last digit of the largest coordinate is more. Use " +
+           (p.precision == Precision::float_ ? "a larger one, or double precision." : "a larger one.");
   return tolerance +
-         "more than the shortest inner steps reach, a ten-thousandth of dt: take a smaller dt or a larger "
+         "not reached by the shortest inner steps, a ten-thousandth of dt: use a smaller dt or a larger "
          "tolerance.";
 }
 
@@ -46,25 +45,26 @@ std::string advice(const Preset& p) {
   const std::string stiffness = p.kind == Kind::cloth ? "k_s" : "k";
   const double verlet_dt = advised_dt(p, "verlet");
   if (p.integrator == "verlet") {
-    if (p.dt <= verlet_dt) return "Take a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
-    return "Take dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
+    if (p.dt <= verlet_dt) return "Use a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
+    return "Use dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
   }
   const std::string step = p.dt <= verlet_dt ? "" : " with dt = " + seconds(verlet_dt) + " or less";
   if (chooses_steps(scheme(p.integrator)))
-    return "Take a smaller dt, of which its own steps may be a ten-thousandth, or a smaller " + stiffness +
-           ", and restart; or take the integrator implicit_euler, which no stiffness makes unstable.";
+    return "Use a smaller dt (its inner steps may be a ten-thousandth of it) or a smaller " + stiffness +
+           ", and restart; or use the integrator implicit_euler, which is stable at any stiffness.";
   if (projects(scheme(p.integrator)))
-    return "Take a smaller dt or more iterations, and restart: this method has no limit of dt, but with few iterations "
-           "its springs give way, and bodies and wind may part them; or take the integrator verlet" +
+    return "Use a smaller dt or more iterations, and restart: this method has no limit of dt, but with few iterations "
+           "its springs are soft, and bodies and wind may overstretch them; or use the integrator verlet" +
            step + ".";
   if (is_implicit(scheme(p.integrator)))
-    return "Take a smaller dt and restart: linear theory gives this method no limit, but bodies, wind and springs that "
-           "switch do; or take the integrator verlet" +
+    return "Use a smaller dt and restart: linear theory sets no limit for this method, but bodies, wind and springs "
+           "that "
+           "switch do; or use the integrator verlet" +
            step + ".";
   const double own_dt = advised_dt(p, p.integrator);
   const std::string own = own_dt > 0 ? "this method itself needs dt below about " + seconds(own_dt)
-                                     : "without damping no dt makes this method stable";
-  return "Take the integrator verlet" + step + " and restart; " + own + ".";
+                                     : "without damping this method is unstable at every dt";
+  return "Use the integrator verlet" + step + " and restart; " + own + ".";
 }
 
 bool springs_too_weak(const Preset& p) {
@@ -77,8 +77,8 @@ bool springs_too_weak(const Preset& p) {
 }
 
 std::string advice_for_weak_springs(const Preset& p) {
-  if (p.kind == Kind::one_weight) return "Take a larger k or a smaller m, and restart: neither dt nor method matters.";
-  return "Take a larger k_s, or less weight (m, g) or wind, and restart: neither dt nor method matters.";
+  if (p.kind == Kind::one_weight) return "Use a larger k or a smaller m, and restart: dt and method do not matter.";
+  return "Use a larger k_s, or less weight (m, g) or wind, and restart: dt and method do not matter.";
 }
 
 std::optional<Preset> suggested_fix(const Preset& p) {

@@ -16,7 +16,7 @@ struct Mode {
   double omega() const;  ///< √stiffness, 1/s; 0 where it is negative
 };
 
-/// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (one weight: k/m, k_d/m).
+/// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (mass on a spring: k/m, k_d/m).
 Mode any_configuration(const Preset& preset);
 
 /// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large, or where

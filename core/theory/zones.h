@@ -22,8 +22,8 @@ struct ZonedConstant {
   std::string_view key;
   double Preset::*field;
 };
-/// L has one zone only: rest lengths do not enter the largest frequency, √((12 k_s + 8 k_b)/m), and a slider that shows
-/// so says that shortening springs is no cure.
+/// L has one zone only: the largest frequency does not depend on rest lengths, √((12 k_s + 8 k_b)/m), and a slider that
+/// shows so says that shortening springs is no fix.
 inline constexpr std::array<ZonedConstant, 6> zoned_cloth{{{"dt", &Preset::dt},
                                                            {"k_s", &Preset::k_s},
                                                            {"k_b", &Preset::k_b},

@@ -63,7 +63,7 @@ TEST_CASE("a run that diverges says so, and one that is stopped ends") {
   CHECK(run_weight(preset, 1000, [] { return true; }).t.empty());
 }
 
-/// The phase (rad) and growth of one step, from y at three neighbouring steps far from the start: y = r^n cos(n φ + c).
+/// The phase (rad) and growth of one step, from y at three neighboring steps far from the start: y = r^n cos(n φ + c).
 struct StepFactor {
   double phase, growth;
 };

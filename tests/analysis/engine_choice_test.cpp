@@ -36,7 +36,7 @@ TEST_CASE("what no device runs is not measured") {
   const EngineChoice choice = choose_engine(test::cloth(8, 8, "xpbd"), 1);
   CHECK(choice.engine == EngineKind::cpu);
   CHECK(choice.times.empty());
-  CHECK(choice.why == "the CPU engine, since no other runs xpbd");
+  CHECK(choice.why == "the CPU engine, since no other engine runs xpbd");
 }
 
 TEST_CASE("times are measured once and then read from disk, for scenes of the same kind") {

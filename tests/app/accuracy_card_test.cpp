@@ -29,9 +29,10 @@ TEST_CASE("the accuracy card says what is known, and why where nothing is") {
   CHECK(accuracy_words(study) == "Measuring…");
   study.present = point("verlet", 2.13e-5, 0.0123);
   CHECK(accuracy_words(study) ==
-        "Verlet errs by 2.1e-5 m (rms) over the 0.25 s from t = 0.000 s and takes 0.012 s of processor a second.");
+        "Verlet: error 2.1e-5 m (rms) over the 0.25 s from t = 0.000 s; it takes 0.012 s of CPU time per simulated "
+        "second.");
   study.present = point("verlet", 2e-9, 0.0123, false);
-  CHECK(accuracy_words(study).find("errs by less than 1e-8 m") != std::string::npos);
+  CHECK(accuracy_words(study).find("error below 1e-8 m") != std::string::npos);
   study.present = point("verlet", std::numeric_limits<double>::infinity(), 0.0123);
   CHECK(accuracy_words(study).find("Verlet diverges") != std::string::npos);
   study.problem = "it cannot be followed";

@@ -50,7 +50,7 @@ TEST_CASE("frame brings a box into view, whatever its shape") {
   }
 }
 
-TEST_CASE("framing leaves free what is covered along the upper edge, and centres in what is left") {
+TEST_CASE("framing leaves free what is covered along the upper edge, and centers in what is left") {
   constexpr float covered = 0.2f, part = 0.9f, half = (1 - covered) * size.y / 2, middle = covered * size.y + half;
   const std::vector<glm::vec3> points{{-0.2f, 0, 0.3f}, {0.2f, 0, -0.3f}, {0, 1, 0.1f}, {0.1f, 0.9f, -0.2f}};
   const auto reach = [&](const Camera& camera) {

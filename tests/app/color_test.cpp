@@ -1,4 +1,4 @@
-// Colouring the cloth: the maps, the scale that does not flicker, the legend's words, what the renderer draws and what
+// Coloring the cloth: the maps, the scale that does not flicker, the legend's words, what the renderer draws and what
 // it costs where it is off.
 #include <doctest/doctest.h>
 
@@ -49,7 +49,7 @@ TEST_CASE("magnitudes get evenly lighter; signs get evenly darker on both sides 
             doctest::Approx(lightness(map_color(sign, 1 - k / 8.0))).epsilon(0.01));
     const auto middle = bytes(map_color(sign, 0.5));
     CHECK(std::abs(middle[0] - middle[2]) < 8);  // neutral
-    // Blue against red, which every kind of colour blindness tells apart.
+    // Blue against red, which every kind of color blindness tells apart.
     CHECK(bytes(map_color(sign, 0))[2] > bytes(map_color(sign, 0))[0] + 80);
     CHECK(bytes(map_color(sign, 1))[0] > bytes(map_color(sign, 1))[2] + 80);
   }
@@ -121,7 +121,7 @@ class Stage {
   Camera camera_;
 };
 
-/// Mean colour of a box in the middle of the left (or right) half of the cloth.
+/// Mean color of a box in the middle of the left (or right) half of the cloth.
 std::array<double, 3> mean(const Image& image, bool right) {
   std::array<double, 3> sum{};
   constexpr int side = 20;
@@ -133,7 +133,7 @@ std::array<double, 3> mean(const Image& image, bool right) {
   return sum;
 }
 
-TEST_CASE("values colour the cloth from one end of the map to the other, in every view, and leave no trace when off") {
+TEST_CASE("values color the cloth from one end of the map to the other, in every view, and leave no trace when off") {
   Stage stage;
   Preset preset = test::quiet_cloth(9, 9);
   preset.pins.mode = Pins::Mode::none;
@@ -150,22 +150,22 @@ TEST_CASE("values colour the cloth from one end of the map to the other, in ever
     const auto low = mean(colored, false), high = mean(colored, true);
     CHECK(high[0] > low[0] + (mode == 1 || mode == 3 ? 100 : 10));  // pale yellow against dark blue
   }
-  // Legible: in the light, a colour is between two thirds of the legend's and the legend's own.
+  // Legible: in the light, a color is between two thirds of the legend's and the legend's own.
   const auto high = mean(stage.draw(cloth, 1, ValueRange{0, 2}, values), true);
   const auto wanted = bytes(map_color({}, 1));
   CHECK(high[0] <= wanted[0] + 1);
   CHECK(high[0] >= 0.66 * wanted[0]);
   CHECK(high[2] / high[0] == doctest::Approx(double(wanted[2]) / wanted[0]).epsilon(0.06));
   values.assign(81, NAN);
-  const auto grey = mean(stage.draw(cloth, 1, ValueRange{0, 2}, values), true);
-  CHECK(std::abs(grey[0] - grey[2]) < 3);
+  const auto gray = mean(stage.draw(cloth, 1, ValueRange{0, 2}, values), true);
+  CHECK(std::abs(gray[0] - gray[2]) < 3);
 }
 
-TEST_CASE("colours are skipped where nothing is coloured, and distance asks for a copy") {
+TEST_CASE("colors are skipped where nothing is colored, and distance asks for a copy") {
   test::Desk desk(test::cloth(6, 6));
   const auto activity = [&] {
     for (const FeatureRow& row : feature_rows(desk.ui))
-      if (row.name == "colours") return row.activity;
+      if (row.name == "colors") return row.activity;
     return Activity::asleep;
   };
   CHECK(activity() == Activity::skipped);

@@ -50,13 +50,14 @@ TEST_CASE("what cannot run is not offered, and says why; until the devices are k
   CHECK(why_not(modes[cpu_double], preset, &none).empty());
   const OpenClInventory two{{device_called("Processor", true, true), device_called("Card", false, false)}, ""};
   CHECK(why_not(modes[opencl_float], preset, &two).empty());
-  CHECK(why_not(modes[opencl_double], preset, &two) == "Card does not compute in double.");  // the card goes first
-  CHECK(words_of(modes[opencl_float], preset, &two).find("By OpenCL on Card, in float") == 0);
+  CHECK(why_not(modes[opencl_double], preset, &two) ==
+        "Card does not support double precision.");  // the card goes first
+  CHECK(words_of(modes[opencl_float], preset, &two).find("With OpenCL on Card, in float") == 0);
   preset.device = 0;
   CHECK(why_not(modes[opencl_double], preset, &two).empty());
-  CHECK(words_of(modes[opencl_double], preset, &two).find("By OpenCL on Processor, in double") == 0);
+  CHECK(words_of(modes[opencl_double], preset, &two).find("With OpenCL on Processor, in double") == 0);
   preset.integrator = "xpbd";
-  CHECK(why_not(modes[opencl_float], preset, &two).find("XPBD runs on the CPU engine alone.") == 0);
+  CHECK(why_not(modes[opencl_float], preset, &two).find("XPBD runs only on the CPU engine.") == 0);
   CHECK(why_not(modes[cpu_double], preset, &two).empty());
 }
 
@@ -88,7 +89,7 @@ TEST_CASE("a method of the CPU engine alone brings it along: one change, one und
     CHECK(desk.session.preset().engine == EngineKind::cpu);
     REQUIRE(desk.session.messages.list().size() == 1);
     CHECK(desk.session.messages.list().front().text ==
-          std::string(scheme(method).title) + " runs on the CPU engine alone, so that was taken.");
+          std::string(scheme(method).title) + " runs only on the CPU engine, so that engine was chosen.");
     desk.ui.command("undo");
     act(desk);
     CHECK(desk.session.preset() == on_opencl());

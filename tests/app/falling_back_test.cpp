@@ -87,7 +87,7 @@ TEST_CASE("a device that is lost: the CPU engine goes on from the last state tha
   REQUIRE(session.messages.list().size() == 1);
   const std::string said = session.messages.list().front().text;
   CHECK(said.find("the device is not available") != std::string::npos);
-  CHECK(said.find("The CPU engine goes on from t = 0.2") != std::string::npos);
+  CHECK(said.find("The CPU engine continues from t = 0.2") != std::string::npos);
   run(session, 3);
   CHECK(session.simulation->steps() == kept.steps + 30);
   CHECK(test::all_finite(session.simulation->read()));

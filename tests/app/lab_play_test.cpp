@@ -260,7 +260,7 @@ TEST_CASE("lab: tearing a cloth on purpose") {
   finish(play);
 }
 
-TEST_CASE("a lab begins with the cloth's own look, and what coloured it before is remembered") {
+TEST_CASE("a lab begins with the cloth's own look, and what colored it before is remembered") {
   test::Desk desk;
   desk.scene.colors.choose(ParticleField::speed);
   desk.settings.color = "speed";

@@ -209,7 +209,7 @@ TEST_CASE("a message that is already shown is renewed, and stands there once") {
 }
 
 /// Red, green and blue, linear, as seen by a person who lacks the long-wave or the middle-wave cones (Viénot, Brettel
-/// and Mollon 1999), or by one who lacks none; then as lightness and two opponent colours (Oklab, Ottosson 2020).
+/// and Mollon 1999), or by one who lacks none; then as lightness and two opponent colors (Oklab, Ottosson 2020).
 glm::dvec3 seen(ImU32 color, int lacking) {
   const auto linear = [](unsigned c) { return std::pow(double(c & 255) / 255, 2.2); };
   glm::dvec3 rgb{linear(color), linear(color >> 8), linear(color >> 16)};
@@ -225,7 +225,7 @@ glm::dvec3 seen(ImU32 color, int lacking) {
           0.0259 * l + 0.7828 * m - 0.8087 * s};
 }
 
-TEST_CASE("every integrator has a colour or a line of its own, which the colour-blind can tell apart") {
+TEST_CASE("every integrator has a color or a line of its own, which the color-blind can tell apart") {
   const Tokens colors = dark_tokens();
   for (const std::string_view a : integrator_names())
     for (const std::string_view b : integrator_names()) {

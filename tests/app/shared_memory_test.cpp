@@ -69,7 +69,7 @@ TEST_CASE("the memory of engines that are gone is given back") {
 TEST_CASE("a buffer that OpenGL has no room for is refused with a sentence") {
   const test::PicturePair stage;
   constexpr std::size_t far_too_much = std::size_t(1) << 45;
-  CHECK_THROWS_WITH_AS(gl::MappedBuffer(3, far_too_much), "OpenGL has no room for a buffer that stays mapped",
+  CHECK_THROWS_WITH_AS(gl::MappedBuffer(3, far_too_much), "OpenGL could not allocate a persistently mapped buffer",
                        GraphicsError);
   CHECK_NOTHROW(gl::MappedBuffer(3, 4096));
 }

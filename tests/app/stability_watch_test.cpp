@@ -47,7 +47,7 @@ TEST_CASE("the limits are those of linear theory, and follow the constants") {
   CHECK(stability_text(stiff, 2 * stiff.any) == "2.00");
   const std::string words = stability_words(stiff, 2 * stiff.any);
   CHECK(says(words, "2.00 of the largest"));
-  CHECK(says(words, "no promise"));
+  CHECK(says(words, "not a guarantee"));
 }
 
 TEST_CASE("methods without a limit, and those that no dt makes stable, are named so") {

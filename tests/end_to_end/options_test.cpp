@@ -34,9 +34,9 @@ TEST_CASE("experiments on the CPU engine alone refuse another, and say so where 
     };
     for (const char* engine : {"opencl:99", "opencl", "auto", "nonsense"})
       check(folder, with({"one_weight", "--engine", engine}), 2,
-            "--engine " + std::string(engine) + ": this command works on the CPU engine alone");
+            "--engine " + std::string(engine) + ": this command runs only on the CPU engine");
     for (const char* set : {"engine=opencl", "solver.engine=opencl"})
-      check(folder, with({"one_weight", "--set", set}), 2, "--set engine=opencl: this command works on the CPU");
+      check(folder, with({"one_weight", "--set", set}), 2, "--set engine=opencl: this command runs only on the CPU");
     CHECK(check(folder, with({"one_weight", "--engine", "cpu"}), 0, "").err.empty());
     CHECK(check(folder, with({"opencl.json", "--engine", "cpu"}), 0, "").err.empty());
     const auto outcome = check(folder, with({"opencl.json"}), 0, "the preset asks for OpenCL");
@@ -56,10 +56,10 @@ TEST_CASE("--engine: all that is allowed is named") {
 TEST_CASE("an option of the window before a command: behind it, or left out where the command has none") {
   const test::TemporaryFolder folder;
   check(folder, {"--size", "640x480", "devices"}, 2, "--size: belongs to the window, and `tyglab devices` does not");
-  check(folder, {"--frames", "3", "stability", "map"}, 2, "`tyglab stability map` does not take it; leave it out");
+  check(folder, {"--frames", "3", "stability", "map"}, 2, "`tyglab stability map` does not accept it; omit it");
   check(folder, {"--size", "640x480", "render", "one_weight", "--png", "a.png"}, 2,
-        "--size: stands before the command");
-  check(folder, {"--dt", "0.1", "run", "one_weight"}, 2, "--dt: stands before the command; put it after its name");
+        "--size: comes before the command");
+  check(folder, {"--dt", "0.1", "run", "one_weight"}, 2, "--dt: comes before the command; put it after the command");
   for (const char* option : {"--size", "--engine"}) check(folder, {option, ""}, 2, "must not be empty");
   check(folder, {"render", "one_weight", "--png", "a.png", "--size", ""}, 2, "--size");
 }
@@ -89,7 +89,7 @@ TEST_CASE("bench convergence without anything to measure says that alone") {
   const auto outcome = check(folder, {"bench", "convergence", "hanging", "--integrator", "dopri5", "--quick"}, 0,
                              "chooses its own steps");
   CHECK(test::lines(outcome.out).size() == 1);
-  CHECK(outcome.out.starts_with("There is nothing to measure: "));
+  CHECK(outcome.out.starts_with("The order cannot be measured: "));
 }
 
 TEST_CASE("devices tells how many threads the CPU engine may use") {

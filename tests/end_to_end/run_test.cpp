@@ -53,7 +53,7 @@ TEST_CASE("--engine auto says what it chose and why, to people and to programs")
   CHECK(nlohmann::json::parse(test::read_file(folder / "r.json"))["engine_choice"].is_null());
 }
 
-TEST_CASE("--values writes what can colour the cloth, a row per particle") {
+TEST_CASE("--values writes what can color the cloth, a row per particle") {
   const test::TemporaryFolder folder;
   good(folder.path(), {"run", "hanging", "--seconds", "0.2", "--values", "v.csv", "--state", "s.csv"});
   const auto rows = test::lines(test::read_file(folder / "v.csv")),
@@ -71,7 +71,7 @@ TEST_CASE("--values writes what can colour the cloth, a row per particle") {
   CHECK(test::lines(weight.out)[1] == "i,j,speed [m/s],kinetic [J]");
 }
 
-TEST_CASE("render --color adds colours and a legend, and refuses what it cannot show") {
+TEST_CASE("render --color adds colors and a legend, and refuses what it cannot show") {
   const test::TemporaryFolder folder;
   const std::vector<std::string> same{"render", "hanging", "--seconds", "0.2", "--size", "320x180"};
   const auto picture = [&](std::vector<std::string> more) {
@@ -199,7 +199,7 @@ TEST_CASE("presets show is a preset that runs the same") {
   CHECK(test::read_file(folder / "a.csv") == test::read_file(folder / "b.csv"));
 }
 
-TEST_CASE("no progress bar and no colour codes when output is not a terminal") {
+TEST_CASE("no progress bar and no color codes when output is not a terminal") {
   const test::TemporaryFolder folder;
   const auto outcome = good(folder.path(), {"run", "hanging", "--seconds", "1"});
   for (const std::string* text : {&outcome.out, &outcome.err}) {
@@ -268,7 +268,7 @@ TEST_CASE("--dt auto takes a stable dt, halves it where energy is made, and ends
   // A weight on its spring, where semi-implicit Euler's energy swings by more than is allowed.
   outcome = good(folder.path(), {"run", "one_weight", "--integrator", "semi_implicit_euler", "--dt", "auto", "--set",
                                  "k=400", "--seconds", "5", "--series", "s.csv", "--fps", "10"});
-  CHECK(outcome.err.find("was making energy; dt is") != std::string::npos);
+  CHECK(outcome.err.find("was adding energy; dt is") != std::string::npos);
   const auto rows = test::lines(test::read_file(folder / "s.csv"));
   REQUIRE(rows.size() == 2 + 51);
   for (std::size_t n = 2; n < rows.size(); ++n)

@@ -119,7 +119,7 @@ def mesh(stage):
     check(count == {"v": 1024, "vt": 1024, "vn": 1024, "f": 2 * 31 * 31}, f"the mesh has {count}")
     sandbox.key("ctrl+p")
     sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
-    sandbox.type("write the state")
+    sandbox.type("export state")
     sandbox.later(3)
     sandbox.key("Return")
     with open(sandbox.write_export("state.csv")) as written:
@@ -133,7 +133,7 @@ def mesh(stage):
     sandbox.close()
     weight = stage.start("one_weight")
     weight.key("ctrl+e")
-    weight.wait(lambda r: any("one weight" in m for m in r["messages"]), "the reason why a weight is no mesh")
+    weight.wait(lambda r: any("mass on a spring" in m for m in r["messages"]), "the reason why a weight is no mesh")
     check(weight.later()["dialog"] == "none", "and no dialog")
 
 

@@ -71,7 +71,7 @@ def with_device(stage):
     sandbox.key("Return")
     report = sandbox.wait(lambda r: solver(r)["integrator"] == "xpbd" and r["messages"], "the method, and a note")
     check(solver(report)["engine"] == "cpu", "the CPU engine came with it")
-    check(report["messages"] == ["XPBD runs on the CPU engine alone, so that was taken."], str(report["messages"]))
+    check(report["messages"] == ["XPBD runs only on the CPU engine, so that engine was chosen."], str(report["messages"]))
     stage.keep("note")
     sandbox.key("ctrl+z")
     sandbox.wait(lambda r: solver(r)["integrator"] != "xpbd" and solver(r)["engine"] == "opencl", "one undo to take both back")

@@ -259,7 +259,7 @@ def clean_lab(stage):
     sandbox.wait(lambda r: len(r["copies"]) == 1, "the copy")
     find(sandbox, "what kinks")
     report = sandbox.wait(lambda r: r["lab"] is not None and not r["copies"], "the lab, without it")
-    check(any("put away" in m for m in report["messages"]), "it says so")
+    check(any("removed" in m for m in report["messages"]), "it says so")
     check(report["pictures"] == [1, 1], "one picture")
     stage.keep("lab")
 

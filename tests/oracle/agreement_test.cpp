@@ -304,7 +304,7 @@ TEST_CASE("several threads agree with the oracle") {
 }
 
 TEST_CASE("float follows double: 200 steps of the default cloth within 2e-5 m") {
-  // 200 steps of free fall travel 0.2 m; float resolves 6e-8 of a metre at this distance from the origin, and each step
+  // 200 steps of free fall travel 0.2 m; float resolves 6e-8 of a meter at this distance from the origin, and each step
   // rounds a position once.
   for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
     CAPTURE(std::string(integrator));

@@ -35,7 +35,7 @@ bool is_inside(const Body& body, Vec x) {
   return glm::dot(x - body.c, x - body.c) < body.r * body.r;
 }
 
-/// Surface normal seen from x; +y at a sphere's centre.
+/// Surface normal seen from x; +y at a sphere's center.
 Vec normal(const Body& body, Vec x) {
   if (body.shape == Body::Shape::plane || x == body.c) return {0, 1, 0};
   return glm::normalize(x - body.c);
@@ -95,7 +95,7 @@ void Cloth::start() {
     }
   }
   if (p_.integrator != "verlet") return;
-  // Only now: a(x, v) of the neighbours needed the velocities of the start.
+  // Only now: a(x, v) of the neighbors needed the velocities of the start.
   for (Particle& particle : particles_) particle.v = particle.d / p_.dt;
 }
 

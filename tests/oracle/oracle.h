@@ -1,5 +1,5 @@
 // The oracle: docs/model.md once more, naive and in double, written from that page alone and sharing no formula with
-// core/. One struct a particle, each particle gathers the forces of its 8 + 4 neighbours, nothing is clever. The tests
+// core/. One struct a particle, each particle gathers the forces of its 8 + 4 neighbors, nothing is clever. The tests
 // hold every engine against it.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Particle {
   Vec v{0};  ///< velocity as the method holds it, m/s; for verlet d/dt
   Vec d{0};  ///< verlet alone: x[n] - x[n-1], m
   bool pinned = false;
-  std::array<bool, 8> whole{};  ///< stretch springs to the ring of neighbours; see `ring`
+  std::array<bool, 8> whole{};  ///< stretch springs to the ring of neighbors; see `ring`
 };
 
 /// The forces on one particle, N (table B.1). F_hand is what the hand adds; the oracle only measures it.
@@ -31,7 +31,7 @@ struct Forces {
 struct Offset {
   int di, dj;
 };
-/// The eight neighbours; the opposite of number k is 7 - k.
+/// The eight neighbors; the opposite of number k is 7 - k.
 inline constexpr std::array<Offset, 8> ring{{{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
 class Cloth {

@@ -248,7 +248,7 @@ TEST_CASE("the revision counts up with everything that moves, and only then") {
   CHECK_FALSE(moved());
 }
 
-TEST_CASE("resolution keeps size, mass and stretch behaviour") {
+TEST_CASE("resolution keeps size, mass and stretch behavior") {
   Preset preset = test::cloth(9, 13);
   preset.F_max = 2;
   preset.W = {0, 0.01, 0.02};

@@ -214,7 +214,7 @@ TEST_CASE("a start inside keeps the tangential and outward velocity and loses th
   }
 }
 
-TEST_CASE("from a sphere's centre the way out is up") {
+TEST_CASE("from a sphere's center the way out is up") {
   for (const char* integrator : methods) {
     for (const Precision precision : {Precision::double_, Precision::float_}) {
       CAPTURE(std::string(integrator));

@@ -11,7 +11,7 @@
 
 namespace tyglab::lattice_test {
 
-TEST_CASE("the six directions are half of eight neighbours and four bending springs, each once") {
+TEST_CASE("the six directions are half of eight neighbors and four bending springs, each once") {
   std::set<std::pair<int, int>> seen;
   for (int d = 0; d < int(directions.size()); ++d) {
     const Direction& direction = directions[d];

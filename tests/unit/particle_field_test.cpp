@@ -1,4 +1,4 @@
-// What colours the cloth, held against the read-out's forces spring by spring.
+// What colors the cloth, held against the read-out's forces spring by spring.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -20,10 +20,10 @@ std::vector<float> field_of(ParticleField field, Simulation& cloth, int every = 
 /// The stretch springs at a particle, by the read-out.
 std::vector<SpringForce> springs_at(Simulation& cloth, int i, int j) {
   const State& state = cloth.read();
-  Neighbourhood near(i, j);
+  Neighborhood near(i, j);
   const Lattice& lattice = cloth.lattice();
-  for (int di = -Neighbourhood::reach; di <= Neighbourhood::reach; ++di)
-    for (int dj = -Neighbourhood::reach; dj <= Neighbourhood::reach; ++dj)
+  for (int di = -Neighborhood::reach; di <= Neighborhood::reach; ++di)
+    for (int dj = -Neighborhood::reach; dj <= Neighborhood::reach; ++dj)
       if (lattice.contains(i + di, j + dj)) {
         const auto p = std::size_t(i + di) * std::size_t(lattice.columns) + std::size_t(j + dj);
         near.x(i + di, j + dj) = test::position(state, p), near.v(i + di, j + dj) = test::velocity(state, p);

@@ -50,7 +50,7 @@ TEST_CASE("0 means never") {
   CHECK(simulation.tears().untorn());
 }
 
-TEST_CASE("no spring breaks that touches a pinned particle or one of its eight neighbours") {
+TEST_CASE("no spring breaks that touches a pinned particle or one of its eight neighbors") {
   Preset preset = taut(8, 9);
   preset.F_max = 0.01;
   preset.pins.mode = Pins::Mode::list;

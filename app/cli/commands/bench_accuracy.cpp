@@ -38,7 +38,7 @@ std::vector<AccuracyScene> chosen_scenes(const std::string& name) {
     if (scene.name == name) return {std::move(scene)};
     names += (names.empty() ? "" : ", ") + scene.name;
   }
-  throw UsageError("--scene " + name + ": there is no such scene; there are " + names);
+  throw UsageError("--scene " + name + ": there is no such scene; known: " + names);
 }
 
 /// Methods that are measured on OpenCL too: one of each kind.
@@ -104,8 +104,8 @@ int accuracy(const AccuracyOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
-      << "\nProcessor time in ms, on one thread (on OpenCL: time on the wall), until the rms error of all positions "
-         "falls under so many metres;\n"
+      << "\nCPU time in ms, on one thread (OpenCL: wall time), at which the rms error of all positions "
+         "falls below the given number of meters;\n"
          "* is the method's largest stable dt, - an error that it does not reach or that the reference cannot tell\n"
       << std::flush;
   std::vector<AccuracyResult> results;
@@ -132,16 +132,15 @@ int accuracy(const AccuracyOptions& options) {
 
 void add_bench_accuracy(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
-      "accuracy", "Error against run time: every integrator, in float and double, some on OpenCL, and Boost.Odeint's");
+      "accuracy",
+      "Error against run time: every integrator, in float and double, some on OpenCL, and those of Boost.Odeint");
   const auto options = std::make_shared<AccuracyOptions>();
-  add_quick(*command, *options, "Fewer dt, shorter runs, coarser references, OpenCL in the first scene alone");
+  add_quick(*command, *options, "Fewer dt, shorter runs, coarser references, OpenCL only in the first scene");
   std::string names;
   for (const AccuracyScene& scene : accuracy_scenes()) names += (names.empty() ? "" : ", ") + scene.name;
-  command->add_option("--scene", options->scene, "One scene alone: " + names)
-      ->type_name("NAME")
-      ->transform(not_empty());
+  command->add_option("--scene", options->scene, "Only one scene: " + names)->type_name("NAME")->transform(not_empty());
   add_json(*command, *options);
-  add_png(*command, *options, "Draw error over run time, a chart a scene");
+  add_png(*command, *options, "Draw error over run time, one chart per scene");
   command->footer("Example: tyglab bench accuracy --json accuracy.json --png accuracy.png");
   command->callback([&action, options] { action = [options] { return accuracy(*options); }; });
 }

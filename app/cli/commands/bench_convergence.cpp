@@ -84,8 +84,7 @@ void print_study(std::ostream& out, const std::string& label, const Convergence&
 
 int convergence(const ConvergenceOptions& options) {
   if (options.preset.precision == name_of(Precision::float_))
-    throw UsageError(
-        "--precision float: an order is measured in double, so that rounding does not hide it; leave it out");
+    throw UsageError("--precision float: an order is measured in double, so that rounding does not hide it; omit it");
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   const ResolvedPreset scene = options.preset.resolve("hanging");
@@ -121,17 +120,18 @@ int convergence(const ConvergenceOptions& options) {
 }  // namespace
 
 void add_bench_convergence(CLI::App& bench, Action& action) {
-  CLI::App* command =
-      bench.add_subcommand("convergence", "The order that a method shows in a scene: its error with dt, dt/2, dt/4, …");
+  CLI::App* command = bench.add_subcommand(
+      "convergence", "The measured order of a method in a scene: its error with dt, dt/2, dt/4, …");
   const auto options = std::make_shared<ConvergenceOptions>();
   options->preset.add_to(*command, false, Engines::cpu);
   command
-      ->add_option("--seconds", options->seconds, "Simulated time from the start over which runs are compared (0.25)")
+      ->add_option("--seconds", options->seconds,
+                   "Simulated time from the start over which runs are compared (default 0.25)")
       ->type_name("T")
       ->transform(number_between(1e-6, 60, "s"));
   add_quick(*command, options->bench, "A coarser reference");
   add_json(*command, options->bench);
-  add_output(*command, "--csv", options->csv, "Write a row a dt");
+  add_output(*command, "--csv", options->csv, "Write one row per dt");
   add_png(*command, options->bench, "Draw error over dt");
   command->footer("Example: tyglab bench convergence hanging --integrator rk4 --png convergence.png");
   command->callback([&action, options] { action = [options] { return convergence(*options); }; });

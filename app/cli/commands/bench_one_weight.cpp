@@ -31,7 +31,7 @@ struct WeightOptions : BenchOptions {
   std::vector<std::string> settings;
 };
 
-/// The shipped preset with the settings. Throws UsageError where that is no longer one weight, or too long a run.
+/// The shipped preset with the settings. Throws UsageError where that is no mass on a spring, or too long a run.
 Preset weight_preset(const WeightOptions& options) {
   Preset preset = load_preset(find_preset("one_weight").file);
   try {
@@ -40,10 +40,10 @@ Preset weight_preset(const WeightOptions& options) {
     throw UsageError(error.what());
   }
   if (preset.kind != Kind::one_weight)
-    throw UsageError("--set kind: bench one-weight measures one weight alone; tyglab bench accuracy measures cloths");
+    throw UsageError(
+        "--set kind: bench one-weight measures only the mass on a spring; tyglab bench accuracy measures cloths");
   if (options.seconds / preset.dt > most_steps)
-    throw UsageError("--seconds: that would be more than " + std::to_string(most_steps) +
-                     " steps; take fewer seconds or a larger dt");
+    throw UsageError("--seconds: more than " + std::to_string(most_steps) + " steps; use fewer seconds or a larger dt");
   return preset;
 }
 
@@ -68,10 +68,10 @@ void print_row(std::ostream& out, const WeightRun& run) {
   flush_standard_output();
 }
 
-/// The report's four curves in its colours: the exact motion broad, under the others.
+/// The report's four curves in its colors: the exact motion broad, under the others.
 Chart weight_chart(const std::vector<WeightRun>& runs) {
   Chart chart;
-  chart.title = "One weight on a spring (figure 3.2)";
+  chart.title = "Mass on a spring (figure 3.2)";
   chart.x = {"t (s)", false, true, {}};
   chart.y = {"y (m)", false, false, {}};
   const Tokens colors = dark_tokens();
@@ -97,7 +97,7 @@ int one_weight(const WeightOptions& options) {
   const int steps = std::max(1, int(std::lround(options.seconds / preset.dt)));
   std::array<char, 256> head;
   std::snprintf(head.data(), head.size(),
-                "One weight on a spring for %s of dt = %g s, against its closed form: m = %g kg, k = %g N/m, "
+                "Mass on a spring for %s of dt = %g s, against its closed form: m = %g kg, k = %g N/m, "
                 "k_d = %g Ns/m\n\nintegrator               rms, m  largest, m\n",
                 counted(steps, "step").c_str(), preset.dt, preset.m, preset.k, preset.k_d);
   out << head.data() << std::flush;
@@ -121,13 +121,14 @@ int one_weight(const WeightOptions& options) {
 }  // namespace
 
 void add_bench_one_weight(CLI::App& bench, Action& action) {
-  CLI::App* command = bench.add_subcommand(
-      "one-weight", "Figure 3.2: one weight on a spring, every integrator against the exact motion");
+  CLI::App* command =
+      bench.add_subcommand("one-weight", "Figure 3.2: the mass on a spring, every integrator against the exact motion");
   const auto options = std::make_shared<WeightOptions>();
-  command->add_option("--seconds", options->seconds, "How long, in simulated time (3 if it is not given)")
+  command->add_option("--seconds", options->seconds, "Simulated time, s (default 3)")
       ->type_name("T")
       ->transform(number_between(1e-6, 1e4, "s"));
-  command->add_option("--set", options->settings, "Changes a constant of the preset one_weight, as k_d=0.2 or dt=0.005")
+  command
+      ->add_option("--set", options->settings, "Set a constant of the preset one_weight, such as k_d=0.2 or dt=0.005")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->allow_extra_args(false)

@@ -90,7 +90,7 @@ void print_head(std::ostream& out, const SkipOptions& options, const std::string
       << ", float, one thread. ns per particle and step: in an engine compiled without the feature (absent),\nwith the "
          "feature off, and on; then what it costs while it is off, and on (ns more)."
       << (counted_with.empty()
-              ? "\nNo instructions are counted, since valgrind is missing: apt-get install valgrind\n\n"
+              ? "\nInstructions are not counted, since valgrind is missing: apt-get install valgrind\n\n"
               : "\nThen instructions per particle and step, at 64 x 64, " + counted_with + "\n\n")
       << "feature   absent     off      on       off      on"
       << (counted_with.empty() ? "" : "    absent     off      on       off") << "   on means\n"
@@ -159,16 +159,16 @@ std::pair<SkipFeature, SkipState> only_of(const SkipOptions& options) {
     if (feature.name != name) continue;
     for (const SkipState which : all_states)
       if (name_of(which) == state) return {std::move(feature), which};
-    throw UsageError("--only " + options.only + ": write on, off or absent behind the colon, as " + name + ":off");
+    throw UsageError("--only " + options.only + ": write on, off or absent after the colon, such as " + name + ":off");
   }
-  throw UsageError("--only " + options.only + ": there is no such feature; there are " + names);
+  throw UsageError("--only " + options.only + ": there is no such feature; known: " + names);
 }
 
 int only(const SkipOptions& options) {
   check_outputs(options.outputs());
   auto [feature, state] = only_of(options);
   if (state == SkipState::absent && options.precision != Precision::float_)
-    throw UsageError("--only " + options.only + ": engines without a feature are compiled in float alone");
+    throw UsageError("--only " + options.only + ": engines without a feature are compiled only in float");
   feature.preset_on.precision = feature.preset_off.precision = options.precision;
   SkipCase which(feature, state);
   const double ns = which.advance(options.steps);
@@ -191,14 +191,13 @@ void add_bench_skip(CLI::App& bench, Action& action) {
       "skip", "What every feature costs when it is on, when it is off, and in an engine compiled without it");
   const auto options = std::make_shared<SkipOptions>();
   add_quick(*command, *options, "Fewer rounds");
-  command->add_option("--side", options->side, "Particles a side of the cloth (128 if it is not given)")
+  command->add_option("--side", options->side, "Particles per side of the cloth (default 128)")
       ->type_name("N")
       ->transform(whole_number_between(2, 4096));
-  CLI::Option* one = command
-                         ->add_option("--only", options->only,
-                                      "One case, once: a feature and on, off or absent; for use under other tools")
-                         ->type_name("FEATURE:STATE");
-  command->add_option("--steps", options->steps, "With --only: how many steps (1000 if it is not given)")
+  CLI::Option* one =
+      command->add_option("--only", options->only, "Run one case once, for profilers: a feature and on, off or absent")
+          ->type_name("FEATURE:STATE");
+  command->add_option("--steps", options->steps, "With --only: number of steps (default 1000)")
       ->type_name("N")
       ->transform(whole_number_between(1, 1000000000))
       ->needs(one);
@@ -208,7 +207,7 @@ void add_bench_skip(CLI::App& bench, Action& action) {
           [options](const std::string& name) {
             options->precision = name == "double" ? Precision::double_ : Precision::float_;
           },
-          "With --only: float (if it is not given) or double")
+          "With --only: float (default) or double")
       ->check(CLI::IsMember({"float", "double"}))
       ->type_name("float|double")
       ->needs(one);

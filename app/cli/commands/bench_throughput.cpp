@@ -86,7 +86,7 @@ Chart throughput_chart(const std::vector<ThroughputRow>& rows, int repeats) {
   Chart chart;
   chart.title = "Time for one particle and step";
   chart.note = machine_line();
-  chart.x = {"particles along a side", true, false, {}};
+  chart.x = {"particles per side", true, false, {}};
   chart.y = {"ns, median of " + counted(repeats, "run"), false, true, {}};
   const auto add = [&](const std::string& name, const ThroughputRow& row, double y) {
     auto series = std::find_if(chart.series.begin(), chart.series.end(), [&](const auto& s) { return s.name == name; });
@@ -123,7 +123,7 @@ int throughput(const ThroughputOptions& options) {
   std::ostream& out = people(options.outputs());
   const int threads = options.threads > 0 ? options.threads : processors();
   out << machine_line() << "\nns per particle and step: the median of " << counted(options.repeats, "run")
-      << ", and the limits of this machine measured beside it\n\n";
+      << ", and the limits of this machine, measured with it\n\n";
   const auto cases = throughput_cases(options.quick, threads);
   const int width = integrator_width(cases);
   print_head(out, width);
@@ -161,7 +161,7 @@ int throughput_beside_load(const ThroughputOptions& options) {
   std::ostream& out = people(options.outputs());
   const int busy = processors() - 1;
   out << machine_line() << "\nns per particle and step while " << counted(busy, "other thread")
-      << " kept processors busy: the median of " << counted(options.repeats, "run")
+      << " kept CPUs busy: the median of " << counted(options.repeats, "run")
       << ", and that of the ratios to one thread\n\n      cloth  one thread  threads    median   ratio\n";
   const auto cases =
       cases_beside_load(options.quick, options.threads > 0 ? options.threads : std::max(processors(), 2));
@@ -189,17 +189,15 @@ void add_bench_throughput(CLI::App& bench, Action& action) {
       "throughput", "Time for one particle and step, for sizes, integrators, precisions, threads and features");
   const auto options = std::make_shared<ThroughputOptions>();
   add_quick(*command, *options, "Fewer sizes");
-  command
-      ->add_option("--repeats", options->repeats,
-                   "Runs of which the median is taken (9 if it is not given; fewer should not be quoted)")
+  command->add_option("--repeats", options->repeats, "Runs per median (default 9; do not quote results of fewer)")
       ->type_name("N")
       ->transform(whole_number_between(1, 1000));
-  add_threads(*command, *options, "Threads beside one");
+  add_threads(*command, *options, "Number of threads to compare with one");
   add_json(*command, *options);
   CLI::Option* png = add_png(*command, *options, "Draw time over size");
   command
       ->add_flag("--beside-load", options->beside_load,
-                 "Instead compare several threads with one while all processors but one are kept busy")
+                 "Instead compare several threads with one while all CPUs but one are kept busy")
       ->excludes(png);
   command->footer(
       "Examples: tyglab bench throughput --json throughput.json --png throughput.png\n"

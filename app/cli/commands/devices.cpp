@@ -59,7 +59,7 @@ std::string shared_buffer_problem(int number) {
     vertices.write(*simulation.engine().vertex_sharing(), {{simulation.lattice(), 1}, true}, looked_at);
     return {};
   } catch (const GraphicsError& error) {
-    return std::string("OpenGL is not there without a window: ") + error.what();
+    return std::string("OpenGL is not available without a window: ") + error.what();
   } catch (const EngineError& error) {
     return error.what();
   }
@@ -70,10 +70,10 @@ std::string sharing(const OpenClDevice& device, int number) {
   static const bool lends = opengl_lends_memory();
   if (opencl_works_in_place(number))
     return lends ? "shared memory: kernels write into its vertex buffer (ARB_buffer_storage), and nothing is copied"
-                 : "positions are copied once in every frame in which they moved, since OpenGL has no "
-                   "ARB_buffer_storage here";
+                 : "positions are copied in every frame in which they moved, since this OpenGL has no "
+                   "ARB_buffer_storage";
   const std::string problem =
-      device.gl_sharing ? shared_buffer_problem(number) : "the device offers no cl_khr_gl_sharing";
+      device.gl_sharing ? shared_buffer_problem(number) : "the device does not support cl_khr_gl_sharing";
   return problem.empty() ? std::string("a shared buffer: kernels write into its vertex buffer (cl_khr_gl_sharing, ") +
                                (device.gl_event ? "ordered by cl_khr_gl_event" : "OpenGL finishes first") +
                                "), and nothing is copied"
@@ -124,7 +124,7 @@ int print_in_child(void (*print)()) {
   try {
     const ChildExit exit = run_in_child(work, {.interruptible = true});  // only this process speaks of Ctrl-C
     if (exit.signal == 0 && exit.result != arrived)
-      throw OutputError("standard output: not all of the list could be written");
+      throw OutputError("standard output: the list could not be written completely");
     return exit.signal;
   } catch (const ChildError&) {
     return print(), 0;
@@ -135,7 +135,7 @@ int devices() {
   print_cpu();
   if (const int signal = print_in_child(print_opencl))
     std::cout << "\nAn OpenCL driver of this system crashed (" << ::strsignal(signal)
-              << ") when it was asked for its devices, so none can be used. Pocl does so where /sys is not mounted.\n";
+              << ") while listing its devices, so none can be used. Pocl does so if /sys is not mounted.\n";
   return exit_done;
 }
 

@@ -18,7 +18,7 @@ int list_labs() {
     std::cout << lab.label << std::string(width - lab.label.size() + 2, ' ') << lab.title << " ("
               << counted(std::int64_t(lab.steps.size()), "step") << ")\n";
   for (const std::string& problem : problems) std::cerr << "tyglab: " << problem << '\n';
-  std::cout << "\nNext: open the sandbox with `tyglab` and choose one by Ctrl+L.\n";
+  std::cout << "\nNext: open the sandbox with `tyglab` and choose one with Ctrl+L.\n";
   return problems.empty() ? exit_done : exit_input;
 }
 
@@ -38,14 +38,14 @@ int check_lab(const std::string& name_or_file) {
 
 void add_labs_command(CLI::App& program, Action& action) {
   auto file = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("labs", "List the labs, or judge a lab's file");
+  CLI::App* command = program.add_subcommand("labs", "List the labs, or check a lab file");
   command->require_subcommand(0, 1);
   command->footer("Example: tyglab labs check my_lab.md");
   command->callback([&action, command] {
     if (command->get_subcommands().empty()) action = list_labs;
   });
-  CLI::App* check_one = command->add_subcommand("check", "Judge a lab's file: its steps, presets, answers and checks");
-  check_one->add_option("FILE", *file, "A lab's Markdown file, or a shipped lab's name")->required();
+  CLI::App* check_one = command->add_subcommand("check", "Check a lab file: its steps, presets, answers and checks");
+  check_one->add_option("FILE", *file, "A Markdown file with a lab, or a shipped lab's name")->required();
   check_one->footer("Example: tyglab labs check my_lab.md");
   check_one->callback([file, &action] { action = [file] { return check_lab(*file); }; });
 }

@@ -1,4 +1,4 @@
-// `tyglab labs`: the labs there are; a file judged.
+// `tyglab labs`: the labs there are; a file checked.
 #pragma once
 
 #include "app/cli/command_line.h"

@@ -36,7 +36,7 @@ int check(const std::string& name_or_file) {
   warn_of_missing_texture(preset);
   std::cout << name_or_file << " is a valid preset: " << printable(preset.name) << ", "
             << (preset.kind == Kind::one_weight
-                    ? std::string("one weight")
+                    ? std::string("mass on a spring")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
             << ", " << preset.integrator << " (preset hash " << preset_hash(preset) << ")."
             << (preset.engine == EngineKind::opencl && !runs_on_opencl(scheme(preset.integrator))
@@ -51,7 +51,7 @@ int check(const std::string& name_or_file) {
 
 void add_presets_command(CLI::App& program, Action& action) {
   auto word = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("presets", "List the shipped presets, show one, or judge a file");
+  CLI::App* command = program.add_subcommand("presets", "List the shipped presets, show one, or check a file");
   command->require_subcommand(0, 1);
   command->footer("Example: tyglab presets show denim > my_denim.json");
   command->callback([&action, command] {
@@ -72,7 +72,7 @@ void add_presets_command(CLI::App& program, Action& action) {
     };
   });
 
-  CLI::App* check_one = command->add_subcommand("check", "Judge a preset file: every key, type and range");
+  CLI::App* check_one = command->add_subcommand("check", "Check a preset file: every key, type and range");
   check_one->add_option("FILE", *word, "A preset file, or a shipped preset's name")->required();
   check_one->footer("Example: tyglab presets check my_denim.json");
   check_one->callback([word, &action] { action = [word] { return check(*word); }; });

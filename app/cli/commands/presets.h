@@ -1,4 +1,4 @@
-// `tyglab presets`: the shipped presets; one as JSON; a file judged.
+// `tyglab presets`: the shipped presets; one as JSON; a file checked.
 #pragma once
 
 #include "app/cli/command_line.h"

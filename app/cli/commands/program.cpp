@@ -19,13 +19,13 @@ int run_program(int argc, char** argv) {
   Action action;
   CLI::App program(
       "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
-      "Without a command it opens the sandbox with PRESET, or as it was left the last time.",
+      "Without a command it opens the sandbox with PRESET, or with the last session.",
       "tyglab");
   program.set_version_flag("--version", "tyglab " TYGLAB_VERSION);
   program.footer(
       "Examples: tyglab denim\n"
       "          tyglab run denim --seconds 2 --state denim.csv\n"
-      "`tyglab COMMAND --help` says what a command takes.");
+      "`tyglab COMMAND --help` describes a command.");
   add_sandbox_command(program, action);
   add_run_command(program, action);
   add_render_command(program, action);

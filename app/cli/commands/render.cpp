@@ -39,10 +39,9 @@ bool wants_sequence(const RenderOptions& options) {
   std::error_code error;
   const bool picture = path.extension() == ".png" && !fs::is_directory(path, error);
   if (picture && options.fps)
-    throw UsageError("--png " + options.png + ": with --fps it names a folder, in which the pictures are numbered");
+    throw UsageError("--png " + options.png + ": with --fps, give a folder for the numbered images");
   if (!picture && !options.fps && !path.extension().empty() && !fs::is_directory(path, error))
-    throw UsageError("--png " + options.png +
-                     ": pictures are written as F.png; for a sequence give a folder and --fps");
+    throw UsageError("--png " + options.png + ": images are written as F.png; for a sequence give a folder and --fps");
   return !picture;
 }
 
@@ -85,14 +84,14 @@ int render(const RenderOptions& options) {
 
   std::ostream& out = people(options.outputs());
   out << label << ": t = " << simulation.time() << " s. Wrote " << output_name(options.png);
-  if (sequence) out << " (" << counted(frame, "picture") << ", " << plan.fps() << " to a second)";
+  if (sequence) out << " (" << counted(frame, "image") << ", " << plan.fps() << " per second)";
   out << '.' << std::endl;
   if (simulation.divergence()) {
     std::cerr << "tyglab: " << label << ' ' << divergence_text(*simulation.divergence()) << '\n';
     return exit_diverged;
   }
   if (!stepper.interrupted()) return exit_done;
-  std::cerr << "tyglab: Interrupted; the pictures made so far are whole.\n";
+  std::cerr << "tyglab: Interrupted; the images written so far are complete.\n";
   return exit_interrupted;
 }
 
@@ -106,16 +105,16 @@ void add_render_command(CLI::App& program, Action& action) {
   command
       ->add_option("--view", options->view,
                    "1 textured triangles, 2 connections, 3 both where torn, 4 outlines, 5 points;\n"
-                   "the preset's own if it is not given")
+                   "default: the preset's")
       ->type_name("1..5")
       ->transform(whole_number_between(1, 5));
   add_color_option(*command, options->color, false);
-  command->add_option("--size", options->size, "Size in pixels (1280x720 if it is not given)")->type_name("WxH");
+  command->add_option("--size", options->size, "Size in pixels (default 1280x720)")->type_name("WxH");
   add_output(*command, "--png", options->png,
-             "The picture (- is standard output), or a folder for a sequence: DIR/PRESET_0000.png, …")
+             "The image (- is standard output), or a folder for a sequence: DIR/PRESET_0000.png, …")
       ->type_name("F.png|DIR")
       ->required();
-  command->add_option("--fps", options->fps, "A sequence with that many pictures per second of simulated time")
+  command->add_option("--fps", options->fps, "Write a sequence with this many images per second of simulated time")
       ->type_name("F")
       ->transform(number_between(1e-6, 1e7, "frames per second"));
   command->footer(

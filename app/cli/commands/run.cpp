@@ -53,7 +53,8 @@ class Outputs {
     check_outputs(options.outputs(), scene.source.file);
     if (options.obj.empty()) return;
     if (scene.preset.kind == Kind::one_weight)
-      throw UsageError("--obj writes cloth, and " + scene.source.label + " is one weight; --series writes its motion");
+      throw UsageError("--obj needs a cloth, and " + scene.source.label +
+                       " is a mass on a spring; --series writes its motion");
     make_output_folder("--obj", options.obj);
   }
 
@@ -120,11 +121,10 @@ class Outputs {
   void check_combination() const {
     const bool rows = !options_.series.empty() || !options_.ledger.empty();
     if (options_.series_every && !rows)
-      throw UsageError(
-          "--series-every: says how often --series and --ledger write a row; name a file with --series F.csv");
+      throw UsageError("--series-every: sets how often --series and --ledger write a row; add --series F.csv");
     if (options_.fps && !wants_frames() && !(rows && !options_.series_every))
       throw UsageError(
-          "--fps: counts the frames of --obj, --pc2, --series and --ledger (without --series-every); name one");
+          "--fps: sets the frames of --obj, --pc2, --series and --ledger (without --series-every); add one");
   }
   bool wants_frames() const { return !options_.obj.empty() || !options_.pc2.empty(); }
   std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
@@ -298,31 +298,32 @@ int run(const RunOptions& options) {
 
   const bool diverged = simulation.divergence().has_value();
   const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
-  const Json told = summary(simulation, scene,
-                            diverged                ? "diverged"
-                            : stepper.interrupted() ? "interrupted"
-                                                    : "done",
-                            wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
-                            outputs.finish(simulation));
-  if (!options.json.empty()) write_output(options.json, told.dump(2) + "\n");
+  const Json report = summary(simulation, scene,
+                              diverged                ? "diverged"
+                              : stepper.interrupted() ? "interrupted"
+                                                      : "done",
+                              wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
+                              outputs.finish(simulation));
+  if (!options.json.empty()) write_output(options.json, report.dump(2) + "\n");
 
   people(options.outputs())
-      << closing(told, options.json.empty()
-                           ? " Nothing was written: --state, --values, --series, --ledger, --obj, --pc2 name files."
-                           : "")
+      << closing(report,
+                 options.json.empty()
+                     ? " No files were written; --state, --values, --series, --ledger, --obj and --pc2 write them."
+                     : "")
       << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
   if (const SolveCounts solves = simulation.engine().solves(); solves.unconverged > 0)
     std::cerr << "tyglab: " << counted(solves.unconverged, "solve")
-              << " did not reach the tolerance, so the result is not quite the method's: take a smaller dt or more "
+              << " did not reach the tolerance, so the result is not quite the method's: use a smaller dt or more "
                  "--set iterations=N.\n";
   if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
   if (simulation.left_inside() > 0)
     std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
               << " left inside a body, since bodies overlap; move them apart.\n";
-  if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written is whole as far as it goes.\n";
+  if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written so far is complete.\n";
   return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
 }
 
@@ -336,29 +337,30 @@ void add_run_command(CLI::App& program, Action& action) {
   add_output(*command, "--state", options->state, "Write the last state: i,j,x,y,z,vx,vy,vz of every particle (CSV)")
       ->type_name("F.csv");
   add_output(*command, "--values", options->values,
-             "Write what can colour the cloth: tension, strain, speed and kinetic energy of every particle (CSV)")
+             "Write the quantities that can color the cloth: tension, strain, speed and kinetic energy of every "
+             "particle (CSV)")
       ->type_name("F.csv");
   add_output(*command, "--series", options->series,
              "Write a time series (CSV): t in s, energy, heights, sums and largest values of the forces;\n"
-             "units stand in the header. A row per frame of --fps")
+             "units are in the header. One row per frame of --fps")
       ->type_name("F.csv");
   add_output(*command, "--ledger", options->ledger,
-             "Write the energy ledger (CSV), J: what the cloth has, the work of damping, contact, tearing, wind and\n"
-             "hand, and what the integrator made or ate. Rows as of --series; every step is looked at, which costs\n"
-             "some times the step")
+             "Write the energy ledger (CSV), J: the cloth's energy, the work of damping, contact, tearing, wind and\n"
+             "hand, and what the integrator added or removed. Rows as of --series; every step is examined, which\n"
+             "multiplies the time of a step")
       ->type_name("F.csv");
-  command->add_option("--series-every", options->series_every, "A row every N steps instead")
+  command->add_option("--series-every", options->series_every, "One row every N steps instead")
       ->type_name("N")
       ->transform(whole_number_between(1, 1'000'000'000'000));
   add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
   add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
-  command->add_option("--fps", options->fps, "Frames per second of simulated time (25 if it is not given)")
+  command->add_option("--fps", options->fps, "Frames per second of simulated time (default 25)")
       ->type_name("F")
       ->transform(number_between(1e-6, 1e7, "frames per second"));
   add_output(*command, "--json", options->json, "Write a summary for programs")->type_name("F.json");
   command->footer(
       "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"
-      "- in place of F is standard output; what is said to people then goes to stderr.\n"
+      "- in place of F is standard output; messages then go to stderr.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 wrong preset, 4 diverged, 5 no such engine, 6 not writable, "
       "130 interrupted.");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

@@ -37,9 +37,9 @@ bool has_display() {
 
 int open_sandbox(const Options& options, const std::vector<std::string>& commands) {
   if (!options.screenshot.empty() && options.frames == 0)
-    throw UsageError("--screenshot: writes the last frame; say with --frames N which one that is");
+    throw UsageError("--screenshot: writes the last frame; add --frames N");
   if (is_standard_output(options.session_report))
-    throw UsageError("--session-report -: the report is rewritten all the time; name a file");
+    throw UsageError("--session-report -: the report is rewritten continuously; name a file");
   const PictureSize size = options.size.empty() ? PictureSize{0, 0} : parse_size(options.size, smallest_window);
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
   const std::vector<Output> outputs = options.outputs();
@@ -62,8 +62,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (options.effects == "few") sandbox.effects = Effects::Mode::few;
   sandbox.color = field_called(options.color);
   if (has_display()) return run_sandbox(sandbox);
-  if (!options.session_report.empty())
-    std::cerr << "--session-report tells what goes on in a window, so it is not written.\n";
+  if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
   return run_headless(sandbox, people(outputs));
 }
 
@@ -79,8 +78,8 @@ void refuse_before_command(const CLI::App& program) {
     if (option->count() == 0) continue;
     const std::string name = option->get_name();
     throw CLI::ValidationError(name, command->get_option_no_throw(name) != nullptr
-                                         ? "stands before the command; put it after its name"
-                                         : "belongs to the window, and `" + words + "` does not take it; leave it out");
+                                         ? "comes before the command; put it after the command"
+                                         : "belongs to the window, and `" + words + "` does not accept it; omit it");
   }
 }
 
@@ -89,24 +88,24 @@ void refuse_before_command(const CLI::App& program) {
 void add_sandbox_command(CLI::App& program, Action& action) {
   auto options = std::make_shared<Options>();
   options->preset.add_to(program, false);
-  program.add_option("--frames", options->frames, "End after N frames")
+  program.add_option("--frames", options->frames, "Exit after N frames")
       ->type_name("N")
       ->transform(whole_number_between(1, 1'000'000'000));
   program
       .add_option("--size", options->size,
-                  "Of the window, in pixels; with --frames otherwise as large as the screen, up to 2560x1440")
+                  "Size of the window in pixels; default with --frames: the screen's, up to 2560x1440")
       ->type_name("WxH")
       ->check(not_empty());
-  add_output(program, "--screenshot", options->screenshot, "Write the last of --frames as a picture")
+  add_output(program, "--screenshot", options->screenshot, "Write the last of --frames as an image")
       ->type_name("F.png");
-  add_output(program, "--time-report", options->time_report, "Write what a frame costs, by part, as JSON")
+  add_output(program, "--time-report", options->time_report, "Write the time of a frame, by part, as JSON")
       ->type_name("F.json");
   add_output(program, "--session-report", options->session_report,
-             "Write what goes on in the window, about ten times a second, as JSON (docs/session-report.md)")
+             "Write the state of the window about ten times per second as JSON (docs/session-report.md)")
       ->type_name("F.json");
   program
       .add_option("--effects", options->effects,
-                  "Soft shadows and smooth edges: auto leaves out what this machine draws too slowly")
+                  "Soft shadows and smooth edges: auto turns off what this machine draws too slowly")
       ->type_name("auto|all|few")
       ->check(CLI::IsMember({"auto", "all", "few"}));
   add_color_option(program, options->color, true);

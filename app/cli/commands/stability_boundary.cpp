@@ -31,7 +31,7 @@ struct Part {
   const std::vector<Preset>& cases;
   const char* title;
   const char* head;
-  double within;  ///< of its prediction; 0: not judged
+  double within;  ///< of its prediction; 0: not checked
 };
 
 /// null where a number is not finite, since JSON has no word for it.
@@ -90,7 +90,8 @@ BoundaryRow measure(const Preset& preset, What what, const BoundaryCases& cases)
 /// √(m/k_s), in which it does not depend on k_s.
 Chart boundary_chart(const std::vector<BoundaryRow>& rows, bool damped) {
   Chart chart;
-  chart.title = damped ? "Where methods break, fastest wave damped with ζ = 0.1" : "Where methods break, undamped";
+  chart.title = damped ? "Where methods become unstable, fastest wave damped with ζ = 0.1"
+                       : "Where methods become unstable, undamped";
   chart.note = machine_line();
   chart.x = {"k_s, N/m", true, false, {}};
   chart.y = {"dt from which it is unstable, in units of √(m/k_s)", false, true, {}};
@@ -119,7 +120,7 @@ bool measure_part(const Part& part, const BoundaryCases& cases, int threads, std
                   std::vector<BoundaryRow>& rows) {
   out << '\n' << part.title << "\n      cloth  integrator            " << part.head << '\n' << std::flush;
   rows.resize(part.cases.size());
-  int told = 0;
+  int reported = 0;
   bool kept = true;
   in_parallel(
       int(part.cases.size()), threads,
@@ -129,10 +130,10 @@ bool measure_part(const Part& part, const BoundaryCases& cases, int threads, std
         progress.clear();
         print_row(out, row, part.what);
         kept &= part.within == 0 || std::abs(row.ratio() - 1) <= part.within;
-        progress.update(double(++told) / double(rows.size()));
+        progress.update(double(++reported) / double(rows.size()));
       },
       InterruptGuard::interrupted);
-  rows.resize(std::size_t(told));
+  rows.resize(std::size_t(reported));
   return kept;
 }
 
@@ -143,13 +144,14 @@ int boundary(const BenchOptions& options) {
   const int threads = options.threads > 0 ? options.threads : processors();
   const std::string slack_title = "A slack cloth: dt from which it diverges within " +
                                   std::to_string(cases.slack_steps) +
-                                  " steps, beside the limit as it hangs and the one for any configuration";
+                                  " steps, and the limits as it hangs and for any configuration";
   const Part parts[] = {
       {What::dt, cases.dt, "Taut sheet: dt from which a method is unstable, s",
        "     k_s       k_d    predicted     measured    ratio", 0.01},
       {What::k_s, cases.k_s, "Taut sheet: k_s from which a method is unstable, N/m",
        "      dt       k_d    predicted     measured    ratio", 0.01},
-      {What::growth, cases.growth, "Taut sheet: growth per step (natural logarithm) of methods that no dt makes stable",
+      {What::growth, cases.growth,
+       "Taut sheet: growth per step (natural logarithm) of methods that are unstable at every dt",
        "      dt       k_d    predicted     measured    ratio", 0.05},
       {What::slack, cases.slack, slack_title.c_str(), "     k_s       k_d    as it hangs  measured    ratio  any", 0},
   };
@@ -175,7 +177,7 @@ int boundary(const BenchOptions& options) {
   if (!options.png.empty()) write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)});
   if (const int code = bench_exit(); code != exit_done) return code;
   if (kept) return exit_done;
-  std::cerr << "tyglab: a method did not break where it is predicted to (1 %, growth 5 %); see the ratios.\n";
+  std::cerr << "tyglab: a method did not become unstable where predicted (1 %, growth 5 %); see the ratios.\n";
   return exit_violation;
 }
 
@@ -183,10 +185,10 @@ int boundary(const BenchOptions& options) {
 
 void add_stability_boundary(CLI::App& stability, Action& action) {
   CLI::App* command = stability.add_subcommand(
-      "boundary", "The dt and the k_s at which every explicit method breaks, predicted and measured");
+      "boundary", "The dt and the k_s at which every explicit method becomes unstable, predicted and measured");
   const auto options = std::make_shared<BenchOptions>();
   add_quick(*command, *options, "Fewer sizes and stiffnesses");
-  add_threads(*command, *options, "Measurements at a time");
+  add_threads(*command, *options, "Simultaneous measurements");
   add_json(*command, *options);
   add_png(*command, *options, "Draw the boundaries over k_s");
   command->footer("Example: tyglab stability boundary --json boundary.json --png boundary.png");

@@ -71,11 +71,11 @@ Chart drift_chart(const std::vector<DriftRow>& rows, const std::string& scene, b
   constexpr double shown = 1.2;
   Chart chart;
   chart.title = scene == "taut_sheet" ? "Energy on the taut sheet"
-                : rise                ? "What the energy on the slack sheet rises by"
+                : rise                ? "Rise of the energy on the slack sheet"
                                       : "Energy on the slack sheet";
   chart.note = machine_line();
   chart.x = {"steps", false, true, {}};
-  chart.y = {"energy less that of the start, over that of the motion", rise, false, {}};
+  chart.y = {"energy minus that at the start, over that of the motion", rise, false, {}};
   for (const DriftRow& row : rows) {
     if (row.of.scene != scene || row.diverged_at > 0) continue;
     ChartSeries series{name_of(row), integrator_style(dark_tokens(), row.of.preset.integrator), true, 0, {}, {}};
@@ -98,12 +98,13 @@ int drift(const BenchOptions& options) {
   const Preset& first = cases.front().preset;
   out << machine_line() << "\n"
       << cases.front().steps << " steps without damping, " << first.rows << " x " << first.columns
-      << ", double. dt is given over what Verlet can take.\nEnergy less that of the start, J: lowest and "
-      << "highest; then its trend over all steps in parts of the motion's energy,\nand that number's standard error\n\n"
+      << ", double. dt is given over the limit of Verlet.\nEnergy minus that at the start, J: lowest and "
+      << "highest; then its trend over all steps as a fraction of the motion's energy,\nand the standard error of the "
+         "trend\n\n"
       << "scene         integrator                dt     motion     lowest    highest      trend     error\n"
       << std::flush;
   std::vector<DriftRow> rows(cases.size());
-  int told = 0;
+  int reported = 0;
   InterruptGuard guard;
   Progress progress("stability drift");
   in_parallel(
@@ -113,10 +114,10 @@ int drift(const BenchOptions& options) {
         if (InterruptGuard::interrupted()) return;  // it may have been cut short
         progress.clear();
         print_row(out, rows[std::size_t(n)]);
-        progress.update(double(++told) / double(cases.size()));
+        progress.update(double(++reported) / double(cases.size()));
       },
       InterruptGuard::interrupted);
-  rows.resize(std::size_t(told));
+  rows.resize(std::size_t(reported));
   progress.clear();
   if (!options.json.empty()) {
     Json json = Json::array();
@@ -133,10 +134,10 @@ int drift(const BenchOptions& options) {
 
 void add_stability_drift(CLI::App& stability, Action& action) {
   CLI::App* command =
-      stability.add_subcommand("drift", "How every method keeps energy over a million steps without damping");
+      stability.add_subcommand("drift", "How well every method conserves energy over a million steps without damping");
   const auto options = std::make_shared<BenchOptions>();
   add_quick(*command, *options, "20,000 steps");
-  add_threads(*command, *options, "Runs at a time");
+  add_threads(*command, *options, "Simultaneous runs");
   add_json(*command, *options);
   add_png(*command, *options, "Draw energy over time");
   command->footer("Example: tyglab stability drift --json drift.json --png drift.png");

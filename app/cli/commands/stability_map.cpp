@@ -1,4 +1,4 @@
-// `tyglab stability map`: which stiffness and dt a method bears in a scene, by theory and by short runs.
+// `tyglab stability map`: which stiffness and dt a method tolerates in a scene, by theory and by short runs.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -49,7 +49,7 @@ Json map_json(const Preset& preset, const std::string& label, const std::vector<
   return json;
 }
 
-/// The map as letters, from cells row by row: stiffness to the right and dt upwards: × diverged, · stayed bounded. A
+/// The map as letters, from cells row by row: stiffness to the right and dt upward: × diverged, · stayed bounded. A
 /// stroke stands in each row where theory's largest stable dt is passed.
 void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, const std::vector<MapCell>& cells) {
   std::array<char, 200> line;
@@ -70,7 +70,7 @@ void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, con
   const double here = map_limit(preset);
   out << (here > 0 ? "| theory's largest stable dt (any configuration): " + short_number(here, 3) + " s at " +
                          stiffness_key(preset) + " = " + short_number(stiffness_of(preset)) + " N/m\n"
-                   : "By theory " + preset.integrator + " has no largest stable dt.\n");
+                   : "In theory " + preset.integrator + " has no largest stable dt.\n");
 }
 
 int map(const MapOptions& options) {
@@ -112,12 +112,12 @@ int map(const MapOptions& options) {
 
 void add_stability_map(CLI::App& stability, Action& action) {
   CLI::App* command = stability.add_subcommand(
-      "map", "Which k_s and dt a method bears in a scene, by theory and by short runs (one weight: k)");
+      "map", "Which k_s and dt a method tolerates in a scene, by theory and by short runs (mass on a spring: k)");
   const auto options = std::make_shared<MapOptions>();
   options->preset.add_to(*command, false, Engines::cpu);
   add_quick(*command, options->bench, "Fewer cells");
   add_json(*command, options->bench);
-  add_output(*command, "--csv", options->csv, "Write a row a cell");
+  add_output(*command, "--csv", options->csv, "Write one row per cell");
   add_png(*command, options->bench, "Draw the map");
   command->footer("Example: tyglab stability map hanging --integrator rk4 --png map.png");
   command->callback([&action, options] { action = [options] { return map(*options); }; });

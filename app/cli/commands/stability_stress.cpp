@@ -71,7 +71,7 @@ Json row_of(std::uint64_t seed, std::int64_t number, const ChildExit& outcome) {
     StressResult lost;
     lost.preset = stress_preset(seed, std::uint64_t(number));
     lost.status = StressStatus::failed;
-    lost.problem = outcome.timed_out     ? "it hung: it was ended after a minute"
+    lost.problem = outcome.timed_out     ? "it hung and was killed after a minute"
                    : outcome.signal != 0 ? std::string("it crashed: ") + strsignal(outcome.signal)
                                          : "its process ended without a result";
     row = case_json(number, lost);
@@ -142,7 +142,7 @@ int stress(const StressOptions& options) {
     write_output(options.json, all.dump(2) + "\n");
   }
   if (InterruptGuard::interrupted())
-    std::cerr << "tyglab: Go on with --seed " << seed << " --from " << options.from + std::int64_t(rows.size())
+    std::cerr << "tyglab: Continue with --seed " << seed << " --from " << options.from + std::int64_t(rows.size())
               << " --cases " << count - std::int64_t(rows.size()) << "\n";
   if (const int code = bench_exit(); code != exit_done) return code;
   if (failed == 0) return exit_done;
@@ -172,26 +172,26 @@ void add_stability_stress(CLI::App& stability, Action& action) {
   const auto options = std::make_shared<StressOptions>();
   constexpr std::int64_t most = 1000000000;
   CLI::Option* quick = add_quick(*command, *options, "200 cases");
-  command->add_option("--cases", options->cases, "How many cases (1000 if it is not given)")
+  command->add_option("--cases", options->cases, "Number of cases (default 1000)")
       ->type_name("N")
       ->transform(whole_number_between(1, most))
       ->excludes(quick);
-  command->add_option("--seed", options->seed, "Of the random scenes (1 if it is not given)")
+  command->add_option("--seed", options->seed, "Seed of the random scenes (default 1)")
       ->type_name("S")
       ->transform(whole_number_between(0, most));
   CLI::Option* from = command
                           ->add_option("--from", options->from,
-                                       "The first case: to go on where another run ended. A case depends on the seed "
-                                       "and its number alone")
+                                       "The first case, to continue after another run. A case depends only on the seed "
+                                       "and its number")
                           ->type_name("N")
                           ->transform(whole_number_between(1, most));
-  command->add_option("--only", options->only, "One case, told in full: for use under other tools")
+  command->add_option("--only", options->only, "Run one case with full output, for debuggers and profilers")
       ->type_name("N")
       ->transform(whole_number_between(1, most))
       ->excludes(quick)
       ->excludes("--cases")
       ->excludes(from);
-  add_threads(*command, *options, "Cases at a time");
+  add_threads(*command, *options, "Simultaneous cases");
   add_json(*command, *options, "Write every case for programs");
   command->footer(
       "Examples: tyglab stability stress --cases 1000 --seed 1\n"

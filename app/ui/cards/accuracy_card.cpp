@@ -43,16 +43,16 @@ ChartSeries mark_at(const std::string& name, double x, ImU32 color, LineStyle li
 
 std::string stability_sentence(const StabilityLimits& limits) {
   const Scheme& method = scheme(limits.of.integrator);
-  if (projects(method)) return "XPBD projects positions: linear theory has no word for it.";
-  if (chooses_steps(method)) return "This method keeps its own steps within what is stable, as far as dt allows.";
+  if (projects(method)) return "XPBD projects positions: linear theory does not cover it.";
+  if (chooses_steps(method)) return "This method keeps its own steps stable, as far as dt allows.";
   const double h = limits.fastest.omega() * limits.of.dt;
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
   const double radius = spectral_radius(amplification(method, h, zeta));
   const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
   const std::string kept = short_number(radius);
   return of + short_number(h, 3) +
-         (radius > 1 + 1e-9 ? ", where a swing grows " + kept + "-fold a step."
-                            : ", where a swing keeps " + kept + " of its size a step.");
+         (radius > 1 + 1e-9 ? ", where an oscillation grows " + kept + "-fold per step."
+                            : ", where an oscillation keeps " + kept + " of its amplitude per step.");
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
   const double dt = limits.of.dt, now = limits.fastest.omega() * dt, bound = any_configuration(limits.of).omega() * dt;
   Chart chart;
   chart.padding = 0;
-  chart.x.title = "ω·dt", chart.y.title = "growth a step (spectral radius)";
+  chart.x.title = "ω·dt", chart.y.title = "growth per step (spectral radius)";
   chart.x.from_zero = true;
   double least = 1, most = 0, hi = 1;
   const auto curve = [&](const std::string& name, LineStyle line, const GrowthCurve& of) {
@@ -83,28 +83,27 @@ Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
 }
 
 std::string accuracy_words(const AccuracyStudy& study) {
-  if (!study.problem.empty()) return "There is nothing to compare with: " + study.problem + ".";
+  if (!study.problem.empty()) return "There is no reference to compare with: " + study.problem + ".";
   if (!study.present) return "Measuring…";
   const ErrorPoint& now = *study.present;
   const std::string over = " over the " + short_number(rounded(study.reference.seconds, 2)) +
                            " s from t = " + time_number(study.t, now.dt) + " s";
   const std::string method(scheme(now.integrator).title);
   if (!chooses_steps(scheme(now.integrator)) && now.dt < 0.9 * study.of.dt)
-    return "This cloth can be followed closely for " + short_number(rounded(study.reference.seconds, 2)) +
-           " s in the time there is: too short to judge a dt of " + short_number(study.of.dt) + " s.";
-  if (!std::isfinite(now.error_rms_m)) return "As it is set, " + method + " diverges" + over + ".";
+    return "The reference covers only " + short_number(rounded(study.reference.seconds, 2)) +
+           " s of this cloth: too short to measure the error at dt = " + short_number(study.of.dt) + " s.";
+  if (!std::isfinite(now.error_rms_m)) return "With the present settings, " + method + " diverges" + over + ".";
   const double floor = 10 * study.reference.agreement_rms_m;
-  const std::string error = now.resolved
-                                ? "errs by " + short_number(rounded(now.error_rms_m, 2))
-                                : "errs by less than " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
-  return method + " " + error + " m (rms)" + over + " and takes " + short_number(rounded(now.cost, 2)) +
-         " s of processor a second.";
+  const std::string error = now.resolved ? "error " + short_number(rounded(now.error_rms_m, 2))
+                                         : "error below " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
+  return method + ": " + error + " m (rms)" + over + "; it takes " + short_number(rounded(now.cost, 2)) +
+         " s of CPU time per simulated second.";
 }
 
 Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
   Chart chart;
   chart.padding = 0;
-  chart.x.title = "processor seconds for a simulated second", chart.x.log = true;
+  chart.x.title = "CPU seconds per simulated second", chart.x.log = true;
   chart.y.title = "error, m (rms)", chart.y.log = true;
   const auto put = [](ChartSeries& series, const ErrorPoint& point) {
     if (std::isfinite(point.error_rms_m) && point.error_rms_m > 0 && point.resolved)
@@ -117,7 +116,7 @@ Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
     if (!series.x.empty()) chart.series.push_back(std::move(series));
   }
   if (!study.present || (study.present->tolerance == 0 && study.present->dt < 0.9 * study.of.dt)) return chart;
-  ChartSeries present{"as it is set", {c.text, LineStyle::solid, 1}, false, 6, {}, {}};
+  ChartSeries present{"present settings", {c.text, LineStyle::solid, 1}, false, 6, {}, {}};
   put(present, *study.present);
   if (!present.x.empty()) chart.series.push_back(std::move(present));
   return chart;
@@ -157,10 +156,10 @@ void accuracy_ways(Ui& ui) {
   };
   if (ui.plots.convergence) {
     at_right(0);
-    if (quiet_button(ui, "csv_convergence", icon::download, "CSV", "Write the convergence as a CSV file…"))
+    if (quiet_button(ui, "csv_convergence", icon::download, "CSV", "Export the convergence as CSV…"))
       ui.command("export_convergence");
     at_right(1);
-    if (quiet_button(ui, "again", icon::restart, "again", "Measure again, from the present moment on"))
+    if (quiet_button(ui, "again", icon::restart, "again", "Measure again from now on"))
       ui.command("measure_convergence");
   }
   ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(ways_at_1)});
@@ -188,7 +187,7 @@ void convergence_shown(Ui& ui, float height) {
 void accuracy_card(Ui& ui, float height) {
   if (begin_card(ui, accuracy_heading, height)) {
     if (ui.session.simulation->lattice().size() > AccuracyWatch::largest) {
-      words_and_chart(ui, height, "This cloth is too large to be judged beside the window.", nullptr);
+      words_and_chart(ui, height, "This cloth is too large to be measured here.", nullptr);
     } else {
       accuracy_ways(ui);
       const float rest = height - ui.theme.px(ways_at_1);

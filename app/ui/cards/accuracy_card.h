@@ -18,7 +18,7 @@ float accuracy_card_height(const Ui& ui);
 
 /// The chart of a study: error over cost, a line for each method, the present settings as a disc of their own.
 Chart accuracy_chart(const Tokens& colors, const AccuracyStudy& study);
-/// Its sentence: "verlet, dt = 0.001 s, errs by 2.1e-05 m (rms) over the 0.25 s from t = 1.2 s; …"
+/// Its sentence: "Verlet: error 2.1e-05 m (rms) over the 0.25 s from t = 1.2 s; …"
 std::string accuracy_words(const AccuracyStudy& study);
 /// The chart of a method's spectral radius.
 Chart stability_chart(const Tokens& colors, const StabilityLimits& limits);

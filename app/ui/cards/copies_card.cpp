@@ -23,8 +23,8 @@ constexpr float line_at_1 = 24, buttons_at_1 = 34, under_words_at_1 = 12;  // pi
 constexpr float cost_at_1 = 72, apart_at_1 = 84, remove_at_1 = 26;         // columns
 constexpr float costs_from_at_1 = 250;                                     // a narrower card leaves the costs out
 constexpr const char* copies_explanation =
-    "Copies move beside this cloth with the same start, hand and wind, each with another method, dt or constant: see "
-    "where they part.";
+    "Copies run alongside this cloth with the same start, hand and wind, each with another method, dt or constant: "
+    "see where they diverge from each other.";
 constexpr const char* add_label = "Add a copy with…";
 constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
 
@@ -104,7 +104,7 @@ void cloth_line(Ui& ui, int n) {
   report_control(ui, n == Copies::original ? "original" : "copy" + std::to_string(n));
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),
-          copies.reference == n ? "The reference: distances are measured from here."
+          copies.reference == n ? "The reference: distances are measured from this one."
                                 : "Click to measure distances from this one.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, ui.theme.px(4));

@@ -34,17 +34,17 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = ui.theme.px(card::line), middle = std::round(lo.y + height / 2);
   const float baseline = baseline_at(ui.fonts, middle);
-  const bool judged = row.kind == EnergyKind::unexplained;
+  const bool unexplained = row.kind == EnergyKind::unexplained;
   const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
   ImGui::InvisibleButton("energy", {width, height});
   report_control(ui, "line");
-  tooltip(ui, gui::item_id(), std::string(row.help) + (judged ? " Now " + share_text(reading) + "." : ""));
+  tooltip(ui, gui::item_id(), std::string(row.help) + (unexplained ? " Now " + share_text(reading) + "." : ""));
   ImGui::PopID();
-  const ImU32 ink = row.joule == 0 && !judged ? c.quiet : c.text;
-  const ImU32 color = judged ? color_of(c, part) : row.kind == EnergyKind::has ? c.accent : c.text;
+  const ImU32 ink = row.joule == 0 && !unexplained ? c.quiet : c.text;
+  const ImU32 color = unexplained ? color_of(c, part) : row.kind == EnergyKind::has ? c.accent : c.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, judged ? color : ink, row.name);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink, row.name);
   const float value = ui.theme.px(96), bar = ui.theme.px(4), left = lo.x + ui.theme.px(128);
   // Height counts from wherever y = 0 is: its size says nothing beside the others.
   if (row.name != height_row && left + ui.theme.px(24) < lo.x + width - value)
@@ -52,7 +52,7 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
              faded(color, 0.8f));
   const std::string text = short_number(row.joule, 3) + " J";
   const ImFont& mono = *ui.fonts.mono;
-  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, judged ? color : ink, text);
+  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, unexplained ? color : ink, text);
 }
 
 }  // namespace
@@ -60,22 +60,23 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
 std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
   return {
       {EnergyKind::has, "motion", "Kinetic energy, ½ m v² of every particle.", r.energy.kinetic},
-      {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of those that pull.", r.energy.stretch},
-      {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of those that push.", r.energy.bending},
+      {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of springs that pull.", r.energy.stretch},
+      {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of springs that push.", r.energy.bending},
       {EnergyKind::has, height_row, "m g y of every particle, from y = 0.", r.energy.gravity},
-      {EnergyKind::works, "damping", "Work of F_d since the ledger began: it only takes.", r.works.damping},
-      {EnergyKind::works, "contact", "Taken by bodies: impacts and friction.", r.works.contact},
-      {EnergyKind::works, "tearing, cutting", "Energy of springs that broke or were cut.", r.works.tearing},
+      {EnergyKind::works, "damping", "Work of F_d since the ledger began: never above 0.", r.works.damping},
+      {EnergyKind::works, "contact", "Removed by bodies: impacts and friction.", r.works.contact},
+      {EnergyKind::works, "tearing, cutting", "Energy of springs that tore or were cut.", r.works.tearing},
       {EnergyKind::works, "wind", "Work of F_wind.", r.works.wind},
       {EnergyKind::works, "hand", "Work of the hand.", r.works.hand},
-      {EnergyKind::works, "edits", "Jumps of energy by changed constants, pins and methods.", r.works.edits},
-      {EnergyKind::unexplained, "made by the method",
-       "What is left: energy that no force explains, so the integrator made it (above 0) or ate it.", r.unexplained()},
+      {EnergyKind::works, "edits", "Jumps in energy when constants, pins or methods change.", r.works.edits},
+      {EnergyKind::unexplained, "added by the method",
+       "The remainder: energy that no force explains, so the integrator added (above 0) or removed it.",
+       r.unexplained()},
   };
 }
 
 std::string share_text(const LedgerReading& reading) {
-  return short_number(100 * reading.share(), 2) + " % of what the scene can hold, " + short_number(reading.scale, 3) +
+  return short_number(100 * reading.share(), 2) + " % of the scene's energy scale, " + short_number(reading.scale, 3) +
          " J";
 }
 

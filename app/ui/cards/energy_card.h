@@ -1,4 +1,4 @@
-// The energy ledger as a card: what the cloth has, what worked on it, and what the integrator made or ate.
+// The energy ledger as a card: what the cloth has, what worked on it, and what the integrator added or removed.
 #pragma once
 
 #include <string>

@@ -104,15 +104,14 @@ void right_controls(Ui& ui, ImVec2 at) {
   const float gap = ui.theme.px(force_gap_at_1), y = at.y + ui.theme.px(2);
   ImGui::SetCursorScreenPos(at);
   if (segments(ui, "scale", force_scales.data(), 1, plots.log ? 0 : -1) == 0) plots.log = !plots.log;
-  tooltip(ui, gui::item_id(), plots.log ? "Back to a linear axis" : "A logarithmic axis");
+  tooltip(ui, gui::item_id(), plots.log ? "Linear axis" : "Logarithmic axis");
   ImGui::SetCursorScreenPos({ImGui::GetItemRectMax().x + gap, y});
   if (quiet_button(ui, "pause", ui.session.recorded.paused ? icon::play : icon::pause,
                    ui.session.recorded.paused ? "run" : "hold",
-                   ui.session.recorded.paused ? "Let the plot run again" : "Hold the plot; the simulation goes on"))
+                   ui.session.recorded.paused ? "Resume the plot" : "Pause the plot; the simulation continues"))
     ui.session.recorded.paused = !ui.session.recorded.paused;
   ImGui::SetCursorScreenPos({ImGui::GetItemRectMax().x + gap, y});
-  if (quiet_button(ui, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
-    ui.command("export_forces");
+  if (quiet_button(ui, "csv", icon::download, "CSV", "Export the plot as CSV…")) ui.command("export_forces");
 }
 
 void force_controls(Ui& ui, const Region& inner) {
@@ -123,7 +122,7 @@ void force_controls(Ui& ui, const Region& inner) {
 }
 
 const char* force_title(const Ui& ui) {
-  if (ui.session.preset().kind == Kind::one_weight) return "Forces on the weight";
+  if (ui.session.preset().kind == Kind::one_weight) return "Forces on the mass";
   switch (ui.session.recorded.source) {
     case Source::sum:
       return "Forces, summed over the cloth";

@@ -42,7 +42,7 @@ void figure_legend(Ui& ui, const Region& place) {
     draw_styled_line(draw, ends, 2, style, ui.theme.scale);
     draw_on_baseline(draw, font, {x + sample + ui.theme.px(4), baseline_at(ui.fonts, middle)}, faded(c.text, opacity),
                      ReferenceCurves::titles[k]);
-    tooltip(ui, gui::item_id(), "As in figure 3.2: the same start, constants and dt by this method",
+    tooltip(ui, gui::item_id(), "As in figure 3.2: the same start, constants and dt with this method",
             plots.figure_hidden[k] ? "Click to show" : "Click to hide");
     ImGui::PopID();
     x += width + gap;
@@ -57,12 +57,11 @@ float height_card_least(const Ui& ui, float) {
 
 void height_card(Ui& ui, float height) {
   Plots& plots = ui.plots;
-  const PlotCard card(ui, "height", "Height of the weight, y(t)", "m", height);
+  const PlotCard card(ui, "height", "Height of the mass, y(t)", "m", height);
   const Region& inner = card.inner();
   const float side = ui.theme.px(height_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});
-  if (quiet_button(ui, "csv", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
-    ui.command("export_height");
+  if (quiet_button(ui, "csv", icon::download, "CSV", "Export the plot as CSV…")) ui.command("export_height");
   figure_legend(ui, {inner.at, {inner.size.x - side, side}});
   const std::span<const double> t = ui.session.recorded.height.t();
   std::vector<PlotCurve> curves;

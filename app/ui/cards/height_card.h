@@ -1,4 +1,4 @@
-// The height of the one weight over time, beside the curves of figure 3.2.
+// The height of the mass on a spring over time, beside the curves of figure 3.2.
 #pragma once
 
 #include "app/ui/state/ui.h"

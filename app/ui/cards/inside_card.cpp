@@ -63,7 +63,7 @@ void words(Ui& ui, const std::string& text, ImU32 color) {
   ImGui::PopFont();
 }
 
-/// A symbol of table B.1 with its colour, and its value.
+/// A symbol of table B.1 with its color, and its value.
 void force_line(Ui& ui, std::string_view key, const glm::dvec3& value) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = ui.theme.px(text_line_at_1), middle = std::round(lo.y + height / 2), sample = ui.theme.px(18);
@@ -98,7 +98,7 @@ void forces(Ui& ui, const TracedStage& stage, double m) {
                                                            {"F_d", F.F_d},       {"F_g", F.F_g},
                                                            {"F_ext", F.F_ext()}, {"F", F.F_int() + F.F_ext()}};
   for (const auto& [key, value] : kinds) {
-    const bool same = key == "F_ext" && F.F_wind == glm::dvec3(0);  // gravity alone, told already
+    const bool same = key == "F_ext" && F.F_wind == glm::dvec3(0);  // gravity alone, shown already
     if (!same) force_line(ui, key, value);
   }
   line(ui, "a = F/m", steady_vector(stage.a) + " m/s²", ui.theme.colors.text);
@@ -129,7 +129,7 @@ void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
   ImGui::PopFont();
   line(ui, "x", steady_vector(stage.x) + " m", c.text);
   line(ui, method.lags ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
-  if (method.lags) words(ui, "what the damping sees: the velocity between two steps, or a prediction", c.quiet);
+  if (method.lags) words(ui, "the velocity that damping uses: between two steps, or predicted", c.quiet);
   springs(ui, stage);
   forces(ui, stage, ui.session.preset().m);
   if (!trace.whole) return;
@@ -140,14 +140,15 @@ void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
 void result(Ui& ui, const StepTrace& trace) {
   const Tokens& c = ui.theme.colors;
   if (!trace.whole)
-    words(ui,
-          "This method solves equations, projects, or chooses its own steps, so its step is no sum of these numbers. "
-          "It leads to:",
-          c.quiet);
+    words(
+        ui,
+        "This method solves equations, projects, or chooses its own steps, so its step is not a sum of these numbers. "
+        "Its result:",
+        c.quiet);
   line(ui, "x, new", steady_vector(trace.x_after) + " m", c.text);
   if (trace.whole)
     words(ui,
-          "Worked out in double from the method's own table. The engine rounds each sum to the precision that is set, "
+          "Computed in double from the method's coefficients. The engine rounds each sum to the chosen precision, "
           "and bodies correct position and velocity after it.",
           c.quiet);
 }
@@ -177,17 +178,17 @@ void inside_step(Ui& ui, ImVec2 size) {
     const bool large = ui.session.simulation->lattice().size() > StepInspector::largest;
     return words(ui,
                  ui.session.preset().kind == Kind::one_weight
-                     ? "Open a cloth to look inside a step of one of its particles."
-                 : ui.session.simulation->divergence() ? "Restart to look inside a step."
-                 : large                               ? "This cloth is too large to be looked into beside the window."
-                                                       : "Right-click a particle to look inside its step.",
+                     ? "Open a cloth to see inside a step of one of its particles."
+                 : ui.session.simulation->divergence() ? "Restart to see inside a step."
+                 : large                               ? "This cloth is too large for this view."
+                                                       : "Right-click a particle to see inside its step.",
                  ui.theme.colors.text);
   }
   gui::begin_child("step", size);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, ui.theme.px(1)));
   words(ui, step_heading(*trace), ui.theme.colors.text);
   if (ui.session.pacing.playing) words(ui, "Space pauses, then → makes one step at a time.", ui.theme.colors.quiet);
-  if (trace->fixed) words(ui, "It is pinned or held: no force moves it.", ui.theme.colors.warning);
+  if (trace->fixed) words(ui, "It is pinned or held, so forces do not move it.", ui.theme.colors.warning);
   ImGui::Dummy({0, ui.theme.px(4)});
   for (std::size_t n = 0; n < trace->stages.size(); ++n) stage_text(ui, *trace, n);
   result(ui, *trace);

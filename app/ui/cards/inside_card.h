@@ -7,7 +7,7 @@
 
 namespace tyglab {
 
-/// Writes it at the cursor, in so much room; it scrolls.
+/// Writes it at the cursor, in that much room; it scrolls.
 void inside_step(Ui& ui, ImVec2 size);
 
 /// "d + dt² a", as the method's table says it.

@@ -39,10 +39,10 @@ void words_alone(Ui& ui, const std::string& words) {
 
 void stability_map(Ui& ui, ImVec2 size) {
   if (ui.session.simulation->lattice().size() > MapWatch::largest)
-    return words_alone(ui, "This cloth is too large to be mapped beside the window.");
+    return words_alone(ui, "This cloth is too large to be mapped here.");
   const auto map = ui.session.studies.map.findings();
   if (!map) return;
-  if (!map->problem.empty()) return words_alone(ui, "The map ends here: " + map->problem);
+  if (!map->problem.empty()) return words_alone(ui, "The map stopped here: " + map->problem);
   const Preset present =
       at_place(map->of, stiffness_of(ui.session.requested_preset()), ui.session.requested_preset().dt);
   Chart chart = map_chart(ui.theme.colors, present, map->grid, map->boundary, map->cells);
@@ -58,9 +58,9 @@ void stability_map(Ui& ui, ImVec2 size) {
   if (clicked) take_place(ui, map->grid, *place);
   begin_tooltip_at_pointer(ui);
   const MapCell* cell = cell_at(*map, *place);
-  wrapped(ui, cell != nullptr ? cell_words(map->of, *cell) + "." : "This run has not been made yet.",
+  wrapped(ui, cell != nullptr ? cell_words(map->of, *cell) + "." : "This run has not been computed yet.",
           ui.theme.colors.text);
-  wrapped(ui, "Click to take these values.", ui.theme.colors.quiet);
+  wrapped(ui, "Click to use these values.", ui.theme.colors.quiet);
   end_tooltip(ui);
 }
 

@@ -44,33 +44,33 @@ struct Feature {
 };
 
 constexpr Feature features[] = {
-    {"all steps", "Everything that the cloth's motion takes; the features below, down to the ledger, are done in it.",
+    {"all steps", "Everything that computes the motion, including the features below, down to the ledger.",
      [](const Ui&) { return true; }, Spent::frame, Part::simulate},
-    {"bending", "Springs over two particles: k_b > 0.", nullptr, Spent::step},
+    {"bending", "Springs to every second particle: k_b > 0.", nullptr, Spent::step},
     {"damping", "k_d > 0.", nullptr, Spent::step},
     {"wind", "W is not 0.", nullptr, Spent::step},
     {"bodies", "Collision with spheres and planes.", nullptr, Spent::step},
-    {"tearing", "F_max > 0: springs are measured when one may have grown enough.", nullptr, Spent::step},
-    {"pins", "Particles that keep their place.", nullptr, Spent::step},
+    {"tearing", "F_max > 0: springs are measured when one may be long enough to tear.", nullptr, Spent::step},
+    {"pins", "Particles that never move.", nullptr, Spent::step},
     {"hand", "The particle that follows the pointer.", nullptr, Spent::step},
     {"tear masks", "Only once a spring is torn.", [](const Ui& u) { return !u.session.simulation->tears().untorn(); },
      Spent::step},
-    {"divergence watch", "Always on: how far particles moved, and whether all is finite.",
+    {"divergence watch", "Always on: how far particles moved, and whether all values are finite.",
      [](const Ui&) { return true; }, Spent::step},
-    {"energy ledger", "Only while its card is open or dt is automatic: every step is looked at.",
+    {"energy ledger", "Only while its card is open or dt is automatic: every step is examined.",
      [](const Ui& u) { return u.session.simulation->ledger().has_value(); }, Spent::step},
-    {"plot data", "Collected only for plots that are seen, and while the cloth moves.",
+    {"plot data", "Collected only for visible plots, and while the cloth moves.",
      [](const Ui& u) { return (u.session.wants.forces || u.session.wants.height) && !u.session.recorded.paused; },
      Spent::frame, Part::sample},
-    {"colours", "What colours the cloth: worked out only where it is shown, when something moved.",
+    {"colors", "The values that color the cloth: computed only if shown and something moved.",
      [](const Ui& u) { return shown_colors(u.scene) != nullptr; }, Spent::frame, Part::colors},
     {"normals", "Only views 1 and 3 have light.", [](const Ui& u) { return cloth(u) && u.scene.view.lit(); },
      Spent::frame, Part::normals},
     {"upload",
-     "Positions (and normals) are copied for drawing when something moved; where the device writes them into "
-     "OpenGL's buffer or memory, nothing is.",
+     "Positions (and normals) are copied for drawing when something moved; if the device writes them into "
+     "OpenGL's buffer or memory, nothing is copied.",
      [](const Ui& u) { return cloth(u); }, Spent::frame, Part::upload},
-    {"shadow", "Drawn anew when something moved.", [](const Ui& u) { return u.scene.view.shadows; }, Spent::frame,
+    {"shadow", "Redrawn when something moved.", [](const Ui& u) { return u.scene.view.shadows; }, Spent::frame,
      Part::shadow},
 };
 
@@ -186,31 +186,31 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   if (const InnerSteps inner = engine.inner_steps(); inner.accepted > 0) {
     const auto steps = double(std::max<std::int64_t>(1, ui.session.simulation->steps()));
     const auto share = [&](std::int64_t part) { return text("%.0f %%", 100 * double(part) / double(inner.accepted)); };
-    facts.push_back(
-        {"inner steps, rejected", short_number(double(inner.accepted) / steps, 2) + " a dt, " + share(inner.rejected)});
+    facts.push_back({"inner steps, rejected",
+                     short_number(double(inner.accepted) / steps, 2) + " per dt, " + share(inner.rejected)});
     facts.push_back({"limited by stability", share(inner.by_stability)});
     facts.push_back({"by accuracy, by dt", share(inner.by_accuracy) + ", " + share(inner.by_dt)});
     facts.push_back({"tolerance missed", std::to_string(inner.too_short + inner.below_digits)});
   }
-  facts.push_back({"steps a frame", std::to_string(ui.session.pacing.steps_per_frame())});
-  facts.push_back({"a frame in all", text("%.2f ms", ui.session.costs.recent_ms(Part::frame))});
+  facts.push_back({"steps per frame", std::to_string(ui.session.pacing.steps_per_frame())});
+  facts.push_back({"whole frame", text("%.2f ms", ui.session.costs.recent_ms(Part::frame))});
   const std::string without = ui.scene.effects.words();
-  facts.push_back({"left out of the picture", without.empty() ? "nothing" : without});
+  facts.push_back({"effects turned off", without.empty() ? "nothing" : without});
   const std::string& why = ui.session.costs.why_copied();
   facts.push_back(
-      {"positions are drawn from", drawn_from(ui.session.costs.way()), why.empty() ? "" : "Copied, since " + why});
+      {"positions are drawn from", drawn_from(ui.session.costs.way()), why.empty() ? "" : "Copied because " + why});
   const std::size_t copied = ui.session.costs.last_copied();
-  facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " a frame" : "0 B"});
+  facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " per frame" : "0 B"});
   if (bytes_read(engine) > 0)
-    facts.push_back({"read by others", megabytes(ui.session.costs.recent_read()) + " a frame"});
+    facts.push_back({"read by others", megabytes(ui.session.costs.recent_read()) + " per frame"});
   facts.push_back({"solver's arrays", megabytes(arrays) + text(", %.0f B/particle", arrays / particles)});
   facts.push_back(
       {"masks and read-outs", megabytes(double(ui.session.simulation->bytes() + ui.session.sleep.bytes()))});
   facts.push_back({"drawing's buffers", megabytes(buffers)});
   facts.push_back({"plots' history", megabytes(plots)});
   if (!ui.session.copies.lockstep.empty())
-    facts.push_back({"copies, without pictures", megabytes(double(ui.session.copies.lockstep.bytes()))});
-  facts.push_back({"past, for rewinding", megabytes(double(ui.session.rewind.bytes()))});
+    facts.push_back({"copies, without drawing", megabytes(double(ui.session.copies.lockstep.bytes()))});
+  facts.push_back({"states for rewinding", megabytes(double(ui.session.rewind.bytes()))});
   facts.push_back({"undo", megabytes(double(ui.session.history.bytes()))});
   return facts;
 }

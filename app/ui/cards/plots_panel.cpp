@@ -33,7 +33,7 @@ void copies_plot_card(Ui& ui, float height) {
   const bool energy = ui.session.copies.plotted == Copies::Quantity::energy;
   const PlotCard card(ui, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
                       energy ? "J" : "m, log", height, 1);
-  if (card.head_button(ui, 0, "csv_copies", icon::download, "CSV", "Write what the plot holds as a CSV file…"))
+  if (card.head_button(ui, 0, "csv_copies", icon::download, "CSV", "Export the plot as CSV…"))
     ui.command("export_copies");
   copies_plot(ui, card.inner().size);
 }
@@ -43,9 +43,8 @@ void map_plot_card(Ui& ui, float height) {
   const PlotCard card(ui, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
                       ui.session.studies.map.working() ? "measuring" : "", height, 3);
   if (card.head_button(ui, 0, "close_map", icon::close, "×", "Close the map")) ui.command("toggle_map");
-  if (card.head_button(ui, 1, "csv_map", icon::download, "CSV", "Write the map as a CSV file…"))
-    ui.command("export_map");
-  if (card.head_button(ui, 2, "png_map", icon::picture, "PNG", "Write the map as a picture…"))
+  if (card.head_button(ui, 1, "csv_map", icon::download, "CSV", "Export the map as CSV…")) ui.command("export_map");
+  if (card.head_button(ui, 2, "png_map", icon::picture, "PNG", "Export the map as a PNG image…"))
     ui.command("export_map_picture");
   stability_map(ui, card.inner().size);
 }
@@ -56,7 +55,7 @@ void inside_card(Ui& ui, float height) {
   inside_step(ui, card.inner().size);
 }
 
-/// Height of a card of which so much (at scale 1) is the least that says something.
+/// Height of a card of which that much (at scale 1) is the least that says something.
 template <int content_at_1>
 float least_of(const Ui& ui, float) {
   return plot_card_height(ui, ui.theme.px(content_at_1));
@@ -131,7 +130,7 @@ void draw_card(Ui& ui, const Card& card, float height) {
   card.draw(ui, height);
 }
 
-/// Heights of the cards at the foot, where the plots can spare so much room (px). What has no room, a heading or an
+/// Heights of the cards at the foot, where the plots can spare that much room (px). What has no room, a heading or an
 /// open card, joins the plots. Returns the height of those that stay, with their gaps.
 float place_at_foot(Ui& ui, std::span<FootCard> foot, float room, std::vector<Card>& plots) {
   const float gap = ui.theme.px(margin_at_1), head = ui.theme.px(card::head);

@@ -70,27 +70,28 @@ std::vector<std::string> shipped_textures() {
 /// How the pointer's tools work.
 void tool_rows(Ui& ui) {
   const ToolSettings& handling = ui.settings.handling;
-  labelled_row(ui, "cut", [&](float) {
-    static constexpr const char* ways[] = {"upwards", "along the path"};
+  labeled_row(ui, "cut", [&](float) {
+    static constexpr const char* ways[] = {"upward", "along the path"};
     const int now = handling.cut_along_path ? 1 : 0;
     if (const int k = segments(ui, "cut", ways, 2, now); k >= 0 && k != now) ui.command("toggle_cut_path");
     tooltip(ui, gui::item_id(),
-            "What a left drag cuts: the springs upwards of each particle near it, as in the report, or every spring "
+            "What a left drag cuts: the springs above each particle near it, as in the report, or every spring "
             "and edge of a triangle that it crosses, through all layers.",
             ui.keys_of("toggle_cut_path"));
   });
-  labelled_row(ui, "hand", [&](float) {
+  labeled_row(ui, "hand", [&](float) {
     if (check(ui, "slow motion", handling.slow_hand)) ui.command("toggle_slow_hand");
-    tooltip(ui, gui::item_id(), "A quarter of the speed while you grab or cut.", ui.keys_of("toggle_slow_hand"));
+    tooltip(ui, gui::item_id(), "Runs at a quarter of the speed while you grab or cut.",
+            ui.keys_of("toggle_slow_hand"));
     ImGui::SameLine(0, ui.theme.px(16));
     if (check(ui, "wind arrow", wind_arrow_shown(ui.tools))) ui.command("toggle_wind_arrow");
-    tooltip(ui, gui::item_id(), "The wind W as an arrow in the picture: drag its tip.",
+    tooltip(ui, gui::item_id(), "Shows the wind W as an arrow in the scene: drag its tip.",
             ui.keys_of("toggle_wind_arrow"));
   });
 }
 
 void texture_row(Ui& ui) {
-  labelled_row(ui, "texture", [&](float width) {
+  labeled_row(ui, "texture", [&](float width) {
     const std::string now = std::filesystem::path(ui.session.requested_preset().texture).filename().string();
     if (!begin_combo(ui, "##texture", now.c_str(), width)) return;
     for (const std::string& name : shipped_textures())
@@ -109,23 +110,21 @@ void view_section(Ui& ui) {
   if (!section(ui, "View")) return;
   const bool cloth = ui.session.requested_preset().kind == Kind::cloth;
   if (cloth) texture_row(ui);
-  labelled_row(ui, "show", [&](float) {
+  labeled_row(ui, "show", [&](float) {
     if (!cloth) {
       if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
       return;
     }
     if (check(ui, "arrows", ui.arrows)) ui.arrows = !ui.arrows;
-    tooltip(ui, gui::item_id(),
-            "Of the variables that are ticked under “Picked particle”, in the colours of their curves.");
+    tooltip(ui, gui::item_id(), "For the variables checked under “Picked particle”, in the colors of their curves.");
     ImGui::SameLine(0, ui.theme.px(16));
     if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
   });
-  labelled_row(ui, "effects", [&](float) {
-    if (check(ui, "all, however slow", ui.scene.effects.mode == Effects::Mode::all)) ui.command("toggle_effects");
-    tooltip(
-        ui, gui::item_id(),
-        "Where drawing takes longer than 20 ms, soft edges of shadows are left out, then smooth edges, then shadows; "
-        "the status bar says so.");
+  labeled_row(ui, "effects", [&](float) {
+    if (check(ui, "all, even if slow", ui.scene.effects.mode == Effects::Mode::all)) ui.command("toggle_effects");
+    tooltip(ui, gui::item_id(),
+            "If drawing takes longer than 20 ms, soft shadow edges are turned off, then smooth edges, then shadows; "
+            "the status bar says so.");
   });
   if (cloth) tool_rows(ui);
 }

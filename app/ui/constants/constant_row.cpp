@@ -73,11 +73,11 @@ SliderScale scale_of(const Line& line, int k) {
   PresetRow probe{};
   probe.field = &Preset::offset;
   probe.min = line.min, probe.max = line.max, probe.scale = line.scale;
-  double centre = std::isnan(line.saved[k]) ? line.value[k] : line.saved[k];
+  double center = std::isnan(line.saved[k]) ? line.value[k] : line.saved[k];
   if (line.components == 3)
     for (double v : {line.saved[0], line.saved[1], line.saved[2]})
-      if (std::abs(v) > std::abs(centre)) centre = v;
-  SliderRange range = slider_range(probe, centre);
+      if (std::abs(v) > std::abs(center)) center = v;
+  SliderRange range = slider_range(probe, center);
   if (line.value[k] != 0 && (line.value[k] > range.max || line.value[k] < range.min))
     range = slider_range(probe, line.value[k]);
   return {range.min, range.max, line.scale, line.integer};
@@ -113,14 +113,14 @@ std::string all_values(const Line& line, const double* values) {
 bool in_range(Ui& ui, const Line& line, double value) {
   if (value >= line.min && value <= line.max && (!line.integer || value == std::round(value))) return true;
   const std::string unit = line.unit.empty() ? "" : " " + std::string(line.unit);
-  ui.session.messages.error(std::string(line.symbol) + " goes from " + short_number(line.min) + " to " +
+  ui.session.messages.error(std::string(line.symbol) + " ranges from " + short_number(line.min) + " to " +
                             short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
-                            short_number(value) + " was not taken.");
+                            short_number(value) + " was not accepted.");
   return false;
 }
 
 void take(Ui& ui, const Line& line, int k, const SliderResult& result, unsigned gesture) {
-  // A change that builds the cloth anew waits for the end of the drag.
+  // A change that builds the cloth again waits for the end of the drag.
   const bool due = line.effect == Effect::rebuild ? result.finished : result.changed;
   double next[3] = {line.value[0], line.value[1], line.value[2]};
   if (result.reset && !std::isnan(line.saved[k])) {
@@ -154,11 +154,11 @@ void row_tooltip(Ui& ui, const Line& line) {
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);
   if (const SliderScale scale = scale_of(line, 0); preset_is_off(line, scale) != 0)
     wrapped(ui,
-            "The slider has moved with the value: it goes from " + short_number(scale.min) + " to " +
-                short_number(scale.max) + " now, and the preset's " + short_number(line.saved[0]) +
-                " lies off its end. Double-click goes back.",
+            "The slider has moved with the value: it now ranges from " + short_number(scale.min) + " to " +
+                short_number(scale.max) + ", and the preset's " + short_number(line.saved[0]) +
+                " is outside. Double-click to reset.",
             c.warning);
-  if (line.effect == Effect::start) wrapped(ui, "Counts at the next restart (R).", c.warning);
+  if (line.effect == Effect::start) wrapped(ui, "Takes effect at the next restart (R).", c.warning);
   ImGui::PushFont(ui.fonts.small);
   wrapped(ui,
           line.components == 3 ? "Drag a number sideways, double-click to type, right-click for more."
@@ -190,7 +190,7 @@ void copy_items(Ui& ui, const Line& line) {
   if (ImGui::InputText("##copy", typed, sizeof typed, ImGuiInputTextFlags_EnterReturnsTrue)) {
     if (const auto value = typed_number(typed, line.unit); value && in_range(ui, line, *value)) add(*value);
     if (*typed != 0 && !typed_number(typed, line.unit))
-      ui.session.messages.error(std::string("“") + typed + "” is not a number, so there is no copy with it.");
+      ui.session.messages.error(std::string("“") + typed + "” is not a number, so no copy was added.");
     ImGui::CloseCurrentPopup();
   }
   report_control(ui, "copy_value");
@@ -203,7 +203,7 @@ void row_menu(Ui& ui, const Line& line, ImVec2 lo, ImVec2 hi) {
   if (!std::isnan(line.saved[0]) &&
       ImGui::MenuItem(("Reset to the preset's " + all_values(line, line.saved)).c_str(), "double-click"))
     line.set(line.saved, 0);
-  if (ImGui::MenuItem(("To the default " + all_values(line, line.standard)).c_str())) line.set(line.standard, 0);
+  if (ImGui::MenuItem(("Set to the default " + all_values(line, line.standard)).c_str())) line.set(line.standard, 0);
   copy_items(ui, line);
   end_menu();
 }
@@ -322,7 +322,7 @@ void body_row(Ui& ui, const BodyRow& row, int index) {
   ImGui::PopID();
 }
 
-void labelled_row(Ui& ui, const char* label, const std::function<void(float)>& content) {
+void labeled_row(Ui& ui, const char* label, const std::function<void(float)>& content) {
   const RowColumns columns = row_columns(ui);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = ui.row_width;

@@ -15,7 +15,7 @@ void constant_row(Ui& ui, const PresetRow& row);
 void body_row(Ui& ui, const BodyRow& row, int index);
 
 /// A line whose slider column `content` fills (combos, buttons): a plain label stands where symbols do.
-void labelled_row(Ui& ui, const char* label, const std::function<void(float width)>& content);
+void labeled_row(Ui& ui, const char* label, const std::function<void(float width)>& content);
 
 /// Height of a row and width of its columns, at the present scale.
 struct RowColumns {

@@ -63,7 +63,7 @@ std::string order_text(const Scheme& scheme) {
   return text;
 }
 
-/// "Verlet (2.15)"; methods that the report does not have bear no number.
+/// "Verlet (2.15)"; methods that are not in the report have no number.
 std::string label_of(const Scheme& scheme) {
   const std::string title(scheme.title);
   return scheme.equation.empty() ? title : title + " (" + std::string(scheme.equation) + ")";
@@ -118,10 +118,10 @@ void scale_resolution(Ui& ui, double q) {
 
 void resolution_row(Ui& ui) {
   static constexpr const char* tip =
-      "Changes how finely the cloth is divided and keeps its size, mass and stretch behaviour: R−1 and C−1 times q, "
+      "Makes the lattice finer or coarser and keeps the size, mass and stretch behavior: R−1 and C−1 times q, "
       "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
-      "Tears are mended.";
-  labelled_row(ui, "divide", [&](float) {
+      "Tears are repaired.";
+  labeled_row(ui, "divide", [&](float) {
     const Preset& preset = ui.session.requested_preset();
     const float gap = ui.theme.px(6);
     const bool coarser = preset.rows >= 3 && (preset.columns >= 3 || preset.columns == 1);
@@ -149,11 +149,11 @@ std::string pins_text(const Pins& pins) {
                                                        {Pins::Mode::left_column, "left column"},
                                                        {Pins::Mode::boundary, "boundary"}};
   const auto it = names.find(pins.mode);
-  return it != names.end() ? it->second : "own list (" + std::to_string(pins.list.size()) + ")";
+  return it != names.end() ? it->second : "custom list (" + std::to_string(pins.list.size()) + ")";
 }
 
 void pins_row(Ui& ui) {
-  labelled_row(ui, "pins", [&](float width) {
+  labeled_row(ui, "pins", [&](float width) {
     const Pins& pins = ui.session.requested_preset().pins;
     const bool open = begin_combo(ui, "##pins", pins_text(pins).c_str(), width);
     if (!open) {

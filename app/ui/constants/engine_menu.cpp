@@ -73,21 +73,21 @@ std::string why_not(const EngineMode& mode, const Preset& preset, const OpenClIn
   if (devices != nullptr && devices->devices.empty()) return no_device_words(devices->problem);
   const Scheme& method = scheme(preset.integrator);
   if (!runs_on_opencl(method))
-    return std::string(method.title) + " runs on the CPU engine alone. Choose another method first.";
+    return std::string(method.title) + " runs only on the CPU engine. Choose another method first.";
   const OpenClDevice* device = device_of(preset, devices);
   if (device != nullptr && mode.precision == Precision::double_ && !device->fp64)
-    return device->name + " does not compute in double.";
+    return device->name + " does not support double precision.";
   return {};
 }
 
 std::string words_of(const EngineMode& mode, const Preset& preset, const OpenClInventory* devices) {
-  std::string where = "On the processor";
+  std::string where = "On the CPU";
   if (mode.engine == EngineKind::opencl) {
     const OpenClDevice* device = device_of(preset, devices);
-    where = device != nullptr ? "By OpenCL on " + device->name : "By OpenCL, on a graphics card or another device";
+    where = device != nullptr ? "With OpenCL on " + device->name : "With OpenCL, on a GPU or another device";
   }
-  return where + (mode.precision == Precision::float_ ? ", in float: numbers of 7 digits."
-                                                      : ", in double: numbers of 16 digits, and twice the memory.");
+  return where + (mode.precision == Precision::float_ ? ", in float: 7 significant digits."
+                                                      : ", in double: 16 significant digits, and twice the memory.");
 }
 
 void engine_menu(Ui& ui, float width) {
@@ -106,7 +106,7 @@ void engine_menu(Ui& ui, float width) {
   mode_choices(ui, devices);
   if (ImGui::Selectable("Automatic")) ui.command("choose_engine");
   report_control(ui, "automatic_engine");
-  tooltip(ui, gui::item_id(), "Takes the engine that is quickest with this scene, in this precision: by short runs.");
+  tooltip(ui, gui::item_id(), "Chooses the fastest engine for this scene and precision by short trial runs.");
   if (preset.engine == EngineKind::opencl && devices != nullptr) device_choices(ui, *devices);
   end_combo();
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 7> forces{"F_s", "F_b", "F_d", "F_g", "F_int", "F_ext", "F"};
 constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
 
-/// Whether the variable can be drawn at the particle: a position is a place, not an arrow, and the one weight has none.
+/// Whether the variable can be drawn at the particle: a position is a place, not an arrow, a mass on a spring has none.
 bool has_arrow(const Ui& ui, std::string_view key) {
   return ui.session.preset().kind == Kind::cloth && key != "x";
 }
@@ -39,13 +39,12 @@ void variable_tooltip(Ui& ui, ImGuiID id, const Variable& what, const glm::dvec3
   wrapped(ui, what.help, c.text);
   wrapped(ui, steady_vector(value) + " " + std::string(what.unit), c.text);
   if (without_contact)
-    wrapped(
-        ui,
-        "The particle lies on a body. Its contact corrects position and velocity after each step and is no force of "
-        "the model, so it is in neither F nor the acceleration.",
-        c.warning);
+    wrapped(ui,
+            "The particle lies on a body. Contact corrects position and velocity after each step and is not a force of "
+            "the model, so neither F nor the acceleration includes it.",
+            c.warning);
   wrapped(ui, "equation (" + std::string(what.equation) + ")", c.quiet);
-  if (has_arrow(ui, what.key)) wrapped(ui, "Click: its arrow at the particle, on or off", c.quiet);
+  if (has_arrow(ui, what.key)) wrapped(ui, "Click to show or hide its arrow at the particle", c.quiet);
   end_tooltip(ui);
 }
 
@@ -107,7 +106,7 @@ void draw_tick(Ui& ui, std::string_view key, float left, float middle) {
   draw.AddPolyline(check, 3, c.on_accent, 0, ui.theme.scale * 1.4f);
 }
 
-/// A tick where there is an arrow to show, and the colour and line of what is drawn or plotted.
+/// A tick where there is an arrow to show, and the color and line of what is drawn or plotted.
 void tick_and_sample(Ui& ui, std::string_view key, float left, float middle) {
   const bool arrow = has_arrow(ui, key), plotted = key.front() == 'F';
   if (arrow) draw_tick(ui, key, left, middle);
@@ -185,13 +184,13 @@ void particle_panel(Ui& ui) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool open = section(ui, card_title);
-  char where[64] = "none: right-click one";
+  char where[64] = "none: right-click a particle";
   if (ui.session.picked) {
     const bool pinned = ui.session.simulation->pinned(ui.session.picked->i, ui.session.picked->j);
     std::snprintf(where, sizeof where, "(%d, %d)%s", ui.session.picked->i, ui.session.picked->j,
                   pinned ? ", pinned" : "");
   }
-  if (ui.session.preset().kind == Kind::one_weight) std::snprintf(where, sizeof where, "the weight");
+  if (ui.session.preset().kind == Kind::one_weight) std::snprintf(where, sizeof where, "the mass");
   const ImFont& small = *ui.fonts.small;
   const float x = lo.x + ui.theme.px(118);
   const float y = lo.y + ui.theme.px(4) + std::round((ui.theme.px(22) - small.FontSize) / 2);

@@ -52,10 +52,10 @@ void auto_toggle(Ui& ui, ImVec2 at, float width, float height) {
   report_control(ui, "auto");
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),
-          on ? "dt is chosen by the program: 0.8 of what is stable in any configuration, less where the ledger finds "
-               "that the method makes energy. Click to keep it as it is."
-             : "Let the program choose dt, and watch it: 0.8 of what is stable in any configuration, less where the "
-               "ledger finds that the method makes energy.");
+          on ? "dt is chosen by the program: 0.8 of what is stable in any configuration, less if the ledger finds "
+               "that the method adds energy. Click to keep the present dt."
+             : "Let the program choose and adjust dt: 0.8 of what is stable in any configuration, less if the "
+               "ledger finds that the method adds energy.");
   const float inset = std::round((height - ui.theme.px(20)) / 2);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + inset}, {at.x + width, at.y + height - inset},
@@ -77,9 +77,9 @@ std::string stability_text(const StabilityLimits& limits, double dt) {
 
 std::string stability_words(const StabilityLimits& limits, double dt) {
   if (chooses_steps(scheme(limits.of.integrator)))
-    return "This method chooses its own steps within dt, as short as stability and tolerance ask.";
+    return "This method chooses its own steps within dt, as short as stability and tolerance require.";
   if (std::isinf(limits.any))
-    return "Linear theory gives this method no largest dt. Bodies, and springs that switch, still may.";
+    return "Linear theory sets no largest dt for this method. Bodies, and springs that switch, still can.";
   if (limits.any == 0) return "No dt is stable: without more damping this method feeds energy into every oscillation.";
   std::string text = "dt is " + two_digits(dt / limits.any) + " of the largest that is stable in any configuration, " +
                      short_number(limits.any) + " s.";
@@ -89,12 +89,12 @@ std::string stability_words(const StabilityLimits& limits, double dt) {
   if (std::isfinite(limits.stiffness) && limits.stiffness > 0 && limits.of.kind == Kind::cloth)
     text += " With this dt, springs " + two_digits(limits.stiffness) + " times as stiff would reach the limit" +
             (limits.of.k_b == 0 ? ": k_s = " + short_number(limits.stiffness * limits.of.k_s) + " N/m." : ".");
-  return text + " One-sided springs switch, so this is advice and no promise.";
+  return text + " One-sided springs switch, so this is a guide, not a guarantee.";
 }
 
 void stability_row(Ui& ui) {
   const auto& limits = ui.session.studies.stability.limits();
-  labelled_row(ui, "limit", [&](float width) {
+  labeled_row(ui, "limit", [&](float width) {
     const RowColumns columns = row_columns(ui);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float height = ui.theme.px(30);  // as the labels of such rows are placed

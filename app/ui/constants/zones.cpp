@@ -13,7 +13,7 @@ ImU32 zone_color(const Tokens& c, Zone zone) {
   return zone == Zone::stable ? c.good : zone == Zone::near ? c.warning : c.danger;
 }
 
-/// Colour is never the only sign: what is unstable is hatched and thicker.
+/// Color is never the only sign: what is unstable is hatched and thicker.
 void draw_span(Ui& ui, Zone zone, ImVec2 lo, ImVec2 hi) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = zone_color(ui.theme.colors, zone);
@@ -35,7 +35,7 @@ double value_of(const Preset& preset, std::string_view key) {
 }
 
 std::string no_part_of_it(std::string_view key) {
-  return key == "L" ? ": rest lengths do not enter the largest frequency" : "";
+  return key == "L" ? ": the largest frequency does not depend on rest lengths" : "";
 }
 
 }  // namespace
@@ -70,18 +70,18 @@ std::string zone_words(const StabilityLimits& limits, std::string_view key, std:
   const auto unstable = [](const ZoneSpan& z) { return z.zone == Zone::unstable; };
   if (std::none_of(zones.begin(), zones.end(), unstable)) {
     if (std::isinf(limits.any)) return "";
-    return method + " holds at this dt, whatever " + name + " is" + no_part_of_it(key) + ".";
+    return method + " is stable at this dt, whatever " + name + " is" + no_part_of_it(key) + ".";
   }
-  const std::string others = key == "dt" ? "" : key == "k_d" ? " at this dt" : " at this dt; implicit Euler does not";
+  const std::string others = key == "dt" ? "" : key == "k_d" ? " at this dt" : " at this dt; implicit Euler is not";
   if (!unstable(*here)) {
     const auto above = std::find_if(here, zones.end(), unstable);
-    if (above != zones.end()) return method + " breaks above " + quantity(above->from) + others + ".";
+    if (above != zones.end()) return method + " is unstable above " + quantity(above->from) + others + ".";
     const auto below = std::find_if(std::make_reverse_iterator(here), zones.rend(), unstable);
-    return method + " breaks below " + quantity(below->to) + others + ".";
+    return method + " is unstable below " + quantity(below->to) + others + ".";
   }
   std::string text = method + " is unstable here";
-  if (here != zones.begin()) return text + "; it holds below " + quantity(here->from) + ".";
-  if (here + 1 != zones.end()) return text + "; it holds above " + quantity(here->to) + ".";
+  if (here != zones.begin()) return text + "; it is stable below " + quantity(here->from) + ".";
+  if (here + 1 != zones.end()) return text + "; it is stable above " + quantity(here->to) + ".";
   return text + ", whatever " + name + " is" + no_part_of_it(key) + ".";
 }
 

@@ -14,7 +14,7 @@ namespace tyglab {
 /// then follows.
 void draw_zones(Ui& ui, std::string_view key, const SliderScale& scale, ImVec2 lo, ImVec2 hi);
 
-/// "Verlet breaks above k_s = 412 N/m; implicit Euler does not." Empty for a constant without zones, and for methods
+/// "Verlet is unstable above k_s = 412 N/m; implicit Euler is not." Empty for a constant without zones, and for methods
 /// that no dt makes unstable.
 std::string zone_words(const StabilityLimits& limits, std::string_view key, std::string_view unit);
 

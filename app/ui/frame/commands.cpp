@@ -54,7 +54,7 @@ void step_once(Ui& ui) {
 std::string nothing_earlier(const Ui& ui) {
   const Simulation& simulation = *ui.session.simulation;
   const bool there = ui.session.rewind.before(simulation, simulation.time(), 1) != nullptr;
-  return there && !ui.session.rebuild.holds_present() ? "" : "There is nothing earlier to go back to.";
+  return there && !ui.session.rebuild.holds_present() ? "" : "There is no earlier state to rewind to.";
 }
 
 void rewind_a_second(Ui& ui) {
@@ -67,7 +67,7 @@ void frame_cloth(Ui& ui) {
 }
 
 std::string palette_is_open(const Ui& ui) {
-  return ui.palette.open ? "The list of commands is open." : "";
+  return ui.palette.open ? "The command palette is open." : "";
 }
 
 void find_command(Ui& ui) {
@@ -83,11 +83,11 @@ std::string no_lab(const Ui& ui) {
 }
 
 std::string no_weight(const Ui& ui) {
-  return ui.session.preset().kind == Kind::one_weight ? "" : "That belongs to the mass on a spring; this is a cloth.";
+  return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
 }
 
 std::string no_cloth(const Ui& ui) {
-  return ui.session.preset().kind == Kind::cloth ? "" : "Only a cloth can be colored, and this is one weight.";
+  return ui.session.preset().kind == Kind::cloth ? "" : "Only a cloth can be colored; this is a mass on a spring.";
 }
 
 std::string no_copies(const Ui& ui) {
@@ -117,7 +117,7 @@ void toggle_cut_path(Ui& ui) {
   bool& along = ui.settings.handling.cut_along_path;
   along = !along;
   ui.messages.note(along ? "A left drag cuts every spring that its path crosses."
-                         : "A left drag cuts the springs upwards of the particles near it, as in the report.");
+                         : "A left drag cuts the springs above the particles near it, as in the report.");
 }
 
 void toggle_wind_arrow(Ui& ui) {
@@ -127,8 +127,8 @@ void toggle_wind_arrow(Ui& ui) {
 void toggle_slow_hand(Ui& ui) {
   bool& slow = ui.settings.handling.slow_hand;
   slow = !slow;
-  ui.messages.note(slow ? "While you grab or cut, time goes at a quarter of its speed."
-                        : "Time goes at its speed while you grab or cut.");
+  ui.messages.note(slow ? "Time runs at a quarter of the speed while you grab or cut."
+                        : "Time runs at full speed while you grab or cut.");
 }
 
 void toggle_full_screen(Ui& ui) {
@@ -163,7 +163,7 @@ void undo_and_restart(Ui& ui) {
 }
 
 std::string nothing_changed(const Ui& ui) {
-  return unsaved(ui.session) ? "" : "The constants are those of the preset.";
+  return unsaved(ui.session) ? "" : "The constants already are those of the preset.";
 }
 
 void reset_constants(Ui& ui) {
@@ -179,7 +179,7 @@ void choose_fastest_engine(Ui& ui) {
   ui.session.studies.engine.begin(ui.session.requested_preset(), ui.session.threads);
 }
 
-/// "--set k_s=80" for each constant, so that a command line makes the same scene.
+/// "--set k_s=80" for each constant, so that a command line gives the same scene.
 void copy_as_options(Ui& ui) {
   const Preset preset = ui.session.requested_preset();
   std::string text;
@@ -240,7 +240,7 @@ std::vector<CommandRow> all_rows() {
        "Rewind a second",
        "←",
        {{GLFW_KEY_LEFT, 0, true}},
-       "goes a second back",
+       "rewinds one second",
        "back",
        rewind_a_second,
        nothing_earlier},
@@ -248,7 +248,7 @@ std::vector<CommandRow> all_rows() {
        "Restart the motion",
        "R or Backspace",
        {{GLFW_KEY_R, 0}, {GLFW_KEY_BACKSPACE, 0}},
-       "restarts the motion, keeps the constants",
+       "restarts the motion and keeps the constants",
        "begin again",
        of_session<restart>},
       {"frame_cloth", "Frame the cloth", "F", {{GLFW_KEY_F, 0}}, "frames the cloth", "camera zoom view", frame_cloth},
@@ -282,7 +282,7 @@ std::vector<CommandRow> all_rows() {
        "Inside a step",
        "I",
        {{GLFW_KEY_I, 0}},
-       "looks inside a step of the picked particle",
+       "shows a step of the picked particle in formulas",
        "formula springs particle",
        toggle_card_of<card_name::step, &Layout::inside>},
       {"show_forces", "Forces card", "", {}, "", "plot curves particle", show<card_name::forces>},
@@ -307,33 +307,33 @@ std::vector<CommandRow> all_rows() {
        "speed memory frame cost features",
        show<card_name::performance>},
       {"next_color",
-       "Next colouring of the cloth",
+       "Next coloring of the cloth",
        "K",
        {{GLFW_KEY_K, 0}},
-       "colours the cloth by tension, strain, speed, …",
+       "colors the cloth by tension, strain, speed, …",
        "colors heat map",
        next_color,
        no_cloth},
       {"measure_convergence", "Order of convergence", "", {}, "", "accuracy error dt slope measured", show_convergence},
       {"toggle_effects",
-       "All effects, however slow to draw",
+       "All effects, even if slow to draw",
        "",
        {},
        "",
        "shadows smooth edges quality graphics",
        toggle_effects},
       {"save_picture",
-       "Save a picture…",
+       "Save an image…",
        "Ctrl+Shift+P",
        {{GLFW_KEY_P, control | shift}},
-       "saves a picture of the cloth",
-       "png screenshot image export",
+       "saves an image of the cloth",
+       "png screenshot picture export",
        dialog<Dialog::Kind::picture>},
       {"toggle_cut_path",
-       "Cut along the path, or upwards",
+       "Cut along the path, or upward",
        "C",
        {{GLFW_KEY_C, 0}},
-       "cuts along the pointer's path, or upwards",
+       "cuts along the pointer's path, or upward",
        "knife scissors tool mode springs",
        toggle_cut_path},
       {"toggle_wind_arrow",
@@ -344,7 +344,7 @@ std::vector<CommandRow> all_rows() {
        "gust blow",
        toggle_wind_arrow},
       {"toggle_slow_hand",
-       "Slow motion in the hand, on or off",
+       "Slow motion while you grab or cut, on or off",
        "H",
        {{GLFW_KEY_H, 0}},
        "slow motion while you grab or cut",
@@ -358,19 +358,19 @@ std::vector<CommandRow> all_rows() {
        "opens a preset",
        "file load",
        dialog<Dialog::Kind::open>},
-      {"save", "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves it", "file write", save},
+      {"save", "Save", "Ctrl+S", {{GLFW_KEY_S, control}}, "saves the preset", "file write", save},
       {"save_as",
        "Save as…",
        "Ctrl+Shift+S",
        {{GLFW_KEY_S, control | shift}},
-       "saves it under another name",
+       "saves the preset under another name",
        "file write",
        dialog<Dialog::Kind::save>},
       {"undo",
        "Undo",
        "Ctrl+Z",
        {{GLFW_KEY_Z, control, true}},
-       "takes back a change of constants",
+       "undoes a change of constants",
        "",
        undo,
        nothing_to_undo},
@@ -378,7 +378,7 @@ std::vector<CommandRow> all_rows() {
        "Redo",
        "Ctrl+Shift+Z",
        {{GLFW_KEY_Z, control | shift, true}, {GLFW_KEY_Y, control, true}},
-       "makes it again",
+       "redoes it",
        "",
        redo,
        nothing_to_redo},
@@ -406,11 +406,11 @@ std::vector<CommandRow> all_rows() {
        "",
        "automatic opencl cpu fastest",
        choose_fastest_engine},
-      {"load_texture_dialog", "Take a picture as texture…", "", {}, "", "image cloth", dialog<Dialog::Kind::texture>}};
+      {"load_texture_dialog", "Use image as texture…", "", {}, "", "picture cloth", dialog<Dialog::Kind::texture>}};
   for (CommandRow& row : export_rows()) rows.push_back(std::move(row));
   for (CommandRow& row : std::vector<CommandRow>{
            {"copy_options",
-            "Copy the present constants as --set options",
+            "Copy the constants as --set options",
             "",
             {},
             "",
@@ -445,7 +445,7 @@ std::vector<CommandRow> all_rows() {
             "Ctrl+T",
             {{GLFW_KEY_T, control}},
             "dark, light or projector theme",
-            "colours look contrast",
+            "colors look contrast",
             next_theme},
            {"quit", "Quit", "Ctrl+Q", {{GLFW_KEY_Q, control}}, "quits", "end close exit", request_quit}})
     rows.push_back(std::move(row));

@@ -204,7 +204,7 @@ bool may_write(Ui& ui, const char* verb) {
     return false;
   }
   if (fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
-    dialog.problem = file.string() + " is no file that can be replaced; take another name.";
+    dialog.problem = file.string() + " is not a regular file, so it cannot be replaced; choose another name.";
     return false;
   }
   if (!dialog.overwrite && fs::exists(file, ignored)) {
@@ -229,7 +229,7 @@ void save_preset_dialog(Ui& ui) {
   fs::path file = path_of(dialog.path);
   if (file.extension().empty()) file += ".json";
   if (is_shipped(file)) {
-    refuse(dialog, "That is a preset of the program itself; save under another name or in another folder.");
+    refuse(dialog, "That preset is part of the program itself; save under another name or in another folder.");
     dialog.overwrite = false;
     return;
   }
@@ -263,7 +263,7 @@ void export_dialog(Ui& ui) {
 void picture_dialog(Ui& ui) {
   static constexpr const char* parts[] = {"The cloth and its legend", "The whole window"};
   Dialog& dialog = ui.dialog;
-  title(ui, "Save a picture");
+  title(ui, "Save an image");
   if (const int k = segments(ui, "parts", parts, 2, dialog.whole_window); k >= 0) dialog.whole_window = k == 1;
   ImGui::Dummy({0, ui.theme.px(2)});
   label(ui, "PNG file");
@@ -278,7 +278,7 @@ void picture_dialog(Ui& ui) {
 
 void texture_dialog(Ui& ui) {
   Dialog& dialog = ui.dialog;
-  title(ui, "Take a picture as texture");
+  title(ui, "Use image as texture");
   label(ui, "PNG, JPEG, BMP or TGA file");
   path_field(ui, ImGui::IsWindowAppearing());
   problem(ui);
@@ -325,7 +325,7 @@ void large_dialog(Ui& ui) {
   title(ui, "A very large cloth");
   wrapped(ui, dialog.question, ui.theme.colors.text);
   ImGui::Dummy({0, ui.theme.px(4)});
-  if (text_button(ui, "Keep the present cloth", true)) return close(ui);
+  if (text_button(ui, "Keep this cloth", true)) return close(ui);
   ImGui::SameLine();
   if (!text_button(ui, "Build it")) return;
   ui.session.request(*dialog.then);

@@ -74,7 +74,7 @@ void text_file(Ui& ui, const std::filesystem::path& file) {
 
 void map_picture(Ui& ui, const std::filesystem::path& file) {
   const auto known = ui.session.studies.map.findings();
-  if (!known) throw OutputError("There is no map yet; open it (M), and let some of it be measured.");
+  if (!known) throw OutputError("There is no map yet; open it (M) and wait for the first cells.");
   const Preset here =
       at_place(known->of, stiffness_of(ui.session.requested_preset()), ui.session.requested_preset().dt);
   const Chart page = map_page(ui.theme.colors, here, ui.session.document.label, machine_line(), known->grid,
@@ -83,16 +83,16 @@ void map_picture(Ui& ui, const std::filesystem::path& file) {
 }
 
 constexpr const char* rows_of_frames =
-    "One row for each drawn frame, as the plot holds them: t and a column for each curve, units in the header.";
+    "One row per drawn frame in the plot: t and a column for each curve, units in the header.";
 
 std::string export_no_weight(const Ui& ui) {
-  return ui.session.preset().kind == Kind::one_weight ? "" : "That belongs to the mass on a spring; this is a cloth.";
+  return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
 }
 std::string export_no_cloth(const Ui& ui) {
-  return ui.session.preset().kind == Kind::cloth ? "" : "That takes a cloth, and this is one weight.";
+  return ui.session.preset().kind == Kind::cloth ? "" : "That needs a cloth; this is a mass on a spring.";
 }
 std::string no_mesh(const Ui& ui) {
-  return ui.session.preset().kind == Kind::cloth ? "" : "An OBJ holds cloth, and this is one weight.";
+  return ui.session.preset().kind == Kind::cloth ? "" : "OBJ export needs a cloth; this is a mass on a spring.";
 }
 std::string export_no_copies(const Ui& ui) {
   return ui.session.copies.lockstep.empty() ? "There is no copy to measure; add one first." : "";
@@ -109,37 +109,36 @@ std::vector<CommandRow> export_rows() {
                        std::string (*why_not)(const Ui&) = nullptr) -> CommandRow& {
     return rows.emplace_back(CommandRow{id, name, "", {}, "", also, nullptr, why_not, writes});
   };
-  add("export_forces", "Write the forces as CSV…", "export plot series",
-      {"Write the forces as CSV", rows_of_frames, "forces.csv", text_file<forces>});
-  add("export_height", "Write the height of the weight as CSV…", "export plot series",
-      {"Write the height of the weight as CSV", rows_of_frames, "height.csv", text_file<height>}, export_no_weight);
-  add("export_map", "Write the map as CSV…", "export stability",
-      {"Write the map of stiffness and dt as CSV",
-       "One row for each cell that has been measured: stiffness, dt, what the short run came to, theory's dt.",
-       "map.csv", text_file<map>});
-  add("export_map_picture", "Write the map as PNG…", "export stability picture",
-      {"Write the map of stiffness and dt as PNG", "A picture of the map as far as it has been measured.", "map.png",
+  add("export_forces", "Export forces as CSV…", "write plot series",
+      {"Export forces as CSV", rows_of_frames, "forces.csv", text_file<forces>});
+  add("export_height", "Export height as CSV…", "write plot series weight mass",
+      {"Export height as CSV", rows_of_frames, "height.csv", text_file<height>}, export_no_weight);
+  add("export_map", "Export map as CSV…", "write stability",
+      {"Export map of stiffness and dt as CSV",
+       "One row per measured cell: stiffness, dt, the short run's result, theory's largest stable dt.", "map.csv",
+       text_file<map>});
+  add("export_map_picture", "Export map as PNG…", "write stability picture image",
+      {"Export map of stiffness and dt as PNG", "An image of the map as far as it has been measured.", "map.png",
        map_picture});
-  add("export_copies", "Write the copies' distances as CSV…", "export lockstep",
-      {"Write what the copies' plot holds as CSV", rows_of_frames, "copies.csv", text_file<copies>}, export_no_copies);
-  add("export_values", "Write every particle's values as CSV…", "export tension strain speed energy",
-      {"Write every particle's values as CSV",
-       "One row for each particle as it is now, one column for each quantity that can colour the cloth.", "values.csv",
+  add("export_copies", "Export distances of the copies as CSV…", "write lockstep",
+      {"Export the copies' plot as CSV", rows_of_frames, "copies.csv", text_file<copies>}, export_no_copies);
+  add("export_values", "Export every particle's values as CSV…", "write tension strain speed energy",
+      {"Export every particle's values as CSV",
+       "One row per particle as it is now, one column for each quantity that can color the cloth.", "values.csv",
        text_file<values>},
       export_no_cloth);
   CommandRow& obj = add("export_mesh", "Export OBJ…", "write cloth mesh wavefront blender 3d geometry",
                         {"Export OBJ",
                          "A mesh for other programs: positions in m, texture coordinates, normals, and the triangles "
-                         "that are whole.",
+                         "that are not torn.",
                          "cloth.obj", text_file<mesh>},
                         no_mesh);
   obj.keys = "Ctrl+E", obj.chords = {{GLFW_KEY_E, GLFW_MOD_CONTROL}}, obj.help = "exports the cloth as a mesh";
-  add("export_state", "Write the state as CSV…", "export every particle's position velocity coordinates",
-      {"Write the state as CSV", "One row for each particle as it is now: x and ẋ, with all digits that it has.",
-       "state.csv", text_file<state>});
-  add("export_convergence", "Write the convergence as CSV…", "export accuracy order",
-      {"Write the convergence as CSV", "One row for each dt, units in the header.", "convergence.csv",
-       text_file<convergence>},
+  add("export_state", "Export state as CSV…", "write every particle's position velocity coordinates",
+      {"Export state as CSV", "One row per particle as it is now: x and ẋ, with all significant digits.", "state.csv",
+       text_file<state>});
+  add("export_convergence", "Export convergence as CSV…", "write accuracy order",
+      {"Export convergence as CSV", "One row per dt, units in the header.", "convergence.csv", text_file<convergence>},
       no_convergence);
   return rows;
 }

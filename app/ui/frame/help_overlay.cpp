@@ -19,12 +19,12 @@ constexpr Entry mouse_entries[] = {
     {"Right drag", "grabs a particle and pulls it"},
     {"Right click", "picks a particle: its forces are shown"},
     {"Right double-click", "pins or unpins a particle"},
-    {"Left drag", "cuts the springs upwards, or what it crosses (C)"},
-    {"Drag the wind's tip", "changes W; Shift in depth, Ctrl on an axis"},
+    {"Left drag", "cuts the springs above, or what it crosses (C)"},
+    {"Drag the wind's tip", "changes W; Shift: in depth, Ctrl: along an axis"},
     {"Left drag on a sphere", "moves the sphere"},
     {"Middle or Ctrl+left drag", "orbits; with Shift pans"},
     {"Wheel, two fingers", "zooms; with Shift pans"},
-    {"Drop a file", "opens a preset, or takes a picture as texture"},
+    {"Drop a file", "opens a preset, or uses an image as texture"},
 };
 constexpr Entry sliders[] = {
     {"Drag · Shift drag", "changes · ten times finer"},
@@ -82,7 +82,7 @@ void tables(Ui& ui, float width) {
   const float half = ImGui::GetCursorPosY();
   if (two) ImGui::SetCursorPosY(start.y);
   table(ui, "Keys", key_entries(), right);
-  text_between(ui, "A slider or text field in use keeps its keys; Esc gives them back.",
+  text_between(ui, "An active slider or text field keeps its keys; Esc releases them.",
                {right.left, ImGui::GetCursorPosY()}, right.left + column, ui.theme.colors.quiet);
   ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + ui.theme.px(4)});
 }

@@ -5,7 +5,7 @@ namespace tyglab {
 
 struct Ui;
 
-/// Turns the frame's key presses into requests. A text field or slider in use keeps its keys.
+/// Turns the frame's key presses into requests. A text field or slider that is active keeps its keys.
 void handle_keys(Ui& ui);
 
 }  // namespace tyglab

@@ -1,4 +1,4 @@
-// The lab in work, in a strip below the viewport: what to read at the left; at the right what to predict, then what
+// The current lab, in a strip below the viewport: what to read at the left; at the right what to predict, then what
 // to do, what is checked and why.
 #include <algorithm>
 #include <cmath>
@@ -142,10 +142,10 @@ void check_line(Ui& ui, const Condition& check, CheckState state, bool done) {
 /// Another preset is open than the lab's: what it means, and the ways on.
 void waiting_part(Ui& ui) {
   const Tokens& c = ui.theme.colors;
-  marked_line(
-      ui, icon::pause, "!", c.warning,
-      "“" + ui.session.preset().name + "” is open, which is not this lab's cloth. The lab waits, and checks nothing.",
-      c.text);
+  marked_line(ui, icon::pause, "!", c.warning,
+              "“" + ui.session.preset().name +
+                  "” is open, which is not this lab's cloth. The lab is paused and checks nothing.",
+              c.text);
   if (text_button(ui, "Open the lab's cloth", true)) resume_lab(ui.session);
   ImGui::SameLine();
   if (text_button(ui, "Leave the lab")) ui.command("leave_lab");
@@ -161,7 +161,7 @@ void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
                            ? "This machine has no OpenCL device, so there is nothing to do here; predict, and read on."
                            : "This machine has no OpenCL device, so there is nothing to do here; read on.",
                        c.text);
-  if (first) return set_text(ui, "Predict first: then it says here what to do.", c.quiet);
+  if (first) return set_text(ui, "Predict first; then the task appears here.", c.quiet);
   if (!step.todo.empty()) small_head(ui, "DO", c.accent), paragraphs_of(ui, step.todo, c.text);
   if (step.checks.empty()) return;
   small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
@@ -228,7 +228,7 @@ float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
   const bool go = text_button(ui, forward, done);
   ImGui::SameLine(0, gap);
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + ui.theme.px(13)});
-  const bool leave = quiet_button(ui, "leave", icon::close, "x", "Leave the lab; what is done is remembered");
+  const bool leave = quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept");
   if (leave || (go && last)) {
     ui.command("leave_lab");
   } else if (go) {

@@ -49,7 +49,8 @@ float side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
     const int k = segments(ui, "columns", names, all ? 3 : 2, now);
     if (k == 0 || k == 1) ui.side_plots = k == 1;
     if (k >= 0) ui.side_cloth = k == 2;
-    tooltip(ui, gui::item_id(), "The window is too narrow for all at once; Ctrl+- makes text and panels smaller.");
+    tooltip(ui, gui::item_id(),
+            "The window is too narrow for all columns at once; Ctrl+- makes text and panels smaller.");
   }
   end_region();
   return region.size.y;

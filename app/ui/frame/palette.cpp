@@ -112,10 +112,10 @@ void add_views(std::vector<PaletteEntry>& list) {
 
 void add_colors(const Ui& ui, std::vector<PaletteEntry>& list) {
   const auto colored = [](std::optional<ParticleField> field) { return [field](Ui& u) { u.color_by(field); }; };
-  list.push_back({"Colour", "Own colours", "", "cloth texture", "", colored(std::nullopt)});
+  list.push_back({"Color", "Own colors", "", "cloth texture", "", colored(std::nullopt)});
   for (const FieldInfo& field : particle_fields())
     if (why_not_colored(ui.scene, field.field).empty())
-      list.push_back({"Colour", std::string(field.title), std::string(field.unit),
+      list.push_back({"Color", std::string(field.title), std::string(field.unit),
                       std::string(field.name) + " color cloth", "", colored(field.field)});
 }
 
@@ -170,7 +170,7 @@ int palette_list(Ui& ui, const std::vector<int>& found, float height, bool moved
     palette_row(ui, entry, k == palette.selected, width);
     ImGui::PopID();
   }
-  if (found.empty()) wrapped(ui, "Nothing is called so. Try another word, or fewer.", ui.theme.colors.quiet);
+  if (found.empty()) wrapped(ui, "Nothing has that name. Try another word, or fewer.", ui.theme.colors.quiet);
   ImGui::EndChild();
   return clicked;
 }

@@ -9,7 +9,7 @@ namespace tyglab {
 void top_bar(Ui& ui, const Region& region);
 void status_bar(Ui& ui, const Region& region);
 void help_overlay(Ui& ui);
-/// The lab in work, below the viewport; its height is 0 where there is none.
+/// The current lab, below the viewport; its height is 0 where there is none.
 void lab_panel(Ui& ui, const Region& region);
 float lab_panel_height(const Ui& ui, float available);
 /// From this width on (pixels at scale 1) it has two columns.

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds period{90};
-constexpr int samples = 5;  ///< rows and columns of particles that are told, corners included
+constexpr int samples = 5;  ///< rows and columns of particles that are reported, corners included
 
 /// "##name" is name, "Save as…" is Save_as.
 std::string plain(std::string_view name) {
@@ -140,7 +140,7 @@ Json convergence(const Ui& ui) {
           {"done", study->done}};
 }
 
-/// The lab in work; null without one.
+/// The current lab; null without one.
 Json lab(const Ui& ui) {
   if (!ui.session.labs.run) return nullptr;
   const LabRun& run = *ui.session.labs.run;
@@ -152,7 +152,7 @@ Json lab(const Ui& ui) {
           {"right", record.right}};
 }
 
-/// The copies in lockstep; a distance is told where the card measures it.
+/// The copies in lockstep; a distance is reported where the card measures it.
 Json copies(const Ui& ui) {
   Json list = Json::array();
   const Copies& copies = ui.session.copies;
@@ -170,7 +170,7 @@ Json copies(const Ui& ui) {
   return list;
 }
 
-/// What colours the cloth, and where its scale ends; null where nothing does.
+/// What colors the cloth, and where its scale ends; null where nothing does.
 Json colors(const Ui& ui) {
   const FieldColors* shown = shown_colors(ui.scene);
   if (shown == nullptr) return nullptr;
@@ -343,7 +343,7 @@ void SessionReport::end_frame(Ui& ui) {
 }
 
 void SessionReport::finish(const Ui& ui) {
-  if (failed_) throw OutputError(file_.string() + ": a part of the session report could not be written.");
+  if (failed_) throw OutputError(file_.string() + ": the session report could not be written completely.");
   write_atomically(file_, json(ui, true));
 }
 

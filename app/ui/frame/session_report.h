@@ -1,4 +1,4 @@
-// What the sandbox is doing, as a JSON file that is written anew about ten times a second (--session-report): for tests
+// What the sandbox is doing, as a JSON file that is rewritten about ten times a second (--session-report): for tests
 // that drive the window, and for a teacher's scripts. Nothing of it costs anything unless it is asked for.
 #pragma once
 

@@ -30,16 +30,16 @@ void hints(Ui& ui, ImDrawList& draw, ImVec2 at, float end, std::initializer_list
   }
 }
 
-/// What is in work, or what the cloth is: the most important first.
+/// What is running, or what the cloth is: the most important first.
 std::vector<std::string> facts_of(const Ui& ui) {
   if (ui.session.studies.engine.busy()) return {"Measuring the engines …"};
-  if (ui.session.rebuild.programs()) return {"Building the device's program …"};
+  if (ui.session.rebuild.programs()) return {"Building the device program …"};
   const auto size = [](const Lattice& l) { return std::to_string(l.rows) + " × " + std::to_string(l.columns); };
   if (const auto next = ui.session.rebuild.lattice()) return {"Building " + size(*next) + " …"};
-  if (ui.session.preset().kind != Kind::cloth) return {"one weight"};
+  if (ui.session.preset().kind != Kind::cloth) return {"mass on a spring"};
   std::vector<std::string> facts{size(ui.session.simulation->lattice()) + " particles"};
   const std::string every = std::to_string(ui.scene.view.every);
-  if (ui.scene.view.every > 1) facts.front() += ", one in " + every + " × " + every + " drawn";
+  if (ui.scene.view.every > 1) facts.front() += ", one particle in " + every + " × " + every + " drawn";
   if (const int torn = ui.session.simulation->tears().torn_count(); torn > 0)
     facts.push_back(std::to_string(torn) + (torn == 1 ? " spring torn" : " springs torn"));
   if (ui.session.asleep()) facts.emplace_back("at rest: asleep until touched");

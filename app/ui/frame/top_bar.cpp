@@ -77,7 +77,7 @@ float document_name(Ui& ui, float x, float width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + whole, y + height}, c.field, ui.theme.px(5));
   tooltip(ui, gui::item_id(),
-          ui.session.preset().name + (unsaved(ui.session) ? ": changes have not been saved" : "") + "\n" +
+          ui.session.preset().name + (unsaved(ui.session) ? ": unsaved changes" : "") + "\n" +
               ui.session.preset().description,
           "Open Ctrl+O · save Ctrl+S");
   const ImVec2 at{x + padding, std::round(y + (height - ui.fonts.text->FontSize) / 2)};
@@ -93,7 +93,8 @@ float document_name(Ui& ui, float x, float width) {
 float transport(Ui& ui, float x) {
   const float gap = ui.theme.px(6), y = bar_middle(ui, ui.theme.px(32));
   ImGui::SetCursorScreenPos({x, y});
-  if (icon_button(ui, "restart", icon::restart, "Restart", "Restart the motion; the constants stay", "R or Backspace"))
+  if (icon_button(ui, "restart", icon::restart, "Restart", "Restart the motion and keep the constants",
+                  "R or Backspace"))
     ui.command("restart");
   ImGui::SameLine(0, gap);
   const bool playing = ui.session.pacing.playing;
@@ -102,7 +103,7 @@ float transport(Ui& ui, float x) {
     ui.command("toggle_play");
   ImGui::SameLine(0, gap);
   if (icon_button(ui, "step", icon::step, "Step", "One step of dt, then pause",
-                  ui.slider.focused != 0 ? "O (→ is the slider's until Esc)" : "→ or O"))
+                  ui.slider.focused != 0 ? "O (→ moves the slider until Esc)" : "→ or O"))
     ui.command("step");
   const ImVec2 hi = ImGui::GetItemRectMax();
   ui.tour.transport = {{x, y}, {hi.x, hi.y}};
@@ -149,9 +150,9 @@ float speed_combo(Ui& ui, float x, float end) {
       }
     end_combo();
   } else {
-    tooltip(ui, gui::item_id(),
-            slowed ? "Slow motion while the hand is in the cloth"
-                   : "Speed: simulated time to real time. Below 1 is slow motion.");
+    tooltip(
+        ui, gui::item_id(),
+        slowed ? "Slow motion while you grab or cut" : "Speed: simulated time to real time. Below 1 is slow motion.");
   }
   return x + width + ui.theme.px(18);
 }
@@ -165,22 +166,21 @@ void readings(Ui& ui, float x, float end) {
   const double part = ui.session.pacing.aim() > 0 ? ui.session.pacing.reached() / ui.session.pacing.aim() : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * ui.session.pacing.reached());
   const bool running = ui.session.pacing.playing && !ui.session.simulation->divergence() && !ui.session.asleep();
-  x = reading(
-      ui, x, end, "real time", running ? text : "–", "100 %",
-      !running      ? c.quiet
-      : part > 0.95 ? c.good
-                    : c.warning,
-      "Simulated time to real time, reached over the last half second. Amber: the machine does not keep up with the "
-      "speed wished.");
+  x = reading(ui, x, end, "real time", running ? text : "–", "100 %",
+              !running      ? c.quiet
+              : part > 0.95 ? c.good
+                            : c.warning,
+              "Simulated time to real time, over the last half second. Amber: the machine does not reach the "
+              "requested speed.");
   std::snprintf(text, sizeof text, "%d", ui.session.pacing.steps_per_frame());
-  x = reading(ui, x, end, "steps/frame", text, "000", c.text, "Steps of dt made between two pictures");
+  x = reading(ui, x, end, "steps/frame", text, "000", c.text, "Steps of dt per frame");
   reading(ui, x, end, "dt", short_number(ui.session.preset().dt) + " s", "1.234e-4 s", c.text,
-          "Time step, set at the left");
+          "Time step, set in the left column");
 }
 
 void window_buttons(Ui& ui, float x) {
   ImGui::SetCursorScreenPos({x, bar_middle(ui, ui.theme.px(32))});
-  if (icon_button(ui, "labs", icon::labs, "Labs", "Labs: predict, do, and let the program look", "Ctrl+L",
+  if (icon_button(ui, "labs", icon::labs, "Labs", "Labs: predict, try, and let the program check", "Ctrl+L",
                   ui.session.labs.run.has_value()))
     ui.command("choose_lab");
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();

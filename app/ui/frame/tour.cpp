@@ -37,26 +37,26 @@ Tour::Place labs_place(const Ui& ui) {
 }
 
 constexpr std::array<Stop, 5> stops{
-    {{"Take the cloth in hand",
+    {{"Grab the cloth",
       "Drag with the right button: the particle under the pointer follows your hand. Drag with the left button: the "
-      "cloth is cut. Ctrl and the left button turn the view, the wheel zooms.",
+      "cloth is cut. Ctrl and the left button orbit the view, the wheel zooms.",
       cloth_place},
      {"The constants",
       "Every constant of the model has a slider; double-click its number to type one. The strip under a slider says "
       "where the chosen method is stable: green is safe, amber near the limit, red and hatched unstable.",
       constants_place},
      {"Run, step, restart",
-      "Space runs and pauses. → makes one step of dt, R begins again with the constants as they are. When a motion "
+      "Space runs and pauses. → makes one step of dt, R restarts with the constants as they are. When a motion "
       "explodes, a banner says why and what to do.",
       transport_place},
      {"What happens inside",
-      "The forces on the picked particle, as curves; a right click picks another one. Below wait cards for copies "
-      "with other settings, stability, accuracy, energy and cost: a click on a heading opens it. M maps which k_s and "
-      "dt are stable, I writes out a step.",
+      "The forces on the picked particle, as curves; a right click picks another one. Below are cards for copies "
+      "with other settings, stability, accuracy, energy and cost: a click on a heading opens one. M maps which k_s and "
+      "dt are stable, I shows a step in formulas.",
       plots_place},
      {"Labs",
-      "A lab asks you to predict, lets you try, and looks whether it is so. Begin with Hooke's law. Ctrl+P finds "
-      "everything by its name, and F1 lists the keys; this tour is there too.",
+      "A lab asks you to predict, lets you try, and checks the result. Begin with Hooke's law. Ctrl+P finds "
+      "everything by name, and F1 lists the keys and opens this tour again.",
       labs_place}}};
 
 bool visible(const Tour::Place& place) {

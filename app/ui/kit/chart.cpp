@@ -35,9 +35,9 @@ Range range_of(const ChartAxis& axis, const std::vector<ChartSeries>& all, std::
   const PlotRange range = axis.log ? log_range(least, most, 16) : linear_range(least, most, axis.from_zero);
   std::vector<double> ticks = range.ticks;
   if (axis.log) std::reverse(ticks.begin(), ticks.end());
-  if (!axis.span) return {{range.lo, range.hi, axis.log}, labelled(ticks)};
+  if (!axis.span) return {{range.lo, range.hi, axis.log}, labeled(ticks)};
   std::erase_if(ticks, [&](double at) { return at < least || at > most; });
-  return {{least, most, axis.log}, labelled(ticks)};
+  return {{least, most, axis.log}, labeled(ticks)};
 }
 
 void draw_cell(const PlotPaint& paint, const PlotAxes& axes, const ChartCell& cell) {
@@ -46,7 +46,7 @@ void draw_cell(const PlotPaint& paint, const PlotAxes& axes, const ChartCell& ce
   if (!cell.hatched) return;
   paint.draw.PushClipRect(lo, hi, true);
   const float tall = hi.y - lo.y, apart = paint.theme.px(6);
-  // From one origin, so that the lines of neighbouring cells meet.
+  // From one origin, so that the lines of neighboring cells meet.
   const float first = std::floor((lo.x + lo.y) / apart) * apart;
   for (float sum = first; sum < hi.x + hi.y; sum += apart)
     paint.draw.AddLine({sum - lo.y, lo.y}, {sum - lo.y - tall, hi.y}, faded(paint.theme.colors.ground, 0.55f),

@@ -20,7 +20,7 @@ struct ChartAxis {
   std::optional<std::pair<double, double>> span = {};  ///< exactly this, in place of what holds the series
 };
 
-/// A filled rectangle under the curves; `hatched` too where its colour alone would say something bad.
+/// A filled rectangle under the curves; `hatched` too where its color alone would say something bad.
 struct ChartCell {
   double x_lo, x_hi, y_lo, y_hi;
   ImU32 color;
@@ -44,7 +44,7 @@ struct Chart {
   float padding = 20;  ///< on all sides, at scale 1
 };
 
-/// A colour and a line style for the k-th of many series, the same in every chart; alike only eight apart.
+/// A color and a line style for the k-th of many series, the same in every chart; alike only eight apart.
 CurveStyle series_style(const Tokens& colors, int k);
 
 /// Draws a chart into the rectangle: title, the plot, and as many lines of legend as it needs. Returns where values are

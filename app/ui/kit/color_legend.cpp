@@ -68,7 +68,7 @@ float draw_name(const PlotPaint& paint, float x, float baseline, const FieldInfo
   return x + text_width(font, after);
 }
 
-/// Name, colours, and room for the number at their end.
+/// Name, colors, and room for the number at their end.
 ImVec2 draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
@@ -95,7 +95,7 @@ std::vector<PlotTick> legend_ticks(const FieldInfo& field, double top) {
     const int parts = lead(top) == 3 ? 3 : 2;
     for (int k = 0; k <= parts; ++k) ticks.push_back(top * k / parts);
   }
-  return labelled(ticks);
+  return labeled(ticks);
 }
 
 std::string legend_words(const FieldInfo& field) {

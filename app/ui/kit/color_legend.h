@@ -1,4 +1,4 @@
-// What a coloured cloth's colours mean: quantity, symbol, unit, the colours and the values that they stand for.
+// What a colored cloth's colors mean: quantity, symbol, unit, the colors and the values that they stand for.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,12 @@ struct ColorLegend {
   bool top_is_drawn = true;           ///< otherwise the number at the scale's end is left to who calls
 };
 
-/// The values that are written under the colours.
+/// The values that are written under the colors.
 std::vector<PlotTick> legend_ticks(const FieldInfo& field, double top);
 /// "Tension F_s, N": the heading without typesetting.
 std::string legend_words(const FieldInfo& field);
 
-/// Its size, px, where there is so much room for its width.
+/// Its size, px, where there is that much room for its width.
 ImVec2 legend_size(const Theme& theme, float room);
 /// The same of one on a single line, for a picture in which it would cover too much.
 ImVec2 legend_line_size(const Theme& theme, float room);

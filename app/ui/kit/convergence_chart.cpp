@@ -34,7 +34,7 @@ Chart convergence_chart(const Tokens& c, const Convergence& study) {
   chart.y.title = by_reference(study) ? "error, m (rms)" : "difference to dt/2, m (rms)", chart.y.log = true;
   CurveStyle style = integrator_style(c, study.of.integrator);
   ChartSeries measured{std::string(scheme(study.of.integrator).title), style, true, 3.5f, {}, {}};
-  ChartSeries hidden{"too small to tell", {c.quiet, LineStyle::solid, 1}, false, 3, {}, {}};
+  ChartSeries hidden{"too small to resolve", {c.quiet, LineStyle::solid, 1}, false, 3, {}, {}};
   double middle_dt = 0, middle_error = 0;
   const auto order = measured_order(study);
   int inside = 0;

@@ -68,7 +68,7 @@ class CurveDrawer {
 
 }  // namespace
 
-std::vector<PlotTick> labelled(std::span<const double> ticks) {
+std::vector<PlotTick> labeled(std::span<const double> ticks) {
   std::vector<PlotTick> out;
   for (const double tick : ticks) out.push_back({tick, short_number(rounded(tick, 6))});
   return out;

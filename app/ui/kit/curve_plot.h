@@ -69,7 +69,7 @@ PlotRange log_range(double least, double most, int most_decades = 6);
 /// Round steps that hold the least and the most; 0 too if `from_zero`.
 PlotRange linear_range(double least, double most, bool from_zero);
 /// With labels as short as they can be.
-std::vector<PlotTick> labelled(std::span<const double> ticks);
+std::vector<PlotTick> labeled(std::span<const double> ticks);
 
 /// Ground and horizontal lines, their labels to the left of it.
 void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> y_ticks);

@@ -1,4 +1,4 @@
-// Colours and line styles of curves: one for each force, method and copy, alike in every plot.
+// Colors and line styles of curves: one for each force, method and copy, alike in every plot.
 #pragma once
 
 #include <optional>

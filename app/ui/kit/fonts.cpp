@@ -90,7 +90,8 @@ class Builder {
   const fs::path* choose(const char* name, const char* fallback) {
     if (const auto it = files_.find(name); it != files_.end()) return &it->second;
     const auto it = files_.find(fallback);
-    note(std::string("font ") + name + " not found; using " + (it != files_.end() ? fallback : "Dear ImGui's own"));
+    note(std::string("font ") + name + " not found; using " +
+         (it != files_.end() ? fallback : "the built-in font of Dear ImGui"));
     return it != files_.end() ? &it->second : nullptr;
   }
   void add_icons(float pixels) {
@@ -129,7 +130,7 @@ Fonts build_fonts(float scale) {
   fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13, number_glyphs);
   if (!builder.has("forkawesome-webfont.ttf"))
     fonts.notes.push_back(
-        "font forkawesome-webfont.ttf not found; buttons carry words in place of icons "
+        "font forkawesome-webfont.ttf not found; buttons show words instead of icons "
         "(install fonts-fork-awesome)");
   return fonts;
 }

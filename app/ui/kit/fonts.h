@@ -21,7 +21,7 @@ struct Fonts {
   std::vector<std::string> notes;  ///< what was missing, and what stands in for it
 };
 
-/// Fills Dear ImGui's atlas anew at exact sizes; the atlas' texture must be made again afterwards. Missing fonts fall
+/// Fills Dear ImGui's atlas again at exact sizes; the atlas' texture must be made again afterwards. Missing fonts fall
 /// back to DejaVu, then to Dear ImGui's own.
 Fonts build_fonts(float scale);
 

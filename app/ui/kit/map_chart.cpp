@@ -10,7 +10,7 @@
 namespace tyglab {
 namespace {
 
-constexpr double least_share = 1e-6, most_share = 1;  // of the colours
+constexpr double least_share = 1e-6, most_share = 1;  // of the colors
 
 double part_of(double share) {
   const double size = std::max(std::abs(share), least_share);
@@ -21,7 +21,7 @@ ImU32 color_of(const Tokens& c, const MapCell& cell) {
   return cell.diverged ? mixed(c.ground, c.danger, 0.75f) : magnitude_color(part_of(cell.share));
 }
 
-/// A name in the legend with a disc of its colour, and nothing in the plot.
+/// A name in the legend with a disc of its color, and nothing in the plot.
 ChartSeries key(const std::string& name, ImU32 color) {
   return {name, {color, LineStyle::solid, 1}, false, 6, {}, {}};
 }
@@ -51,8 +51,8 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
 Chart map_page(const Tokens& c, const Preset& preset, const std::string& label, const std::string& note,
                const MapGrid& grid, const MapBoundary& boundary, std::span<const MapCell> cells) {
   Chart chart = map_chart(c, preset, grid, boundary, cells);
-  chart.title =
-      "Which " + stiffness_key(preset) + " and dt " + std::string(scheme(preset.integrator).title) + " bears: " + label;
+  chart.title = "Which " + stiffness_key(preset) + " and dt " + std::string(scheme(preset.integrator).title) +
+                " tolerates: " + label;
   chart.note = note;
   return chart;
 }
@@ -61,7 +61,7 @@ std::string cell_words(const Preset& preset, const MapCell& cell) {
   std::string text = stiffness_key(preset) + " = " + short_number(cell.stiffness, 2) +
                      " N/m, dt = " + short_number(cell.dt, 2) + " s: ";
   if (cell.diverged) return text + "diverged after " + short_number(cell.t, 2) + " s";
-  return text + (cell.share < 0 ? "ate " : "made ") + short_number(100 * std::abs(cell.share), 2) +
+  return text + (cell.share < 0 ? "removed " : "added ") + short_number(100 * std::abs(cell.share), 2) +
          " % of the scene's energy in " + short_number(cell.t, 2) + " s";
 }
 

@@ -8,7 +8,7 @@
 
 namespace tyglab {
 
-/// Cells coloured by the energy that the method made or ate, or hatched where it diverged; theory's boundary as a line;
+/// Cells colored by the energy added or removed, or hatched where it diverged; theory's boundary as a line;
 /// the preset's own place as a disc.
 Chart map_chart(const Tokens& colors, const Preset& preset, const MapGrid& grid, const MapBoundary& boundary,
                 std::span<const MapCell> cells);

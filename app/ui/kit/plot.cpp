@@ -112,7 +112,7 @@ float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const Plot
   const bool hovered = ImGui::IsItemHovered() && !ui.covered;
   const PlotPaint paint{*ImGui::GetWindowDrawList(), ui.theme, ui.fonts};
   const PlotRange range = plot_range(curves, frame);
-  const std::vector<PlotTick> ticks = labelled(range.ticks);
+  const std::vector<PlotTick> ticks = labeled(range.ticks);
   const ImFont& font = *ui.fonts.small;
   const PlotAxes axes{{lo.x + label_width(ui, ticks), lo.y + std::round(font.FontSize / 2)},
                       {hi.x, hi.y - font.FontSize - ui.theme.px(6)},

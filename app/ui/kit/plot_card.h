@@ -24,7 +24,7 @@ class PlotCard {
   Region inner_;
 };
 
-/// Height of a card with so much in it, and width of what a card of that width holds, px.
+/// Height of a card with that much in it, and width of what a card of that width holds, px.
 float plot_card_height(const UiContext& ui, float content);
 float plot_card_inner_width(const UiContext& ui, float width);
 

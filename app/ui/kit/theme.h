@@ -1,4 +1,4 @@
-// Colours, sizes and line styles as tokens: every panel asks here, so that a further theme is one more table of tokens.
+// Colors, sizes and line styles as tokens: every panel asks here, so that a further theme is one more table of tokens.
 #pragma once
 
 #include <imgui.h>
@@ -10,14 +10,14 @@
 
 namespace tyglab {
 
-/// Colours by what they mean. Data colours are Okabe and Ito's, safe for the colour-blind.
+/// Colors by what they mean. Data colors are Okabe and Ito's, safe for the color-blind.
 struct Tokens {
   ImU32 ground, panel, field, field_hover, line, text, quiet, accent, on_accent;
   ImU32 danger, warning, good;
   ImU32 blue, green, magenta, yellow, vermilion, orange, sky;
 };
 Tokens dark_tokens();
-/// With data colours of their own that read on white.
+/// With data colors of their own that read on white.
 Tokens light_tokens();
 
 /// A look of the whole window.
@@ -42,9 +42,9 @@ struct Theme {
 /// Sets Dear ImGui's style from the tokens.
 void apply_style(const Theme& theme);
 
-/// The colour with its opacity multiplied.
+/// The color with its opacity multiplied.
 ImU32 faded(ImU32 color, float opacity);
-/// Between two colours, t from 0 to 1.
+/// Between two colors, t from 0 to 1.
 ImU32 mixed(ImU32 a, ImU32 b, float t);
 
 enum class LineStyle { solid, dashed, dotted, dash_dot, long_dash, sparse_dots };

@@ -14,7 +14,7 @@ namespace {
 constexpr double tooltip_delay = 0.45;  // s
 
 /// A row of icons sits on the line of the text beside it.
-void centred_text(UiContext& ui, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU32 color, const char* text) {
+void centered_text(UiContext& ui, const ImFont& font, ImVec2 lo, ImVec2 hi, ImU32 color, const char* text) {
   const ImVec2 size = font.CalcTextSizeA(font.FontSize, 1e9f, 0, text);
   draw_text(*ImGui::GetWindowDrawList(), font,
             {std::round((lo.x + hi.x - size.x) / 2), std::round((lo.y + hi.y - size.y) / 2)}, color, text);
@@ -145,7 +145,7 @@ bool icon_button(UiContext& ui, const char* id, const char* glyph, const char* w
                                                 : c.field;
   const ImVec2 hi{lo.x + width, lo.y + side};
   ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, ui.theme.px(5));
-  centred_text(ui, *ui.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
+  centered_text(ui, *ui.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
   tooltip(ui, gui::item_id(), tip, keys);
   return pressed;
 }
@@ -161,7 +161,7 @@ bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* 
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 hi{lo.x + width, lo.y + side};
   if (hovered) ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, c.field_hover, ui.theme.px(4));
-  centred_text(ui, *ui.fonts.text, lo, hi, hovered ? c.text : c.quiet, text);
+  centered_text(ui, *ui.fonts.text, lo, hi, hovered ? c.text : c.quiet, text);
   tooltip(ui, gui::item_id(), tip);
   return pressed;
 }
@@ -203,7 +203,7 @@ int segments(UiContext& ui, const char* id, const char* const* labels, int count
     const ImDrawFlags corners = (segment.begins_row ? ImDrawFlags_RoundCornersLeft : 0) |
                                 (segment.ends_row ? ImDrawFlags_RoundCornersRight : 0);
     draw.AddRectFilled(lo, hi, ground, round, corners != 0 ? corners : ImDrawFlags_RoundCornersNone);
-    centred_text(ui, *ui.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
+    centered_text(ui, *ui.fonts.text, lo, hi, on ? c.on_accent : c.text, labels[k]);
     ImGui::PopID();
   }
   ImGui::PopID();

@@ -30,7 +30,7 @@ bool text_button(UiContext& ui, const char* label, bool strong = false, bool ena
 /// A quiet button without a ground: an icon that shows itself under the pointer.
 bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip);
 
-/// Choices in a row of which one is taken, with so much room (at scale 1) on either side of each; they go on in another
+/// Choices in a row of which one is taken, with this room (at scale 1) on either side of each; they go on in another
 /// row where they would be wider than `width` (px). Returns the index clicked, or -1.
 int segments(UiContext& ui, const char* id, const char* const* labels, int count, int chosen, float padding = 11,
              float width = 1e9f);
@@ -46,7 +46,7 @@ bool section(UiContext& ui, const char* name);
 namespace card {
 inline constexpr float line = 19, head = 36, foot = 10;
 }
-/// Its height, px, with so much (at scale 1) under its heading, or folded.
+/// Its height, px, with that much (at scale 1) under its heading, or folded.
 float card_height(const UiContext& ui, const char* heading, float content);
 /// Begins a card as wide as its region; returns whether it is open. end_card in any case.
 bool begin_card(UiContext& ui, const char* heading, float height);

@@ -46,7 +46,7 @@ std::string what_happened(const Divergence& d, const Preset& then, double limit)
                     " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
   if (limit > 0 && std::isfinite(limit))
-    all += ", " + short_number(then.dt / limit, 2) + " times the largest that is stable";
+    all += ", " + short_number(then.dt / limit, 2) + " times the largest stable dt";
   return all + ".";
 }
 
@@ -65,9 +65,9 @@ struct Way {
   std::function<void(Ui&)> go;
 };
 
-std::string fix_label(const Preset& now, const Preset& cured) {
-  std::string label = cured.integrator == now.integrator ? "" : "Verlet";
-  if (cured.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + short_number(cured.dt) + " s");
+std::string fix_label(const Preset& now, const Preset& fixed) {
+  std::string label = fixed.integrator == now.integrator ? "" : "Verlet";
+  if (fixed.dt != now.dt) label += (label.empty() ? "" : ", ") + ("dt = " + short_number(fixed.dt) + " s");
   return label;
 }
 
@@ -80,19 +80,19 @@ std::string why_and_what_now(const Ui& ui, const Divergence& d) {
 /// Back to where the cloth was well, with a change that makes it stay so: a smaller dt, Verlet, implicit Euler.
 void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>& ways) {
   const Preset& now = ui.session.preset();
-  const std::string from = past ? "A second back, and on with " : "From the start again with ";
+  const std::string from = past ? "One second back, then " : "Restart with ";
   const auto retry = [&](const std::string& label, const Preset& preset, const char* with) {
     ways.push_back({label, from + with, "", [preset](Ui& u) { u.session.request(request::Retry{preset}); }});
   };
   if (advice.suggested_fix && advice.suggested_fix->integrator != now.integrator)
-    retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what the linear theory advises");
+    retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what linear theory advises");
   if (advice.slower)
     retry("dt = " + short_number(advice.slower->dt) + " s", *advice.slower, "0.9 of dt_crit for this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";
   implicit.engine = EngineKind::cpu;  // no other has it
-  retry("Implicit Euler", implicit, "a method that linear theory gives no largest dt");
+  retry("Implicit Euler", implicit, "a method with no stability limit in linear theory");
 }
 
 /// What is offered, the most helpful first: to take back what the user did, to go back and do what the linear theory
@@ -100,12 +100,12 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
 std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   std::vector<Way> ways;
   if (const Preset* before = ui.session.history.last(); before != nullptr && !same_model(*before, ui.session.preset()))
-    ways.push_back({"Undo and restart", "Takes the last change of constants back, and begins anew", "Ctrl+Z, then R",
+    ways.push_back({"Undo and restart", "Undoes the last change of constants and restarts", "Ctrl+Z, then R",
                     [](Ui& u) { u.command("undo_and_restart"); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
                     [](Ui& u) { u.command("restart"); }};
   const bool past = ui.session.rewind.before(*ui.session.simulation, ui.session.simulation->time(), 1) != nullptr;
-  const Way rewind{"Rewind 1 s", "Back to where it was a second ago, paused", "←", [](Ui& u) { u.command("rewind"); }};
+  const Way rewind{"Rewind 1 s", "One second back, paused", "←", [](Ui& u) { u.command("rewind"); }};
   if (changed_since_divergence(ui.session)) {
     ways.insert(ways.begin(), restart);
     if (past) ways.push_back(rewind);

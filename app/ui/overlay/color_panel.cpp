@@ -1,4 +1,4 @@
-// What colours the cloth: the list to choose from, and the legend in the viewport's corner.
+// What colors the cloth: the list to choose from, and the legend in the viewport's corner.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -34,8 +34,8 @@ void top_cell(Ui& ui, FieldColors& colors, ImVec2 right_end) {
       value_cell(ui, "colour top", colors.top(), short_number(rounded(colors.top(), 4)), width, height, field.unit);
   report_control(ui, "colour_top");
   tooltip(ui, gui::item_id(),
-          colors.fixed ? "The scale ends here, as it was typed. Double-click and type 0 for an automatic scale."
-                       : "The scale follows the greatest value. Double-click to type where it is to end.");
+          colors.fixed ? "The scale ends at the typed value. Double-click and type 0 for an automatic scale."
+                       : "The scale follows the largest value. Double-click to type its end.");
   if (!typed.changed) return;
   colors.fixed.reset();
   if (typed.value > 0) colors.fixed = typed.value;
@@ -73,14 +73,14 @@ float color_menu_width(const Ui& ui) {
 
 void color_menu(Ui& ui, float width) {
   const FieldColors* shown = shown_colors(ui.scene);
-  const std::string title = shown != nullptr ? std::string(info(shown->field).title) : "Own colours";
+  const std::string title = shown != nullptr ? std::string(info(shown->field).title) : "Own colors";
   if (begin_combo(ui, "##colour", fitted(*ui.fonts.text, title, width - ui.theme.px(34)).c_str(), width)) {
-    choice(ui, std::nullopt, "Own colours", "The cloth's texture in the scene's light.");
+    choice(ui, std::nullopt, "Own colors", "The cloth's texture, lit.");
     for (const FieldInfo& field : particle_fields())
       choice(ui, field.field, std::string(field.title).c_str(), std::string(field.help).c_str());
     end_combo();
   } else {
-    tooltip(ui, gui::item_id(), "What colours the cloth", ui.keys_of("next_color"));
+    tooltip(ui, gui::item_id(), "What colors the cloth", ui.keys_of("next_color"));
   }
 }
 

@@ -22,10 +22,10 @@ void spring_arrows(Ui& ui, ImDrawList& draw, ImVec2 from) {
   double strongest = 0;
   for (const SpringForce& spring : springs) strongest = std::max(strongest, glm::length(spring.F));
   const glm::dvec3 x = ui.session.simulation->position(trace->i, trace->j);
-  const double metres = ui.scene.camera.metres_per_pixel(x, ui.viewport.size().y) * ui.theme.px(80);
+  const double meters = ui.scene.camera.metres_per_pixel(x, ui.viewport.size().y) * ui.theme.px(80);
   for (const SpringForce& spring : springs) {
     if (!(glm::length(spring.F) > 0.02 * strongest)) continue;
-    const auto to = on_screen(ui, 0, x + spring.F / strongest * metres);
+    const auto to = on_screen(ui, 0, x + spring.F / strongest * meters);
     if (!to) continue;
     const ImU32 color = curve_style(ui.theme.colors, spring.bending ? "F_b" : "F_s").color;
     draw.AddLine(from, *to, faded(ui.theme.colors.ground, 0.55f), ui.theme.px(4));

@@ -27,7 +27,7 @@ bool keep_in_picture(const Ui& ui, int tile, ImVec2 from, ImVec2& to);
 /// The scales of the arrows at the picked particle, one each for forces, velocity and acceleration, in the corner of
 /// the original's picture.
 void arrow_scales(Ui& ui, ImDrawList& draw);
-/// To those scales: the variables that are ticked in the read-out, each with its symbol where there is room.
+/// To those scales: the variables that are checked in the read-out, each with its symbol where there is room.
 void particle_arrows(Ui& ui, ImDrawList& draw, int tile, ImVec2 from);
 /// The wind's arrow with its strength.
 void wind_overlay(Ui& ui, ImDrawList& draw);

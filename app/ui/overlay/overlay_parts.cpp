@@ -46,7 +46,7 @@ void add_weight(const Ui& ui, const Simulation& cloth, int tile, std::vector<Box
   add_box(ui, tile, {top - side, top + side, weight - down - side, weight - down + side}, to);
 }
 
-/// Patches of the lattice, at most so many along each side.
+/// Patches of the lattice, at most that many along each side.
 void add_patches(const Ui& ui, const Simulation& cloth, int tile, std::vector<Box>& to) {
   constexpr int most = 12;
   const PositionView x = cloth.positions();

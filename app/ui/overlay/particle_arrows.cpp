@@ -1,4 +1,4 @@
-// The picked particle's variables of table B.1 as arrows, each in the colour and line of its curve.
+// The picked particle's variables of table B.1 as arrows, each in the color and line of its curve.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -102,11 +102,11 @@ float scale_bar(Ui& ui, ImDrawList& draw, ImVec2 at, double scale, std::string_v
   return end + 3 * pad;
 }
 
-/// Of the variables that are ticked; none where no one of the group is.
-std::optional<double> longest_of(const Group& group, const std::set<std::string>& ticked, const ParticleReadout& r) {
+/// Of the variables that are checked; none where no one of the group is.
+std::optional<double> longest_of(const Group& group, const std::set<std::string>& checked, const ParticleReadout& r) {
   std::optional<double> longest;
   for (const std::string_view key : group.keys)
-    if (ticked.count(std::string(key)) > 0) longest = std::max(longest.value_or(0), glm::length(vector_of(r, key)));
+    if (checked.count(std::string(key)) > 0) longest = std::max(longest.value_or(0), glm::length(vector_of(r, key)));
   return longest;
 }
 
@@ -160,16 +160,16 @@ void arrow_scales(Ui& ui, ImDrawList& draw) {
 
 void particle_arrows(Ui& ui, ImDrawList& draw, int tile, ImVec2 from) {
   const ParticleReadout r = cloth_in_tile(ui.scene, tile).particle(ui.session.picked->i, ui.session.picked->j);
-  const std::set<std::string>& ticked = ui.settings.handling.arrows;
+  const std::set<std::string>& checked = ui.settings.handling.arrows;
   std::vector<DrawnArrow> arrows;
   for (std::size_t k = 0; k < groups().size(); ++k) {
     const Group& group = groups()[k];
-    const auto longest = longest_of(group, ticked, r);
+    const auto longest = longest_of(group, checked, r);
     if (!longest || !std::isfinite(*longest)) continue;
     double& scale = ui.arrow_scales[k];
     if (scale <= 0) scale = std::max(*longest, group.least(ui.session.preset()));  // the original has diverged
     for (const std::string_view key : group.keys)
-      if (ticked.count(std::string(key)) > 0)
+      if (checked.count(std::string(key)) > 0)
         if (const auto arrow = variable_arrow(ui, draw, tile, from, r, key, scale)) arrows.push_back(*arrow);
   }
   // Last, so that no arrow runs over a symbol.

@@ -13,8 +13,8 @@ constexpr const char* paused_word = "PAUSED";
 
 /// How to go on from a pause: the keys that reach the transport now.
 const char* ways_on(const Ui& ui) {
-  if (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter takes what is typed · Esc leaves it";
-  if (ui.slider.focused != 0) return "Space runs · O makes one step · → is the slider's until Esc";
+  if (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter accepts · Esc cancels";
+  if (ui.slider.focused != 0) return "Space runs · O makes one step · → moves the slider until Esc";
   return "Space runs · → makes one step";
 }
 

@@ -38,7 +38,7 @@ void bending_check(Ui& ui, const Region& region, const Box& buttons) {
                                             faded(ui.theme.colors.ground, 0.85f), ui.theme.px(5));
   ImGui::SetCursorScreenPos({at.x + pad, at.y});
   if (check(ui, label, ui.scene.view.bending)) ui.scene.view.bending = !ui.scene.view.bending;
-  tooltip(ui, gui::item_id(), "Draws the bending springs too, in the colour of F_b.");
+  tooltip(ui, gui::item_id(), "Also draws the bending springs, in the color of F_b.");
   cover(ui, "bending", box);
 }
 

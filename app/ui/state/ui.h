@@ -101,7 +101,7 @@ struct Tour {
   Place transport, labs;  ///< where the top bar drew them
 };
 
-/// A PNG of the window, or of the viewport with what its colours mean and without buttons.
+/// A PNG of the window, or of the viewport with what its colors mean and without buttons.
 struct PictureOrder {
   std::filesystem::path file;
   bool whole_window = false;
@@ -123,7 +123,7 @@ struct Ui : UiContext {
   bool panels = true;                                    ///< Tab hides them all
   std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
-  bool arrows = true;                    ///< of the variables that are ticked, at the picked particle
+  bool arrows = true;                    ///< of the variables that are checked, at the picked particle
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
   bool constants_to_top = false;         ///< another preset was taken: its constants are shown from the first one on
   bool lab_enter = false;                ///< Enter was pressed in the field of a lab's prediction
@@ -135,7 +135,7 @@ struct Ui : UiContext {
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
   bool full_screen = false;             ///< as the window is
   bool toggle_full_screen = false;
-  bool scale_changed = true;  ///< fonts are to be built anew
+  bool scale_changed = true;  ///< fonts are to be built again
   std::vector<std::function<void(Ui&)>> actions;
 
   /// Asks for something to be done before the next frame is drawn.

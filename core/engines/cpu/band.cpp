@@ -168,9 +168,9 @@ bool Band<R, Present>::touches(int i) const {
       if (simd::lowest(x, cloth_.stride, cloth_.lattice.columns) < height) return true;
       continue;
     }
-    const R centre[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
+    const R center[] = {R(body.c.x), R(body.c.y), R(body.c.z)};
     const double reach = body.r + contact_tolerance(body, body.c, epsilon);
-    if (double(simd::nearest_squared(x, cloth_.stride, cloth_.lattice.columns, centre)) <
+    if (double(simd::nearest_squared(x, cloth_.stride, cloth_.lattice.columns, center)) <
         reach * reach * (1 + 8 * epsilon))
       return true;
   }

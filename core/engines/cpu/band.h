@@ -24,7 +24,7 @@ namespace tyglab::cpu {
 
 using simd::RowField, simd::row_stride, simd::widest_vector;
 
-/// Sums of state vectors by which a step is judged (scheme.h), all over the same vectors.
+/// Sums of state vectors by which a step is checked (scheme.h), all over the same vectors.
 struct ResolvedEstimate {
   struct Share {
     int vector;

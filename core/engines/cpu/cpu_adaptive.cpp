@@ -1,4 +1,4 @@
-// Methods that choose their own steps: dt covered with inner steps, each tried, judged and then accepted or thrown
+// Methods that choose their own steps: dt covered with inner steps, each tried, checked and then accepted or thrown
 // away. Threads sweep together; the first one decides between two barriers.
 //
 // All sweeps of a step are made into stage vectors, the last one measures every row as it passes (measure_row), one

@@ -386,7 +386,7 @@ TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 std::unique_ptr<Engine> make_engine_without([[maybe_unused]] unsigned absent, [[maybe_unused]] const Preset& preset,
                                             [[maybe_unused]] const Lattice& lattice) {
 #ifdef TYGLAB_WHOLE_ENGINES
-  throw EngineError("this build, with sanitizers, has no engine that leaves a part out; use the release build");
+  throw EngineError("this build, with sanitizers, has no engine without a part; use the release build");
 #else
 #define TYGLAB_MAKE(R, present) \
   if (absent == (part::everything & ~(present))) return std::make_unique<CpuEngine<R, (present)>>(preset, lattice, 1);

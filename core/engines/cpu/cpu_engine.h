@@ -97,7 +97,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void change_dt(double dt);
   void scale(const Assignment& assignment, ResolvedSweep::ResolvedAssignment& out) const;
   void scale_estimate();
-  /// Covers dt with inner steps, all threads together, and judges each.
+  /// Covers dt with inner steps, all threads together, and checks each.
   void step_adaptively(int number, Tears& tears, Fault& fault);
   void take_next_dt();
   void begin_interval(const Tears& tears);
@@ -123,7 +123,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   StateView<R> view() const;
   /// The steps before no longer say anything about how long the next may be.
   void restart_control() { control_.restart(), knows_first_a_ = false; }
-  /// Makes and judges steps until one asks to stop. `waves`: several steps at a time where that pays off.
+  /// Makes and checks steps until one asks to stop. `waves`: several steps at a time where that pays off.
   StepsMade run(int steps, Tears& tears, Fault& fault, bool waves);
   int steps_of_run(int left) const;
   /// The same with as many threads as the team has now.

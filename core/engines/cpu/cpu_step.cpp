@@ -117,7 +117,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::read_hand(const Tears& tears) {
   const int i = cloth_.held.particle / cloth_.lattice.columns, j = cloth_.held.particle % cloth_.lattice.columns;
   constexpr int reach = 2;
-  Neighbourhood near(i, j);
+  Neighborhood near(i, j);
   for (int ni = std::max(i - reach, 0); ni <= std::min(i + reach, cloth_.lattice.rows - 1); ++ni)
     for (int nj = std::max(j - reach, 0); nj <= std::min(j + reach, cloth_.lattice.columns - 1); ++nj) {
       const StoredParticle particle = stored(ni, nj);
@@ -177,7 +177,7 @@ StepsMade CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fa
         step_in_bands(number, tears);
       }
       if (number == 0) {
-        if (!chooses_steps(*scheme_)) judge();  // inner steps have been judged
+        if (!chooses_steps(*scheme_)) judge();  // inner steps have been checked
         plan();
       }
       team_->barrier();

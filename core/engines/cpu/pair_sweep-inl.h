@@ -25,7 +25,7 @@ using namespace tyglab::HWY_NAMESPACE;
 using namespace tyglab::simd::HWY_NAMESPACE;
 
 /// What a row of a block has four of, one for each stretch spring that its particles own or, for `crossing`, that their
-/// right neighbours own. With A a particle, B to its right, C below it and E below B: A-B, A-C, A-E, B-C.
+/// right neighbors own. With A a particle, B to its right, C below it and E below B: A-B, A-C, A-E, B-C.
 template <class D>
 struct Four {
   using V = Vec3<D>;
@@ -137,7 +137,7 @@ class PairSweep {
                          wind_on_corner(cross(beside, pick(odd, below, x_ij.right)), third_of_W_, smallest_))};
   }
 
-  /// What a row takes from the particles below it, as forces to subtract: from C below, its right neighbour E, and G
+  /// What a row takes from the particles below it, as forces to subtract: from C below, its right neighbor E, and G
   /// two rows below.
   struct Reactions {
     V c, e, g;
@@ -222,7 +222,7 @@ class PairSweep {
   const V third_of_W_;
   const L smallest_ = L::all(double(std::numeric_limits<R>::min()));
   L largest_;
-  Carry<1, D> right_[3];      ///< forces on the right neighbours, rows i and i+1; reactions, row i+2
+  Carry<1, D> right_[3];      ///< forces on the right neighbors, rows i and i+1; reactions, row i+2
   Carry<2, D> two_right_[2];  ///< reactions on those two to the right, rows i and i+1
 };
 

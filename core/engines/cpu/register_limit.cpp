@@ -40,7 +40,7 @@ struct FrozenSpring {
   HWY_INLINE L bend_factor(L r2) const { return if_greater(r2, shortest2, if_greater(rest2, r2, tension(r2))); }
 };
 
-/// Makes the compiler believe that the registers have changed, so that it computes every spring anew.
+/// Makes the compiler believe that the registers have changed, so that it computes every spring again.
 template <class D>
 HWY_INLINE void forget([[maybe_unused]] Vec3<D>& v) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128

@@ -23,7 +23,7 @@ class ThreadGovernor {
   int threads() const { return levels_[level_].threads; }
   /// How long the next run should be at most, in seconds.
   double run_seconds() const;
-  /// Tells that threads() threads have done so much work in so many seconds. A unit of work should stay as long as it
+  /// threads() threads have done that much work in that many seconds. A unit of work should stay as long as it
   /// is; if it becomes longer, the threads may rest once for that.
   void worked(double work, double seconds);
 

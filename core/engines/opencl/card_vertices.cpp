@@ -10,7 +10,7 @@ class Acquired {
  public:
   Acquired(cl_command_queue queue, std::span<const cl_mem> buffers) : queue_(queue), buffers_(buffers) {
     check(clEnqueueAcquireGLObjects(queue, cl_uint(buffers.size()), buffers.data(), 0, nullptr, nullptr),
-          "taking OpenGL's buffers");
+          "acquiring OpenGL's buffers");
   }
   ~Acquired() {
     if (!buffers_.empty()) release();
@@ -20,7 +20,7 @@ class Acquired {
   void give_back() {
     const cl_int code = release();
     buffers_ = {};
-    check(code, "giving OpenGL its buffers back");
+    check(code, "releasing OpenGL's buffers");
   }
 
  private:
@@ -49,7 +49,7 @@ VertexBox CardVertices::write(cl_mem x, int stride, const VertexRequest& order) 
     acquired.give_back();
   }
   // Without cl_khr_gl_event OpenGL may draw only once the device has finished.
-  if (!device_->facts().gl_event) check(clFinish(device_->queue()), "writing what is drawn");
+  if (!device_->facts().gl_event) check(clFinish(device_->queue()), "writing vertices");
   return kernels_.box();
 }
 

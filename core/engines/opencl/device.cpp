@@ -61,8 +61,7 @@ std::vector<DeviceId> ask_drivers(std::string& problem) {
     for (cl_device_id id : ids) found.push_back({platform, id});
   }
   if (found.empty())
-    problem =
-        "the OpenCL drivers of this system offer no device, as pocl does where its cache folder cannot be written";
+    problem = "the OpenCL drivers of this system offer no device, as with pocl if its cache folder is not writable";
   return found;
 }
 
@@ -102,12 +101,12 @@ bool drivers_crash() {
 std::vector<DeviceId> find_devices(std::string& problem) {
   if (!drivers_crash()) return ask_drivers(problem);
   problem =
-      "an OpenCL driver of this system crashes when it is asked for its devices, as pocl does where /sys is not "
+      "an OpenCL driver of this system crashes while listing its devices, as pocl does if /sys is not "
       "mounted";
   return {};
 }
 
-constexpr const char* suggested_fix = "; use the CPU engine (--engine cpu); `tyglab devices` says what there is";
+constexpr const char* suggested_fix = "; use the CPU engine (--engine cpu); `tyglab devices` lists the devices";
 
 }  // namespace
 
@@ -117,7 +116,7 @@ std::string words_of(cl_int code) {
     case CL_DEVICE_NOT_AVAILABLE:
       return named("the device is not available");
     case CL_MEM_OBJECT_ALLOCATION_FAILURE:
-      return named("the device has not enough memory");
+      return named("the device does not have enough memory");
     case CL_OUT_OF_RESOURCES:
       return named("the device is out of resources, or was lost");
     case CL_OUT_OF_HOST_MEMORY:
@@ -279,7 +278,7 @@ namespace tyglab {
 
 std::string no_device_words(const std::string& problem) {
   return "No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
-         ". On Debian, apt-get install pocl-opencl-icd makes one of the processor.";
+         ". On Debian, apt-get install pocl-opencl-icd makes the CPU one.";
 }
 
 void set_driver_probe(DriverProbe probe) {

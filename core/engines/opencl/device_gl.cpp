@@ -14,8 +14,8 @@ Context Device::context_with(cl_platform_id platform, const GlContext& gl) {
     gl_problem_ = why;
     return Context();
   };
-  if (!facts_.gl_sharing) return none("the device offers no cl_khr_gl_sharing");
-  if (facts_.processor) return none("the device is a processor, which works in OpenGL's memory anyway");
+  if (!facts_.gl_sharing) return none("the device does not support cl_khr_gl_sharing");
+  if (facts_.processor) return none("the device is a CPU, which can use OpenGL's memory anyway");
   if (gl.number == 0) return none("there was no OpenGL context when the device was opened");
   const auto property = [](void* handle) { return reinterpret_cast<cl_context_properties>(handle); };
   const std::array<cl_context_properties, 7> properties{CL_CONTEXT_PLATFORM,
@@ -32,10 +32,9 @@ Context Device::context_with(cl_platform_id platform, const GlContext& gl) {
   std::size_t bytes = 0;
   cl_int code = ask(properties.data(), CL_DEVICES_FOR_GL_CONTEXT_KHR, sizeof sharing, sharing.data(), &bytes);
   const auto end = sharing.begin() + std::ptrdiff_t(std::min(bytes, sizeof sharing) / sizeof(cl_device_id));
-  if (code != CL_SUCCESS || std::find(sharing.begin(), end, id_) == end)
-    return none("OpenGL draws on another device than this one");
+  if (code != CL_SUCCESS || std::find(sharing.begin(), end, id_) == end) return none("OpenGL draws on another device");
   Context context(clCreateContext(properties.data(), 1, &id_, nullptr, nullptr, &code));
-  if (code != CL_SUCCESS) return none("its driver refuses a context together with OpenGL's, " + words_of(code));
+  if (code != CL_SUCCESS) return none("its driver refuses a context shared with OpenGL, " + words_of(code));
   return context;
 }
 

@@ -87,7 +87,7 @@ glm::dvec3 DeviceState<R>::at(int n, int i, int j) const {
   return point(patch.numbers.data() + (3 * std::ptrdiff_t(i - patch.i) * patch.columns + j - patch.j), patch.columns);
 }
 
-/// With as much round it as a particle's neighbours, and theirs, need.
+/// With as much round it as a particle's neighbors, and theirs, need.
 template <class R>
 void DeviceState<R>::read_patch(Vector& vector, int i, int j) const {
   constexpr int reach = 6;

@@ -194,7 +194,7 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
   for (int n = 0; n < scheme_->vectors; ++n) {
     const bool written = std::any_of(sweep.assignments.begin(), sweep.assignments.end(),
                                      [n](const Assignment& assignment) { return assignment.target == n; });
-    // What others read while it is written stands twice: neighbours, bands that make their neighbours' rows too, and
+    // What others read while it is written stands twice: neighbors, bands that make their neighbors' rows too, and
     // who draws.
     const bool seen = n == sweep.position || (n == sweep.velocity && preset_.k_d > 0);
     const bool read = levels > 1 || (resolved.work == Work::forces && seen) || state_.lent(n);
@@ -383,13 +383,14 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   const char* why = projects(method) ? "moves particles one after the other" : "chooses its own steps";
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
-                      "; use the CPU engine (--engine cpu), or an integrator of fixed dt, such as verlet");
+                      "; use the CPU engine (--engine cpu), or an integrator with a fixed dt, such as verlet");
   std::shared_ptr<Device> device = open_device(preset.device);
   if (preset.precision == Precision::float_)
     return std::make_unique<OpenClEngine<float>>(preset, lattice, std::move(device), width);
   if (!device->facts().fp64)
-    throw EngineError("The OpenCL device " + device->facts().name +
-                      " does not compute in double; use float (--precision float) or the CPU engine (--engine cpu)");
+    throw EngineError(
+        "The OpenCL device " + device->facts().name +
+        " does not support double precision; use float (--precision float) or the CPU engine (--engine cpu)");
   return std::make_unique<OpenClEngine<double>>(preset, lattice, std::move(device), width);
 }
 

@@ -172,7 +172,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::vector<StepReport> report_;
   std::vector<R> hand_forces_;  ///< of each step of the batch
   StepGuard guard_;
-  bool tears_each_ = false;    ///< the steps that are being judged have each broken overloaded springs
+  bool tears_each_ = false;    ///< the steps that are being checked have each broken overloaded springs
   bool tears_unread_ = false;  ///< some were broken that `tears` does not have yet
 };
 

@@ -1,5 +1,5 @@
 // Stepping on a device: steps are queued in batches, as long as the guard expects none of them to need examining, and
-// judged by their reports.
+// checked by their reports.
 #include <algorithm>
 #include <cmath>
 

@@ -37,7 +37,7 @@ PositionView OpenClEngine<R>::drawn_positions() {
 
 template <class R>
 GlSharing OpenClEngine<R>::gl_sharing() const {
-  // The one weight is drawn from no vertices of particles.
+  // The mass on a spring is drawn from no vertices of particles.
   return preset_.kind == Kind::cloth ? device_->gl_sharing() : GlSharing::none;
 }
 
@@ -56,7 +56,7 @@ std::optional<VertexBox> OpenClEngine<R>::write(GlVertices& vertices, const Vert
 template <class R>
 std::string OpenClEngine<R>::copy_reason() const {
   if (device_->facts().processor)
-    return memory_settled_ && !state_.has_lent_memory() ? "the device cannot work in OpenGL's memory" : "";
+    return memory_settled_ && !state_.has_lent_memory() ? "the device cannot use OpenGL's memory" : "";
   if (!device_->gl_problem().empty()) return device_->gl_problem();
   return device_->gl_sharing() == GlSharing::none ? "the device was opened for another OpenGL context" : "";
 }

@@ -15,7 +15,7 @@ namespace tyglab {
 namespace opencl {
 namespace {
 
-/// Runs the probe on points whose neighbours lie 3, 4, 0 away. Returns what is wrong, or nothing.
+/// Runs the probe on points whose neighbors lie 3, 4, 0 away. Returns what is wrong, or nothing.
 template <class T>
 std::string probe(Device& device, const char* options) {
   const auto program = device.program(std::string(kernel_text("probe.cl")), options);
@@ -37,7 +37,7 @@ std::string probe(Device& device, const char* options) {
   const T tolerance = 4 * 5 * std::numeric_limits<T>::epsilon();
   for (const T length : lengths)
     if (!(std::abs(length - T(5)) <= tolerance))
-      return "the test kernel gave " + std::to_string(length) + " where 5 is right";
+      return "the test kernel gave " + std::to_string(length) + " instead of 5";
   return {};
 }
 

@@ -65,7 +65,7 @@ void VertexKernels::write_normals(cl_mem positions, const DrawnSites& sites, cl_
         "starting a kernel");
 }
 
-/// At least so many work-items a row, and some for each row.
+/// At least that many work-items a row, and some for each row.
 void VertexKernels::launch(const Kernel& kernel, int columns, int rows) const {
   const std::array<std::size_t, 2> local{32, 4};
   const auto whole = [](int n, std::size_t groups_of) {
