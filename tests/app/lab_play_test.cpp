@@ -127,7 +127,7 @@ TEST_CASE("lab: what damping does to the limit") {
   finish(play);
 }
 
-TEST_CASE("lab: order of convergence, and what kinks do to it") {
+TEST_CASE("lab: order of convergence, and what kinks do to it" * doctest::test_suite("slow")) {
   LabPlayer play("05_order");
   play.look();
   CHECK_FALSE(play.done());  // the card is closed
@@ -184,7 +184,7 @@ TEST_CASE("lab: float against double") {
   finish(play);
 }
 
-TEST_CASE("lab: the price of implicit methods") {
+TEST_CASE("lab: the price of implicit methods" * doctest::test_suite("slow")) {
   LabPlayer play("07_implicit");
   play.choose(1);
   play.set("dt=0.001");
