@@ -43,6 +43,7 @@ ClothRenderer& ClothViews::renderer(Scene& scene, int tile) {
 }
 
 unsigned ClothViews::picture(const Scene& scene, int tile) const {
+  if (scene.renderer == nullptr) return 0;
   if (tile == 0) return scene.renderer->texture_id();
   return std::size_t(tile) <= copies_.size() ? copies_[std::size_t(tile - 1)]->texture_id() : 0;
 }
@@ -109,10 +110,11 @@ void ClothViews::draw(Scene& scene, glm::vec2 magnified) {
   const int tiles = scene.session.copies.tiles();
   drawn_.resize(std::size_t(tiles));
   copies_.resize(std::min(copies_.size(), scene.session.copies.lockstep.size()));
-  const bool ghosts_moved = take_ghosts(scene, size);
   if (shown_colors(scene) != nullptr)
     for (int tile = 0; tile < tiles; ++tile)
       scene.colors.update(scene, tile, drawn_every(cloth_in_tile(scene, tile).lattice(), size.x, size.y));
+  if (scene.renderer == nullptr) return;
+  const bool ghosts_moved = take_ghosts(scene, size);
   if (size != size_) scene.effects.disturb();
   size_ = size;
   double took = 0;

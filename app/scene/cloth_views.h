@@ -13,11 +13,12 @@ struct Scene;
 
 class ClothViews {
  public:
-  /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window.
+  /// Draws what the viewport shows; `magnified`: pixels of the picture to one of the window. Without an OpenGL context
+  /// the cloth is framed and its colors are worked out, and nothing is drawn.
   void draw(Scene& scene, glm::vec2 magnified);
   /// Copies have been made again, perhaps where old ones stood, with the same count of changes.
   void forget_copies() { copies_.clear(); }
-  /// The texture with the n-th picture of the viewport.
+  /// The texture with the n-th picture of the viewport; 0 where there is no OpenGL context to draw it in.
   unsigned picture(const Scene& scene, int tile) const;
 
  private:

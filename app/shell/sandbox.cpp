@@ -11,8 +11,7 @@
 #include "app/session/document.h"
 #include "app/shell/start.h"
 #include "app/shell/window.h"
-#include "app/ui/frame/keys.h"
-#include "app/ui/frame/panels.h"
+#include "app/ui/frame/frame.h"
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
 #include "app/ui/state/ui.h"
@@ -27,8 +26,6 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double settle_time = 0.3;          // s after an event
-constexpr double gesture_end = 0.6;          // s without a change
-constexpr float text_scale_least = 0.5f, text_scale_most = 6;
 
 class Sandbox {
  public:
@@ -56,10 +53,7 @@ class Sandbox {
   void begin();
   First take_first();
   std::optional<std::string> show_texture(const std::string& texture);
-  void follow();
-  void act(double elapsed);
   void draw_cloth();
-  void draw_panels();
   void present();
   void save_picture();
   int write_outputs();
@@ -103,7 +97,7 @@ void Sandbox::begin() {
   take_options(options_, ui_);
   session_.costs.started(StartPart::settings);
   if (!options_.session_report.empty()) report_ = std::make_unique<SessionReport>(options_.session_report);
-  ui_.controls = report_.get();
+  if (report_) ui_.controls = &report_->places();
   first_.start(Priority::normal, [preset = first_preset(), threads = options_.threads](const JobControl&) {
     return build_first(preset, threads);
   });
@@ -133,7 +127,7 @@ void Sandbox::start_preset() {
   begin_document(session_, first_document());
   session_.show_texture = [this](const std::string& texture) { return show_texture(texture); };
   if (options_.auto_dt) session_.auto_dt.emplace();
-  follow();
+  follow_session(ui_);
   if (!session_.scripted && !options_.explicit_preset && !settings_.tour_seen) start_tour(ui_);
 }
 
@@ -143,11 +137,6 @@ std::optional<std::string> Sandbox::show_texture(const std::string& texture) {
   if (const auto* why = std::get_if<std::string>(&picture)) return *why;
   scene_.redraw = true;
   return scene_.renderer->set_texture(std::get<ClothPicture>(picture));
-}
-
-/// Whoever shows the session or acts on it follows what became of it.
-void Sandbox::follow() {
-  scene_.follow(), tools_.follow(), ui_.follow();
 }
 
 Document Sandbox::first_document() {
@@ -208,17 +197,9 @@ void Sandbox::take_dropped_files() {
 }
 
 void Sandbox::rescale() {
-  if (input_.scale_changed) ui_.scale_changed = true;
-  if (!ui_.scale_changed) return;
-  ui_.scale_changed = false;
-  const Look& look = tyglab::look(settings_.theme);
-  ui_.theme.colors = look.tokens();
-  scene_.view.palette = look.tokens == light_tokens ? light_palette : Palette{};
-  const float scale = window_.content_scale() * float(settings_.ui_scale) * look.magnified;
-  ui_.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
+  if (!take_look(ui_, window_.content_scale())) return;
   const bool first = ui_.fonts.text == nullptr;
   ui_.fonts = build_fonts(ui_.theme.scale);
-  apply_style(ui_.theme);
   if (!first) gui_.fonts_changed();
   if (first)
     for (const std::string& note : ui_.fonts.notes) std::fprintf(stderr, "tyglab: %s\n", note.c_str());
@@ -227,24 +208,6 @@ void Sandbox::rescale() {
 void Sandbox::draw_cloth() {
   const glm::ivec2 window = window_.size(), framebuffer = window_.framebuffer_size();
   scene_.draw(window.x > 0 ? glm::vec2(framebuffer) / glm::vec2(window) : glm::vec2(1));
-}
-
-void Sandbox::draw_panels() {
-  const FrameCosts::Timer timer(session_.costs, Part::panels);
-  SliderState& slider = ui_.slider;
-  slider.order = 0;
-  slider.focused_seen = false;
-  ui_.hover_seen = false;
-  ui_.covered = ui_.help;
-  gui_.begin_frame(input_);
-  draw_layout(ui_, ImGui::GetIO().DisplaySize);
-  // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
-  if (!slider.focused_seen || tools_.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;
-  slider.wanted_order = -1;
-  slider.keys.clear();
-  if (slider.typing == 0 || !input_.unread) slider.commit = slider.cancel = false;
-  ui_.close_lists = false;
-  if (!ui_.hover_seen) ui_.hovered = 0;
 }
 
 void Sandbox::present() {
@@ -301,34 +264,21 @@ void Sandbox::frame_parts() {
   if (window_.wants_close()) window_.forget_close(), session_.request(request::Quit{});
   rescale();
   take_dropped_files();
-  act(elapsed);
+  act_on_events(ui_, elapsed, window_.frame_time());
+  if (std::exchange(ui_.toggle_full_screen, false)) window_.toggle_full_screen();
   draw_cloth();
-  draw_panels();
+  {
+    const FrameCosts::Timer timer(session_.costs, Part::panels);
+    gui_.begin_frame(input_);
+    draw_panels(ui_);
+  }
   present();
-  const bool quiet = !ImGui::IsAnyItemActive() && tools_.tool.kind == Tool::Kind::none;
-  if (quiet && now - session_.last_change > gesture_end) session_.history.end_gesture();
+  end_gestures(ui_);
   window_.set_title((unsaved(session_) ? "• " : "") + session_.preset().name + " – Tyglab");
   plan_next_frame();
   if (report_) report_->end_frame(ui_);
   input_.clear();
   ++frames_;
-}
-
-/// Everything between the events of a frame and its picture.
-void Sandbox::act(double elapsed) {
-  handle_keys(ui_);
-  apply_requests(session_);
-  follow();
-  ui_.run_actions();
-  follow();
-  handle_pointer(tools_);
-  if (ui_.toggle_full_screen) window_.toggle_full_screen(), ui_.toggle_full_screen = false;
-  session_.wants = ui_.wants;
-  SessionInput input = tools_.session_input();
-  input.dragging = ui_.slider.dragged != 0;
-  input.frame_time = window_.frame_time();
-  session_.update(elapsed, input);
-  follow();
 }
 
 int Sandbox::run() {

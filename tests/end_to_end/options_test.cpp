@@ -57,8 +57,7 @@ TEST_CASE("an option of the window before a command: behind it, or left out wher
   const test::TemporaryFolder folder;
   check(folder, {"--size", "640x480", "devices"}, 2, "--size: belongs to the window, and `tyglab devices` does not");
   check(folder, {"--frames", "3", "stability", "map"}, 2, "`tyglab stability map` does not accept it; omit it");
-  check(folder, {"--size", "640x480", "render", "one_weight", "--png", "a.png"}, 2,
-        "--size: comes before the command");
+  check(folder, {"--size", "640x480", "render", "one_weight", "--png", "a.png"}, 2, "--size: comes before the command");
   check(folder, {"--dt", "0.1", "run", "one_weight"}, 2, "--dt: comes before the command; put it after the command");
   for (const char* option : {"--size", "--engine"}) check(folder, {option, ""}, 2, "must not be empty");
   check(folder, {"render", "one_weight", "--png", "a.png", "--size", ""}, 2, "--size");

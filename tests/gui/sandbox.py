@@ -142,15 +142,6 @@ class Sandbox:
     def click_control(self, name):
         self.click(*centre(self.control(name)))
 
-    def scroll_to(self, name, over):
-        """Turns the wheel over another control, downwards, until the control comes into sight."""
-        self.move(*centre(self.control(over)))
-        for _ in range(40):
-            if name in self.later()["controls"]:
-                return self.control(name)
-            self.xdotool("click", 5)
-        raise AssertionError(f"the wheel does not bring {name} into sight")
-
     def drag(self, points, button=LEFT):
         """Presses at the first point, moves over the others, lets go at the last."""
         self.move(*points[0])
@@ -230,11 +221,6 @@ def digest(report):
         return "there was no report"
     short = {key: value for key, value in report.items() if key not in ("particles", "controls", "preset")}
     return "last report: " + json.dumps(short)
-
-
-def particle(report, i, j):
-    """One of the particles that the report tells of."""
-    return next(p for p in report["particles"] if (p["i"], p["j"]) == (i, j))
 
 
 def k_s(report):

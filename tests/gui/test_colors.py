@@ -1,4 +1,4 @@
-"""Colouring the cloth: by key, by list and from the palette; the legend says what colours mean."""
+"""Colouring the cloth: by key; what is written of it."""
 
 import csv
 
@@ -45,49 +45,6 @@ def keys(stage):
     # The arrows' length follows slowly, by less than a step of colour; the cloth's own pixels are held to the byte by
     # tests/app/color_test.cpp.
     check(again.crop(part).differs_from(plain.crop(part), 3) == 0, "not a pixel of it has changed")
-
-
-@case
-def legend(stage):
-    """the list chooses a colouring, the value under the pointer is said, and the scale can be typed"""
-    sandbox = paused(stage)
-    sandbox.click_control("viewport.colour")
-    sandbox.wait(lambda r: "menu.colour.speed" in r["controls"], "the list to open")
-    stage.keep("list")
-    sandbox.click_control("menu.colour.speed")
-    report = sandbox.wait(lambda r: r["colors"] and r["colors"]["field"] == "speed", "the choice")
-    check(not report["colors"]["fixed"], "the scale is automatic")
-    at = report["particles"][12]["at"]
-    sandbox.move(*at)
-    sandbox.wait(lambda r: r["colors"]["marked"] is not None, "the value under the pointer")
-    stage.keep("marked")
-    sandbox.rest()
-    x, y, width, height = sandbox.control("viewport.colour_top")
-    sandbox.move(x + width / 2, y + height / 2)
-    sandbox.acted("Ctrl going down", "keydown", "ctrl")
-    sandbox.press()
-    sandbox.release()
-    sandbox.xdotool("keyup", "ctrl")
-    sandbox.wait(lambda r: r["typing"], "the number to become a field")
-    sandbox.later(2)
-    sandbox.type("7")
-    sandbox.key("Return")
-    report = sandbox.wait(lambda r: r["colors"]["fixed"] and r["colors"]["top"] == 7, "the scale to end where it was typed")
-    stage.keep("fixed", still=True)
-
-
-@case
-def copies(stage):
-    """copies are coloured each by its own values on one scale; the distance from the reference needs one"""
-    sandbox = stage.start("hanging", "--color", "distance")
-    check(sandbox.report()["colors"] is None, "without a copy there is nothing to measure from")
-    sandbox.click_control("plots.Copies")
-    sandbox.click_control("plots.add")
-    sandbox.click_control("menu.dt_2_5e_4_s")
-    report = sandbox.wait(lambda r: len(r["copies"]) == 1 and r["colors"], "the copy, and the colours with it")
-    check(report["colors"]["field"] == "distance", "the distance colours it")
-    sandbox.wait(lambda r: r["colors"]["top"] < 0.1 and r["t"] > 1, "a scale for what they are apart")
-    stage.keep("distance")
 
 
 @case

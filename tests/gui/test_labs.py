@@ -1,9 +1,9 @@
-"""Labs in a real window: two played from end to end, chosen by mouse and by keyboard."""
+"""A lab in a real window, played from end to end."""
 
 import json
 
 from cases import case, check, main
-from sandbox import RIGHT, centre
+from sandbox import RIGHT
 
 
 def lab(sandbox, condition, what):
@@ -89,83 +89,6 @@ def hooke(stage):
     check(sandbox.ended() == 0, "it ends")
     with open(sandbox.settings_file) as file:
         check(json.load(file)["labs"] == {"01_hooke": 3}, "what is done is remembered")
-
-
-@case
-def stiffness(stage):
-    """the lab on k_s: the limit is predicted, found by an explosion, and kept clear of"""
-    sandbox = stage.start("hanging")
-    begin(sandbox, "critical", "03_stiffness")
-    predict(sandbox, "200")
-    sandbox.key("space")
-    sandbox.wait(lambda r: not r["paused"], "the sheet to move")
-    sandbox.type_value("k_s", "300")
-    report = sandbox.wait(lambda r: r["divergence"] is not None, "an explosion")
-    check(not report["lab"]["done"], "far above the limit does not count")
-    stage.keep("1-too-far")
-    sandbox.type_value("k_s", "198")
-    sandbox.key("r")
-    report = lab(sandbox, lambda l: l["done"], "an explosion near the limit")
-    check(report["lab"]["right"], "200 is near enough")
-    stage.keep("2-found")
-    report = go_on(sandbox, 1)
-    check(report["divergence"] is None and report["paused"] and not report["unsaved"], "the sheet is whole again")
-    choose(sandbox, 1)
-    sandbox.type_value("k_s", "180")
-    sandbox.key("space")
-    lab(sandbox, lambda l: l["done"] and l["right"], "two seconds below the limit")
-    report = go_on(sandbox, 2)
-    predict(sandbox, "5e-4")
-    sandbox.type_value("k_s", "800")
-    sandbox.type_value("dt", "0.00045")
-    sandbox.key("space")
-    lab(sandbox, lambda l: l["done"] and l["right"], "a second at half the step")
-    stage.keep("3-done")
-    sandbox.click_control("lab.Back")
-    report = lab(sandbox, lambda l: l["step"] == 1, "the step before, to be read")
-    check(report["lab"]["done"] and report["preset"]["forces"]["k_s"] == 800, "nothing is opened by going back")
-
-
-@case
-def unsaved_work(stage):
-    """a lab asks before it takes the place of unsaved work; its own steps do not"""
-    sandbox = stage.start("hanging")
-    sandbox.type_value("k_s", "77")
-    sandbox.click_control("top.labs")
-    sandbox.wait(lambda r: r["palette"] and r["typing"], "the list of labs")
-    sandbox.later(3)
-    sandbox.click_control("palette.Lab.Why_Euler_gains_energy")
-    sandbox.wait(lambda r: r["dialog"] == "unsaved", "the question")
-    sandbox.click_control("dialog.Discard_the_changes")
-    sandbox.wait(lambda r: r["label"] == "one_weight", "the lab's preset")
-    sandbox.type_value("k", "11")
-    sandbox.click_control("lab.Set_up_again")
-    report = sandbox.wait(lambda r: r["preset"]["forces"]["k"] == 10, "the step as it was")
-    check(report["dialog"] == "none", "without a question")
-    sandbox.click_control("lab.leave")
-    sandbox.wait(lambda r: r["lab"] is None, "the lab to be left")
-
-
-@case
-def waits(stage):
-    """a lab waits while another preset is open, says so, and puts its own cloth back"""
-    sandbox = stage.start("denim")
-    begin(sandbox, "wind", "12_wind")
-    sandbox.wait(lambda r: r["label"] == "hanging", "its preset")
-    stage.keep("1-lab")
-    sandbox.key("ctrl+p")
-    sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette")
-    sandbox.later(3)
-    sandbox.type("flag in")
-    sandbox.later(4)
-    sandbox.key("Return")
-    sandbox.wait(lambda r: r["label"] == "flag", "the flag")
-    sandbox.control("lab.Open_the_lab_s_cloth")
-    stage.keep("2-waits")
-    sandbox.click_control("lab.Open_the_lab_s_cloth")
-    sandbox.wait(lambda r: r["label"] == "hanging" and r["lab"]["label"] == "12_wind", "the lab's cloth")
-    report = sandbox.later(4)
-    check("lab.Open_the_lab_s_cloth" not in report["controls"], "it goes on")
 
 
 if __name__ == "__main__":

@@ -1,72 +1,8 @@
-"""Ctrl+P, the tour, and the help that leads to both."""
+"""The tour at the first start."""
 
 import json
 
 from cases import case, check, main
-from sandbox import centre, k_s
-
-
-def find(sandbox, text):
-    sandbox.wait(lambda r: not r["palette"] and not r["typing"], "the last one to be closed")
-    sandbox.later(3)
-    sandbox.key("ctrl+p")
-    sandbox.wait(lambda r: r["palette"] and r["typing"], "the palette to take keys")
-    sandbox.later(3)
-    sandbox.type(text)
-    return sandbox.later(4)
-
-
-@case
-def commands(stage):
-    """Ctrl+P finds commands, methods, constants and presets by what is typed, with mouse and keyboard"""
-    sandbox = stage.start("hanging")
-    sandbox.key("ctrl+p")
-    sandbox.wait(lambda r: r["palette"], "the palette")
-    sandbox.later(4)
-    stage.keep("all")
-    sandbox.key("Escape")
-    sandbox.wait(lambda r: not r["palette"], "Escape to close it")
-    find(sandbox, "rk4")
-    stage.keep("rk4")
-    sandbox.key("Return")
-    sandbox.wait(lambda r: r["preset"]["solver"]["integrator"] == "rk4", "the method to be taken")
-    find(sandbox, "run or")
-    sandbox.key("Return")
-    report = sandbox.wait(lambda r: r["paused"], "the motion to pause")
-    check(not report["palette"], "it is closed")
-    find(sandbox, "dare inte")
-    sandbox.key("Return")
-    check(sandbox.later(6)["palette"], "nothing is found, so nothing is done")
-    sandbox.key("ctrl+a")
-    sandbox.type("constant, stretching")
-    sandbox.later(4)
-    sandbox.key("Down")
-    sandbox.key("Up")
-    sandbox.key("Return")
-    sandbox.wait(lambda r: not r["palette"], "the constant to be found")
-    sandbox.later(3)
-    sandbox.key("Right")
-    sandbox.wait(lambda r: k_s(r) > 50, "its slider to take the arrow")
-    sandbox.key("Escape")
-    find(sandbox, "outlines")
-    sandbox.click_control("palette.View.Outlines")
-    sandbox.wait(lambda r: r["view"] == 4, "the view, by a click")
-    find(sandbox, "flag in")
-    sandbox.key("Return")
-    sandbox.wait(lambda r: r["dialog"] == "unsaved", "the question, since constants have changed")
-
-
-@case
-def elsewhere(stage):
-    """a click beside the palette closes it and does nothing to the cloth"""
-    sandbox = stage.start("hanging")
-    sandbox.key("space")
-    find(sandbox, "zzz")
-    stage.keep("nothing")
-    x, y, width, height = sandbox.report()["viewport"]
-    sandbox.click(x + width / 2, y + height - 60)
-    report = sandbox.wait(lambda r: not r["palette"], "it to close")
-    check(report["torn_springs"] == 0, "the cloth is whole")
 
 
 @case

@@ -2,9 +2,7 @@
 #include "app/ui/cards/energy_card.h"
 
 #include <imgui.h>
-#include <imgui_internal.h>  // the window that an item stands in
 
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -22,27 +20,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds period{90};
 constexpr int samples = 5;  ///< rows and columns of particles that are reported, corners included
-
-/// "##name" is name, "Save as…" is Save_as.
-std::string plain(std::string_view name) {
-  std::string out;
-  for (const char letter : name) {
-    const bool kept =
-        std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '.' || letter == '[' || letter == ']';
-    if (kept)
-      out += letter;
-    else if (!out.empty() && out.back() != '_')
-      out += '_';
-  }
-  while (!out.empty() && out.back() == '_') out.pop_back();
-  return out;
-}
-
-/// Popups have names made of numbers: each is the one menu that is open.
-std::string place_of(const ImGuiWindow& window) {
-  const std::string name = window.RootWindow->Name;
-  return name.rfind("##", 0) == 0 ? "menu" : name;
-}
 
 Json vector(const glm::dvec3& v) {
   return {v.x, v.y, v.z};
@@ -300,16 +277,6 @@ void add_window(Json& json, const Ui& ui) {
 
 }  // namespace
 
-void SessionReport::add_control(std::string_view name) {
-  const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
-  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
-  if (!window.ClipRect.Contains(ImVec2((lo.x + hi.x) / 2, (lo.y + hi.y) / 2))) return;
-  // As much of it as is seen: a list may cut it at its edge.
-  ImRect seen(lo, hi);
-  seen.ClipWith(window.ClipRect);
-  drawing_[place_of(window) + "." + plain(name)] = {{seen.Min.x, seen.Min.y}, {seen.GetWidth(), seen.GetHeight()}};
-}
-
 std::string SessionReport::json(const Ui& ui, bool ended) const {
   Json json;
   json["tyglab_session"] = 1;
@@ -321,14 +288,16 @@ std::string SessionReport::json(const Ui& ui, bool ended) const {
   json["particles"] = particles(ui);
   json["bodies"] = bodies(ui);
   Json controls = Json::object();
-  for (const auto& [name, box] : shown_) controls[name] = {box.at.x, box.at.y, box.size.x, box.size.y};
+  for (const auto& [name, box] : places_.shown()) {
+    const glm::vec2 extent = box.hi - box.lo;
+    controls[name] = {box.lo.x, box.lo.y, extent.x, extent.y};
+  }
   json["controls"] = controls;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void SessionReport::end_frame(Ui& ui) {
-  shown_.swap(drawing_);
-  drawing_.clear();
+  places_.end_frame();
   ++frames_;
   events_ += std::ssize(ui.input.keys);
   for (const PointerEvent& event : ui.input.pointer) events_ += event.type != PointerEvent::Type::move;

@@ -5,23 +5,20 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <glm/vec2.hpp>
-#include <map>
 #include <string>
-#include <string_view>
 
-#include "app/ui/kit/ui_context.h"
+#include "app/ui/kit/control_places.h"
 
 namespace tyglab {
 
 struct Ui;
 
-class SessionReport : public ControlLog {
+class SessionReport {
  public:
   explicit SessionReport(std::filesystem::path file) : file_(std::move(file)) {}
 
-  /// Controls that cannot be seen are left out.
-  void add_control(std::string_view name) override;
+  /// To be told of controls.
+  ControlPlaces& places() { return places_; }
   /// Ends a frame; rewrites the file when that is due. What goes wrong becomes one message, and ends the report.
   void end_frame(Ui& ui);
   /// Writes the last one. Throws OutputError, also where an earlier one could not be written.
@@ -29,13 +26,10 @@ class SessionReport : public ControlLog {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Box {
-    glm::vec2 at, size;  ///< pixels in the window
-  };
   std::string json(const Ui& ui, bool ended) const;
 
   std::filesystem::path file_;
-  std::map<std::string, Box> drawing_, shown_;  ///< controls of the frame being drawn, and of the last whole one
+  ControlPlaces places_;
   std::int64_t frames_ = 0;
   std::int64_t events_ = 0;  ///< keys and buttons that arrived
   Clock::time_point written_{};

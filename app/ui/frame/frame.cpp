@@ -1,0 +1,77 @@
+#include "app/ui/frame/frame.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/ui/frame/keys.h"
+#include "app/ui/frame/panels.h"
+#include "app/ui/kit/curves.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double gesture_end = 0.6;  // s without a change
+constexpr float text_scale_least = 0.5f, text_scale_most = 6;
+
+}  // namespace
+
+void follow_session(Ui& ui) {
+  ui.scene.follow(), ui.tools.follow(), ui.follow();
+}
+
+bool take_look(Ui& ui, float content_scale) {
+  if (ui.input.scale_changed) ui.scale_changed = true;
+  if (!ui.scale_changed) return false;
+  ui.scale_changed = false;
+  const Look& look = tyglab::look(ui.settings.theme);
+  ui.theme.colors = look.tokens();
+  ui.scene.view.palette = look.tokens == light_tokens ? light_palette : Palette{};
+  const float scale = content_scale * float(ui.settings.ui_scale) * look.magnified;
+  ui.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
+  apply_style(ui.theme);
+  ui.scene.scale = ui.theme.scale;
+  for (std::size_t seat = 0; seat < ui.scene.ghost_colors.size(); ++seat) {
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(copy_style(ui.theme.colors, seat).color);
+    ui.scene.ghost_colors[seat] = {c.x, c.y, c.z};
+  }
+  return true;
+}
+
+void act_on_events(Ui& ui, double elapsed, double frame_time) {
+  handle_keys(ui);
+  apply_requests(ui.session);
+  follow_session(ui);
+  ui.run_actions();
+  follow_session(ui);
+  handle_pointer(ui.tools);
+  ui.session.wants = ui.wants;
+  SessionInput input = ui.tools.session_input();
+  input.dragging = ui.slider.dragged != 0;
+  input.frame_time = frame_time;
+  ui.session.update(elapsed, input);
+  follow_session(ui);
+}
+
+void draw_panels(Ui& ui) {
+  SliderState& slider = ui.slider;
+  slider.order = 0;
+  slider.focused_seen = false;
+  ui.hover_seen = false;
+  ui.covered = ui.help;
+  draw_layout(ui, ImGui::GetIO().DisplaySize);
+  // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.
+  if (!slider.focused_seen || ui.tools.tool.kind != Tool::Kind::none) slider.focused = 0, slider.focused_order = -1;
+  slider.wanted_order = -1;
+  slider.keys.clear();
+  if (slider.typing == 0 || !ui.input.unread) slider.commit = slider.cancel = false;
+  ui.close_lists = false;
+  if (!ui.hover_seen) ui.hovered = 0;
+}
+
+void end_gestures(Ui& ui) {
+  const bool quiet = !ImGui::IsAnyItemActive() && ui.tools.tool.kind == Tool::Kind::none;
+  if (quiet && ui.now - ui.session.last_change > gesture_end) ui.session.history.end_gesture();
+}
+
+}  // namespace tyglab

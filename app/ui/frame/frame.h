@@ -1,0 +1,22 @@
+// A frame of the sandbox but for its window: what events do, and what is drawn with Dear ImGui. The window has events
+// before it and shows a picture after it; a test has neither.
+#pragma once
+
+#include "app/ui/state/ui.h"
+
+namespace tyglab {
+
+/// Whoever shows the session or acts on it follows what became of it.
+void follow_session(Ui& ui);
+/// Takes the look of the settings' theme where it has changed; `content_scale` is what the monitor asks for. Returns
+/// whether the fonts are to be built anew, at ui.theme.scale.
+bool take_look(Ui& ui, float content_scale);
+/// Does what keys, requests and pointer of the frame ask for, and goes on by `elapsed` seconds. `frame_time`: of the
+/// display, s.
+void act_on_events(Ui& ui, double elapsed, double frame_time);
+/// Draws everything within a frame of Dear ImGui that has begun.
+void draw_panels(Ui& ui);
+/// Changes that follow a while without one are undone apart from those before it.
+void end_gestures(Ui& ui);
+
+}  // namespace tyglab

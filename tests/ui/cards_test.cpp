@@ -1,0 +1,148 @@
+// The cards beside the cloth: stability, the order of convergence, the energy ledger, a step written out.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/base/glfw_keys.h"
+#include "core/analysis/convergence.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::cards_test {
+
+Studies& studies(test::NullUi& window) {
+  return window.session.studies;
+}
+
+/// What the gauge under dt shows.
+double dt_over_limit(test::NullUi& window) {
+  const auto& limits = studies(window).stability.limits();
+  return limits && limits->any > 0 ? window.preset().dt / limits->any : std::nan("");
+}
+
+TEST_CASE("the other side of the accuracy card measures the order beside the frames, and writes it as CSV") {
+  test::NullUi window({.preset = "taut_sheet",
+                       .with = [](Preset& preset) { preset.integrator = "rk4", preset.rows = preset.columns = 9; }});
+  window.pause();  // while nothing moves the frames leave the processors to what is measured
+  window.find("order of conv");
+  const auto study = [&] { return studies(window).convergence.study(); };
+  window.until([&] { return study() && study()->done; }, "the order to be measured");
+  CHECK(study()->points.size() == 5);  // dt to dt/16
+  CHECK(measured_order(*study()).has_value());
+  CHECK_FALSE(studies(window).accuracy.study().has_value());
+  window.click("plots.csv_convergence");
+  const auto rows = test::lines(test::read_file(window.write_export("convergence.csv")));
+  REQUIRE(rows.size() == 7);
+  CHECK(rows[1] == "dt [s],error [m],difference to dt/2 [m],status");
+  window.click("plots.accuracy_ways.1");
+  window.until([&] { return studies(window).accuracy.study().has_value(); }, "the errors to come back");
+  CHECK_FALSE(study().has_value());
+}
+
+TEST_CASE("the stability card marks the cloth's fastest mode on the method's growth, and follows k_s") {
+  test::NullUi window;
+  window.click("plots.Stability");
+  window.until([&] { return dt_over_limit(window) > 0; }, "the limits");
+  CHECK(dt_over_limit(window) < 1);
+  window.type_value("k_s", "110");
+  CHECK(window.preset().k_s == 110);
+  window.until([&] { return dt_over_limit(window) > 1; }, "the limit to move");
+}
+
+TEST_CASE("a card that has no room under the plots becomes a tab, and goes back to its place when it is folded") {
+  test::NullUi window;
+  CHECK_FALSE(window.sees("plots.cards"));  // all are folded
+  for (const std::string name : {"Stability", "Energy"}) {
+    window.click("plots." + name);
+    window.frames(4);
+    CHECK(window.sees("plots.cards"));
+  }
+  CHECK(window.cloth().ledger().has_value());  // the one that was opened last is shown
+  for (const std::string name : {"Copies", "Accuracy", "Energy", "Performance"}) CHECK(window.sees("plots." + name));
+  CHECK_FALSE(window.sees("plots.Stability"));  // it is behind the other
+  window.click("plots.Energy");
+  window.frames(4);
+  CHECK(window.sees("plots.cards"));
+  CHECK_FALSE(window.cloth().ledger().has_value());
+}
+
+TEST_CASE("the card keeps the ledger while it is open: energy moves from height to motion and into damping") {
+  test::NullUi window;
+  window.until([&] { return window.steps() > 20; }, "the cloth to move");
+  CHECK_FALSE(window.cloth().ledger().has_value());
+  window.click("plots.Energy");
+  REQUIRE(window.cloth().ledger().has_value());
+  window.until([&] { return window.cloth().ledger()->works.damping < -1e-4; }, "damping to take energy");
+  CHECK(std::abs(window.cloth().ledger()->share()) < 0.01);
+  CHECK(window.cloth().ledger()->works.wind == 0);
+  window.type_value("k_s", "90");
+  window.until([&] { return window.cloth().ledger()->works.edits != 0; }, "the edit to be told");
+  window.click("plots.Energy");
+  CHECK_FALSE(window.cloth().ledger().has_value());
+}
+
+TEST_CASE("what Euler makes of energy is seen, before it is a divergence") {
+  test::NullUi window({.with = [](Preset& preset) { preset.integrator = "euler", preset.dt = 5e-5; }});
+  window.pause();
+  window.click("plots.Energy");
+  window.key(GLFW_KEY_SPACE);
+  window.until([&] { return window.cloth().ledger()->share() > 1e-4; }, "Euler to make energy");
+  CHECK_FALSE(window.diverged());
+}
+
+TEST_CASE("dt follows the constants while it is automatic, until it is typed") {
+  test::NullUi window;
+  window.click("constants.auto");
+  window.until([&] { return window.session.auto_dt.has_value(); }, "dt to become automatic");
+  const double before = window.preset().dt;
+  window.type_value("k_s", "5000");
+  window.until([&] { return window.preset().dt < before / 5; }, "dt to follow k_s");
+  const double t = window.t();
+  window.until([&] { return window.t() > t + 0.2; }, "the cloth to move on");
+  CHECK_FALSE(window.diverged());
+  window.type_value("dt", "0.0001");
+  CHECK_FALSE(window.session.auto_dt.has_value());
+  CHECK(window.preset().dt == 1e-4);
+  CHECK_FALSE(window.session.messages.list().empty());
+}
+
+TEST_CASE("where a method has no stable dt, automatic says so and stays off") {
+  test::NullUi window({.with = [](Preset& preset) { preset.integrator = "euler", preset.k_d = 0, preset.dt = 1e-5; }});
+  window.click("constants.auto");
+  window.until([&] { return !window.session.messages.list().empty(); }, "the reason");
+  CHECK_FALSE(window.session.auto_dt.has_value());
+  CHECK(window.preset().dt == 1e-5);
+}
+
+TEST_CASE("paused, the picked particle's next step is written out; → makes it, and it comes out as foretold") {
+  test::NullUi window({.with = [](Preset& preset) { preset.precision = Precision::double_; }});
+  window.until([&] { return window.steps() > 60; }, "the cloth to move");
+  window.pause();
+  window.key(GLFW_KEY_I);
+  const auto shown = [&] { return window.session.inspector.shown(); };
+  window.until([&] { return shown() != nullptr; }, "the step to be written out");
+  const Pins::Site picked = *window.session.picked;
+  CHECK(shown()->i == picked.i);
+  CHECK(shown()->j == picked.j);
+  CHECK(shown()->stages.size() == 1);  // Verlet looks once
+  CHECK(shown()->stages.front().springs.size() == 12);
+  const glm::dvec3 foretold = shown()->x_after;
+  window.rest();
+  const std::int64_t before = window.steps();
+  window.key(GLFW_KEY_RIGHT);
+  CHECK(window.steps() == before + 1);
+  CHECK(glm::length(window.cloth().position(picked.i, picked.j) - foretold) < 1e-12);
+  CHECK(shown()->x_after != foretold);  // it is the next one
+  window.click("plots.close_inside");
+  CHECK(shown() == nullptr);
+}
+
+TEST_CASE("every evaluation of Runge-Kutta's step is told") {
+  test::NullUi window({.with = [](Preset& preset) { preset.integrator = "rk4"; }});
+  window.key(GLFW_KEY_I);
+  window.until([&] { return window.session.inspector.shown() != nullptr; }, "the step to be written out");
+  CHECK(window.session.inspector.shown()->stages.size() == 4);
+}
+
+}  // namespace tyglab::cards_test

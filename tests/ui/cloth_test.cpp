@@ -1,0 +1,276 @@
+// The mouse on the cloth, and what colors it: grabbed, cut, picked, pinned; bodies and wind dragged; the camera turned;
+// the legend.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/base/glfw_keys.h"
+#include "app/tools/wind_arrow.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::cloth_ui_test {
+
+constexpr int middle_button = GLFW_MOUSE_BUTTON_MIDDLE, right = GLFW_MOUSE_BUTTON_RIGHT;
+
+void fall(test::NullUi& window, double t) {
+  window.until([&] { return window.t() > t; }, "the cloth to move");
+}
+
+Pins::Site corner(test::NullUi& window) {
+  const Lattice& lattice = window.cloth().lattice();
+  return {lattice.rows - 1, lattice.columns - 1};
+}
+
+/// A particle by its part of the rows and columns.
+glm::vec2 at(test::NullUi& window, double row, double column) {
+  const Lattice& lattice = window.cloth().lattice();
+  return window.pixel_of(int(row * (lattice.rows - 1)), int(column * (lattice.columns - 1)));
+}
+
+glm::vec2 pixel(test::NullUi& window, const glm::dvec3& x) {
+  return *window.scene.camera.project(x, window.ui.viewport.size()) + window.ui.viewport.box.lo;
+}
+
+int pinned(test::NullUi& window) {
+  int count = 0;
+  const Lattice& lattice = window.cloth().lattice();
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j) count += window.cloth().pinned(i, j);
+  return count;
+}
+
+std::optional<std::string> color(test::NullUi& window) {
+  const FieldColors* shown = shown_colors(window.scene);
+  return shown != nullptr ? std::optional<std::string>(info(shown->field).name) : std::nullopt;
+}
+
+TEST_CASE("a particle grabbed with the right button follows the pointer, and is let go with it") {
+  test::NullUi window;
+  fall(window, 0.5);
+  window.pause();
+  const Pins::Site site = corner(window);
+  const glm::vec2 from = window.pixel_of(site.i, site.j);
+  window.move(from);
+  window.press(right);
+  window.move(from + glm::vec2(12, -8));
+  window.frames(2);
+  REQUIRE(window.cloth().held().has_value());
+  CHECK(window.cloth().held() == site);
+  window.key(GLFW_KEY_SPACE);
+  for (const glm::vec2 by : {glm::vec2(60, -60), {-40, -120}, {-80, -30}}) {
+    window.move(from + by);
+    window.until([&] { return glm::distance(window.pixel_of(site.i, site.j), from + by) < 3; },
+                 "the particle to come to the pointer");
+    CHECK(window.cloth().held().has_value());
+  }
+  CHECK(window.torn() == 0);
+  window.release(right);
+  CHECK_FALSE(window.cloth().held().has_value());
+  const glm::dvec3 there = window.cloth().position(site.i, site.j);
+  fall(window, window.t() + 0.3);
+  CHECK(window.cloth().position(site.i, site.j) != there);
+}
+
+TEST_CASE("the hand lets go by itself when its force exceeds F_release") {
+  test::NullUi window({.with = [](Preset& preset) { preset.F_release = 5; }});
+  fall(window, 0.5);
+  window.pause();
+  const glm::vec2 from = at(window, 0.5, 0.5);
+  window.move(from);
+  window.press(right);
+  window.move(from + glm::vec2(10, 0));
+  window.frames(2);
+  REQUIRE(window.cloth().held().has_value());
+  window.key(GLFW_KEY_SPACE);
+  fall(window, window.t() + 0.2);
+  CHECK(window.cloth().held().has_value());  // a hand that rests feels less than F_release
+  window.move(from + glm::vec2(150, 150));
+  window.until([&] { return !window.cloth().held().has_value(); }, "the hand to let go");
+  window.frames(2);
+  CHECK(window.said("F_release"));
+  window.release(right);
+}
+
+TEST_CASE("a cut with the left button removes springs, while the cloth moves and while it is paused") {
+  test::NullUi window;
+  fall(window, 0.5);
+  REQUIRE(window.torn() == 0);
+  const glm::vec2 a = at(window, 0.5, 0.5), b = at(window, 0.5, 1);
+  window.drag({a, (a + b) / 2.f, b});
+  CHECK(window.torn() > 10);
+  CHECK(window.tools.tool.kind == Tool::Kind::none);
+  window.pause();
+  const int torn = window.torn();
+  const std::int64_t steps = window.steps();
+  window.drag({at(window, 0.25, 0), at(window, 0.25, 0.25)});
+  CHECK(window.torn() > torn + 3);
+  CHECK(window.steps() == steps);  // a cut makes no step
+  window.key(GLFW_KEY_BACKSPACE);
+  CHECK(window.torn() == 0);
+  CHECK(window.steps() == 0);
+}
+
+TEST_CASE("the wind's arrow is dragged by its tip, and one undo takes it back; W shows and hides it") {
+  test::NullUi window({.preset = "flag"});
+  fall(window, 0.5);
+  window.frames(3);
+  const glm::dvec3 before = window.preset().W;
+  const auto tip = [&] { return pixel(window, wind_arrow(window.tools, window.preset().W).tip); };
+  const glm::vec2 from = tip(), to = from + glm::vec2(8, -60);
+  window.drag({from, from + glm::vec2(4, -20), to});
+  CHECK(window.preset().W.y > 0.001);
+  CHECK(window.torn() == 0);
+  CHECK(window.tools.tool.kind == Tool::Kind::none);
+  CHECK(glm::distance(tip(), to) < 4);
+  window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  CHECK(window.preset().W == before);
+  window.key(GLFW_KEY_W);
+  CHECK_FALSE(wind_arrow_shown(window.tools));
+  window.key(GLFW_KEY_W);
+  CHECK(wind_arrow_shown(window.tools));
+}
+
+TEST_CASE("with slow motion in the hand time goes at a quarter while a particle is held") {
+  test::NullUi window;
+  window.key(GLFW_KEY_H);
+  CHECK(window.settings.handling.slow_hand);
+  CHECK(window.session.pacing.aim() == 1);
+  const glm::vec2 from = at(window, 0.5, 0.5);
+  window.move(from);
+  window.press(right);
+  window.move(from + glm::vec2(20, 0));
+  window.frames(2);
+  CHECK(window.cloth().held().has_value());
+  CHECK(window.session.pacing.aim() == 0.25);
+  CHECK(window.session.pacing.speed == 1);
+  window.release(right);
+  CHECK(window.session.pacing.aim() == 1);
+}
+
+TEST_CASE("a press on a button over the cloth is the button's: nothing is cut") {
+  test::NullUi window;
+  for (const int mode : {4, 2, 1}) {
+    window.click("viewport.views." + std::to_string(mode));
+    CHECK(window.preset().mode == mode);
+  }
+  CHECK(window.torn() == 0);
+}
+
+TEST_CASE("a right click picks a particle, a right double-click pins it and another frees it") {
+  test::NullUi window;
+  window.pause();
+  const int pins = pinned(window);
+  const std::int64_t steps = window.steps();
+  const Pins::Site site = corner(window);
+  CHECK_FALSE(window.session.picked == site);
+  const glm::vec2 place = window.pixel_of(site.i, site.j);
+  window.click(place, right);
+  CHECK(window.session.picked == site);
+  for (const int count : {pins + 1, pins}) {
+    window.frames(60);
+    for (int n = 0; n < 2; ++n) window.press(right), window.release(right);
+    window.frames(4);
+    CHECK(pinned(window) == count);
+    CHECK_FALSE(window.cloth().held().has_value());
+  }
+  CHECK(window.steps() == steps);
+  CHECK(window.torn() == 0);
+}
+
+TEST_CASE("a left press on a body drags the body and never cuts, and it stays where the button was released") {
+  test::NullUi window({.preset = "sphere"});
+  window.pause();
+  window.key(GLFW_KEY_BACKSPACE);
+  window.frames(4);
+  const glm::dvec3 before = window.preset().bodies[0].c;
+  const glm::vec2 from = pixel(window, before);
+  window.move(from);
+  window.press();
+  CHECK(window.tools.tool.kind == Tool::Kind::body);
+  window.move(from + glm::vec2(40, 5));
+  window.move(from + glm::vec2(90, 10));
+  window.frames(2);
+  CHECK(glm::distance(pixel(window, window.preset().bodies[0].c), from + glm::vec2(90, 10)) < 3);
+  window.key(GLFW_KEY_SPACE);
+  fall(window, 0.2);
+  window.move(from + glm::vec2(-60, -40));
+  window.release();
+  CHECK(window.torn() == 0);
+  window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  CHECK(glm::distance(window.preset().bodies[0].c, before) < 1e-12);
+}
+
+TEST_CASE("the middle button orbits, with Shift it pans, the wheel zooms, F frames; the cloth stays as it is") {
+  test::NullUi window;
+  window.pause();
+  window.frames(2);
+  const std::int64_t steps = window.steps();
+  const glm::dvec3 x = window.cloth().position(31, 0);
+  const auto corners = [&] {
+    return std::vector<glm::vec2>{at(window, 0, 0), at(window, 0, 1), at(window, 1, 0), at(window, 1, 1)};
+  };
+  const auto width = [&] {
+    const auto list = corners();
+    const auto [lo, hi] = std::minmax_element(list.begin(), list.end(), [](auto a, auto b) { return a.x < b.x; });
+    return hi->x - lo->x;
+  };
+  const auto start = corners();
+  const float wide = width();
+  const glm::vec2 from = (window.ui.viewport.box.lo + window.ui.viewport.box.hi) / 2.f;
+  window.drag({from, from + glm::vec2(100, 10), from + glm::vec2(300, 20)}, middle_button);
+  CHECK(width() < 0.7f * wide);  // seen from the side
+  const auto turned = corners();
+  window.input.mods = GLFW_MOD_SHIFT;
+  window.drag({from, from + glm::vec2(50, 20), from + glm::vec2(100, 40)}, middle_button);
+  window.input.mods = 0;
+  for (std::size_t n = 0; n < 4; ++n) CHECK(corners()[n].x > turned[n].x + 40);
+  window.key(GLFW_KEY_F);
+  window.frames(2);
+  CHECK(glm::distance(corners()[0], start[0]) < 40);
+  const float before = width();
+  window.move(from);
+  for (int n = 0; n < 3; ++n) window.wheel(1);
+  CHECK(width() > 1.2f * before);
+  CHECK(window.steps() == steps);
+  CHECK(window.torn() == 0);
+  CHECK(window.cloth().position(31, 0) == x);
+}
+
+TEST_CASE("the list chooses a coloring, the value under the pointer is said, and the scale can be typed") {
+  test::NullUi window;
+  fall(window, 0.3);
+  window.pause();
+  window.rest();
+  CHECK_FALSE(color(window).has_value());
+  window.click("viewport.colour");
+  window.click("menu.colour.speed");
+  CHECK(color(window) == "speed");
+  CHECK_FALSE(shown_colors(window.scene)->fixed.has_value());
+  window.move(at(window, 0.5, 0.5));
+  window.frames(3);
+  CHECK(window.scene.colors.under_pointer.has_value());
+  window.rest();
+  const glm::vec2 top = window.middle("viewport.colour_top");
+  window.double_click(top);
+  REQUIRE(window.typing());
+  window.type("7");
+  window.key(GLFW_KEY_ENTER);
+  window.frames(2);
+  CHECK(shown_colors(window.scene)->fixed.has_value());
+  CHECK(shown_colors(window.scene)->top() == 7);
+}
+
+TEST_CASE("copies are colored each by its own values on one scale; the distance from the reference needs one") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.color = "distance"; }});
+  CHECK_FALSE(color(window).has_value());  // without a copy there is nothing to measure from
+  window.click("plots.Copies");
+  window.add_copy("dt_2_5e_4_s");
+  window.frames(2);
+  CHECK(color(window) == "distance");
+  window.until([&] { return window.t() > 1 && shown_colors(window.scene)->top() < 0.1; },
+               "a scale for what they are apart");
+}
+
+}  // namespace tyglab::cloth_ui_test

@@ -1,0 +1,191 @@
+// Constants are changed by slider, by typing and by keys, undone and reset; the integrator is switched while running.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "app/base/glfw_keys.h"
+#include "app/session/requests.h"
+#include "core/io/preset_io.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::constants_test {
+
+constexpr double preset_k_s = 50;
+constexpr int ctrl = GLFW_MOD_CONTROL;
+
+TEST_CASE("dragging the slider of k_s changes k_s, and one undo takes the whole drag back") {
+  test::NullUi window({.with = [](Preset& preset) { preset.dt = 1e-4; }});
+  const auto k_s = [&] { return window.preset().k_s; };
+  REQUIRE(k_s() == preset_k_s);
+  REQUIRE_FALSE(unsaved(window.session));
+  const double start = window.t();
+  window.move(window.along("constants.k_s.slider", 0.25f));
+  window.press();
+  const double low = k_s();
+  CHECK(low < preset_k_s);
+  window.move(window.along("constants.k_s.slider", 0.5f));
+  window.move(window.along("constants.k_s.slider", 0.75f));
+  window.frames(2);
+  const double high = k_s();
+  CHECK(high > preset_k_s);
+  CHECK(high / low > 10);  // half of a slider of three decades is a factor of about 32
+  CHECK(high / low < 100);
+  window.release();
+  CHECK(unsaved(window.session));
+  const double then = window.t();
+  CHECK(then > start);
+  window.until([&] { return window.t() > then; }, "the cloth to go on moving");
+  CHECK_FALSE(window.diverged());
+  window.key(GLFW_KEY_Z, ctrl);
+  CHECK(k_s() == preset_k_s);
+  CHECK_FALSE(unsaved(window.session));
+  window.key(GLFW_KEY_Z, ctrl | GLFW_MOD_SHIFT);
+  CHECK(k_s() == high);
+}
+
+TEST_CASE("a slider dragged far beyond its ends gives 0 at the left and its largest value at the right") {
+  test::NullUi window;
+  window.pause();
+  const auto along = [&](float part) { return window.along("constants.k_b.slider", part); };
+  const float y = along(0).y;
+  window.drag({along(0.5f), along(0.1f), {3, y}});
+  CHECK(window.preset().k_b == 0);
+  window.drag({along(0.01f), along(0.9f), {1200, y}});
+  CHECK(window.preset().k_b > 100);
+  CHECK(window.torn() == 0);
+}
+
+TEST_CASE("a value typed after Ctrl+click is taken; Escape, nonsense and values out of range leave it as it was") {
+  test::NullUi window;
+  window.pause();
+  window.type_value("k_s", "310");
+  CHECK(window.preset().k_s == 310);
+  const auto& stability = window.session.studies.stability;
+  window.until([&] { return stability.limits() && window.preset().dt > stability.limits()->any; },
+               "the gauge to say that dt is too long for it");
+  window.type_value("k_s", "7", test::NullUi::escape);
+  CHECK(window.preset().k_s == 310);
+  for (const auto& [text, message] :
+       {std::pair{"abc", "not a number"}, {"1e12", "ranges from"}, {"-3", "ranges from"}, {"nan", "not a number"}}) {
+    CAPTURE(text);
+    window.type_value("k_s", text);
+    CHECK(window.preset().k_s == 310);
+    CHECK(window.said(message));
+  }
+  const std::int64_t steps = window.steps();
+  window.type_value("dt", "2e-4");
+  CHECK(window.preset().dt == 2e-4);
+  CHECK(window.steps() == steps);
+  window.key(GLFW_KEY_Z, ctrl);
+  window.key(GLFW_KEY_Z, ctrl);
+  CHECK(window.preset().k_s == preset_k_s);
+  CHECK(window.preset().dt == 1e-3);
+}
+
+TEST_CASE("a double click on a number lets one type it, also while its slider has the keys; Ctrl+Q quits from there") {
+  test::NullUi window;
+  window.pause();
+  window.click(window.along("constants.k_s.slider", 0.5f));
+  window.double_click(window.middle("constants.k_s.value"));
+  REQUIRE(window.typing());
+  window.type("310");
+  window.key(GLFW_KEY_ENTER);
+  window.frames(2);
+  CHECK(window.preset().k_s == 310);
+  window.key(GLFW_KEY_Z, ctrl);
+  window.key(GLFW_KEY_Z, ctrl);
+  CHECK_FALSE(unsaved(window.session));
+  window.double_click(window.middle("constants.k_b.value"));
+  REQUIRE(window.typing());
+  window.key(GLFW_KEY_Q, ctrl);
+  CHECK(window.session.quit);
+}
+
+TEST_CASE("a click anywhere on a message takes it away") {
+  test::NullUi window;
+  window.type_value("k_s", "abc");
+  REQUIRE_FALSE(window.session.messages.list().empty());
+  CHECK(window.drew("“abc” is not a number"));
+  window.click("viewport.dismiss");
+  CHECK(window.session.messages.list().empty());
+  CHECK(window.torn() == 0);
+}
+
+TEST_CASE("a double click on a slider brings the preset's value back, Ctrl+R those of all constants") {
+  test::NullUi window;
+  window.pause();
+  window.type_value("k_s", "310");
+  window.type_value("k_b", "9");
+  window.double_click(window.along("constants.k_s.slider", 0.9f));
+  CHECK(window.preset().k_s == preset_k_s);
+  CHECK(window.preset().k_b == 9);
+  window.type_value("k_s", "20");
+  window.key(GLFW_KEY_R, ctrl);
+  window.frames(2);
+  CHECK_FALSE(unsaved(window.session));
+}
+
+TEST_CASE("rows typed anew, where the wheel scrolls to them, build the cloth anew and keep the rest") {
+  test::NullUi window({.with = [](Preset& preset) { preset.k_s = 77; }});
+  window.scroll_to("constants.rows.value", "constants.k_s.value");
+  window.type_value("rows", "20");
+  CHECK(window.preset().rows == 20);
+  CHECK(window.preset().k_s == 77);
+  CHECK(window.cloth().lattice().rows == 20);
+  window.type_value("rows", "1");
+  CHECK(window.preset().rows == 20);
+  const std::int64_t steps = window.steps();
+  window.until([&] { return window.steps() > steps; }, "the cloth to go on moving");
+}
+
+TEST_CASE("a slider in use takes the arrow keys for itself; once left, → steps again") {
+  test::NullUi window;
+  window.pause();
+  const std::int64_t before = window.steps();
+  window.click(window.along("constants.k_s.slider", 0.5f));
+  const double value = window.preset().k_s;
+  for (int n = 0; n < 3; ++n) window.key(GLFW_KEY_RIGHT);
+  CHECK(window.preset().k_s > 1.05 * value);
+  CHECK(window.steps() == before);
+  window.key(GLFW_KEY_ESCAPE);
+  window.key(GLFW_KEY_RIGHT);
+  CHECK(window.steps() == before + 1);
+}
+
+TEST_CASE("the integrator is switched while the cloth moves, and the motion goes on") {
+  test::NullUi window({.with = [](Preset& preset) { preset.dt = 1e-4; }});
+  for (const std::string name : {"euler", "improved_euler", "verlet"}) {
+    CAPTURE(name);
+    window.click("constants.integrator");
+    window.click("menu." + name);
+    CHECK(window.preset().integrator == name);
+    const double t = window.t();
+    const std::int64_t steps = window.steps();
+    CHECK(t > 0);
+    window.until([&] { return window.steps() > steps + 20; }, "the motion to go on");
+    CHECK(window.t() > t);
+    CHECK_FALSE(window.diverged());
+  }
+}
+
+TEST_CASE("a tooltip stands beside its row and hides no constant; while the help is open there is none") {
+  test::NullUi window;
+  window.pause();
+  window.move(window.middle("constants.k_s.slider"));
+  window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
+  window.frames(30);
+  REQUIRE(window.tooltip().has_value());
+  for (const char* name : {"dt.slider", "dt.value", "k_b.value", "k_d.slider", "k_d.value", "g.slider", "g.value"}) {
+    CAPTURE(name);
+    CHECK_FALSE(overlap(*window.tooltip(), window.control(std::string("constants.") + name)));
+  }
+  window.rest();
+  CHECK_FALSE(window.tooltip().has_value());
+  window.key(GLFW_KEY_F1);
+  window.frames(4);
+  window.move(window.middle("constants.k_s.slider"));
+  window.frames(90);
+  CHECK_FALSE(window.tooltip().has_value());
+}
+
+}  // namespace tyglab::constants_test

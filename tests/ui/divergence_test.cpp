@@ -1,0 +1,146 @@
+// A cloth that explodes stops with a banner; restarting, and undoing what caused it, work.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "app/base/glfw_keys.h"
+#include "app/session/requests.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::divergence_ui_test {
+
+void explode(test::NullUi& window) {
+  window.until([&] { return window.diverged(); }, "the cloth to diverge");
+  window.frames(2);
+}
+
+/// A cloth that has run well for two seconds and then gets a dt too large for it; when it diverged, s.
+double push_over(test::NullUi& window) {
+  window.until([&] { return window.t() > 2; }, "two seconds of motion");
+  window.type_value("dt", "0.004");
+  explode(window);
+  return window.t();
+}
+
+void run_to(test::NullUi& window, double t) {
+  window.until([&] { return window.t() > t; }, "the cloth to move on");
+  CHECK_FALSE(window.diverged());
+}
+
+TEST_CASE("the preset that explodes stops, says when, where and why, and starts again from its banner") {
+  test::NullUi window({.preset = "explodes"});
+  explode(window);
+  const Divergence why = *window.cloth().divergence();
+  const std::int64_t steps = window.steps();
+  const double t = window.t();
+  CHECK(why.step == steps + 1);  // the state is the one before the step that diverged
+  CHECK(std::abs(why.t - double(why.step) * window.preset().dt) < 1e-6);
+  CHECK_FALSE(why.cause.empty());
+  CHECK_FALSE(why.advice.empty());
+  window.frames(4);
+  CHECK(window.steps() == steps);
+  CHECK(window.t() == t);
+  window.key(GLFW_KEY_RIGHT);
+  CHECK(window.steps() == steps);
+  for (const int mode : {5, 2, 1}) {
+    window.key(GLFW_KEY_0 + mode);
+    CHECK(window.preset().mode == mode);
+  }
+  CHECK(window.paused());  // a step pauses
+  window.click("viewport.Restart");
+  CHECK_FALSE(window.diverged());
+  CHECK(window.steps() == 0);
+  CHECK(window.t() == 0);
+  CHECK_FALSE(window.sees("viewport.Restart"));
+  window.key(GLFW_KEY_SPACE);
+  explode(window);
+  CHECK(window.cloth().divergence()->step == why.step);
+}
+
+TEST_CASE("the banner makes the change that it names, a second back: the cloth then moves on") {
+  test::NullUi window({.preset = "explodes"});
+  explode(window);
+  window.click("viewport.Verlet");
+  CHECK_FALSE(window.diverged());
+  CHECK(window.preset().integrator == "verlet");
+  CHECK(unsaved(window.session));
+  run_to(window, 0.5);
+}
+
+TEST_CASE("a constant pushed too far offers to undo that change and restart, which heals the cloth") {
+  test::NullUi window;
+  window.type_value("k_s", "200000");
+  explode(window);
+  window.click("viewport.Undo_and_restart");
+  CHECK_FALSE(window.diverged());
+  CHECK(window.preset().k_s == 50);
+  run_to(window, 1);
+}
+
+TEST_CASE("after a divergence the past can be had back: paused, with the constants as they are") {
+  test::NullUi window;
+  const double t = push_over(window);
+  window.click("viewport.Rewind_1_s");
+  CHECK_FALSE(window.diverged());
+  CHECK(window.t() < t - 0.9);
+  CHECK(window.paused());
+  CHECK(window.preset().dt == 0.004);
+  window.type_value("dt", "0.001");
+  window.key(GLFW_KEY_SPACE);
+  run_to(window, t + 0.5);
+  window.pause();
+  const double later = window.t();
+  window.rest();
+  window.key(GLFW_KEY_LEFT);
+  window.frames(2);
+  CHECK(window.t() < later - 0.5);
+}
+
+TEST_CASE("the banner offers 0.9 of dt_crit, from a second back") {
+  test::NullUi window;
+  const double t = push_over(window);
+  window.click(window.control_beginning("viewport.dt"));
+  CHECK_FALSE(window.diverged());
+  CHECK(window.preset().dt > 0.0005);
+  CHECK(window.preset().dt < 0.002);
+  run_to(window, t);
+}
+
+TEST_CASE("the banner offers implicit Euler, which goes on with the same dt") {
+  test::NullUi window;
+  const double t = push_over(window);
+  window.click("viewport.Implicit_Euler");
+  CHECK_FALSE(window.diverged());
+  CHECK(window.preset().integrator == "implicit_euler");
+  CHECK(window.preset().dt == 0.004);
+  run_to(window, t);
+}
+
+TEST_CASE("once constants have changed, the banner offers to try them instead of advice that is out of date") {
+  test::NullUi window({.preset = "explodes"});
+  explode(window);
+  CHECK_FALSE(changed_since_divergence(window.session));
+  CHECK(window.sees("viewport.Verlet"));
+  window.type_value("k_s", "20");
+  CHECK(changed_since_divergence(window.session));
+  window.frames(3);
+  CHECK_FALSE(window.sees("viewport.Verlet"));
+  window.key(GLFW_KEY_SPACE);  // or the new constants may diverge too before anybody looks
+  window.click("viewport.Restart");
+  CHECK_FALSE(window.diverged());
+  CHECK(window.preset().k_s == 20);
+}
+
+TEST_CASE("extreme but allowed values stop the cloth at worst; all of them are reset by Ctrl+Shift+R") {
+  test::NullUi window;
+  for (const auto& [key, value] : {std::pair{"k_s", "1e9"}, {"k_d", "1e6"}, {"g", "-100"}, {"dt", "1"}, {"k_b", "1e9"}})
+    window.type_value(key, value);
+  explode(window);
+  window.key(GLFW_KEY_R, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT);
+  window.frames(2);
+  CHECK_FALSE(window.diverged());
+  CHECK_FALSE(unsaved(window.session));
+  window.until([&] { return window.steps() > 50; }, "the cloth to move again");
+}
+
+}  // namespace tyglab::divergence_ui_test

@@ -1,0 +1,170 @@
+// Presets are saved and opened by dialogs; what is not saved is never lost without a question.
+#include <doctest/doctest.h>
+
+#include "app/base/data_files.h"
+#include "app/base/glfw_keys.h"
+#include "app/base/preset_files.h"
+#include "app/session/requests.h"
+#include "core/io/preset_io.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::documents_test {
+
+namespace fs = std::filesystem;
+constexpr int ctrl = GLFW_MOD_CONTROL, shift = GLFW_MOD_SHIFT;
+using Kind = Dialog::Kind;
+
+void open_dialog(test::NullUi& window, Kind kind) {
+  window.key(kind == Kind::open ? GLFW_KEY_O : GLFW_KEY_S, kind == Kind::open ? ctrl : ctrl | shift);
+  window.frames(3);
+  REQUIRE(window.ui.dialog.kind == kind);
+}
+
+void save_as(test::NullUi& window, std::string_view name, const fs::path& file) {
+  window.until([&] { return window.ui.dialog.kind == Kind::save; }, "the save dialog");
+  window.fill("name", name);
+  window.fill("path", file.string());
+  window.click("dialog.Save");
+}
+
+TEST_CASE("a preset is saved to a file and loaded again; what is not saved is asked about first") {
+  test::NullUi window;
+  const fs::path file = window.config / "presets/stiff.json";
+  window.type_value("k_s", "123");
+  window.key(GLFW_KEY_S, ctrl);
+  save_as(window, "Stiff cloth", file);
+  CHECK(window.ui.dialog.kind == Kind::none);
+  CHECK_FALSE(unsaved(window.session));
+  CHECK(window.session.document.file == file);
+  CHECK(window.preset().name == "Stiff cloth");
+  const Preset saved = load_preset(file);
+  CHECK(saved.k_s == 123);
+  CHECK(saved.name == "Stiff cloth");
+  const test::Outcome judged = test::tyglab(window.config.path(), {"presets", "check", file.string()});
+  CHECK(judged.code == 0);
+
+  window.type_value("k_s", "77");
+  CHECK(unsaved(window.session));
+  open_dialog(window, Kind::open);
+  window.fill("path", file.string());
+  window.click("dialog.Open");
+  CHECK(window.ui.dialog.kind == Kind::unsaved);
+  CHECK(window.preset().k_s == 77);
+  window.click("dialog.Discard_the_changes");
+  CHECK(window.preset().k_s == 123);
+  CHECK(window.preset().name == "Stiff cloth");
+  CHECK_FALSE(unsaved(window.session));
+  CHECK(window.ui.dialog.kind == Kind::none);
+}
+
+TEST_CASE("the file follows a new name every time; a file that exists is replaced only after a question") {
+  test::NullUi window;
+  for (const auto& [name, file] : {std::pair{"First", "first.json"}, {"Second", "second.json"}}) {
+    open_dialog(window, Kind::save);
+    window.fill("name", name);
+    window.click("dialog.Save");
+    CHECK(window.ui.dialog.kind == Kind::none);
+    CHECK(window.session.document.file.filename() == file);
+  }
+  open_dialog(window, Kind::save);
+  window.click("dialog.Save");
+  CHECK(window.sees("dialog.Replace"));
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK(window.ui.dialog.kind == Kind::none);
+}
+
+TEST_CASE("a shipped preset is opened from the list; saving over it is refused") {
+  test::NullUi window;
+  open_dialog(window, Kind::open);
+  window.click("dialog.entry.denim");
+  window.click("dialog.Open");
+  CHECK(window.session.document.label == "denim");
+  CHECK(window.ui.dialog.kind == Kind::none);
+  CHECK(window.session.document.file.empty());
+  CHECK_FALSE(unsaved(window.session));
+  const fs::path file = find_preset("denim").file;
+  const auto before = fs::last_write_time(file);
+  open_dialog(window, Kind::save);
+  save_as(window, "Denim", file);
+  if (window.sees("dialog.Replace")) window.click("dialog.Replace");
+  CHECK(window.ui.dialog.problem.find("program itself") != std::string::npos);
+  CHECK(fs::last_write_time(file) == before);
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK(window.ui.dialog.kind == Kind::none);
+}
+
+TEST_CASE("a shipped preset's name typed into the dialog opens it; its constants begin at the top") {
+  test::NullUi window;
+  const Box top = window.control("constants.integrator");
+  window.scroll_to("constants.texture", "constants.k_s.slider");
+  window.frames(2);
+  CHECK_FALSE(window.sees("constants.integrator"));
+  open_dialog(window, Kind::open);
+  window.fill("path", "denin");
+  window.key(GLFW_KEY_ENTER);
+  window.until([&] { return window.typing(); }, "the field to take keys again");
+  CHECK(window.ui.dialog.problem.find("Did you mean 'denim'?") != std::string::npos);
+  window.type("denim");  // over the wrong name, which is selected
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK(window.session.document.label == "denim");
+  CHECK(window.ui.dialog.kind == Kind::none);
+  CHECK(window.session.document.file.empty());
+  CHECK_FALSE(unsaved(window.session));
+  CHECK(window.control("constants.integrator").lo == top.lo);
+}
+
+TEST_CASE("a wrong file is refused with the reason, where another can be chosen, and nothing changes") {
+  test::NullUi window;
+  const fs::path wrong = window.config / "wrong.json";
+  test::write_file(wrong, "{\"tyglab_preset\": 1,\n \"forces\": {\"k_z\": 3}}\n");
+  open_dialog(window, Kind::open);
+  window.fill("path", wrong.string());
+  window.click("dialog.Open");
+  const std::string& problem = window.ui.dialog.problem;
+  CHECK(problem.find("k_z") != std::string::npos);
+  CHECK(problem.find("wrong.json") != std::string::npos);
+  CHECK(problem.find("k_s") != std::string::npos);  // the nearest key
+  CHECK(window.drew("k_z"));
+  CHECK(window.session.document.label == "hanging");
+  CHECK_FALSE(unsaved(window.session));
+  window.click("dialog.Cancel");
+  CHECK(window.ui.dialog.kind == Kind::none);
+}
+
+TEST_CASE("a preset that cannot be written stays unsaved, and the dialog says why") {
+  test::NullUi window;
+  window.type_value("k_s", "60");
+  window.key(GLFW_KEY_S, ctrl);
+  save_as(window, "Nowhere", "/proc/nowhere/preset.json");
+  CHECK_FALSE(window.ui.dialog.problem.empty());
+  CHECK(unsaved(window.session));
+  CHECK(window.ui.dialog.kind == Kind::save);
+}
+
+TEST_CASE("quitting asks while changes are unsaved; Escape stays, Save saves first") {
+  test::NullUi window;
+  window.type_value("k_s", "66");
+  for (const bool by_key : {false, true}) {
+    if (by_key) {
+      window.key(GLFW_KEY_Q, ctrl);
+    } else {
+      window.session.request(request::Quit{});  // what the window's close button asks
+    }
+    window.frames(3);
+    CHECK(window.ui.dialog.kind == Kind::unsaved);
+    window.key(GLFW_KEY_ESCAPE);
+    CHECK(window.ui.dialog.kind == Kind::none);
+    CHECK_FALSE(window.session.quit);
+  }
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK(window.ui.dialog.kind == Kind::none);
+  window.key(GLFW_KEY_Q, ctrl);
+  const fs::path file = window.config / "presets/kept.json";
+  window.click("dialog.Save");
+  save_as(window, "Kept", file);
+  CHECK(window.session.quit);
+  CHECK(load_preset(file).k_s == 66);
+}
+
+}  // namespace tyglab::documents_test

@@ -1,0 +1,155 @@
+// Labs played by mouse and keyboard: chosen, predicted, left.
+#include <doctest/doctest.h>
+
+#include "app/base/glfw_keys.h"
+#include "app/session/requests.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::labs_ui_test {
+
+const LabRun& lab(test::NullUi& window) {
+  REQUIRE(window.session.labs.run.has_value());
+  return *window.session.labs.run;
+}
+
+/// Chooses a lab by the cap in the top bar and some letters of its title.
+void begin(test::NullUi& window, std::string_view typed, const std::string& label) {
+  window.click("top.labs");
+  window.until([&] { return window.ui.palette.open && window.typing(); }, "the list of labs");
+  window.type(typed);
+  window.key(GLFW_KEY_ENTER);
+  window.until([&] { return window.session.labs.run && !window.ui.palette.open; }, "the lab to begin");
+  window.frames(2);
+  CHECK(lab(window).lab.label == label);
+  CHECK(window.paused());
+}
+
+void predict(test::NullUi& window, std::string_view text) {
+  window.click("lab.prediction");
+  REQUIRE(window.typing());
+  window.type(text);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(2);
+  CHECK(lab(window).record().predicted);
+  CHECK_FALSE(window.typing());
+}
+
+void choose(test::NullUi& window, int number) {
+  window.click("lab.choice." + std::to_string(number));
+  window.click("lab.Predict");
+  CHECK(lab(window).record().predicted);
+}
+
+void go_on(test::NullUi& window, std::size_t step) {
+  window.click("lab.Next");
+  window.frames(4);
+  CHECK(lab(window).step == step);
+  CHECK_FALSE(lab(window).record().done);
+}
+
+void until_done(test::NullUi& window, const char* what) {
+  window.until([&] { return lab(window).record().done; }, what);
+}
+
+TEST_CASE("the lab on Hooke's law is played from its beginning to its end, and what is done is remembered") {
+  test::NullUi window({.preset = "denim"});
+  begin(window, "hooke", "01_hooke");
+  CHECK(window.session.document.label == "one_weight");
+  CHECK(window.t() == 0);
+  window.key(GLFW_KEY_SPACE);
+  window.until([&] { return window.t() > 3; }, "the weight to come to rest");
+  CHECK_FALSE(lab(window).record().done);  // nothing is checked before a prediction
+  predict(window, "0,09");
+  until_done(window, "the weight at rest to count");
+  CHECK_FALSE(lab(window).record().right);
+  go_on(window, 1);
+  predict(window, "0.049 m");
+  window.frames(10);
+  CHECK_FALSE(lab(window).record().done);  // k has not been changed
+  window.type_value("k", "20");
+  until_done(window, "the stiffer spring's rest to count");
+  CHECK(lab(window).record().right);
+  go_on(window, 2);
+  CHECK(window.session.document.label == "hanging");
+  CHECK(window.preset().rows == 12);
+  CHECK_FALSE(unsaved(window.session));
+  choose(window, 2);
+  window.key(GLFW_KEY_SPACE);
+  const int middle = 11 / 2;
+  window.click(window.pixel_of(middle, middle), GLFW_MOUSE_BUTTON_RIGHT);
+  until_done(window, "the cloth to come to rest");
+  CHECK(lab(window).record().right);
+  window.click("lab.Finish");
+  CHECK_FALSE(window.session.labs.run.has_value());
+  window.key(GLFW_KEY_L, GLFW_MOD_CONTROL);
+  CHECK(window.ui.palette.open);
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK_FALSE(window.ui.palette.open);
+  CHECK(window.session.labs.progress == std::map<std::string, int>{{"01_hooke", 3}});
+}
+
+TEST_CASE("the lab on k_s: the limit is predicted, found by an explosion, and kept clear of") {
+  test::NullUi window;
+  begin(window, "critical", "03_stiffness");
+  predict(window, "200");
+  window.key(GLFW_KEY_SPACE);
+  CHECK_FALSE(window.paused());
+  window.type_value("k_s", "300");
+  window.until([&] { return window.diverged(); }, "an explosion");
+  CHECK_FALSE(lab(window).record().done);  // far above the limit does not count
+  window.type_value("k_s", "198");
+  window.key(GLFW_KEY_R);
+  until_done(window, "an explosion near the limit");
+  CHECK(lab(window).record().right);  // 200 is near enough
+  go_on(window, 1);
+  CHECK_FALSE(window.diverged());
+  CHECK(window.paused());
+  CHECK_FALSE(unsaved(window.session));
+  choose(window, 1);
+  window.type_value("k_s", "180");
+  window.key(GLFW_KEY_SPACE);
+  until_done(window, "two seconds below the limit");
+  CHECK(lab(window).record().right);
+  go_on(window, 2);
+  predict(window, "5e-4");
+  window.type_value("k_s", "800");
+  window.type_value("dt", "0.00045");
+  window.key(GLFW_KEY_SPACE);
+  until_done(window, "a second at half the step");
+  CHECK(lab(window).record().right);
+  window.click("lab.Back");
+  CHECK(lab(window).step == 1);
+  CHECK(lab(window).record().done);
+  CHECK(window.preset().k_s == 800);  // nothing is opened by going back
+}
+
+TEST_CASE("a lab asks before it takes the place of unsaved work; its own steps do not") {
+  test::NullUi window;
+  window.type_value("k_s", "77");
+  window.click("top.labs");
+  window.click("palette.Lab.Why_Euler_gains_energy");
+  CHECK(window.ui.dialog.kind == Dialog::Kind::unsaved);
+  window.click("dialog.Discard_the_changes");
+  CHECK(window.session.document.label == "one_weight");
+  window.type_value("k", "11");
+  window.click("lab.Set_up_again");
+  CHECK(window.preset().k == 10);  // the step as it was
+  CHECK(window.ui.dialog.kind == Dialog::Kind::none);
+  window.click("lab.leave");
+  CHECK_FALSE(window.session.labs.run.has_value());
+}
+
+TEST_CASE("a lab waits while another preset is open, says so, and puts its own cloth back") {
+  test::NullUi window({.preset = "denim"});
+  begin(window, "wind", "12_wind");
+  CHECK(window.session.document.label == "hanging");
+  window.find("flag in");
+  CHECK(window.session.document.label == "flag");
+  window.click("lab.Open_the_lab_s_cloth");
+  CHECK(window.session.document.label == "hanging");
+  CHECK(lab(window).lab.label == "12_wind");
+  window.frames(4);
+  CHECK_FALSE(window.sees("lab.Open_the_lab_s_cloth"));
+}
+
+}  // namespace tyglab::labs_ui_test

@@ -1,0 +1,243 @@
+// Cards at the right that have little room: tabs, scrolling, commands that open them; and the cloth in its picture.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "app/base/glfw_keys.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::layout_test {
+
+test::UiOptions options(const std::string& preset, double scale = 1, const char* theme = "dark",
+                        glm::ivec2 size = {1280, 720}) {
+  return {.preset = preset, .size = size, .settings = [=](Settings& settings) {
+            settings.ui_scale = scale, settings.theme = theme;
+          }};
+}
+
+bool has_tab(const test::NullUi& window, const std::string& name) {
+  const auto& tabs = window.ui.plots.cards;
+  return std::find(tabs.begin(), tabs.end(), name) != tabs.end();
+}
+
+/// By its tab, or in the list of tabs.
+void choose_tab(test::NullUi& window, const std::string& name) {
+  window.frames(4);
+  const auto& tabs = window.ui.plots.cards;
+  const auto place = std::find(tabs.begin(), tabs.end(), name) - tabs.begin() + 1;
+  const std::string tab = "plots.cards." + std::to_string(place);
+  if (window.sees(tab)) {
+    window.click(tab);
+  } else {
+    window.click("plots.cards");
+    window.click("menu." + name);
+  }
+  window.frames(4);
+}
+
+/// Whether a control is there, within the window, and at least so high.
+bool whole(test::NullUi& window, const std::string& name, float height) {
+  if (!window.sees(name)) return false;
+  const Box box = window.control(name);
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  return box.hi.y - box.lo.y >= height && box.lo.x >= 0 && box.hi.x <= size.x + 1 && box.hi.y <= size.y + 1;
+}
+
+/// The particles of a row, or of all of five rows, stand in the (first) picture, below the buttons.
+void check_in_picture(test::NullUi& window, bool first_row_alone) {
+  const Viewport& viewport = window.ui.viewport;
+  const glm::vec2 lo = viewport.box.lo, hi = lo + viewport.size();
+  const Lattice& lattice = window.cloth().lattice();
+  for (int k = 0; k < (first_row_alone ? 1 : 5); ++k)
+    for (int l = 0; l < 5; ++l) {
+      const glm::vec2 at = window.pixel_of(k * (lattice.rows - 1) / 4, l * (lattice.columns - 1) / 4);
+      CAPTURE(k);
+      CAPTURE(l);
+      CHECK(at.x >= lo.x);
+      CHECK(at.x <= hi.x);
+      CHECK(at.y >= lo.y + viewport.buttons - 1);
+      CHECK(at.y <= hi.y);
+    }
+}
+
+void to_projector(test::NullUi& window) {
+  for (int n = 0; n < 2; ++n) window.key(GLFW_KEY_T, GLFW_MOD_CONTROL);
+  window.frames(6);
+  REQUIRE(window.settings.theme == "projector");
+}
+
+TEST_CASE("with large text the plots keep a height at which they are read, and the column scrolls") {
+  for (const auto& [scale, theme] : {std::pair{2.0, "dark"}, {2.6, "dark"}, {1.5, "projector"}}) {
+    CAPTURE(scale);
+    test::NullUi window(options("hanging", scale, theme));
+    window.find("forces card");
+    window.scroll_to("plots.force_plot", "plots.source.1");
+    CHECK(whole(window, "plots.force_plot", 60));
+    window.scroll_to("plots.curve.F_ext", "plots.force_plot");
+    window.key(GLFW_KEY_M);
+    window.frames(4);
+    CHECK(window.ui.plots.tab == "Map");
+    if (!window.sees("plots.map")) window.scroll_to("plots.map", "plots.close_map");
+    CHECK(whole(window, "plots.map", 60));
+  }
+}
+
+TEST_CASE("every card is reached by its tab, which unfolds it, and by the palette") {
+  for (const double scale : {1.5, 2.6}) {
+    CAPTURE(scale);
+    test::NullUi window(options("hanging", scale));
+    window.key(GLFW_KEY_M);
+    window.key(GLFW_KEY_I);
+    window.find("forces card");
+    for (const std::string name :
+         {"Copies", "Stability", "Accuracy", "Energy", "Performance", "Map", "Step", "Forces"}) {
+      if (!has_tab(window, name)) continue;
+      CAPTURE(name);
+      choose_tab(window, name);
+      CHECK(window.ui.plots.tab == name);
+    }
+    for (const std::string name : {"Copies", "Stability", "Accuracy", "Energy", "Performance"}) {
+      CAPTURE(name);
+      window.find(name + " card");
+      window.frames(4);
+      CHECK((!has_tab(window, name) || window.ui.plots.tab == name));
+      CHECK(window.sees("plots." + name));
+      if (name == "Energy") CHECK(window.cloth().ledger().has_value());
+    }
+  }
+}
+
+TEST_CASE("a tab that is clicked shows what its card holds; folding it goes back to the plots") {
+  test::NullUi window(options("hanging", 2));
+  window.find("forces card");
+  REQUIRE(has_tab(window, "Energy"));
+  choose_tab(window, "Energy");
+  CHECK(window.cloth().ledger().has_value());
+  choose_tab(window, "Accuracy");
+  window.until([&] { return window.session.studies.accuracy.study().has_value(); }, "the errors");
+  window.click("plots.Accuracy");
+  window.frames(4);
+  CHECK(window.sees("plots.force_plot"));
+}
+
+TEST_CASE("Copies are a tab where they have no room, and its button is reached with none and with four of them") {
+  for (const auto& [scale, theme] : {std::pair{1.0, "projector"}, {2.0, "light"}}) {
+    CAPTURE(scale);
+    test::NullUi window(options("flag", scale, theme));
+    window.pause();
+    window.key(GLFW_KEY_M);
+    window.key(GLFW_KEY_I);
+    window.find("copies card");
+    for (std::size_t count = 1; count < 5; ++count) {
+      CAPTURE(count);
+      if (has_tab(window, "Copies") && window.ui.plots.tab != "Copies") choose_tab(window, "Copies");
+      const Box button = window.control("plots.add");
+      CHECK(button.hi.y - button.lo.y >= 29 * scale);  // it is seen whole
+      window.add_copy("Equal_copy");
+      CHECK(window.session.copies.lockstep.size() == count);
+      window.frames(4);
+    }
+    if (!window.sees("plots.add") && has_tab(window, "Copies")) choose_tab(window, "Copies");
+    if (!window.sees("plots.add")) window.scroll_to("plots.add", "plots.Copies");
+    CHECK(window.sees("plots.add"));
+  }
+}
+
+TEST_CASE("M and I bring their card to the front, and close it only where it stands there") {
+  test::NullUi window(options("hanging"));
+  window.key(GLFW_KEY_M);
+  window.frames(2);
+  CHECK(window.ui.plots.tab == "Map");
+  window.key(GLFW_KEY_I);
+  window.frames(4);
+  CHECK(window.ui.plots.tab == "Step");
+  window.key(GLFW_KEY_M);
+  window.frames(4);
+  CHECK(window.ui.plots.tab == "Map");
+  CHECK(window.sees("plots.map"));  // not closed
+  window.key(GLFW_KEY_M);
+  window.frames(4);
+  CHECK_FALSE(has_tab(window, "Map"));
+  CHECK_FALSE(window.session.studies.map.findings().has_value());
+  CHECK(has_tab(window, "Step"));
+}
+
+TEST_CASE("the cloth is framed anew for each size of its picture, below the buttons, until the camera is in hand") {
+  for (const auto& [preset, first_row_alone] : {std::pair{"hanging", true}, {"denim", true}, {"flag", false}}) {
+    CAPTURE(std::string(preset));
+    test::NullUi window(options(preset));
+    window.pause();
+    window.frames(4);
+    check_in_picture(window, first_row_alone);
+    window.find("copies card");
+    window.add_copy("Equal_copy");
+    window.frames(6);
+    check_in_picture(window, first_row_alone);
+    to_projector(window);
+    check_in_picture(window, first_row_alone);
+  }
+  for (const double scale : {1.5, 2.0}) {
+    test::NullUi window(options("hanging", scale));
+    window.pause();
+    window.frames(6);
+    check_in_picture(window, true);
+  }
+  test::NullUi window(options("hanging"));
+  const Box box = window.ui.viewport.box;
+  window.move((box.lo + box.hi) / 2.f);
+  window.wheel(1);
+  window.frames(4);
+  const Camera by_hand = window.scene.camera;
+  to_projector(window);
+  CHECK(window.scene.camera == by_hand);  // a view of one's own stays
+  window.key(GLFW_KEY_F);
+  window.frames(2);
+  CHECK_FALSE(window.scene.camera == by_hand);
+}
+
+TEST_CASE("where the text leaves no room beside the cloth, constants, plots and cloth take turns in the whole window") {
+  test::NullUi window(options("hanging", 2.6, "dark", {900, 600}));
+  REQUIRE(window.sees("side.columns.3"));
+  CHECK(window.ui.viewport.whole().x == 900);
+  window.click("side.columns.1");
+  CHECK((window.sees("constants.k_s.slider") || window.sees("constants.dt.slider")));
+  window.find("forces card");
+  CHECK(window.sees("plots.cards"));
+  window.click("side.columns.3");
+  CHECK(window.ui.viewport.whole().x == 900);
+}
+
+TEST_CASE("where a lab's strip would leave the plots too low, they take its place; it is seen with the constants") {
+  for (const auto& [scale, size] : {std::pair{2.0, glm::ivec2(1280, 720)}, {2.6, {1280, 720}}, {2.6, {900, 600}}}) {
+    CAPTURE(scale);
+    CAPTURE(size.x);
+    test::NullUi window(options("hanging", scale, "dark", size));
+    window.find("what kinks");
+    window.frames(3);
+    REQUIRE(window.session.labs.run.has_value());
+    CHECK(window.sees("lab.leave"));
+    window.find("accuracy card");
+    window.frames(4);
+    CHECK(window.ui.plots.tab == "Accuracy");
+    CHECK(window.sees("plots.cards"));
+    CHECK_FALSE(window.sees("lab.leave"));
+    CHECK(window.session.labs.run.has_value());
+    window.click("side.columns.1");
+    CHECK(window.sees("lab.leave"));
+  }
+}
+
+TEST_CASE("a lab begins without the copies that were there, and says so") {
+  test::NullUi window(options("hanging"));
+  window.find("copies card");
+  window.add_copy("Euler");
+  window.find("what kinks");
+  window.frames(2);
+  CHECK(window.session.labs.run.has_value());
+  CHECK(window.session.copies.lockstep.empty());
+  CHECK(window.said("removed"));
+  CHECK(window.ui.viewport.columns * window.ui.viewport.rows == 1);
+}
+
+}  // namespace tyglab::layout_test

@@ -1,0 +1,171 @@
+// What stands over the cloth: no mark over another, at every size of window and text, in every theme.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <span>
+
+#include "app/base/glfw_keys.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::marks_test {
+
+constexpr int right = GLFW_MOUSE_BUTTON_RIGHT;
+
+struct LookCase {
+  glm::ivec2 size;
+  double scale;
+  const char* theme;
+};
+const LookCase looks[] = {{{1280, 720}, 1, "dark"}, {{1280, 720}, 1, "projector"}, {{1280, 720}, 2, "light"},
+                          {{900, 600}, 1, "light"}, {{900, 600}, 2, "dark"},       {{1920, 1080}, 1.5, "projector"},
+                          {{1920, 1080}, 2, "dark"}};
+
+test::UiOptions options(const LookCase& look, const std::string& preset, const char* color = "") {
+  return {.preset = preset, .size = look.size, .settings = [look, color](Settings& settings) {
+            settings.ui_scale = look.scale, settings.theme = look.theme, settings.color = color;
+          }};
+}
+
+void pause(test::NullUi& window) {
+  window.until([&] { return window.t() > 0.3; }, "the cloth to fall a little");
+  window.pause();
+  window.rest();
+  window.frames(6);
+}
+
+/// No two marks overlap, all are within the window, and those that are wanted are there.
+void judge(test::NullUi& window, const LookCase& look, std::initializer_list<const char*> wanted) {
+  const auto& marks = window.ui.placing.marks();
+  for (std::size_t k = 0; k < marks.size(); ++k) {
+    CAPTURE(marks[k].name);
+    const Box& box = marks[k].box;
+    CHECK(box.lo.x >= 0);
+    CHECK(box.lo.y >= 0);
+    CHECK(box.hi.x <= float(look.size.x));
+    CHECK(box.hi.y <= float(look.size.y));
+    for (std::size_t other = 0; other < k; ++other) {
+      CAPTURE(marks[other].name);
+      CHECK_FALSE(overlap(box, marks[other].box));
+    }
+  }
+  for (const std::string name : wanted) {
+    CAPTURE(name);
+    CHECK(window.ui.placing.find(name) != nullptr);
+  }
+}
+
+TEST_CASE("legend, scale of arrows, labels and PAUSED keep apart, and PAUSED off the cloth") {
+  for (const LookCase& look : looks) {
+    CAPTURE(look.size.x);
+    CAPTURE(look.scale);
+    CAPTURE(std::string(look.theme));
+    test::NullUi window(options(look, "hanging", "tension"));
+    pause(window);
+    judge(window, look, {"views", "legend", "paused", "scale N"});
+  }
+}
+
+TEST_CASE("the check of view 2 has a ground of its own beside or under the buttons, and the wind's label is seen") {
+  for (const LookCase& look : std::span(looks).first(4)) {
+    CAPTURE(look.size.x);
+    CAPTURE(look.scale);
+    CAPTURE(std::string(look.theme));
+    test::UiOptions with = options(look, "flag", "tension");
+    with.with = [](Preset& preset) { preset.mode = 2; };
+    test::NullUi window(with);
+    pause(window);
+    judge(window, look, {"views", "bending", "legend", "wind"});
+  }
+}
+
+TEST_CASE("the names of copies, the legend and the scales keep apart beside, above and under each other") {
+  for (const LookCase& look : std::span(looks).subspan(1, 4)) {
+    CAPTURE(look.size.x);
+    CAPTURE(look.scale);
+    CAPTURE(std::string(look.theme));
+    test::NullUi window(options(look, "hanging", "tension"));
+    for (const char* item : {"copy_double", "copy_half"}) {
+      const std::size_t before = window.session.copies.lockstep.size();
+      window.click("constants.k_s.value", right);
+      window.click(std::string("menu.") + item);
+      REQUIRE(window.session.copies.lockstep.size() == before + 1);
+      if (before == 0) pause(window);
+      window.rest();
+      window.frames(9);
+      judge(window, look, {"views", "name 0", "name 1", "paused"});
+    }
+    const Viewport& viewport = window.ui.viewport;
+    const Box* legend = window.ui.placing.find("legend");
+    const bool wide_enough = !(look.size.x == 900 && look.scale == 2);  // there no cell holds a legend
+    if (legend == nullptr || viewport.columns != 2 || viewport.rows != 2 || !wide_enough) continue;
+    const glm::vec2 middle = (viewport.box.lo + viewport.box.hi) / 2.f;
+    CHECK(legend->lo.x > middle.x);  // it takes the cell that is empty
+    CHECK(legend->lo.y > middle.y);
+    const Box &row = *window.ui.placing.find("views"), &paused = *window.ui.placing.find("paused");
+    const bool in_empty_cell = paused.lo.x > middle.x && paused.lo.y > middle.y;
+    CHECK((paused.lo.y < row.hi.y || in_empty_cell));  // it stands on no picture
+  }
+}
+
+TEST_CASE("PAUSED stands clear of the one weight's spring") {
+  for (const LookCase& look : std::span(looks).first(5)) {
+    CAPTURE(look.size.x);
+    CAPTURE(look.scale);
+    CAPTURE(std::string(look.theme));
+    test::NullUi window(options(look, "one_weight"));
+    window.pause();
+    window.rest();
+    window.frames(6);
+    judge(window, look, {"paused"});
+    const float x = window.pixel_of(0, 0).x;
+    const Box& paused = *window.ui.placing.find("paused");
+    CHECK((x < paused.lo.x || x > paused.hi.x));
+  }
+}
+
+TEST_CASE("a message and PAUSED stand apart") {
+  for (const LookCase& look : std::span(looks).first(5)) {
+    CAPTURE(look.size.x);
+    CAPTURE(look.scale);
+    CAPTURE(std::string(look.theme));
+    test::NullUi window(options(look, "hanging"));
+    window.pause();
+    window.type_value("k_s", "abc");
+    REQUIRE_FALSE(window.session.messages.list().empty());
+    CHECK_FALSE(overlap(window.control("viewport.dismiss"), *window.ui.placing.find("paused")));
+  }
+}
+
+TEST_CASE("all choices of a lab's question are seen, and nothing over the low picture covers anything") {
+  for (const int n : {0, 1, 5, 6}) {
+    const LookCase& look = looks[n];
+    CAPTURE(look.size.x);
+    CAPTURE(look.scale);
+    CAPTURE(std::string(look.theme));
+    test::UiOptions with = options(look, "hanging");
+    with.settings = [look](Settings& settings) {
+      settings.ui_scale = look.scale, settings.theme = look.theme, settings.labs = {{"01_hooke", 2}};
+    };
+    test::NullUi window(with);
+    window.key(GLFW_KEY_L, GLFW_MOD_CONTROL);
+    window.until([&] { return window.ui.palette.open && window.typing(); }, "the list of labs");
+    window.type("hooke");
+    window.key(GLFW_KEY_ENTER);
+    window.until([&] { return window.session.labs.run.has_value(); }, "the lab");
+    window.frames(3);
+    CHECK(window.session.labs.run->step == 2);
+    CHECK(window.session.document.label == "hanging");
+    CHECK(window.t() == 0);
+    window.rest();
+    window.frames(8);
+    judge(window, look, {"paused"});
+    if (look.scale != 1 || std::string(look.theme) != "dark") continue;
+    for (const char* choice : {"lab.choice.1", "lab.choice.2", "lab.choice.3"}) {
+      const Box box = window.control(choice);
+      CHECK(box.hi.y - box.lo.y > 20);
+    }
+    CHECK(window.sees("lab.Predict"));
+  }
+}
+
+}  // namespace tyglab::marks_test

@@ -1,0 +1,107 @@
+// The whole user interface without a window and without OpenGL: Dear ImGui draws into lists that nobody shows. Events
+// go in; the session, the controls with their places, and the text that was drawn come out.
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/ui/kit/control_places.h"
+#include "tests/app/desk.h"
+#include "tests/support/files.h"
+
+namespace tyglab::test {
+
+struct UiOptions {
+  std::string preset = "hanging";                              ///< a shipped one
+  std::function<void(Preset&)> with = [](Preset&) {};          ///< changes to it
+  glm::ivec2 size{1280, 720};                                  ///< of the window, pixels
+  std::function<void(Settings&)> settings = [](Settings&) {};  ///< changes to the settings
+};
+
+class NullUi : public Desk {
+ public:
+  explicit NullUi(const UiOptions& options = {});
+  ~NullUi();
+  NullUi(const NullUi&) = delete;
+  NullUi& operator=(const NullUi&) = delete;
+
+  /// Does what the window does in a frame, a 60th of a second after the last one.
+  void frame();
+  void frames(int count);
+  /// Frames until the condition holds. Fails the test where it never does.
+  void until(const std::function<bool()>& condition, std::string_view what);
+
+  /// GLFW's key and modifiers: goes down, and up in the next frame.
+  void key(int key, int mods = 0);
+  void type(std::string_view text);
+  void move(glm::vec2 to);
+  void press(int button = 0);
+  void release(int button = 0);
+  void wheel(float y);
+  void click(glm::vec2 at, int button = 0);
+  void double_click(glm::vec2 at);
+  /// Presses at the first, moves to the others, lets go at the last.
+  void drag(std::initializer_list<glm::vec2> way, int button = 0);
+  /// To where it touches nothing.
+  void rest();
+
+  /// Where a control is, once it stands still; fails the test where it is not seen.
+  Box control(const std::string& name);
+  glm::vec2 middle(const std::string& name);
+  /// The name of the first control that begins so; fails the test where there is none.
+  std::string control_beginning(const std::string& start) const;
+  bool sees(const std::string& name) const { return places_.shown().contains(name); }
+  void click(const std::string& name, int button = 0) { click(middle(name), button); }
+  /// The point at that part of a slider, 0 at its left end, 1 at its right.
+  glm::vec2 along(const std::string& slider, float part);
+  /// Turns the wheel over another control, downwards, until the control is seen.
+  void scroll_to(const std::string& name, const std::string& over);
+  /// Types the value of a constant after Ctrl+click; the key ends it.
+  void type_value(const std::string& constant, std::string_view text, int end = enter);
+  /// Does what the palette finds first.
+  void find(std::string_view text);
+  /// Replaces the text of a dialog's field.
+  void fill(const std::string& field, std::string_view text);
+  /// Adds a copy by an item of the card's menu.
+  void add_copy(const std::string& item);
+
+  /// In the dialog that asks for an export's file: writes it, and returns its path.
+  std::filesystem::path write_export(const std::string& name);
+
+  /// Whether the last frame drew this text, wherever lines were broken.
+  bool drew(std::string_view text) const;
+  bool said(std::string_view part) const;  ///< by a message
+  bool typing() const;                     ///< a text field takes keys
+  std::optional<Box> tooltip() const;
+  const Preset& preset() const { return session.preset(); }
+  Simulation& cloth() { return *session.simulation; }
+  double t() const { return session.simulation->time(); }
+  std::int64_t steps() const { return session.simulation->steps(); }
+  bool paused() const { return !session.pacing.playing; }
+  void pause();
+  bool diverged() const { return session.simulation->divergence().has_value(); }
+  int torn() const { return int(session.simulation->tears().torn_count()); }
+  /// Where a particle is seen, pixels of the window.
+  glm::vec2 pixel_of(int i, int j);
+
+  static constexpr int enter = 257, escape = 256;  // as GLFW has them
+  TemporaryFolder config;
+
+ private:
+  void apart();
+  void push(PointerEvent::Type type, int button, glm::vec2 wheel = {0, 0});
+  std::string drawn_text() const;
+
+  ImGuiContext* context_;
+  ControlPlaces places_;
+  std::string drawn_;
+};
+
+}  // namespace tyglab::test

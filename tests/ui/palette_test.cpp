@@ -1,0 +1,80 @@
+// Ctrl+P, the tour, and the help that leads to both.
+#include <doctest/doctest.h>
+
+#include "app/base/glfw_keys.h"
+#include "app/ui/frame/tour.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::palette_ui_test {
+
+void open_with(test::NullUi& window, std::string_view text) {
+  window.key(GLFW_KEY_P, GLFW_MOD_CONTROL);
+  window.until([&] { return window.ui.palette.open && window.typing(); }, "the palette to take keys");
+  window.type(text);
+}
+
+TEST_CASE("Ctrl+P finds commands, methods, constants and presets by what is typed, with mouse and keyboard") {
+  test::NullUi window;
+  window.key(GLFW_KEY_P, GLFW_MOD_CONTROL);
+  CHECK(window.ui.palette.open);
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK_FALSE(window.ui.palette.open);
+  window.find("rk4");
+  CHECK(window.preset().integrator == "rk4");
+  window.find("run or");
+  CHECK(window.paused());
+  open_with(window, "dare inte");
+  window.key(GLFW_KEY_ENTER);
+  window.frames(6);
+  CHECK(window.ui.palette.open);  // nothing is found, so nothing is done
+  window.key(GLFW_KEY_A, GLFW_MOD_CONTROL);
+  window.type("constant, stretching");
+  window.key(GLFW_KEY_DOWN);
+  window.key(GLFW_KEY_UP);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK_FALSE(window.ui.palette.open);
+  window.key(GLFW_KEY_RIGHT);
+  window.frames(2);
+  CHECK(window.preset().k_s > 50);  // its slider has the keys
+  window.key(GLFW_KEY_ESCAPE);
+  open_with(window, "outlines");
+  window.click("palette.View.Outlines");
+  CHECK(window.preset().mode == 4);
+  window.find("flag in");
+  CHECK(window.ui.dialog.kind == Dialog::Kind::unsaved);  // constants have changed
+}
+
+TEST_CASE("a click beside the palette closes it and does nothing to the cloth") {
+  test::NullUi window;
+  window.pause();
+  open_with(window, "zzz");
+  const Box box = window.ui.viewport.box;
+  window.click(glm::vec2{(box.lo.x + box.hi.x) / 2, box.hi.y - 60});
+  CHECK_FALSE(window.ui.palette.open);
+  CHECK(window.torn() == 0);
+}
+
+TEST_CASE("the tour is walked through, skipped and seen again, and that it was seen is remembered") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.tour_seen = false; }});
+  start_tour(window.ui);
+  for (int card = 0; card < 5; ++card) {
+    window.frames(4);
+    CHECK(window.ui.tour.card == card);
+    if (card < 4) window.click("tour.Next");
+  }
+  window.click("tour.Back");
+  CHECK(window.ui.tour.card == 3);
+  window.key(GLFW_KEY_ENTER);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(2);
+  CHECK(window.ui.tour.card == -1);
+  CHECK(window.settings.tour_seen);
+  window.key(GLFW_KEY_F1);
+  window.click("help.Take_the_tour");
+  CHECK(window.ui.tour.card == 0);
+  window.click("tour.Skip_the_tour");
+  CHECK(window.ui.tour.card == -1);
+}
+
+}  // namespace tyglab::palette_ui_test
