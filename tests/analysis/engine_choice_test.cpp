@@ -24,7 +24,7 @@ TEST_CASE("the quickest engine is chosen, the CPU's where it is nearly so, and t
   CHECK(quick.engine == EngineKind::opencl);
   CHECK(quick.device == 1);
   CHECK(quick.why ==
-        "OpenCL on a device: 0.25 ns for a particle and step of this scene, against 0.3 ns with OpenCL on a device, "
+        "OpenCL on a device: 0.25 ns per particle and step in this scene, against 0.3 ns with OpenCL on a device, "
         "measured on an earlier run");
   const EngineChoice alone = choose_among({cpu(1), device(0, 0, "it has not enough memory")}, true);
   CHECK(alone.engine == EngineKind::cpu);

@@ -209,7 +209,7 @@ TEST_SUITE("gl_sharing") {
     };
     std::string problem;
     CHECK(way_when("refuse_context", problem) == VertexWay::copied);
-    CHECK(problem.find("refuses a context together with OpenGL's") != std::string::npos);
+    CHECK(problem.find("refuses a context shared with OpenGL") != std::string::npos);
     CHECK(way_when("other_device", problem) == VertexWay::copied);
     CHECK(problem == "OpenGL draws on another device");
     CHECK(way_when("loses_writes", problem) == VertexWay::copied);

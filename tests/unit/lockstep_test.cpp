@@ -154,7 +154,7 @@ TEST_CASE("going back in time takes the copies along") {
 TEST_CASE("what cannot be copied is refused, and a copy that cannot follow is gone with a word") {
   Pair cloths(test::cloth(8, 8));
   CHECK_THROWS_WITH_AS(cloths.copies.add(cloths.original, {{&Preset::rows, 9}}),
-                       "A copy has the particles of its original: rows=9 would change them.", PresetError);
+                       "A copy has the same particles as its original: rows=9 would change them.", PresetError);
   CHECK_THROWS_AS(cloths.copies.add(cloths.original, {{&Preset::k_s, -1}}), PresetError);
   for (std::size_t n = 0; n < Lockstep::most; ++n) cloths.copies.add(cloths.original, {});
   CHECK_THROWS_AS(cloths.copies.add(cloths.original, {}), PresetError);
