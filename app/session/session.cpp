@@ -94,7 +94,7 @@ int Session::make_steps(int due, const SessionInput& input, double& spent_s) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   int made = 0;
-  while (made < due && !simulation->divergence() && (made == 0 || spent() < pacing.budget_s)) {
+  while (made < due && !simulation->divergence() && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
     const double cost = pacing.step_cost_s();
     const int piece =
         cost > 0 && !input.after_steps ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, due - made) : 1;

@@ -19,6 +19,7 @@ constexpr double patience = 120;  // s
 LabPlayer::LabPlayer(const std::string& label) {
   session_.simulation = std::make_shared<Simulation>(Preset{});
   session_.threads = 2;
+  session_.pacing.patient = true;
   begin_lab(session_, label);
   REQUIRE(session_.labs.run.has_value());
   update();

@@ -81,7 +81,7 @@ def copied(stage):
     stage.keep("performance")
     on_cpu = costs(sandbox, "cpu")
     check(on_cpu["copied_bytes_per_frame"] >= 32 * 32 * 24, "the CPU engine's positions and normals are")
-    check("in place" in on_cpu["copied_because"], "and the report says why")
+    check("main memory" in on_cpu["copied_because"], "and the report says why")
     on_device = costs(sandbox, "opencl")
     if "OpenCL" in on_device["engine"]:
         lacking = costs(sandbox, "opencl", MESA_EXTENSION_OVERRIDE="-GL_ARB_buffer_storage")
