@@ -55,7 +55,7 @@ def with_device(stage):
         return
     sandbox.wait(lambda r: solver(r)["engine"] == "opencl" and not r["building"], "the OpenCL engine")
     sandbox.click_control("plots.Copies")
-    for n, copy in enumerate(("Reference_Dormand_Prince_error_1e_9_m_a_step", "XPBD"), 1):
+    for n, copy in enumerate(("Reference_Dormand_Prince_error_1e_9_m_per_step", "XPBD"), 1):
         sandbox.click_control("plots.add")
         sandbox.click_control("menu." + copy)
         report = sandbox.wait(lambda r: len(r["copies"]) == n, f"the copy {copy}")

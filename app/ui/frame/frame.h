@@ -2,14 +2,14 @@
 // before it and shows a picture after it; a test has neither.
 #pragma once
 
-#include "app/ui/state/ui.h"
-
 namespace tyglab {
+
+struct Ui;
 
 /// Whoever shows the session or acts on it follows what became of it.
 void follow_session(Ui& ui);
 /// Takes the look of the settings' theme where it has changed; `content_scale` is what the monitor asks for. Returns
-/// whether the fonts are to be built anew, at ui.theme.scale.
+/// whether the fonts are to be rebuilt, at ui.theme.scale.
 bool take_look(Ui& ui, float content_scale);
 /// Does what keys, requests and pointer of the frame ask for, and goes on by `elapsed` seconds. `frame_time`: of the
 /// display, s.
