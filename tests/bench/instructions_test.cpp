@@ -138,10 +138,10 @@ TEST_CASE("one case alone, for other tools") {
     CHECK(wrong.code == 2);
     CHECK_MESSAGE(wrong.err.find(says) != std::string::npos, "\"", says, "\" is missing in: ", wrong.err);
   };
-  refused({"--only", "rain:on"}, "there are bending");
+  refused({"--only", "rain:on"}, "known: bending");
   refused({"--only", "wind"}, "wind:off");
   refused({"--only", "wind:maybe"}, "wind:off");
-  refused({"--only", "wind:absent", "--precision", "double"}, "float alone");
+  refused({"--only", "wind:absent", "--precision", "double"}, "only in float");
   refused({"--steps", "5"}, "--only");
 }
 
