@@ -4,6 +4,7 @@
 #include "core/analysis/skip.h"
 #include "core/cloth/start.h"
 #include "core/engines/cpu/parts.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::parts_test {
@@ -21,7 +22,7 @@ State after(Engine& engine, const Preset& preset, int steps) {
 }
 
 TEST_CASE("an engine without a part makes the same bits as the whole one with the part off" *
-          doctest::skip(TYGLAB_SANITIZED)) {
+          doctest::skip(test::sanitized)) {
   for (const SkipFeature& feature : skip_features(19)) {
     CAPTURE(feature.name);
     const Lattice lattice = lattice_of(feature.preset_off);
@@ -32,8 +33,7 @@ TEST_CASE("an engine without a part makes the same bits as the whole one with th
   }
 }
 
-TEST_CASE("an engine without a part leaves it out even where the preset asks for it" *
-          doctest::skip(TYGLAB_SANITIZED)) {
+TEST_CASE("an engine without a part leaves it out even where the preset asks for it" * doctest::skip(test::sanitized)) {
   Preset preset = test::cloth(18, 17);
   preset.precision = Precision::float_;
   preset.W = {0.002, 0.001, 0.01};
@@ -55,7 +55,7 @@ TEST_CASE("an engine without a part leaves it out even where the preset asks for
   same_without(part::bodies, [](Preset& p) { p.bodies.clear(); });
 }
 
-TEST_CASE("only one part can be left out" * doctest::skip(TYGLAB_SANITIZED)) {
+TEST_CASE("only one part can be left out" * doctest::skip(test::sanitized)) {
   const Preset preset = test::cloth(4, 4);
   CHECK(cpu::make_engine_without(0, preset, lattice_of(preset)) == nullptr);
   CHECK(cpu::make_engine_without(part::bending | part::wind, preset, lattice_of(preset)) == nullptr);
