@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/cloth/start.h"
+#include "core/engines/still_engine.h"
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
 #include "core/model/readable.h"
@@ -48,6 +49,7 @@ Simulation::Simulation(const Simulation& from)
     : preset_(from.preset_),
       effective_preset_(from.effective_preset_),
       threads_(from.threads_),
+      stop_(from.stop_),
       lattice_(from.lattice_),
       tears_(from.tears_),
       pinned_mask_(from.pinned_mask_),
@@ -93,6 +95,7 @@ void Simulation::build(const Preset& next) {
 std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
                                                 const StateRows& rows, const Tears& tears, double t) const {
   auto engine = make_engine(in_gusts(next, t), lattice, threads_);
+  engine->stop_when(stop_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(fixed.pinned, fixed.held);
   engine->load(rows, tears);
@@ -216,6 +219,12 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   return other;
 }
 
+std::unique_ptr<Simulation> Simulation::stand_in() const {
+  std::unique_ptr<Simulation> other(new Simulation(*this));
+  other->engine_ = std::make_unique<StillEngine>(*engine_, acting(), lattice_, tears_);
+  return other;
+}
+
 /// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
 /// the hand stay.
 void Simulation::restart_untouched(const Preset& next) {
@@ -297,9 +306,14 @@ void Simulation::move_body(const edit::MoveBody& e) {
   take_constants(next);
 }
 
+void Simulation::stop_when(Stop stop) {
+  stop_ = std::move(stop);
+  engine_->stop_when(stop_);
+}
+
 Advance Simulation::advance(int steps) {
   Advance total;
-  while (!divergence_ && total.steps < steps) {
+  while (!divergence_ && !total.stopped && total.steps < steps) {
     const Advance part = advance_part(watch_ ? 1 : steps - total.steps);
     const int before = total.steps, torn = total.torn;
     const bool released = total.released;

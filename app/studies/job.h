@@ -3,6 +3,8 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -75,6 +77,11 @@ class Job {
   bool busy() const { return state_ != nullptr; }
   /// Whether take() need not wait.
   bool ready() const { return state_ && state_->ended; }
+  /// Waits until ready(), but no longer than that, s; returns ready(). busy() must hold.
+  bool wait(double seconds) const {
+    std::unique_lock lock(state_->mutex);
+    return state_->end.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return bool(state_->ended); });
+  }
   /// Whether the worker is still at it.
   bool working() const { return state_ && !state_->ended; }
   void cancel() {
@@ -101,6 +108,8 @@ class Job {
     JobControl control;
     std::optional<Outcome> outcome;
     std::atomic<bool> ended = false;
+    std::mutex mutex;
+    std::condition_variable end;
     std::thread thread;
   };
   template <class Work>
@@ -114,7 +123,9 @@ class Job {
       } catch (const std::exception& error) {
         this->outcome.emplace(JobError{error.what()});
       }
+      const std::lock_guard lock(this->mutex);
       this->ended = true;
+      this->end.notify_all();
     }
     Work work;
   };

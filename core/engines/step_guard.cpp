@@ -66,20 +66,26 @@ StepsMade StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears,
   return {count - 1 + last.count, last.end};
 }
 
-Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears) {
+Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop) {
   Advance result;
   const int torn_before = tears.torn_count();
   Fault fault{};
-  while (result.steps < steps && !result.diverged && !result.released) {
+  while (result.steps < steps && !result.diverged && !result.released && !result.stopped) {
+    if (stop && stop()) {
+      result.stopped = true;
+      break;
+    }
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(engine, tears);
-    const int most = std::min(steps - result.steps, steps_between_backups - since_backup_);
+    const int most =
+        rules_.costly_steps && stop ? 1 : std::min(steps - result.steps, steps_between_backups - since_backup_);
     StepsMade made = engine.make_steps(most, tears, fault);
     const bool rolled_back = made.end == StepsEnd::rolled_back;
     if (rolled_back) made = examine_last(engine, made.count, tears, fault);
     result.diverged = made.end == StepsEnd::fault;
     result.released = made.end == StepsEnd::released;
+    result.stopped = made.end == StepsEnd::stopped;
     result.steps += made.count;
-    if (result.diverged) repeat(engine, since_backup_ + made.count, tears);
+    if (result.diverged || (result.stopped && rules_.costly_steps)) repeat(engine, since_backup_ + made.count, tears);
     // After a fault nothing is known of the next step; what has just been repeated must not be repeated again.
     since_backup_ = result.diverged || rolled_back || rules_.costly_steps ? -1 : since_backup_ + made.count;
     torn_ = tears.torn_count();

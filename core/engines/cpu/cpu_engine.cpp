@@ -115,7 +115,7 @@ void CpuEngine<R, Present>::resolve() {
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,
-                    .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_)});
+                    .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_)});
   guard_.invalidate();
 }
 
@@ -268,10 +268,13 @@ void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tear
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
+bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   for (const auto& band : bands()) band->assign(sweep.before, false);
-  solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-                [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); });
+  const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
+  return solver_.solve(
+      cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
+      [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
+      {repeating_ ? never_ : stop(), [&](double part) { set_step_progress((stage + part) / stages); }});
 }
 
 template <class R, unsigned Present>

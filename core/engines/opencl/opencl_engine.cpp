@@ -207,15 +207,17 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
 }
 
 template <class R>
-void OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
+bool OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
   std::vector<int> fixed = pinned_;
   if (held_.particle >= 0) fixed.push_back(held_.particle);
   const auto residual = [&](cl_mem x, cl_mem v, cl_mem c_v, cl_mem out) {
     const int at = set_arguments(kernels_.residual, 0, x, x, v, v, c_v, c_v, out, out);
     launch_sweep(kernels_.residual, at, resolved.constants, slot, 1);
   };
-  solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
-                  resolved.sweep->solves * preset_.dt, residual});
+  const double pass = double(&resolved - resolved_.data()), passes = double(resolved_.size());
+  return solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
+                         resolved.sweep->solves * preset_.dt, residual, repeating_ ? Stop{} : stop(),
+                         [&](double part) { set_step_progress((pass + part) / passes); }});
 }
 
 template <class R>
