@@ -109,8 +109,8 @@ void CpuEngine<R, Present>::resolve() {
       lead += lines_apart;
     }
   }
-  cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
-                               (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
+  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
+                    (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
   make_waves();
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
@@ -389,7 +389,7 @@ TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 std::unique_ptr<Engine> make_engine_without([[maybe_unused]] unsigned absent, [[maybe_unused]] const Preset& preset,
                                             [[maybe_unused]] const Lattice& lattice) {
 #ifdef TYGLAB_WHOLE_ENGINES
-  throw EngineError("this build, with sanitizers, has no engine without a part; use the release build");
+  throw EngineError("this build, with sanitizers, has no engine without some parts; use the release build");
 #else
 #define TYGLAB_MAKE(R, present) \
   if (absent == (part::everything & ~(present))) return std::make_unique<CpuEngine<R, (present)>>(preset, lattice, 1);
