@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/ui/frame/gui_input.h"
 #include "app/ui/kit/control_places.h"
 #include "tests/app/desk.h"
 #include "tests/support/files.h"
@@ -37,6 +38,9 @@ class NullUi : public Desk {
   void frames(int count);
   /// Frames until the condition holds. Fails the test where it never does.
   void until(const std::function<bool()>& condition, std::string_view what);
+
+  /// What GLFW tells of text that is typed, before the next frame.
+  void add_typed(std::string_view text);
 
   /// GLFW's key and modifiers: goes down, and up in the next frame.
   void key(int key, int mods = 0);
@@ -96,10 +100,10 @@ class NullUi : public Desk {
 
  private:
   void apart();
-  void push(PointerEvent::Type type, int button, glm::vec2 wheel = {0, 0});
   std::string drawn_text() const;
 
   ImGuiContext* context_;
+  GuiInput gui_input_;
   ControlPlaces places_;
   std::string drawn_;
 };

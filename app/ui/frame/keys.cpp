@@ -122,6 +122,15 @@ void take_key(Ui& ui, const KeyEvent& event) {
   if (!taken) command_for(ui, event);
 }
 
+/// Characters that were typed after the n-th key are no part of what is looked for.
+void forget_text_after(std::vector<InputEvent>& events, std::size_t n) {
+  auto after = events.begin();
+  for (std::size_t keys = 0; keys <= n && after != events.end(); ++after)
+    keys += std::holds_alternative<KeyEvent>(*after);
+  const auto is_text = [](const InputEvent& event) { return std::holds_alternative<TypedCharacter>(event); };
+  events.erase(std::remove_if(after, events.end(), is_text), events.end());
+}
+
 }  // namespace
 
 void handle_keys(Ui& ui) {
@@ -132,9 +141,7 @@ void handle_keys(Ui& ui) {
   for (std::size_t n = 0; n < ui.input.keys.size(); ++n) {
     const bool before = palette.enter;
     take_key(ui, ui.input.keys[n]);
-    // Letters typed after it are no part of what is looked for.
-    if (palette.enter && !before)
-      std::erase_if(ui.input.text, [&](const TypedCharacter& typed) { return typed.keys_before > n + 1; });
+    if (palette.enter && !before) forget_text_after(ui.input.all, n);
   }
 }
 
