@@ -85,6 +85,8 @@ NullUi::NullUi(const UiOptions& options) : context_(nullptr) {
   options.settings(settings);
   ui.controls = &places_;
   session.labs.progress = settings.labs;
+  let_work_yield(false);
+  session.pacing.patient = true;
   const Preset preset = first_preset(options);
   std::string fallback;
   session.simulation = make_simulation(preset, 1, fallback);
@@ -125,6 +127,11 @@ void NullUi::until(const std::function<bool()>& condition, std::string_view what
     if (n > 50) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // other threads are at work
     frame();
   }
+}
+
+void NullUi::resize(glm::ivec2 size) {
+  ImGui::GetIO().DisplaySize = ImVec2(float(size.x), float(size.y));
+  frames(settled + 1);
 }
 
 void NullUi::key(int key, int mods) {
@@ -298,7 +305,7 @@ bool NullUi::said(std::string_view part) const {
 
 bool NullUi::typing() const {
   const bool starts = ui.slider.typing_starts || ui.dialog.refused || ui.dialog.selecting;
-  return !starts && (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput);
+  return !starts && (ui.slider.typing != 0 || gui::typing_text());
 }
 
 glm::vec2 NullUi::pixel_of(int i, int j) {

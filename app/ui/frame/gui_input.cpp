@@ -77,9 +77,9 @@ void GuiInput::take(const InputQueue& input) {
 
 /// Those that were shown and are up by now.
 void GuiInput::release_keys(const InputQueue& input) {
-  const auto released = keys_ & ~input.keys_down;
-  for (std::size_t key = 0; key < released.size(); ++key)
-    if (released[key]) show_key(key, false);
+  changed_ = keys_ & ~input.keys_down;
+  for (std::size_t key = 0; key < changed_.size(); ++key)
+    if (changed_[key]) show_key(key, false);
   keys_ &= input.keys_down;
 }
 
@@ -93,11 +93,14 @@ bool GuiInput::show(const InputEvent& event, Frame& frame) {
 bool GuiInput::show(const KeyEvent& event, Frame& frame) {
   if (frame.button || frame.mods.value_or(event.mods) != event.mods) return false;
   const auto key = std::size_t(event.key);
+  if (changed_[key]) return false;
+  changed_[key] = true;
   if (keys_[key]) {  // the same key again: it goes up first
-    if (!pressed_[key]) keys_[key] = false, show_key(key, false);
+    keys_[key] = false;
+    show_key(key, false);
     return false;
   }
-  keys_[key] = pressed_[key] = true;
+  keys_[key] = true;
   show_key(key, true);
   frame.key = true;
   frame.mods = event.mods;
@@ -136,7 +139,6 @@ void GuiInput::feed(InputQueue& input) {
   take(input);
   if (std::exchange(focused_, input.focused) != input.focused) ImGui::GetIO().AddFocusEvent(input.focused);
   release_keys(input);
-  pressed_.reset();
   Frame frame;
   const auto next =
       std::find_if_not(waiting_.begin(), waiting_.end(), [&](const InputEvent& event) { return show(event, frame); });

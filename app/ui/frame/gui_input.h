@@ -31,7 +31,7 @@ class GuiInput {
   bool show(const PointerEvent& event, Frame& frame);
 
   std::vector<InputEvent> waiting_;
-  std::bitset<InputQueue::most_keys> keys_, pressed_;  ///< keys shown as down; those that the present frame pressed
+  std::bitset<InputQueue::most_keys> keys_, changed_;  ///< keys shown as down; those that the present frame changed
   std::bitset<InputQueue::most_buttons> buttons_;      ///< shown as down
   glm::vec2 at_{-1e6f};                                ///< where the pointer is shown
   bool focused_ = true;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/ui/frame/commands.h"
+#include "app/ui/kit/imgui_compat.h"
 
 namespace tyglab {
 namespace {
@@ -37,7 +38,7 @@ void lab_field_takes(Ui& ui, const KeyEvent& event) {
 /// Keys of a text field: only those that end it matter here. True if the field has the key.
 bool typing_takes(Ui& ui, const KeyEvent& event) {
   SliderState& slider = ui.slider;
-  if (slider.typing == 0 && !ImGui::GetIO().WantTextInput) return false;
+  if (slider.typing == 0 && !gui::typing_text()) return false;
   if (event.key == GLFW_KEY_Q && (event.mods & counted) == GLFW_MOD_CONTROL) {
     slider.cancel = true;  // a number half typed is no change that could be lost
     return false;
