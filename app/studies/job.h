@@ -43,6 +43,8 @@ struct JobError {
 
 /// Lowers the priority of the calling thread, where the system can.
 void run_below_frames();
+/// Whether work below the frames has a lower priority at all. Tests wait for it on machines that others use: without.
+void let_work_yield(bool yields);
 
 /// One piece of work at a time. What the work reads it must own (values, shared_ptr<const …>); it is destroyed by the
 /// job's owner, never by the worker, since what it owns may belong to the owner's OpenGL context.
