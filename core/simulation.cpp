@@ -1,6 +1,7 @@
 #include "core/simulation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/cloth/start.h"
@@ -41,6 +42,7 @@ std::string Divergence::where() const {
 }
 
 Simulation::Simulation(const Preset& preset, int threads) : threads_(threads) {
+  assert(threads >= 1 && check_preset(preset).empty());
   build(preset);
 }
 Simulation::~Simulation() = default;
@@ -377,6 +379,7 @@ Snapshot Simulation::snapshot() {
 }
 
 void Simulation::restore(const Snapshot& then) {
+  assert(fits(then));
   tears_ = then.tears;
   held_ = {};
   hand_steps_left_ = 0;

@@ -1,6 +1,7 @@
 // One cloth (or a mass on a spring) in motion: ties presets, engines and edits together. No window, no clock.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <optional>
 
@@ -47,8 +48,8 @@ struct Snapshot {
 
 class Simulation {
  public:
-  /// Builds the cloth at its start; `threads`: at most that many. Throws EngineError; the preset must be valid
-  /// (check_preset).
+  /// Builds the cloth at its start; `threads`: at most that many, at least 1. Throws EngineError; the preset must be
+  /// valid (check_preset).
   explicit Simulation(const Preset& preset, int threads = 1);
   ~Simulation();
 
@@ -61,7 +62,10 @@ class Simulation {
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   /// The constants with which it diverged; available only while divergence() holds one.
-  const Preset& diverged_preset() const { return diverged_preset_; }
+  const Preset& diverged_preset() const {
+    assert(divergence_);
+    return diverged_preset_;
+  }
   Engine& engine() { return *engine_; }
   /// Goes on with what is made of the present engine: tests see one fail in this way.
   void wrap_engine(const std::function<std::unique_ptr<Engine>(std::unique_ptr<Engine>)>& wrap) {
@@ -72,7 +76,10 @@ class Simulation {
   /// Of one particle.
   glm::dvec3 position(int i, int j) const { return engine_->position(i, j); }
 
-  bool pinned(int i, int j) const { return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0; }
+  bool pinned(int i, int j) const {
+    assert(lattice_.contains(i, j));
+    return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0;
+  }
   std::optional<Pins::Site> held() const;
   glm::dvec3 hand_force() const { return hand_force_; }
   /// Free particles that overlapping bodies left inside one of them in the last step.

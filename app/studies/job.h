@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -92,6 +93,7 @@ class Job {
   double progress() const { return state_ ? state_->control.progress() : 0; }
   /// Waits for the end and gives the outcome; busy() must hold.
   Outcome take() {
+    assert(busy());
     const std::unique_ptr<State> state = std::move(state_);
     state->thread.join();
     return std::move(*state->outcome);

@@ -1,6 +1,7 @@
 #include "core/engines/banded.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tyglab {
@@ -32,6 +33,7 @@ bool BandedCholesky::factor(const Stop& stop) {
 }
 
 void BandedCholesky::solve(std::span<double> b) const {
+  assert(b.size() == std::size_t(size_));
   for (int k = 0; k < size_; ++k) {
     double sum = b[k];
     for (int c = std::max(0, k - band_); c < k; ++c) sum -= at(k, c) * b[c];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -103,7 +104,11 @@ class Engine {
 
   /// Replaces the state by positions and (full-step) velocities, from which the method derives what it starts with.
   virtual void load(const StateRows& rows, const Tears& tears) = 0;
-  void load(const State& state, const Tears& tears) { load(rows_of(state, positions().columns), tears); }
+  void load(const State& state, const Tears& tears) {
+    const PositionView view = positions();
+    assert(state.x.x.size() == std::size_t(view.rows) * std::size_t(view.columns));
+    load(rows_of(state, view.columns), tears);
+  }
   /// Changes constants, integrator, dt and bodies, and keeps the velocities. The lattice and the precision must be the
   /// same as before.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;

@@ -1,6 +1,7 @@
 #include "core/engines/step_guard.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -17,6 +18,7 @@ void StepGuard::invalidate() {
 }
 
 int StepGuard::steps_ahead(int most, bool tears_by_itself) const {
+  assert(most >= 1);
   const double motion =
       rules_.tearing && !tears_by_itself ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
   if (!(motion > 0)) return 1;
@@ -79,6 +81,7 @@ Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const 
     const int most =
         rules_.costly_steps && stop ? 1 : std::min(steps - result.steps, steps_between_backups - since_backup_);
     StepsMade made = engine.make_steps(most, tears, fault);
+    assert(made.count <= most);
     const bool rolled_back = made.end == StepsEnd::rolled_back;
     if (rolled_back) made = examine_last(engine, made.count, tears, fault);
     result.diverged = made.end == StepsEnd::fault;

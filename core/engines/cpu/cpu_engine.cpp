@@ -1,8 +1,10 @@
 #include "core/engines/cpu/cpu_engine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "core/cloth/start.h"
 #include "core/model/changes.h"
 
 namespace tyglab::cpu {
@@ -35,6 +37,7 @@ void classify(ResolvedSweep& sweep, const Scheme& scheme) {
 
 /// Rows and threads that pay: a barrier costs about as much as a thousand particles.
 int useful_threads(const Lattice& lattice, int asked) {
+  assert(asked >= 1);
   constexpr int least_particles = 1500;
   return std::clamp(std::min(lattice.size() / least_particles, lattice.rows / Band<float>::least_rows), 1, asked);
 }
@@ -202,6 +205,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
+  assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision);
   const EffectSet changed = changes(cloth_.preset, preset);
   if (!changed.within(motionless | Effect::start)) restart_control();  // nothing else moves a cloth that is under way
   // What lags half a step depends on dt, and the velocity must stay.
@@ -279,6 +283,7 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
 
 template <class R, unsigned Present>
 std::vector<Contact> CpuEngine<R, Present>::contacts() const {
+  assert(cloth_.notes_contacts);
   if (scheme_->estimate) return inner_contacts_;
   std::vector<Contact> all;
   for (const auto& band : bands()) all.insert(all.end(), band->contacts().begin(), band->contacts().end());
@@ -337,6 +342,7 @@ PositionView CpuEngine<R, Present>::positions() const {
 
 template <class R, unsigned Present>
 StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
+  assert(cloth_.lattice.contains(i, j));
   const auto at = [&](int vector) {
     return glm::dvec3(cloth_.row(vector, i, 0)[j], cloth_.row(vector, i, 1)[j], cloth_.row(vector, i, 2)[j]);
   };

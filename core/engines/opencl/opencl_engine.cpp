@@ -1,8 +1,10 @@
 #include "core/engines/opencl/opencl_engine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "core/cloth/start.h"
 #include "core/engines/opencl/arguments.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
@@ -261,6 +263,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
+  assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
   const bool shifts = scheme_->lags && changes(preset_, preset).touches(Effect::dt);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;

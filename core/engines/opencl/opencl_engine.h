@@ -25,6 +25,7 @@
 // what stands near it.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,7 +56,10 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override;
-  std::vector<Contact> contacts() const override { return contacts_; }
+  std::vector<Contact> contacts() const override {
+    assert(notes_contacts_);
+    return contacts_;
+  }
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
