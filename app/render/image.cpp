@@ -72,7 +72,7 @@ std::vector<std::uint8_t> without_alpha(const unsigned char* rgba, std::size_t p
 
 }  // namespace
 
-void write_png(const std::filesystem::path& file, const Image& image) {
+std::filesystem::path write_png(const std::filesystem::path& file, const Image& image, Reach reach) {
   std::string bytes;
   const auto append = [](void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
@@ -80,7 +80,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3) == 0) {
     throw OutputError("The image " + file.string() + " could not be encoded. Is there enough memory?");
   }
-  write_output(file, bytes);
+  return write_output(file, bytes, reach);
 }
 
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi) {

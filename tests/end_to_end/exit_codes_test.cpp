@@ -256,17 +256,4 @@ TEST_CASE("130: a single step that would take minutes is interrupted, and what w
   }
 }
 
-TEST_CASE("130: an interrupted run keeps what it had written") {
-  const test::TemporaryFolder folder;
-  const auto outcome = test::tyglab_interrupted(
-      folder.path(), {"run", "hanging", "--seconds", "100000", "--state", "s.csv", "--series", "t.csv"}, 1.5);
-  CHECK(outcome.code == 130);
-  const auto state = test::lines(test::read_file(folder / "s.csv"));
-  CHECK(state.size() > 100);
-  const auto series = test::lines(test::read_file(folder / "t.csv"));
-  REQUIRE(series.size() > 3);
-  const auto columns = test::split(series[1], ',').size();
-  for (std::size_t n = 2; n < series.size(); ++n) CHECK(test::split(series[n], ',').size() == columns);
-}
-
 }  // namespace tyglab::exit_codes_test
