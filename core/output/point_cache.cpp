@@ -6,6 +6,7 @@
 
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/io/text.h"
 
 namespace tyglab {
 namespace {
@@ -41,7 +42,7 @@ PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
 void PointCache::add(const VectorField<double>& x) {
   sample_.clear();
   for (std::size_t p = 0; p < std::size_t(points_); ++p)
-    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, static_cast<float>(value));
+    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, float_coordinate(value));
   put(sample_);
   ++samples_;
   std::string count;
