@@ -34,6 +34,15 @@ Ledger::Source source_of(const Edit& edit) {
   return hand ? Ledger::Source::hand : Ledger::Source::edits;
 }
 
+/// Of a motion that is beyond what the scene can hold.
+std::string cause_of_runaway(const Advance& part, const Preset& preset) {
+  const std::string sources = preset.kind == Kind::cloth
+                                  ? "springs, weight, wind, the hand and bodies can have given the cloth"
+                                  : "the spring and weight can have given the mass";
+  if (part.quantity == "position") return "a particle is farther away than " + sources + " the energy to fly";
+  return "the motion has " + short_number(part.excess, 2) + " times the energy that " + sources;
+}
+
 }  // namespace
 
 std::string Divergence::where() const {
@@ -356,12 +365,14 @@ void Simulation::diverge(const Advance& part) {
   d.i = part.i, d.j = part.j, d.di = part.di, d.dj = part.dj;
   d.quantity = part.quantity;
   d.value = part.value;
-  d.cause = part.quantity == "spring length" ? "a spring is longer than 1000 times its rest length"
+  const bool runaway = part.excess > 0;
+  d.cause = runaway                            ? cause_of_runaway(part, preset_)
+            : part.quantity == "spring length" ? "a spring is longer than 1000 times its rest length"
             : part.quantity == "distance from x_0"
                 ? "the mass is farther from x_0 than 1000 times L (or its offset, if that is more)"
                 : "a " + part.quantity + " is no longer a finite number";
   const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
-  if (springs_too_weak(preset_)) {
+  if (!runaway && springs_too_weak(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight and wind; "
                                            : ": the spring is too weak for m·g; ";
     d.cause += preset_.integrator + " is stable here " + dt;

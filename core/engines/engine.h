@@ -51,6 +51,7 @@ struct Advance {
   int di = 0, dj = 0;     ///< to the other end, if a spring diverged
   std::string quantity;
   double value = 0;
+  double excess = 0;               ///< energy of the motion over all that the scene can hold; 0: not what is wrong
   int torn = 0;                    ///< stretch springs that broke
   int left_inside = 0;             ///< free particles inside a body after the last step (overlapping bodies)
   bool released = false;           ///< the hand's force exceeded F_release

@@ -113,6 +113,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   StepOutcome outcome(int step) override;
   double tear_overloaded(Tears& tears) override;
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
+  bool find_runaway(const MotionLimit& limit, Fault& fault) override;
+  Motion motion(const Tears& tears) override;
   void keep_backup() override;
   void repeat(int steps, Tears& tears) override;
 

@@ -57,6 +57,16 @@ bool CpuEngine<R, Present>::find_fault(Tears& tears, Fault& fault, double& diver
 }
 
 template <class R, unsigned Present>
+bool CpuEngine<R, Present>::find_runaway(const MotionLimit& limit, Fault& fault) {
+  return tyglab::find_runaway(limit, cloth_.lattice, view(), 1 / cloth_.velocity_scale(), fault);
+}
+
+template <class R, unsigned Present>
+Motion CpuEngine<R, Present>::motion(const Tears& tears) {
+  return motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1 / cloth_.velocity_scale());
+}
+
+template <class R, unsigned Present>
 StepOutcome CpuEngine<R, Present>::outcome(int step) {
   std::span<const std::unique_ptr<Band<R, Present>>> judged = bands();
   if (together_ > 1) judged = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
@@ -69,7 +79,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
     if (hand && !projected && band->has_hand()) result.hand_force = band->hand_force();
   }
   if (hand && projected) result.hand_force = hand_force_;
-  result.elongation = max_elongation(largest);
+  result.elongation = max_elongation(largest), result.dt = cloth_.dt;
   return result;
 }
 
@@ -257,13 +267,16 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
 }
 
 // What the engine's other files need of this one.
-#define TYGLAB_MAKE(R, present)                                                \
-  template Advance CpuEngine<R, (present)>::advance(int, Tears&);              \
-  template StepsMade CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&); \
-  template StepOutcome CpuEngine<R, (present)>::outcome(int);                  \
-  template double CpuEngine<R, (present)>::tear_overloaded(Tears&);            \
-  template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);  \
-  template void CpuEngine<R, (present)>::keep_backup();                        \
+#define TYGLAB_MAKE(R, present)                                                    \
+  template Advance CpuEngine<R, (present)>::advance(int, Tears&);                  \
+  template StepsMade CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&);     \
+  template StepOutcome CpuEngine<R, (present)>::outcome(int);                      \
+  template double CpuEngine<R, (present)>::tear_overloaded(Tears&);                \
+  template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);      \
+  template bool CpuEngine<R, (present)>::find_runaway(const MotionLimit&, Fault&); \
+  template Motion CpuEngine<R, (present)>::motion(const Tears&);                   \
+  template StateView<R> CpuEngine<R, (present)>::view() const;                     \
+  template void CpuEngine<R, (present)>::keep_backup();                            \
   template void CpuEngine<R, (present)>::repeat(int, Tears&);
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE

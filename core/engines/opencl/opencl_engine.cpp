@@ -113,6 +113,7 @@ void OpenClEngine<R>::resolve() {
   }
   upload_bodies();
   guard_.set_rules({.tearing = tears_watched(), .F_release = preset_.F_release, .costly_steps = is_implicit(*scheme_)});
+  guard_.set_scene(preset_, lattice_, held_);
   guard_.invalidate();
 }
 
@@ -249,6 +250,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
       std::transform(row.v[c], row.v[c] + columns, v + to, [](double a) { return R(a); });
     }
   }
+  guard_.begin(motion_of(preset_, lattice_, tears, StateView<R>{x, v, state_.stride()}, 1));
   state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
   upload_masks(tears);
   guard_.accept_cuts(tears);
@@ -284,6 +286,7 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
           "starting a kernel");
   }
   if (wanted != options_) kernels_ = std::move(next), options_ = wanted, noted_run_ = false;
+  guard_.accept_changes(preset_, preset);
   preset_ = preset;
   resolve();
   if (!kept.x.x.empty()) Engine::load(kept, tears);
@@ -320,8 +323,10 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
       held.particle == held_.particle && std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   pinned_.assign(pinned.begin(), pinned.end());
   held_ = held;
+  guard_.set_scene(preset_, lattice_, held_);
   if (!same) {
     masks_stale_ = true;
+    guard_.expect_pushes();  // who is let go may be inside a body
     fixed_list_ = device_->zeros(std::max<std::size_t>(pinned_.size(), 1) * sizeof(int));
     if (!pinned_.empty())
       check(clEnqueueWriteBuffer(device_->queue(), fixed_list_.get(), CL_TRUE, 0, pinned_.size() * sizeof(int),

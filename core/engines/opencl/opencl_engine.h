@@ -130,12 +130,15 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void accept_changes(const Tears& tears);
   void upload_masks(const Tears& tears);
   void read_stored(State& state) const;
+  StateView<R> view() const { return {state_.host(vector_x), state_.host(vector_v), state_.stride()}; }
 
   // What the guard asks for.
   StepsMade make_steps(int most, Tears& tears, Fault& fault) override;
   StepOutcome outcome(int step) override;
   double tear_overloaded(Tears& tears) override;
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
+  bool find_runaway(const MotionLimit& limit, Fault& fault) override;
+  Motion motion(const Tears& tears) override;
   void keep_backup() override { state_.keep_backup(); }
   void repeat(int steps, Tears& tears) override;
 

@@ -114,8 +114,17 @@ template <class R>
 bool OpenClEngine<R>::find_fault(Tears& tears, Fault& fault, double& divergence_budget) {
   read_tears(tears);  // what has been torn is no fault
   if (remote() && preset_.kind == Kind::cloth && well_on_device(divergence_budget)) return false;
-  const StateView<R> now{state_.host(vector_x), state_.host(vector_v), state_.stride()};
-  return tyglab::find_fault(preset_, lattice_, tears, now, fault, divergence_budget);
+  return tyglab::find_fault(preset_, lattice_, tears, view(), fault, divergence_budget);
+}
+
+template <class R>
+bool OpenClEngine<R>::find_runaway(const MotionLimit& limit, Fault& fault) {
+  return tyglab::find_runaway(limit, lattice_, view(), 1 / velocity_scale(), fault);
+}
+
+template <class R>
+Motion OpenClEngine<R>::motion(const Tears& tears) {
+  return motion_of(preset_, lattice_, tears, view(), 1 / velocity_scale());
 }
 
 template <class R>
@@ -135,7 +144,8 @@ template <class R>
 StepOutcome OpenClEngine<R>::outcome(int step) {
   const StepReport& report = report_[std::size_t(step)];
   StepOutcome result;
-  result.elongation = max_elongation(report.way), result.left_inside = int(report.left_inside);
+  result.elongation = max_elongation(report.way), result.dt = preset_.dt;
+  result.left_inside = int(report.left_inside);
   if (tears_each_) result.tear_budget = tear_slack(report), tears_unread_ |= report.torn != 0;
   if (held_.particle >= 0) {
     const R* f = hand_forces_.data() + 4 * std::size_t(step);
