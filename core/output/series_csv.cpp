@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <iostream>
 
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/io/text.h"
 
 namespace tyglab {
 
 SeriesCsv::SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns,
                      const std::string& preset_hash)
-    : file_(file), out_(is_standard_output(file) ? std::cout : own_) {
+    : file_(file), out_(is_standard_output(file) ? file_output() : own_) {
   if (!is_standard_output(file)) own_.open(file, std::ios::trunc);
   out_ << "# tyglab series, t in s, preset hash " << preset_hash << "\nt";
   for (const SeriesColumn& column : columns) {

@@ -31,7 +31,7 @@ class SeriesCsv {
 
   std::filesystem::path file_;
   std::ofstream own_;
-  std::ostream& out_;  ///< own_ or std::cout
+  std::ostream& out_;  ///< own_ or file_output()
   std::string row_;
 };
 
