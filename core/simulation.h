@@ -90,10 +90,15 @@ class Simulation {
   /// A simulation as that edit (a Change or a Restart) would leave this one, which stays as it is. May run beside
   /// other threads that only look at this one: positions(), particle() and whatever else is const. Throws as apply().
   std::unique_ptr<Simulation> rebuilt(const Edit& edit) const;
+  /// What this one shows now, with an engine that stands still: to be looked at while another thread moves this one.
+  /// Changes of what is only seen may be applied to it, nothing else.
+  std::unique_ptr<Simulation> stand_in() const;
   /// Applies an edit. Throws PresetError or EngineError and leaves everything as it was if it cannot be done.
   void apply(const Edit& edit);
-  /// Makes up to `steps` steps; fewer when the run diverges. Does nothing once diverged.
+  /// Makes up to `steps` steps; fewer when the run diverges or is stopped. Does nothing once diverged.
   Advance advance(int steps);
+  /// From now on advance() ends with the last whole step as soon as this says so (Engine::stop_when).
+  void stop_when(Stop stop);
 
   EnergyReading energy();
   /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
@@ -165,6 +170,7 @@ class Simulation {
   Preset effective_preset_;  ///< the same with the wind of this moment, which the engine has; valid only while there
                              ///< are gusts
   int threads_;
+  Stop stop_;
   Lattice lattice_;
   Tears tears_;
   std::unique_ptr<Engine> engine_;

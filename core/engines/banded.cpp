@@ -12,9 +12,10 @@ void BandedCholesky::begin(int size, int band) {
   column_.assign(std::size_t(band) + 1, 0.0);
 }
 
-bool BandedCholesky::factor() {
+bool BandedCholesky::factor(const Stop& stop) {
   for (int k = 0; k < size_; ++k) {
     const double pivot = at(k, k);
+    if (stop && stop()) return false;
     if (!(pivot > 0) || !std::isfinite(pivot)) return false;
     const double root = std::sqrt(pivot);
     at(k, k) = root;

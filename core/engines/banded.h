@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "core/engines/stop.h"
+
 namespace tyglab {
 
 /// A symmetric positive definite matrix of `size` rows whose elements farther than `band` from the diagonal are 0, in
@@ -18,8 +20,9 @@ class BandedCholesky {
   void begin(int size, int band);
   /// The element, row >= column, row - column <= band.
   double& at(int row, int column) { return elements_[index(row, column)]; }
-  /// Replaces the matrix by its factor. Returns false if it is not positive definite, to rounding.
-  bool factor();
+  /// Replaces the matrix by its factor. Returns false if it is not positive definite, to rounding, or if it was
+  /// stopped.
+  bool factor(const Stop& stop = {});
   /// Replaces the right-hand side by the solution.
   void solve(std::span<double> b) const;
   std::size_t bytes() const { return (elements_.capacity() + column_.capacity()) * sizeof(double); }

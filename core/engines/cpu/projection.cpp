@@ -123,18 +123,25 @@ void Projector<R>::project_weight(Cloth<R>& cloth, int q) {
 }
 
 template <class R>
-void Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& team) {
+bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& team,
+                           const std::function<bool(int n)>& goes_on) {
   if (cloth.preset.kind == Kind::one_weight) {
     if (begin == 0) project_weight(cloth, q);
     team.barrier();
-    return;
+    return true;
   }
   assert(end % 2 == 0 || end == rows_);
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
-  for (int n = 0; n < cloth.preset.iterations; ++n)
+  for (int n = 0; n < cloth.preset.iterations; ++n) {
+    // Read by all after the barriers of this iteration, and written again after those of the next.
+    bool& stopped = stopped_[n % 2];
+    if (begin == 0) stopped = n > 0 && !goes_on(n);
     in_colors(begin, end, cloth.preset.k_b > 0, team,
               [&](const Color& color, int i) { project_color(cloth, q, color, i); });
+    if (stopped) return false;
+  }
+  return true;
 }
 
 template <class R>
