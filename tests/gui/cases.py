@@ -51,8 +51,9 @@ class Stage:
 
     def keep(self, what, still=False):
         """Keeps a screenshot of the window, if need be once it has stopped changing; returns it."""
-        picture = self.screen.still_picture() if still else self.screen.picture()
-        width, height = self.sandboxes[-1].report()["window"]
+        sandbox = self.sandboxes[-1]
+        picture = sandbox.still_picture() if still else self.screen.picture()
+        width, height = sandbox.report()["window"]
         picture = picture.crop((0, 0, width, height))
         picture.save(os.path.join(self.shots, f"{self.name}-{what}.png"))
         return picture

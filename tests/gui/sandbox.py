@@ -46,7 +46,8 @@ class Sandbox:
                                         env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
         if reported:
             self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
-        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", "--name", "Tyglab").split()[0])
+        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", "--all", "--pid", self.process.pid, "--name",
+                                       "Tyglab").split()[0])
         self.xdotool("windowfocus", self.window)
 
     def xdotool(self, *arguments):
@@ -83,6 +84,19 @@ class Sandbox:
         """A report at least so many frames after what stands in the present one."""
         begun = self.report()["frames"]
         return self.wait(lambda r: r["frames"] >= begun + frames, f"{frames} more frames")
+
+    def still_picture(self):
+        """What the screen shows once it has stopped changing: two pictures are the same, some frames and a while apart."""
+        end = time.monotonic() + PATIENCE
+        last = self.screen.picture()
+        while time.monotonic() < end:
+            time.sleep(0.3)
+            self.later(3)
+            now = self.screen.picture()
+            if now == last:
+                return now
+            last = now
+        raise AssertionError(f"the picture goes on changing\n{digest(self.report())}")
 
     def control(self, name):
         """Place of a control, once it stands still: a dialog follows its text some frames later."""
