@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <iostream>
 #include <limits>
 
+#include "app/base/preset_files.h"
 #include "app/process/interrupt.h"
 #include "app/process/kernel_prebuild.h"
 #include "app/render/graphics_error.h"
@@ -145,7 +146,7 @@ Document Sandbox::first_document() {
   const LastSession& session = *settings_.session;
   // What was saved is on disk; where it is gone, the session itself is all there is.
   try {
-    return {session.file.empty() ? session.saved : load_preset(session.file), session.label, session.file};
+    return {session.file.empty() ? session.saved : read_preset(session.file), session.label, session.file};
   } catch (const std::exception& error) {
     session_.messages.warning(std::string(error.what()) +
                               " The state of the last session is shown; save it under a name.");
@@ -203,7 +204,7 @@ void Sandbox::rescale() {
   ui_.fonts = build_fonts(ui_.theme.scale);
   if (!first) gui_.fonts_changed();
   if (first)
-    for (const std::string& note : ui_.fonts.notes) std::fprintf(stderr, "tyglab: %s\n", note.c_str());
+    for (const std::string& note : ui_.fonts.notes) std::cerr << "tyglab: " + note + '\n';
 }
 
 void Sandbox::draw_cloth() {
@@ -311,7 +312,7 @@ int Sandbox::write_outputs() {
     }
     if (report_) report_->finish(ui_);
   } catch (const OutputError& error) {
-    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    std::cerr << "tyglab: " << error.what() << '\n';
     return no_output;
   }
   return done;
@@ -331,7 +332,7 @@ void Sandbox::remember() {
   try {
     save_settings(settings);
   } catch (const OutputError& error) {
-    std::fprintf(stderr, "tyglab: %s. The settings of this session are not saved.\n", error.what());
+    std::cerr << "tyglab: " << error.what() << ". The settings of this session are not saved.\n";
   }
 }
 
@@ -341,9 +342,9 @@ int run_sandbox(const SandboxOptions& options) {
   try {
     return Sandbox(options).run();
   } catch (const GraphicsError& error) {
-    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    std::cerr << "tyglab: " << error.what() << '\n';
   } catch (const EngineError& error) {
-    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    std::cerr << "tyglab: " << error.what() << '\n';
   }
   return no_device;
 }

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/glfw_keys.h"
+#include "app/ui/frame/frame.h"
 #include "core/analysis/convergence.h"
 #include "tests/ui/null_ui.h"
 
@@ -79,6 +80,33 @@ TEST_CASE("the card keeps the ledger while it is open: energy moves from height 
   window.type_value("k_s", "90");
   window.until([&] { return window.cloth().ledger()->works.edits != 0; }, "the edit to be told");
   window.click("plots.Energy");
+  CHECK_FALSE(window.cloth().ledger().has_value());
+}
+
+TEST_CASE("what an open card needs is wanted in the frame that opens it, whether anything is drawn or not") {
+  test::NullUi window;
+  const Wants& wants = window.session.wants;
+  const auto undrawn_frame = [&] { act_on_events(window.ui, 1.0 / 60, 1.0 / 60); };
+  const auto after = [&](const char* command) {
+    window.ui.command(command);
+    undrawn_frame();
+  };
+  CHECK((wants.forces && wants.stability));
+  CHECK_FALSE((wants.map || wants.ledger || wants.step));
+  after("show_energy");
+  CHECK(wants.ledger);
+  CHECK(window.cloth().ledger().has_value());  // from the first step on
+  after("toggle_map");
+  CHECK(wants.map);
+  const bool forces = wants.forces;
+  for (int n = 0; n < 5; ++n) {
+    undrawn_frame();
+    CHECK((wants.map && wants.stability && wants.forces == forces));
+  }
+  after("toggle_map");
+  CHECK_FALSE(wants.map);
+  after("toggle_panels");
+  CHECK_FALSE((wants.forces || wants.stability || wants.ledger));
   CHECK_FALSE(window.cloth().ledger().has_value());
 }
 
