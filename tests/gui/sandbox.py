@@ -85,16 +85,21 @@ class Sandbox:
         begun = self.report()["frames"]
         return self.wait(lambda r: r["frames"] >= begun + frames, f"{frames} more frames")
 
-    def still_picture(self):
-        """What the screen shows once it has stopped changing: two pictures are the same, some frames and a while apart."""
+    def still_picture(self, part=None):
+        """What the screen shows once it, or a part of it, has stopped changing: some frames and a while apart it is the
+        same."""
+        def seen():
+            picture = self.screen.picture()
+            return picture, picture.crop(part) if part else picture
+
         end = time.monotonic() + PATIENCE
-        last = self.screen.picture()
+        last = seen()
         while time.monotonic() < end:
             time.sleep(0.3)
             self.later(3)
-            now = self.screen.picture()
-            if now == last:
-                return now
+            now = seen()
+            if now[1] == last[1]:
+                return now[0]
             last = now
         raise AssertionError(f"the picture goes on changing\n{digest(self.report())}")
 

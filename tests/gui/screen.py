@@ -48,8 +48,10 @@ class Picture:
         if self.rgb == other.rgb:
             return 0.0
         count = 0
+        length = 3 * self.width
         for y in range(self.height):
-            count += sum(distance(a, b) > threshold for a, b in zip(self.row(y), other.row(y)))
+            if self.rgb[length * y:length * (y + 1)] != other.rgb[length * y:length * (y + 1)]:
+                count += sum(a != b and distance(a, b) > threshold for a, b in zip(self.row(y), other.row(y)))
         return count / (self.width * self.height)
 
     @classmethod
