@@ -50,7 +50,7 @@ class Stage:
         return sandbox
 
     def keep(self, what, still=False):
-        """Keeps a screenshot of the window, if need be once it (True), or a box of it, has stopped changing; returns it."""
+        """Keeps a screenshot of the window, if need be once it (True) or a box of it stands still; returns it."""
         sandbox = self.sandboxes[-1]
         picture = sandbox.still_picture(None if still is True else still) if still else self.screen.picture()
         width, height = sandbox.report()["window"]

@@ -46,8 +46,8 @@ class Sandbox:
                                         env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
         if reported:
             self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
-        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", "--all", "--pid", self.process.pid, "--name",
-                                       "Tyglab").split()[0])
+        own = ("--all", "--pid", self.process.pid, "--name", "Tyglab")
+        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", *own).split()[0])
         self.xdotool("windowfocus", self.window)
 
     def xdotool(self, *arguments):

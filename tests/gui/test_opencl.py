@@ -1,4 +1,4 @@
-"""Cloths on an OpenCL device in a real window: what is copied for drawing, and programs that are built beside the frames."""
+"""Cloths on an OpenCL device in a real window: what is copied for drawing; programs built beside the frames."""
 
 import json
 import os
@@ -41,7 +41,7 @@ def copied(stage):
 
 @case
 def shared_buffer(stage):
-    """on a device that shares buffers with OpenGL (a double of one) the window's buffer is written, and closed cleanly"""
+    """on a device that shares buffers with OpenGL (a double of one) the window's buffer is written"""
     double = os.path.join(os.path.dirname(stage.tyglab), "..", "tests", "libgl_sharing_double.so")
     if not os.path.exists(double):
         skip("the double of a graphics card has not been built; build gl_sharing_double")
@@ -57,7 +57,8 @@ def programs(stage):
     if subprocess.run([stage.tyglab, "run", *on_device, "--steps", "1"], capture_output=True).returncode != 0:
         skip("there is no OpenCL device")
     with tempfile.TemporaryDirectory() as nothing_built:
-        sandbox = stage.start(*on_device, environment={"POCL_CACHE_DIR": nothing_built, "XDG_CACHE_HOME": nothing_built})
+        caches = {"POCL_CACHE_DIR": nothing_built, "XDG_CACHE_HOME": nothing_built}
+        sandbox = stage.start(*on_device, environment=caches)
         sandbox.wait(lambda r: r["t"] > 0.05, "the cloth to move on the device")
         before = sandbox.type_value("k_b", "3")
         report = sandbox.wait(lambda r: r["preset"]["forces"]["k_b"] == 3, "bending")

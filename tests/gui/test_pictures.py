@@ -31,8 +31,8 @@ def show(sandbox, stage, mode, name=None):
 
 def coarse(stage):
     """A paused cloth with wide meshes, free of the picked particle's ring and arrows: nothing is picked."""
-    sandbox = stage.start("hanging", "--set", "rows=13", "--set", "columns=13", "--set", "L=0.08", "--set", "texture=linen.png",
-                          effects="all")
+    sandbox = stage.start("hanging", "--set", "rows=13", "--set", "columns=13", "--set", "L=0.08",
+                          "--set", "texture=linen.png", effects="all")
     sandbox.wait(lambda r: r["t"] > 0.3, "the cloth to fall a little")
     sandbox.key("space")
     sandbox.wait(lambda r: r["paused"], "the pause")
@@ -152,7 +152,7 @@ def save(sandbox, name, whole=False):
 
 @case
 def saved(stage):
-    """Ctrl+Shift+P saves the cloth with its legend and without buttons, or the whole window; the map is saved beside it"""
+    """Ctrl+Shift+P saves the cloth with its legend and without buttons, or the whole window; the map is saved too"""
     sandbox = stage.start("hanging", "--color", "tension")
     sandbox.wait(lambda r: r["t"] > 0.3, "the cloth to fall a little")
     sandbox.key("space")
