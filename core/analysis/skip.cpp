@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <stdexcept>
 
@@ -73,6 +74,7 @@ std::vector<SkipFeature> skip_features(int side) {
 
 SkipCase::SkipCase(const SkipFeature& feature, SkipState state) {
   const Preset& preset = state == SkipState::on ? feature.preset_on : feature.preset_off;
+  assert(state != SkipState::absent || preset.precision == Precision::float_);
   const Lattice lattice = lattice_of(preset);
   particles_ = lattice.size();
   tears_ = Tears(lattice);

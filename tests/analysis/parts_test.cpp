@@ -4,6 +4,7 @@
 #include "core/analysis/skip.h"
 #include "core/cloth/start.h"
 #include "core/engines/cpu/parts.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::parts_test {
@@ -21,7 +22,7 @@ State after(Engine& engine, const Preset& preset, int steps) {
 }
 
 TEST_CASE("an engine without a part makes the same bits as the whole one with the part off" *
-          doctest::skip(TYGLAB_SANITIZED)) {
+          doctest::skip(test::sanitized)) {
   for (const SkipFeature& feature : skip_features(19)) {
     if (feature.absent == 0) continue;
     CAPTURE(feature.name);
@@ -33,8 +34,7 @@ TEST_CASE("an engine without a part makes the same bits as the whole one with th
   }
 }
 
-TEST_CASE("an engine without a part leaves it out even where the preset asks for it" *
-          doctest::skip(TYGLAB_SANITIZED)) {
+TEST_CASE("an engine without a part leaves it out even where the preset asks for it" * doctest::skip(test::sanitized)) {
   Preset preset = test::cloth(18, 17);
   preset.precision = Precision::float_;
   preset.bodies = {Body{}};
@@ -49,7 +49,7 @@ TEST_CASE("an engine without a part leaves it out even where the preset asks for
   CHECK_FALSE(test::identical(expected, after(*whole, preset, 200)));  // the body does something here
 }
 
-TEST_CASE("only pins, or all but pins, can be left out" * doctest::skip(TYGLAB_SANITIZED)) {
+TEST_CASE("only pins, or all but pins, can be left out" * doctest::skip(test::sanitized)) {
   const Preset preset = test::cloth(4, 4);
   for (const unsigned absent : {0u, unsigned(part::bodies), unsigned(part::everything)})
     CHECK(cpu::make_engine_without(absent, preset, lattice_of(preset)) == nullptr);

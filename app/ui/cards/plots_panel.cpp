@@ -103,12 +103,12 @@ Foot foot_cards(const Ui& ui) {
 
 /// What of the column is seen, and how high: known before any of it is drawn.
 struct ColumnPlan {
-  std::vector<Card> cards;          ///< above the foot: one above the other, or behind tabs
-  Foot foot;                        ///< what stands below them
-  float available = 0;              ///< px, height above the foot
-  bool tabs = false;                ///< one of the cards is seen
-  std::size_t chosen = 0;           ///< which one
-  std::vector<float> heights = {};  ///< of those above each other, px
+  std::vector<Card> cards;       ///< above the foot: one above the other, or behind tabs
+  Foot foot;                     ///< what stands below them
+  float available = 0;           ///< px, height above the foot
+  bool tabs = false;             ///< one of the cards is seen
+  std::size_t chosen = 0;        ///< which one
+  std::vector<float> heights{};  ///< of those above each other, px
 };
 
 /// Heights of the cards at the foot, where the plots can spare that much room (px). What has no room, a heading or an
