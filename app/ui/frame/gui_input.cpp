@@ -61,7 +61,7 @@ bool is_pointers(const InputEvent& event) {
 }
 
 /// Whether Dear ImGui is to be shown it at all. It repeats keys itself.
-bool of_use(const InputEvent& event) {
+bool concerns_gui(const InputEvent& event) {
   if (const auto* press = std::get_if<KeyEvent>(&event))
     return press->key >= 0 && press->key < InputQueue::most_keys && !press->repeat && !is_modifier(press->key) &&
            !only_types(*press);
@@ -72,7 +72,7 @@ bool of_use(const InputEvent& event) {
 }  // namespace
 
 void GuiInput::take(const InputQueue& input) {
-  std::copy_if(input.all.begin(), input.all.end(), std::back_inserter(waiting_), of_use);
+  std::copy_if(input.all.begin(), input.all.end(), std::back_inserter(waiting_), concerns_gui);
 }
 
 /// Those that were shown and are up by now.
