@@ -150,8 +150,9 @@ TEST_CASE("an explosion that leaves no spring whole is found in the same step an
         pair.advance(50);
         REQUIRE(pair.cpu.divergence().has_value());
         REQUIRE(pair.opencl.divergence().has_value());
-        CHECK(pair.cpu.divergence()->quantity == "velocity");
-        CHECK(pair.opencl.divergence()->quantity == "velocity");
+        // Springs round a pin do not tear, so one of them may be too long.
+        if (pins == Pins::Mode::none) CHECK(pair.cpu.divergence()->quantity == "velocity");
+        CHECK(pair.opencl.divergence()->quantity == pair.cpu.divergence()->quantity);
         CHECK(pair.opencl.divergence()->step == pair.cpu.divergence()->step);
         CHECK(pair.opencl.divergence()->where() == pair.cpu.divergence()->where());
         CHECK(test::all_finite(pair.opencl.read()));
