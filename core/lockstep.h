@@ -57,6 +57,10 @@ class Lockstep {
   std::vector<std::string> resume(Simulation& original, int threads = 1);
   /// Every copy makes the whole steps that end by `t`, s; one that has diverged stands still.
   void follow(double t);
+  /// What the copies show now, to be looked at while another thread moves them (Simulation::stand_in).
+  Lockstep stand_in() const;
+  /// From now on follow() ends as soon as this says so, each copy with its last whole step; a later call goes on there.
+  void stop_when(const Stop& stop);
   /// Whether a copy could still move.
   bool alive() const;
   std::size_t bytes() const;
@@ -70,6 +74,8 @@ class Lockstep {
 /// by less than a dt, the first is carried to the second's time with its velocities: exact to ½ a Δt². Not a number
 /// where a cloth has diverged or lattices differ.
 double rms_distance(Simulation& cloth, Simulation& from);
+/// The same of two states of one lattice, the first carried on by `ahead` seconds.
+double rms_distance(const State& cloth, const State& from, double ahead = 0);
 
 /// The constants of a copy: the original's with the differences. Throws PresetError.
 Preset copied_preset(const Preset& original, std::span<const Difference> differences);

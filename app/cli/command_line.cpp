@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -15,17 +16,26 @@
 #include "app/base/data_files.h"
 #include "app/cli/preset_argument.h"
 #include "app/process/interrupt.h"
+#include "app/process/memory_limit.h"
 #include "app/render/graphics_error.h"
 #include "app/session/lab.h"
 #include "core/engines/engine.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
 namespace {
+
+/// One line, whatever names stand in it.
+void complain(std::string what) {
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  std::cerr << "tyglab: " << what << '\n';
+}
 
 /// The number that the whole text is.
 std::optional<double> number_in(const std::string& text) {
@@ -41,12 +51,6 @@ std::string range_problem(double value, double lowest, double highest, const std
   if (value >= lowest && value <= highest) return {};
   return shortest_number(value) + " is not allowed; allowed: " + shortest_number(lowest) + " to " +
          shortest_number(highest) + (unit.empty() ? "" : " " + unit);
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 /// What is wrong with the first word that should be a command and is none, or with the lack of one; empty if nothing
@@ -66,13 +70,13 @@ std::string command_problem(const CLI::App& program, std::span<const char* const
     const std::vector<std::string_view> known(names.begin(), names.end());
     const auto near = nearest(word, known);
     const std::string meant = near ? " Did you mean '" + std::string(*near) + "'?" : "";
-    if (at != &program) return typed + ": '" + word + "' is not one of its commands: " + listed(names) + "." + meant;
+    if (at != &program) return typed + ": '" + word + "' is not one of its commands: " + joined(names) + "." + meant;
     // Beside commands, the program itself takes presets.
     if (!near || is_preset(word)) return {};
     return "'" + word + "' is neither a command nor a preset." + meant;
   }
   if (at->get_require_subcommand_min() == 0) return {};
-  return typed + ": one of its commands must follow: " + listed(command_names(*at)) + ".";
+  return typed + ": one of its commands must follow: " + joined(command_names(*at)) + ".";
 }
 
 /// What CLI11 lists from the last to the first, in the order in which it was typed.
@@ -87,6 +91,8 @@ std::string unexpected(const CLI::ExtrasError& error) {
 }  // namespace
 
 void prepare_process() {
+  filter_standard_streams();
+  explain_crashes_under_limit();
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
@@ -108,12 +114,12 @@ std::vector<std::string> command_names(const CLI::App& command) {
 int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words) {
   if (error.get_exit_code() != 0) {
     if (const std::string problem = command_problem(program, words); !problem.empty()) {
-      std::cerr << "tyglab: " << problem << '\n';
+      complain(problem);
       return exit_command_line;
     }
   }
   if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    std::cerr << "tyglab: " << unexpected(*extras) << '\n';
+    complain(unexpected(*extras));
     return exit_command_line;
   }
   if (program.exit(error) != 0) return exit_command_line;
@@ -122,7 +128,7 @@ int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::
 
 int run_action(const Action& action) {
   const auto say = [](const std::string& what, ExitCode code) {
-    std::cerr << "tyglab: " << what << '\n';
+    complain(what);
     return code;
   };
   try {
@@ -139,13 +145,15 @@ int run_action(const Action& action) {
   } catch (const DataFileError& error) {
     return say(error.what(), exit_input);
   } catch (const EngineError& error) {
-    return say(error.what(), exit_engine);
+    return say(error.what() + memory_limit_words(), exit_engine);
   } catch (const GraphicsError& error) {
-    return say(error.what(), exit_engine);
+    return say(error.what() + memory_limit_words(), exit_engine);
   } catch (const OutputError& error) {
     return say(error.what(), exit_output);
   } catch (const std::bad_alloc&) {
-    return say("There is not enough memory for a cloth of this size; ask for fewer rows or columns.", exit_engine);
+    return say(
+        "There is not enough memory for a cloth of this size; ask for fewer rows or columns." + memory_limit_words(),
+        exit_engine);
   } catch (const std::exception& error) {
     return say(std::string("Internal error: ") + error.what(), exit_violation);
   }
@@ -156,6 +164,7 @@ std::string counted(std::int64_t count, const std::string& noun) {
 }
 
 CLI::Validator number_between(double lowest, double highest, const std::string& unit) {
+  assert(lowest <= highest);
   const auto check = [=](std::string& text) -> std::string {
     const auto value = number_in(text);
     if (!value) return "'" + text + "' is not a number; write it like 1.5 or 2e-3";
@@ -165,6 +174,7 @@ CLI::Validator number_between(double lowest, double highest, const std::string& 
 }
 
 CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest) {
+  assert(lowest <= highest);
   const auto check = [=](std::string& text) -> std::string {
     const auto value = number_in(text);
     if (!value || (std::isfinite(*value) && *value != std::floor(*value)))

@@ -65,6 +65,7 @@ Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& 
       end_time_(double(steps) * simulation.preset().dt),
       timeline_{simulation.preset().dt},
       progress_(what) {
+  simulation_.stop_when(InterruptGuard::interrupted);
   if (!auto_dt) return;
   auto_.emplace();
   simulation_.enable_ledger(true);

@@ -1,6 +1,7 @@
 // Which springs are whole. Allocated only once something is torn, so an untorn cloth pays nothing.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -28,10 +29,12 @@ class Tears {
   bool triangle_whole(int i, int j, int which) const;
   int torn_count() const { return torn_; }
   std::size_t bytes() const { return masks_.capacity(); }
-  void mend() { masks_.clear(), torn_ = 0; }
 
  private:
-  std::size_t index(int i, int j) const { return std::size_t(i) * lattice_.columns + j; }
+  std::size_t index(int i, int j) const {
+    assert(lattice_.contains(i, j));
+    return std::size_t(i) * lattice_.columns + j;
+  }
   Lattice lattice_;
   std::vector<std::uint8_t> masks_;
   int torn_ = 0;  ///< stretch springs

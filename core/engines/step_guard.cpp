@@ -1,6 +1,7 @@
 #include "core/engines/step_guard.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -30,6 +31,7 @@ void StepGuard::accept_changes(const Preset& from, const Preset& to) {
 }
 
 int StepGuard::steps_ahead(int most, bool tears_by_itself) const {
+  assert(most >= 1);
   const double motion =
       rules_.tearing && !tears_by_itself ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
   constexpr double margin = 2;  // motion does not double within a few steps, unless something is going wrong
@@ -93,21 +95,29 @@ StepsMade StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears,
   return {count - 1 + last.count, last.end};
 }
 
-Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears) {
+Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop) {
   Advance result;
   const int torn_before = tears.torn_count();
   Fault fault{};
   if (energy_stale_ || pushes_stale_) remeasure(engine, tears);
-  while (result.steps < steps && !result.diverged && !result.released) {
+  while (result.steps < steps && !result.diverged && !result.released && !result.stopped) {
+    if (stop && stop()) {
+      result.stopped = true;
+      break;
+    }
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(engine, tears);
-    const int most = std::min(steps - result.steps, steps_between_backups - since_backup_);
+    const int most =
+        rules_.costly_steps && stop ? 1 : std::min(steps - result.steps, steps_between_backups - since_backup_);
     StepsMade made = engine.make_steps(most, tears, fault);
+    assert(made.count <= most);
     const bool rolled_back = made.end == StepsEnd::rolled_back;
     if (rolled_back) made = examine_last(engine, made.count, tears, fault);
     result.diverged = made.end == StepsEnd::fault;
     result.released = made.end == StepsEnd::released;
+    result.stopped = made.end == StepsEnd::stopped;
     result.steps += made.count;
-    if (result.diverged) repeat(engine, since_backup_ + made.count, tears, 0);
+    if (result.diverged || (result.stopped && rules_.costly_steps))
+      repeat(engine, since_backup_ + made.count, tears, 0);
     // After a fault nothing is known of the next step; what has just been repeated must not be repeated again.
     since_backup_ = result.diverged || rolled_back || rules_.costly_steps ? -1 : since_backup_ + made.count;
     torn_ = tears.torn_count();

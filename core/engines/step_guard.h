@@ -23,6 +23,7 @@ enum class StepsEnd {
   complete,
   fault,       ///< the step after those that count diverged; the state is the one after it
   released,    ///< in the last step the hand's force exceeded F_release
+  stopped,     ///< from outside; where steps are costly, within the step after those that count
   rolled_back  ///< the last step that counts must be examined, but later ones have overwritten its state
 };
 
@@ -77,9 +78,11 @@ class StepGuard {
   static constexpr int steps_between_backups = 256;
 
   struct Rules {
-    bool tearing = false;       ///< springs can be overloaded
-    double F_release = 0;       ///< N; 0: the hand does not let go
-    bool costly_steps = false;  ///< a step costs more than a backup, so every run of steps begins with one
+    bool tearing = false;  ///< springs can be overloaded
+    double F_release = 0;  ///< N; 0: the hand does not let go
+    /// A step costs more than a backup, and may be stopped halfway: every run of steps begins with a backup, and has
+    /// one step where it may be stopped.
+    bool costly_steps = false;
   };
   /// Sets what to watch for. Call invalidate() where the scene has changed.
   void set_rules(const Rules& rules) { rules_ = rules; }
@@ -109,7 +112,7 @@ class StepGuard {
   bool overload_within(int steps) const;
 
   /// Makes up to `steps` good steps, as Engine::advance().
-  Advance advance(GuardedSteps& engine, int steps, Tears& tears);
+  Advance advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop);
   /// Judges steps that have been made, of which the state of the last is present.
   StepsMade judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
 

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "core/io/files.h"
+#include "core/io/terminal.h"
 
 namespace tyglab {
 
@@ -37,17 +38,19 @@ std::string lost_output(const std::filesystem::path& file, int error) {
   return output_name(file) + ": cannot be written" + why + "; write it elsewhere, or free disk space";
 }
 
-void write_output(const std::filesystem::path& file, std::string_view bytes) {
-  if (!is_standard_output(file)) return write_atomically(file, bytes);
-  std::cout.write(bytes.data(), std::streamsize(bytes.size()));
-  flush_standard_output();
+std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes, Reach reach) {
+  OutputFile out(file);
+  out.write(bytes);
+  out.end(reach);
+  return out.path();
 }
 
 void flush_standard_output() {
   errno = 0;
+  file_output().flush();
   std::cout.flush();
   std::fflush(stdout);
-  if (std::cout.good() && std::ferror(stdout) == 0) return;
+  if (file_output().good() && std::cout.good() && std::ferror(stdout) == 0) return;
   // An earlier write may be the one that failed: then errno says nothing of it.
   throw OutputError(lost_output("-", errno));
 }

@@ -25,7 +25,7 @@ Preset load_preset(const std::filesystem::path& file) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw PresetError(file.string() + ": cannot be read; check its permissions");
-  return parse_preset(text.str(), file.string());
+  return parse_preset(text.str(), file.string(), file.has_parent_path() ? file.parent_path() : ".");
 }
 
 void save_preset(const Preset& preset, const std::filesystem::path& file) {

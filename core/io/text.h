@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstdio>
 #include <string>
 
@@ -18,7 +19,8 @@ float float_coordinate(double value);
 template <class... Values>
 std::string printed(const char* format, Values... values) {
   std::array<char, 512> text;
-  std::snprintf(text.data(), text.size(), format, values...);
+  [[maybe_unused]] const int length = std::snprintf(text.data(), text.size(), format, values...);
+  assert(0 <= length && length < int(text.size()));
   return text.data();
 }
 

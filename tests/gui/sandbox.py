@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import tempfile
 import time
@@ -45,7 +46,8 @@ class Sandbox:
                                         env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
         if reported:
             self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
-        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", "--name", "Tyglab").split()[0])
+        own = ("--all", "--pid", self.process.pid, "--name", "Tyglab")
+        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", *own).split()[0])
         self.xdotool("windowfocus", self.window)
 
     def xdotool(self, *arguments):
@@ -82,6 +84,24 @@ class Sandbox:
         """A report at least so many frames after what stands in the present one."""
         begun = self.report()["frames"]
         return self.wait(lambda r: r["frames"] >= begun + frames, f"{frames} more frames")
+
+    def still_picture(self, part=None):
+        """What the screen shows once it, or a part of it, has stopped changing: some frames and a while apart it is the
+        same."""
+        def seen():
+            picture = self.screen.picture()
+            return picture, picture.crop(part) if part else picture
+
+        end = time.monotonic() + PATIENCE
+        last = seen()
+        while time.monotonic() < end:
+            time.sleep(0.3)
+            self.later(3)
+            now = seen()
+            if now[1] == last[1]:
+                return now[0]
+            last = now
+        raise AssertionError(f"the picture goes on changing\n{digest(self.report())}")
 
     def control(self, name):
         """Place of a control, once it stands still: a dialog follows its text some frames later."""
@@ -151,6 +171,24 @@ class Sandbox:
         self.later(2)
         self.release(button)
 
+    def in_one_frame(self, *arguments):
+        """Runs xdotool while the program stands still, so that all of it falls into one of its frames."""
+        before = self.report()["events"]
+        self.process.send_signal(signal.SIGSTOP)
+        self.xdotool(*arguments)
+        self.process.send_signal(signal.SIGCONT)
+        self.wait(lambda r: r["events"] > before, "the events to arrive")
+        return self.later(3)
+
+    def find(self, text):
+        """Does what the palette finds first."""
+        self.key("ctrl+p")
+        self.wait(lambda r: r["palette"] and r["typing"], "the palette to take keys")
+        self.type(text)
+        self.later(3)
+        self.key("Return")
+        self.wait(lambda r: not r["palette"], "the palette to close")
+
     def key(self, *keys):
         return self.acted("the key " + " ".join(keys), "key", *keys)
 
@@ -171,16 +209,6 @@ class Sandbox:
         self.key(end)
         self.wait(lambda r: not r["typing"], "the text field to close")
         return self.later(2)
-
-    def write_export(self, name):
-        """In the dialog that asks for an export's file: writes it into the own folder, and returns its path."""
-        self.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
-        file = os.path.join(self.own.name, name)
-        self.key("ctrl+a")
-        self.type(file)
-        self.key("Return")
-        self.wait(lambda r: r["dialog"] == "none" and os.path.exists(file), "the file to be written")
-        return file
 
     def rest(self):
         """Takes the pointer where it touches nothing."""

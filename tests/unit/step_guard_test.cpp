@@ -19,7 +19,7 @@ class OneSpring final : public GuardedSteps {
  public:
   explicit OneSpring(std::function<double(int)> length) : length_(std::move(length)) {}
 
-  Advance advance(int steps) { return guard.advance(*this, steps, tears); }
+  Advance advance(int steps) { return guard.advance(*this, steps, tears, {}); }
 
   StepsMade make_steps(int most, Tears& torn, Fault& fault) override {
     const int count = std::min(guard.steps_ahead(most), at_once);

@@ -16,6 +16,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/names.h"
 #include "core/io/destination.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -33,12 +34,9 @@ struct AccuracyOptions : BenchOptions {
 std::vector<AccuracyScene> chosen_scenes(const std::string& name) {
   std::vector<AccuracyScene> all = accuracy_scenes();
   if (name.empty()) return all;
-  std::string names;
-  for (AccuracyScene& scene : all) {
-    if (scene.name == name) return {std::move(scene)};
-    names += (names.empty() ? "" : ", ") + scene.name;
-  }
-  throw UsageError("--scene " + name + ": there is no such scene; known: " + names);
+  for (const AccuracyScene& scene : all)
+    if (scene.name == name) return {scene};
+  throw UsageError("--scene " + name + ": there is no such scene; known: " + joined(all, ", ", &AccuracyScene::name));
 }
 
 /// Methods that are measured on OpenCL too: one of each kind.
@@ -123,8 +121,10 @@ int accuracy(const AccuracyOptions& options) {
     if (scene.name == unpredictable) statistics = measure_statistics(scene, options.quick, InterruptGuard::interrupted);
   progress.clear();
   print_statistics(out, statistics);
-  if (!options.json.empty()) write_output(options.json, accuracy_json(results, statistics).dump(2) + "\n");
-  if (!options.png.empty()) write_charts(options.png, accuracy_charts(results), 2, 1.5f, accuracy_chart_height);
+  if (!options.json.empty())
+    write_output(options.json, accuracy_json(results, statistics).dump(2) + "\n", bench_reach());
+  if (!options.png.empty())
+    write_charts(options.png, accuracy_charts(results), bench_reach(), 2, 1.5f, accuracy_chart_height);
   return bench_exit();
 }
 
@@ -136,8 +136,7 @@ void add_bench_accuracy(CLI::App& bench, Action& action) {
       "Error against run time: every integrator, in float and double, some on OpenCL, and those of Boost.Odeint");
   const auto options = std::make_shared<AccuracyOptions>();
   add_quick(*command, *options, "Fewer dt, shorter runs, coarser references, OpenCL only in the first scene");
-  std::string names;
-  for (const AccuracyScene& scene : accuracy_scenes()) names += (names.empty() ? "" : ", ") + scene.name;
+  const std::string names = joined(accuracy_scenes(), ", ", &AccuracyScene::name);
   command->add_option("--scene", options->scene, "Only one scene: " + names)->type_name("NAME")->transform(not_empty());
   add_json(*command, *options);
   add_png(*command, *options, "Draw error over run time, one chart per scene");

@@ -1,8 +1,10 @@
 #include "core/engines/opencl/opencl_engine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "core/cloth/start.h"
 #include "core/engines/opencl/arguments.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
@@ -208,15 +210,17 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
 }
 
 template <class R>
-void OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
+bool OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
   std::vector<int> fixed = pinned_;
   if (held_.particle >= 0) fixed.push_back(held_.particle);
   const auto residual = [&](cl_mem x, cl_mem v, cl_mem c_v, cl_mem out) {
     const int at = set_arguments(kernels_.residual, 0, x, x, v, v, c_v, c_v, out, out);
     launch_sweep(kernels_.residual, at, resolved.constants, slot, 1);
   };
-  solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
-                  resolved.sweep->solves * preset_.dt, residual});
+  const double pass = double(&resolved - resolved_.data()), passes = double(resolved_.size());
+  return solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
+                         resolved.sweep->solves * preset_.dt, residual, repeating_ ? Stop{} : stop(),
+                         [&](double part) { set_step_progress((pass + part) / passes); }});
 }
 
 template <class R>
@@ -261,6 +265,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
+  assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
   const bool shifts = scheme_->lags && changes(preset_, preset).touches(Effect::dt);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
