@@ -83,6 +83,14 @@ void choose_dt(Preset& p, StressRandom& random) {
   if (std::isfinite(limit) && random.chance(0.6)) p.dt = std::clamp(limit * random.decades(0.03, 3), 1e-7, 1.0);
 }
 
+/// Nothing holds the cloth, and its springs break soon, or all at once.
+void tear_apart(Preset& p, StressRandom& random) {
+  p.pins = Pins{};
+  p.pins.mode = Pins::Mode::none;
+  p.initial_stretch = random.uniform(1, 2);
+  p.F_max = std::clamp(p.k_s * p.L * random.decades(smallest, 1), smallest, 1e9);
+}
+
 }  // namespace
 
 StressRandom::StressRandom(std::uint64_t seed, std::uint64_t number)
@@ -113,6 +121,7 @@ Preset random_preset(StressRandom& random) {
   p.pins = random_pins(p, random);
   for (int n = std::max(0, random.below(6) - 2); n > 0; --n) p.bodies.push_back(random_body(p, random));
   choose_dt(p, random);
+  if (p.kind == Kind::cloth && random.chance(0.15)) tear_apart(p, random);
   return p;
 }
 
@@ -153,7 +162,7 @@ Edit random_edit(const Simulation& simulation, StressRandom& random, std::string
       return what = "release", edit::Release{};
     case 3: {
       edit::Cut cut;
-      for (int n = random.below(10); n >= 0; --n)
+      for (int n = random.chance(0.2) ? lattice.size() : random.below(10); n >= 0; --n)
         cut.sites.push_back({random.below(lattice.rows), random.below(lattice.columns)});
       return what = "cut", cut;
     }

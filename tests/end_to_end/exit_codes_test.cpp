@@ -1,6 +1,9 @@
 // The program as a process: exit codes and what it says, as docs and scripts rely on them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
 
@@ -146,6 +149,46 @@ TEST_CASE("4: run and render diverge; what they had is written, and when, where 
   CHECK(test::read_file(folder / "r.json").find("\"status\": \"diverged\"") != std::string::npos);
   CHECK(test::read_file(folder / "p.png").starts_with("\x89PNG"));
   CHECK_FALSE(fs::is_empty(folder / "frames"));
+}
+
+/// Fails where a number of these files is none.
+void check_finite(const fs::path& folder, std::initializer_list<const char*> files) {
+  for (const char* file : files) {
+    CAPTURE(std::string(file));
+    std::string text = test::read_file(folder / file);
+    if (!std::string_view(file).ends_with(".json")) text.erase(0, text.find('\n'));  // a comment with a name in it
+    for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+    for (const char* word : {",inf", ",-inf", ",nan", ",-nan", " inf", " -inf", " nan", " -nan", "infinity"})
+      CHECK(text.find(word) == std::string::npos);
+  }
+}
+
+TEST_CASE("4: an explosion that leaves no spring whole, and no file holds what is no number") {
+  const test::TemporaryFolder folder;
+  // What a fuzzer found: k_d is far too large for m and dt, and each step tears what it stretches.
+  test::write_file(folder / "torn.json",
+                   R"({"tyglab_preset": 1, "name": "torn", "forces": {"k_d": 260909.76923858878, "g": 100},
+    "tearing": {"F_max": 89896726.4061411}, "solver": {"integrator": "dopri5"}, "cloth": {"rows": 19, "columns": 13,
+    "L": 0.003232098022278961, "initial_stretch": 8.021473187859389, "x_0": [-1000, -1000, 0], "pins": "none"}})");
+  const auto with_outputs = [&](std::vector<std::string> run) {
+    for (const char* output : {"--state", "s.csv", "--values", "v.csv", "--series", "t.csv", "--ledger", "l.csv",
+                               "--json", "r.json", "--pc2", "p.pc2", "--obj", "frames"})
+      run.emplace_back(output);
+    return run;
+  };
+  const std::vector<std::string> stretched = {
+      "run",   "hanging",   "--set", "F_max=0.1",           "--set",     "k_s=1e6", "--set", "tilt_deg=0",
+      "--set", "pins=none", "--set", "initial_stretch=1.5", "--seconds", "0.2"};
+  for (const auto& run : {std::vector<std::string>{"run", "torn.json", "--steps", "50"}, stretched}) {
+    for (const bool ledger : {true, false}) {
+      auto line = with_outputs(run);
+      if (!ledger)
+        line.erase(std::find(line.begin(), line.end(), "--ledger"), std::find(line.begin(), line.end(), "--json"));
+      check_calls({{line, 4, "diverged at t ="}}, folder.path());
+      check_finite(folder.path(), {"s.csv", "v.csv", "t.csv", "l.csv", "r.json"});
+    }
+    CHECK_FALSE(fs::is_empty(folder / "frames"));
+  }
 }
 
 TEST_CASE("5: the engine asked for is not there") {

@@ -1,13 +1,16 @@
 // State files give back the very same numbers; series are tables that programs can read.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "core/io/text.h"
+#include "core/output/obj.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"
 #include "tests/support/files.h"
@@ -35,6 +38,29 @@ TEST_CASE("17 digits bring back every double") {
     append_number(text, value);
     CHECK(number(text) == value);
   }
+}
+
+TEST_CASE("what is not finite is an empty cell, and no coordinate of a mesh") {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const double value : {infinite, -infinite, std::nan("")}) {
+    std::string text = "1,";
+    append_number(text, value);
+    CHECK(text == "1,");
+    append_number(text, value, 9);
+    CHECK(text == "1,");
+    CHECK_THROWS_WITH_AS(float_coordinate(value), doctest::Contains("too large"), OutputError);
+  }
+  CHECK_THROWS_AS(float_coordinate(-1e39), OutputError);
+  CHECK(float_coordinate(3e38) == 3e38f);
+
+  Simulation simulation(test::cloth(3, 2));
+  State state = simulation.read();
+  state.v.y[3] = infinite, state.x.z[5] = -infinite;
+  const std::string rows = state_csv(simulation.lattice(), state, {0.5, 7, "hash"});
+  CHECK(rows.find("inf") == std::string::npos);
+  for (const std::string& row : test::lines(rows))
+    if (!row.starts_with("#")) CHECK(std::count(row.begin(), row.end(), ',') == 7);
+  CHECK_THROWS_AS(obj_text(simulation.tears(), state.x, {}), OutputError);
 }
 
 TEST_CASE("a state file holds the stamp, the header and every particle to the last bit") {
