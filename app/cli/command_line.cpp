@@ -110,7 +110,7 @@ void prepare_process() {
 
 std::vector<std::string> command_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* each : command.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
     names.push_back(each->get_name());
   return names;
 }
