@@ -1,5 +1,9 @@
 """The menu of engines and precisions: what can be chosen, what cannot and why, what comes along."""
 
+import os
+import shutil
+import tempfile
+
 from cases import case, check, main
 from sandbox import centre
 
@@ -75,6 +79,22 @@ def with_device(stage):
     stage.keep("note")
     sandbox.key("ctrl+z")
     sandbox.wait(lambda r: solver(r)["integrator"] != "xpbd" and solver(r)["engine"] == "opencl", "one undo to take both back")
+
+
+@case
+def dying_driver(stage):
+    """where the OpenCL driver dies late, here for want of a linker, the CPU engine goes on with a sentence"""
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(shutil.which("xdotool"), os.path.join(folder, "xdotool"))
+        own = {"PATH": folder, "HOME": folder, "XDG_CACHE_HOME": "", "POCL_CACHE_DIR": os.path.join(folder, "pocl")}
+        sandbox = stage.start("hanging", "--engine", "opencl", environment=own)
+        report = sandbox.wait(lambda r: r["t"] > 0.1, "it to move")
+        if solver(report)["engine"] == "opencl":
+            print("        this OpenCL driver needs no linker: nothing more is tried")
+            return
+        check(any(text.endswith("The CPU engine runs it instead.") for text in report["messages"]),
+              str(report["messages"]))
+        stage.keep("took_over")
 
 
 if __name__ == "__main__":
