@@ -52,9 +52,14 @@ nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordere
           {"runs", std::move(runs)}};
 }
 
+Reach bench_reach() {
+  return InterruptGuard::interrupted() ? Reach::cut_short : Reach::whole;
+}
+
 int bench_exit() {
   if (!InterruptGuard::interrupted()) return exit_done;
-  std::cerr << "tyglab: Interrupted; the results measured so far are complete.\n";
+  std::cerr
+      << "tyglab: Interrupted; the results measured so far are complete. A file of them is called F.incomplete.\n";
   return exit_interrupted;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/cli/outputs.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 
@@ -28,7 +29,9 @@ CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string
 /// The frame of a benchmark's JSON: its name, the machine, the version and build, and the rows under "runs".
 nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs);
 
-/// The exit code of a benchmark under an InterruptGuard; says so if Ctrl-C ended it.
+/// How far the results of a benchmark under an InterruptGuard came: to their end, or to Ctrl-C.
+Reach bench_reach();
+/// Its exit code; says so if Ctrl-C ended it.
 int bench_exit();
 
 }  // namespace tyglab

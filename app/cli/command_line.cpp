@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -168,6 +169,7 @@ std::string counted(std::int64_t count, const std::string& noun) {
 }
 
 CLI::Validator number_between(double lowest, double highest, const std::string& unit) {
+  assert(lowest <= highest);
   const auto check = [=](std::string& text) -> std::string {
     const auto value = number_in(text);
     if (!value) return "'" + text + "' is not a number; write it like 1.5 or 2e-3";
@@ -177,6 +179,7 @@ CLI::Validator number_between(double lowest, double highest, const std::string& 
 }
 
 CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest) {
+  assert(lowest <= highest);
   const auto check = [=](std::string& text) -> std::string {
     const auto value = number_in(text);
     if (!value || (std::isfinite(*value) && *value != std::floor(*value)))

@@ -36,7 +36,7 @@ Image Film::with_legend() const {
   return gui.pixels();
 }
 
-void Film::shoot(Simulation& simulation, const std::filesystem::path& file) {
+std::filesystem::path Film::shoot(Simulation& simulation, const std::filesystem::path& file, Reach reach) {
   renderer_.lend_memory(simulation);
   renderer_.update(simulation, options_);
   if (colors_) {
@@ -48,7 +48,7 @@ void Film::shoot(Simulation& simulation, const std::filesystem::path& file) {
     options_.colored = colors_->range();
   }
   renderer_.draw(camera_, options_, size_.width, size_.height);
-  write_png(file, colors_ ? with_legend() : renderer_.pixels());
+  return write_png(file, colors_ ? with_legend() : renderer_.pixels(), reach);
 }
 
 }  // namespace tyglab

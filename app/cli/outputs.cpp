@@ -25,21 +25,6 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return is_plain(a) && is_plain(b) && place(a) == place(b);
 }
 
-void require_writable(const std::string& file) {
-  if (is_standard_output(file)) return;
-  std::error_code error;
-  const fs::path path(file);
-  if (fs::is_directory(path, error)) throw OutputError(file + ": is a folder; name a file in it");
-  if (!path.has_filename()) throw OutputError(file + ": is the name of a folder; name a file in it");
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error))
-    throw OutputError(file + ": the folder " + folder.string() + " does not exist; create it first (mkdir -p)");
-  const bool device = fs::exists(path, error) && !fs::is_regular_file(path, error);
-  if (device && ::access(file.c_str(), W_OK) != 0) throw OutputError(file + ": is not writable; choose another name");
-  if (!device && ::access(folder.c_str(), W_OK) != 0)
-    throw OutputError(file + ": the folder " + folder.string() + " is not writable; choose another");
-}
-
 }  // namespace
 
 void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
@@ -55,7 +40,7 @@ void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
                          "; use a different file for one of them");
     if (!input.empty() && same_file(a->file, input))
       throw UsageError(a->option + " " + a->file + ": would overwrite the preset that is read; use another file");
-    require_writable(a->file);
+    check_output(a->file);
   }
 }
 

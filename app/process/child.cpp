@@ -27,7 +27,7 @@ namespace {
 void set_up_child(const ChildOptions& options) {
   leave_crashes_to_parent();
   if (options.interruptible)
-    for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   else
     std::signal(SIGINT, SIG_IGN);  // Ctrl-C reaches it too, but what was begun is finished
   if (!options.silent) return;

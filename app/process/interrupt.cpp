@@ -36,11 +36,14 @@ SignalHandler::SignalHandler(void (*handler)(int)) {
   action.sa_flags = SA_RESTART;  // a write that is interrupted goes on
   sigaction(SIGINT, &action, &old_int_);
   sigaction(SIGTERM, &action, &old_term_);
+  sigaction(SIGHUP, &action, &old_hup_);
+  if (old_hup_.sa_handler == SIG_IGN) sigaction(SIGHUP, &old_hup_, nullptr);  // nohup stays so
 }
 
 SignalHandler::~SignalHandler() {
   sigaction(SIGINT, &old_int_, nullptr);
   sigaction(SIGTERM, &old_term_, nullptr);
+  sigaction(SIGHUP, &old_hup_, nullptr);
 }
 
 InterruptExit::InterruptExit() : handler_(exit_on_interrupt) {}

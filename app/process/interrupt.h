@@ -1,11 +1,12 @@
-// Ctrl-C ends the program with a sentence: at once while there is nothing to keep, cleanly during long work.
+// Ctrl-C, SIGTERM and SIGHUP (a terminal that is closed) end the program with a sentence: at once while there is
+// nothing to keep, cleanly during long work.
 #pragma once
 
 #include <csignal>
 
 namespace tyglab {
 
-/// What SIGINT and SIGTERM do while one lives; afterwards they do what they did before.
+/// What SIGINT, SIGTERM and SIGHUP do while one lives; afterwards they do what they did before.
 class SignalHandler {
  public:
   explicit SignalHandler(void (*handler)(int));
@@ -14,10 +15,10 @@ class SignalHandler {
   SignalHandler& operator=(const SignalHandler&) = delete;
 
  private:
-  struct sigaction old_int_, old_term_;
+  struct sigaction old_int_, old_term_, old_hup_;
 };
 
-/// While one lives, Ctrl-C (or SIGTERM) says so and ends the program at once with exit code 130.
+/// While one lives, Ctrl-C (or SIGTERM, SIGHUP) says so and ends the program at once with exit code 130.
 class InterruptExit {
  public:
   InterruptExit();
@@ -26,7 +27,8 @@ class InterruptExit {
   SignalHandler handler_;
 };
 
-/// While one lives, the first Ctrl-C (or SIGTERM) is noted instead of ending the program; the second ends it at once.
+/// While one lives, the first Ctrl-C (or SIGTERM, SIGHUP) is noted instead of ending the program; the second ends it at
+/// once.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -121,7 +121,7 @@ Image decode_others(std::span<const unsigned char> bytes) {
 ImageTooLarge::ImageTooLarge(int its_width, int its_height, int allowed_side)
     : std::runtime_error("too large"), width(its_width), height(its_height), largest_side(allowed_side) {}
 
-void write_png(const std::filesystem::path& file, const Image& image) {
+std::filesystem::path write_png(const std::filesystem::path& file, const Image& image, Reach reach) {
   std::string bytes;
   const auto append = [](void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
@@ -129,7 +129,7 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3) == 0) {
     throw OutputError("The image " + file.string() + " could not be encoded. Is there enough memory?");
   }
-  write_output(file, bytes);
+  return write_output(file, bytes, reach);
 }
 
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi) {

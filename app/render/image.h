@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/output_file.h"
+
 namespace tyglab {
 
 /// 8-bit sRGB, three bytes a pixel, rows from the top, no padding.
@@ -17,8 +19,8 @@ struct Image {
   std::vector<std::uint8_t> rgb;
 };
 
-/// Writes a PNG whole or not at all, or to standard output ("-"). Throws OutputError (core/io/preset_io.h).
-void write_png(const std::filesystem::path& file, const Image& image);
+/// Writes a PNG (write_output). Returns where it is. Throws OutputError.
+std::filesystem::path write_png(const std::filesystem::path& file, const Image& image, Reach reach = Reach::whole);
 
 /// The part between two corners, pixels from the upper left one; what lies outside the picture is left out.
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi);

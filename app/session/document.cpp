@@ -46,6 +46,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
 }
 
 void take_built(Session& session, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
+  settle(session);
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));
   if (order.document) return begin_document(session, *order.document);

@@ -15,6 +15,7 @@
 #include "app/ui/frame/frame.h"
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/state/ui.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
@@ -180,7 +181,7 @@ bool Sandbox::due() {
 
 /// When a frame is wanted again though nothing moves; the panels have said what they want of it.
 void Sandbox::plan_next_frame() {
-  const bool cursor_blinks = ui_.slider.typing != 0 || ImGui::GetIO().WantTextInput;
+  const bool cursor_blinks = ui_.slider.typing != 0 || gui::typing_text();
   if (cursor_blinks) ui_.draw_by = std::min(ui_.draw_by, ui_.now + 0.25);
   ui_.draw_by = std::min(ui_.draw_by, session_.messages.next_end() + 0.01);
   ui_.draw_by = std::min(ui_.draw_by, ui_.now + (session_.again_at - session_.now));

@@ -38,10 +38,11 @@ std::string lost_output(const std::filesystem::path& file, int error) {
   return output_name(file) + ": cannot be written" + why + "; write it elsewhere, or free disk space";
 }
 
-void write_output(const std::filesystem::path& file, std::string_view bytes) {
-  if (!is_standard_output(file)) return write_atomically(file, bytes);
-  file_output().write(bytes.data(), std::streamsize(bytes.size()));
-  flush_standard_output();
+std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes, Reach reach) {
+  OutputFile out(file);
+  out.write(bytes);
+  out.end(reach);
+  return out.path();
 }
 
 void flush_standard_output() {

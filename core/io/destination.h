@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/io/files.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 
@@ -18,8 +19,9 @@ std::string output_name(const std::filesystem::path& file);
 /// What to say of an output that could not be written, errno being `error` (0: not known).
 std::string lost_output(const std::filesystem::path& file, int error);
 
-/// Writes a file whole or not at all (write_atomically), or sends the bytes to standard output. Throws OutputError.
-void write_output(const std::filesystem::path& file, std::string_view bytes);
+/// Writes an output in one go (OutputFile). Returns where the bytes are. Throws OutputError.
+std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes,
+                                   Reach reach = Reach::whole);
 
 /// Sends what std::cout and stdout still hold on its way. Throws OutputError if any of it was lost.
 void flush_standard_output();

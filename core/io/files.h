@@ -13,7 +13,7 @@ class OutputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes a temporary file beside the target and renames it. Throws OutputError.
+/// Writes a file as a whole (OutputFile); "-" is a file's name here. Throws OutputError.
 void write_atomically(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace tyglab

@@ -1,5 +1,6 @@
-// JSON text as a tree whose every value knows its line, with doubled keys refused. (nlohmann-json's own tree keeps
-// neither, so its event interface builds this one.)
+// JSON text as a tree whose every value knows its line, with doubled keys refused and faults told in words. (The tree
+// of nlohmann-json keeps neither lines nor doubled keys, and its errors speak of tokens: here it reads strings and
+// numbers.)
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,7 @@ std::string printable(std::string text);
 /// Whether errors tell lines, or the text is one (a --set).
 enum class Lines { told, one };
 
-/// Throws PresetError naming `source`, and the line.
+/// Throws PresetError naming `source`, line and column.
 JsonNode parse_json(std::string_view text, std::string_view source, Lines lines);
 
 }  // namespace tyglab

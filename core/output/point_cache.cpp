@@ -1,16 +1,13 @@
 #include "core/output/point_cache.h"
 
 #include <bit>
-#include <cerrno>
-#include <cstring>
 
-#include "core/io/destination.h"
-#include "core/io/files.h"
+#include "core/io/text.h"
 
 namespace tyglab {
 namespace {
 
-constexpr long count_offset = 28;  // of the number of samples within the header
+constexpr std::uint64_t count_offset = 28;  // of the number of samples within the header
 
 /// Appends the four bytes of an int32 or a float32, lowest first, whatever the machine's own order.
 template <class T>
@@ -23,11 +20,7 @@ void append_little_endian(std::string& bytes, T value) {
 }  // namespace
 
 PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
-    : file_(file), out_(is_standard_output(file) ? std::tmpfile() : std::fopen(file.c_str(), "wb")), points_(points) {
-  if (!out_) fail();
-  if (std::fseek(out_.get(), 0, SEEK_SET) != 0)
-    throw OutputError(file_.string() +
-                      ": a point cache has its sample count at the start, so it cannot be piped; name a file, or -");
+    : out_(file, OutputFile::Order::any), points_(points) {
   std::string header("POINTCACHE2");
   header.push_back('\0');
   append_little_endian<std::int32_t>(header, 1);
@@ -35,39 +28,19 @@ PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
   append_little_endian<float>(header, 0);
   append_little_endian<float>(header, 1);
   append_little_endian<std::int32_t>(header, 0);
-  put(header);
+  out_.write(header);
 }
 
 void PointCache::add(const VectorField<double>& x) {
   sample_.clear();
   for (std::size_t p = 0; p < std::size_t(points_); ++p)
-    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, static_cast<float>(value));
-  put(sample_);
+    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, float_coordinate(value));
+  out_.write(sample_);
   ++samples_;
   std::string count;
   append_little_endian(count, samples_);
-  if (std::fseek(out_.get(), count_offset, SEEK_SET) != 0) fail();
-  put(count);
-  if (std::fseek(out_.get(), 0, SEEK_END) != 0) fail();
-}
-
-void PointCache::finish() {
-  if (!is_standard_output(file_)) return;
-  std::rewind(out_.get());
-  std::string part(std::size_t{1} << 20, '\0');
-  while (const std::size_t size = std::fread(part.data(), 1, part.size(), out_.get()))
-    write_output(file_, std::string_view(part).substr(0, size));
-  if (std::ferror(out_.get()) != 0) fail();
-}
-
-void PointCache::put(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), out_.get()) != bytes.size() || std::fflush(out_.get()) != 0) fail();
-}
-
-void PointCache::fail() const {
-  const std::string why = std::strerror(errno);
-  throw OutputError((is_standard_output(file_) ? "the temporary file of --pc2 -" : file_.string()) +
-                    ": cannot be written: " + why);
+  out_.write_at(count_offset, count);
+  out_.keep();
 }
 
 }  // namespace tyglab

@@ -1,10 +1,7 @@
 #include "core/output/series_csv.h"
 
 #include <algorithm>
-#include <cerrno>
 
-#include "core/io/destination.h"
-#include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 #include "core/io/text.h"
@@ -13,15 +10,13 @@ namespace tyglab {
 
 SeriesCsv::SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns,
                      const std::string& preset_hash)
-    : file_(file), out_(is_standard_output(file) ? file_output() : own_) {
-  if (!is_standard_output(file)) own_.open(file, std::ios::trunc);
-  out_ << "# tyglab series, t in s, preset hash " << preset_hash << "\nt";
+    : out_(file) {
+  std::string header = "# tyglab series, t in s, preset hash " + preset_hash + "\nt";
   for (const SeriesColumn& column : columns) {
-    out_ << ',' << column.name;
-    if (!column.unit.empty()) out_ << " [" << column.unit << ']';
+    header += ',' + column.name;
+    if (!column.unit.empty()) header += " [" + column.unit + ']';
   }
-  out_ << std::endl;
-  check();
+  out_.write(header + '\n');
 }
 
 void SeriesCsv::add(double t, std::span<const double> values) {
@@ -32,13 +27,9 @@ void SeriesCsv::add(double t, std::span<const double> values) {
     row_ += ',';
     append_number(row_, value, digits);
   }
-  out_ << row_ << std::endl;
-  check();
-}
-
-void SeriesCsv::check() {
-  if (out_) return;
-  throw OutputError(lost_output(file_, errno));
+  row_ += '\n';
+  out_.write(row_);
+  out_.keep();
 }
 
 std::vector<SeriesColumn> series_columns(Kind kind) {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/io/output_file.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -18,20 +18,19 @@ struct SeriesColumn {
 };
 
 /// Writes a time series row by row: a comment, which names the unit of t; a header `t,NAME [UNIT],…`; rows with nine
-/// significant digits. Every row is on its way as soon as it is added, so that a run cut short leaves whole rows.
+/// significant digits. Every row is written as it is added, so that a run cut short leaves whole rows (OutputFile).
 class SeriesCsv {
  public:
-  /// Creates the file (or takes standard output, "-") and writes the header. Throws OutputError.
+  /// Begins the file, or standard output ("-"), with the header. Throws OutputError.
   SeriesCsv(const std::filesystem::path& file, std::span<const SeriesColumn> columns, const std::string& preset_hash);
   /// Appends a row: t (s) and a value for each column. Throws OutputError.
   void add(double t, std::span<const double> values);
+  /// No more rows come. Throws OutputError.
+  void end(Reach reach = Reach::whole) { out_.end(reach); }
+  std::filesystem::path path() const { return out_.path(); }
 
  private:
-  void check();
-
-  std::filesystem::path file_;
-  std::ofstream own_;
-  std::ostream& out_;  ///< own_ or file_output()
+  OutputFile out_;
   std::string row_;
 };
 

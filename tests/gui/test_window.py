@@ -2,8 +2,10 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
+import tempfile
 
 from cases import case, check, main
 
@@ -156,6 +158,22 @@ def interrupted(stage):
     sandbox.process.send_signal(signal.SIGINT)
     check(sandbox.ended() == 130, f"the exit code is {sandbox.process.returncode}")
     check(sandbox.report()["ended"], "the last report says that it ended")
+
+
+@case
+def dying_driver(stage):
+    """where the OpenCL driver dies late, here for want of a linker, the CPU engine goes on with a sentence"""
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(shutil.which("xdotool"), os.path.join(folder, "xdotool"))
+        own = {"PATH": folder, "HOME": folder, "XDG_CACHE_HOME": "", "POCL_CACHE_DIR": os.path.join(folder, "pocl")}
+        sandbox = stage.start("hanging", "--engine", "opencl", environment=own)
+        report = sandbox.wait(lambda r: r["t"] > 0.1, "it to move")
+        if report["preset"]["solver"]["engine"] == "opencl":
+            print("        this OpenCL driver needs no linker: nothing more is tried")
+            return
+        check(any(text.endswith("The CPU engine runs it instead.") for text in report["messages"]),
+              str(report["messages"]))
+        stage.keep("took_over")
 
 
 if __name__ == "__main__":

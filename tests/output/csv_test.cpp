@@ -73,6 +73,7 @@ TEST_CASE("a time series has a t column, units in the header and a value in ever
       series.add(simulation.time(), series_values(simulation));
       simulation.advance(10);
     }
+    series.end();
     const auto rows = test::lines(test::read_file(folder / "t.csv"));
     REQUIRE(rows.size() == 2 + 5);
     CHECK(rows[0].starts_with("#"));

@@ -36,8 +36,8 @@ std::string header(std::int32_t count, std::int32_t samples) {
 
 TEST_CASE("header and samples, byte for byte, whole after every frame") {
   const test::TemporaryFolder folder;
-  const auto file = folder / "cloth.pc2";
-  PointCache cache(file, 2);
+  const auto file = folder / "cloth.pc2.incomplete";
+  PointCache cache(folder / "cloth.pc2", 2);
   std::string wanted = header(2, 0);
   CHECK(wanted.size() == 32);
   CHECK(test::read_file(file) == wanted);
@@ -49,6 +49,8 @@ TEST_CASE("header and samples, byte for byte, whole after every frame") {
   for (const float value : {4.f, 6.f, 8.f, 5.f, 7.f, 9.f}) append(samples, value);
   CHECK(test::read_file(file) == header(2, 2) + samples);
   CHECK(cache.samples() == 2);
+  cache.end();
+  CHECK(test::read_file(folder / "cloth.pc2") == header(2, 2) + samples);
 }
 
 TEST_CASE("a point cache that cannot be written says so") {

@@ -77,7 +77,8 @@ namespace {
   _exit(127);
 }
 
-Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& command, double interrupt_after) {
+Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& command, double interrupt_after,
+                       int signal) {
   const TemporaryFolder capture;
   const fs::path out = capture / "out", err = capture / "err";
   const pid_t child = fork();
@@ -85,7 +86,7 @@ Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& c
   if (child == 0) become(folder, command, out, err);
   if (interrupt_after > 0) {
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
-    kill(child, SIGINT);
+    kill(child, signal);
   }
   int status = 0;
   REQUIRE(waitpid(child, &status, 0) == child);
@@ -96,17 +97,18 @@ Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& c
 }  // namespace
 
 Outcome run(const fs::path& folder, const std::vector<std::string>& command) {
-  return run_and_signal(folder, command, 0);
+  return run_and_signal(folder, command, 0, 0);
 }
 
 Outcome tyglab(const fs::path& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), TYGLAB_BINARY);
-  return run_and_signal(folder, arguments, 0);
+  return run_and_signal(folder, arguments, 0, 0);
 }
 
-Outcome tyglab_interrupted(const fs::path& folder, std::vector<std::string> arguments, double after_seconds) {
+Outcome tyglab_interrupted(const fs::path& folder, std::vector<std::string> arguments, double after_seconds,
+                           int signal) {
   arguments.insert(arguments.begin(), TYGLAB_BINARY);
-  return run_and_signal(folder, arguments, after_seconds);
+  return run_and_signal(folder, arguments, after_seconds, signal);
 }
 
 }  // namespace tyglab::test

@@ -1,6 +1,7 @@
 // Temporary folders and the program as a process.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -37,8 +38,8 @@ struct Outcome {
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& command);
 /// Runs the built `tyglab` with these arguments.
 Outcome tyglab(const std::filesystem::path& folder, std::vector<std::string> arguments);
-/// Starts `tyglab`, sends it SIGINT after that time, and waits.
+/// Starts `tyglab`, sends it a signal after that time, and waits.
 Outcome tyglab_interrupted(const std::filesystem::path& folder, std::vector<std::string> arguments,
-                           double after_seconds);
+                           double after_seconds, int signal = SIGINT);
 
 }  // namespace tyglab::test

@@ -123,8 +123,10 @@ int accuracy(const AccuracyOptions& options) {
     if (scene.name == unpredictable) statistics = measure_statistics(scene, options.quick, InterruptGuard::interrupted);
   progress.clear();
   print_statistics(out, statistics);
-  if (!options.json.empty()) write_output(options.json, accuracy_json(results, statistics).dump(2) + "\n");
-  if (!options.png.empty()) write_charts(options.png, accuracy_charts(results), 2, 1.5f, accuracy_chart_height);
+  if (!options.json.empty())
+    write_output(options.json, accuracy_json(results, statistics).dump(2) + "\n", bench_reach());
+  if (!options.png.empty())
+    write_charts(options.png, accuracy_charts(results), bench_reach(), 2, 1.5f, accuracy_chart_height);
   return bench_exit();
 }
 

@@ -103,8 +103,8 @@ int convergence(const ConvergenceOptions& options) {
   progress.clear();
   if (study.done) print_study(out, scene.source.label, study);
   if (!options.bench.json.empty())
-    write_output(options.bench.json, convergence_json(scene.source.label, study).dump(2) + "\n");
-  if (!options.csv.empty()) write_output(options.csv, convergence_csv(study));
+    write_output(options.bench.json, convergence_json(scene.source.label, study).dump(2) + "\n", bench_reach());
+  if (!options.csv.empty()) write_output(options.csv, convergence_csv(study), bench_reach());
   if (!options.bench.png.empty()) {
     Chart chart = convergence_chart(dark_tokens(), study);
     chart.title = "Error over dt: " + scene.source.label + ", " + std::string(scheme(study.of.integrator).title);
@@ -112,7 +112,7 @@ int convergence(const ConvergenceOptions& options) {
     std::snprintf(note.data(), note.size(), "in double, over the first %.3g s", study.seconds);
     chart.note = note.data();
     chart.padding = 20;
-    write_charts(options.bench.png, {chart}, 1);
+    write_charts(options.bench.png, {chart}, bench_reach(), 1);
   }
   return bench_exit();
 }

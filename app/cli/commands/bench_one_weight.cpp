@@ -113,8 +113,8 @@ int one_weight(const WeightOptions& options) {
     json.push_back(row_json(run));
     runs.push_back(std::move(run));
   }
-  if (!options.json.empty()) write_output(options.json, bench_json("one-weight", json).dump(2) + "\n");
-  if (!options.png.empty()) write_charts(options.png, {weight_chart(runs)});
+  if (!options.json.empty()) write_output(options.json, bench_json("one-weight", json).dump(2) + "\n", bench_reach());
+  if (!options.png.empty()) write_charts(options.png, {weight_chart(runs)}, bench_reach());
   return bench_exit();
 }
 

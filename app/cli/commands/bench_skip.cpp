@@ -142,9 +142,9 @@ int skip(const SkipOptions& options) {
   if (!options.json.empty()) {
     Json all = bench_json("skip", json);
     all["instructions_counted_with"] = counted_with.empty() ? Json(nullptr) : Json(counted_with);
-    write_output(options.json, all.dump(2) + "\n");
+    write_output(options.json, all.dump(2) + "\n", bench_reach());
   }
-  if (!options.png.empty()) write_charts(options.png, {skip_chart(rows, options.side)});
+  if (!options.png.empty()) write_charts(options.png, {skip_chart(rows, options.side)}, bench_reach());
   return bench_exit();
 }
 

@@ -64,6 +64,7 @@ int render(const RenderOptions& options) {
   const InterruptGuard guard;
   Stepper stepper(simulation, steps, label, scene.auto_dt);
   std::int64_t frame = 0;
+  fs::path written = options.png;
   if (sequence) {
     while (frame < plan.count()) {
       const bool there = stepper.advance_to(plan.step_of(frame));
@@ -79,11 +80,11 @@ int render(const RenderOptions& options) {
     do {
       stepper.advance_to(stepper.end());
     } while (stepper.changed());
-    film.shoot(simulation, options.png);
+    written = film.shoot(simulation, options.png, stepper.interrupted() ? Reach::stopped : Reach::whole);
   }
 
   std::ostream& out = people(options.outputs());
-  out << label << ": t = " << simulation.time() << " s. Wrote " << output_name(options.png);
+  out << label << ": t = " << simulation.time() << " s. Wrote " << output_name(written);
   if (sequence) out << " (" << counted(frame, "image") << ", " << plan.fps() << " per second)";
   out << '.' << std::endl;
   if (simulation.divergence()) {
@@ -91,7 +92,7 @@ int render(const RenderOptions& options) {
     return exit_diverged;
   }
   if (!stepper.interrupted()) return exit_done;
-  std::cerr << "tyglab: Interrupted; the images written so far are complete.\n";
+  std::cerr << "tyglab: Interrupted; what was written so far is complete, and no older image was replaced.\n";
   return exit_interrupted;
 }
 

@@ -44,7 +44,7 @@ struct RunOptions {
   }
 };
 
-/// The files of a run. Each is right as far as it goes, however the run ends.
+/// The files of a run. Each is right as far as it goes, however the run ends, and replaces an older one only if whole.
 class Outputs {
  public:
   Outputs(const RunOptions& options, const ResolvedPreset& scene, std::int64_t steps)
@@ -97,22 +97,22 @@ class Outputs {
     }
   }
 
-  /// The state as the run ended. Returns what was written: kind, path, and frames where there are several.
-  Json finish(Simulation& simulation) {
+  /// Ends what was written as the run went, and writes the state as it ended. Returns what was written: kind, path, and
+  /// frames where there are several.
+  Json finish(Simulation& simulation, bool interrupted) {
     Json files = Json::array();
-    if (cache_) cache_->finish();
-    if (!options_.state.empty()) {
-      write_output(options_.state, state_csv(simulation));
-      files.push_back({{"kind", "state"}, {"path", options_.state}});
-    }
-    if (!options_.values.empty()) {
-      write_output(options_.values, values_csv(simulation, nullptr));
-      files.push_back({{"kind", "values"}, {"path", options_.values}});
-    }
-    if (series_) files.push_back({{"kind", "series"}, {"path", options_.series}, {"rows", row_}});
-    if (ledger_) files.push_back({{"kind", "ledger"}, {"path", options_.ledger}, {"rows", row_}});
-    if (!options_.obj.empty()) files.push_back({{"kind", "obj"}, {"path", options_.obj}, {"frames", frame_}});
-    if (cache_) files.push_back({{"kind", "pc2"}, {"path", options_.pc2}, {"frames", frame_}});
+    const auto add = [&](const char* kind, const fs::path& path) -> Json& {
+      return files.emplace_back(Json{{"kind", kind}, {"path", path.string()}});
+    };
+    // First what holds the work of the whole run.
+    const Reach history = interrupted ? Reach::cut_short : Reach::whole;
+    if (series_) series_->end(history), add("series", series_->path())["rows"] = row_;
+    if (ledger_) ledger_->end(history), add("ledger", ledger_->path())["rows"] = row_;
+    if (cache_) cache_->end(history), add("pc2", cache_->path())["frames"] = frame_;
+    if (!options_.obj.empty()) add("obj", options_.obj)["frames"] = frame_;
+    const Reach moment = interrupted ? Reach::stopped : Reach::whole;
+    if (!options_.state.empty()) add("state", write_output(options_.state, state_csv(simulation), moment));
+    if (!options_.values.empty()) add("values", write_output(options_.values, values_csv(simulation, nullptr), moment));
     return files;
   }
 
@@ -303,8 +303,9 @@ int run(const RunOptions& options) {
                               : stepper.interrupted() ? "interrupted"
                                                       : "done",
                               wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
-                              outputs.finish(simulation));
-  if (!options.json.empty()) write_output(options.json, report.dump(2) + "\n");
+                              outputs.finish(simulation, stepper.interrupted()));
+  if (!options.json.empty())
+    write_output(options.json, report.dump(2) + "\n", stepper.interrupted() ? Reach::stopped : Reach::whole);
 
   people(options.outputs())
       << closing(report,
@@ -323,7 +324,8 @@ int run(const RunOptions& options) {
   if (simulation.left_inside() > 0)
     std::cerr << "tyglab: " << counted(simulation.left_inside(), "particle")
               << " left inside a body, since bodies overlap; move them apart.\n";
-  if (stepper.interrupted()) std::cerr << "tyglab: Interrupted; what was written so far is complete.\n";
+  if (stepper.interrupted())
+    std::cerr << "tyglab: Interrupted; what was written so far is complete, and no older file was replaced.\n";
   return diverged ? exit_diverged : stepper.interrupted() ? exit_interrupted : exit_done;
 }
 

@@ -172,9 +172,10 @@ int boundary(const BenchOptions& options) {
   if (!options.json.empty()) {
     Json all = bench_json("stability boundary", lists[0]);
     all["k_s_runs"] = lists[1], all["growth_runs"] = lists[2], all["slack_runs"] = lists[3];
-    write_output(options.json, all.dump(2) + "\n");
+    write_output(options.json, all.dump(2) + "\n", bench_reach());
   }
-  if (!options.png.empty()) write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)});
+  if (!options.png.empty())
+    write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)}, bench_reach());
   if (const int code = bench_exit(); code != exit_done) return code;
   if (kept) return exit_done;
   std::cerr << "tyglab: a method did not become unstable where predicted (1 %, growth 5 %); see the ratios.\n";

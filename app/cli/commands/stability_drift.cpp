@@ -122,11 +122,13 @@ int drift(const BenchOptions& options) {
   if (!options.json.empty()) {
     Json json = Json::array();
     for (const DriftRow& row : rows) json.push_back(row_json(row));
-    write_output(options.json, bench_json("stability drift", json).dump(2) + "\n");
+    write_output(options.json, bench_json("stability drift", json).dump(2) + "\n", bench_reach());
   }
   if (!options.png.empty())
-    write_charts(options.png, {drift_chart(rows, "taut_sheet", false), drift_chart(rows, "slack_sheet", false),
-                               drift_chart(rows, "slack_sheet", true)});
+    write_charts(options.png,
+                 {drift_chart(rows, "taut_sheet", false), drift_chart(rows, "slack_sheet", false),
+                  drift_chart(rows, "slack_sheet", true)},
+                 bench_reach());
   return bench_exit();
 }
 

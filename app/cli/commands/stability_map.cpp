@@ -98,12 +98,12 @@ int map(const MapOptions& options) {
             [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
   print_map(out, scene.preset, grid, cells);
   if (!options.bench.json.empty())
-    write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n");
-  if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells));
+    write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n", bench_reach());
+  if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells), bench_reach());
   if (!options.bench.png.empty()) {
     const Chart page = map_page(dark_tokens(), scene.preset, scene.source.label, machine_line(), grid,
                                 map_boundary(scene.preset, grid), cells);
-    write_charts(options.bench.png, {page}, 1);
+    write_charts(options.bench.png, {page}, bench_reach(), 1);
   }
   return bench_exit();
 }

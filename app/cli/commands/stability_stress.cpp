@@ -139,7 +139,7 @@ int stress(const StressOptions& options) {
   if (!options.json.empty()) {
     Json all = bench_json("stability stress", rows);
     all["seed"] = seed, all["from"] = options.from, all["cases"] = rows.size(), all["failed"] = failed;
-    write_output(options.json, all.dump(2) + "\n");
+    write_output(options.json, all.dump(2) + "\n", bench_reach());
   }
   if (InterruptGuard::interrupted())
     std::cerr << "tyglab: Continue with --seed " << seed << " --from " << options.from + std::int64_t(rows.size())

@@ -58,7 +58,7 @@ inline constexpr float chart_width = 640, chart_height = 400;  ///< points at sc
 Image picture_of(const std::vector<Chart>& charts, int columns = 2, float scale = 2, float height = chart_height);
 /// Writes that picture as PNG ("-" is standard output). Needs no display (EGL's surfaceless platform). Throws
 /// GraphicsError, OutputError.
-void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns = 2, float scale = 2,
-                  float height = chart_height);
+void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, Reach reach, int columns = 2,
+                  float scale = 2, float height = chart_height);
 
 }  // namespace tyglab

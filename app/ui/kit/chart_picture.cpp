@@ -19,10 +19,10 @@ Image picture_of(const std::vector<Chart>& charts, int columns, float scale, flo
   return gui.pixels();
 }
 
-void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, int columns, float scale,
-                  float height) {
+void write_charts(const std::filesystem::path& file, const std::vector<Chart>& charts, Reach reach, int columns,
+                  float scale, float height) {
   const HeadlessContext context;
-  write_png(file, picture_of(charts, columns, scale, height));
+  write_png(file, picture_of(charts, columns, scale, height), reach);
 }
 
 }  // namespace tyglab

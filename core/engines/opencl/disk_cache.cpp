@@ -1,7 +1,5 @@
 #include "core/engines/opencl/disk_cache.h"
 
-#include <unistd.h>
-
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -9,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "core/io/files.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -54,12 +54,10 @@ void keep_on_disk(const std::string& key, const std::string& content) {
   const fs::path file = file_of(key);
   std::error_code error;
   if (file.empty() || (fs::create_directories(file.parent_path(), error), error)) return;
-  const fs::path beside = file.string() + "." + std::to_string(::getpid());
-  std::ofstream out(beside, std::ios::binary);
-  out.write(content.data(), std::streamsize(content.size()));
-  out.close();
-  if (out) fs::rename(beside, file, error);
-  if (!out || error) fs::remove(beside, error);
+  try {
+    write_atomically(file, content);
+  } catch (const OutputError&) {  // then it is made again next time
+  }
 }
 
 }  // namespace tyglab::opencl

@@ -1,0 +1,247 @@
+#include "core/io/output_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "core/io/destination.h"
+#include "core/io/files.h"
+#include "core/io/terminal.h"
+
+namespace tyglab {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a link points in the end, whether that is there yet or not; a link still if they go round in a circle.
+fs::path followed(fs::path file) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  std::error_code error;
+  for (int n = 0; n < most_links && fs::is_symlink(file, error); ++n)
+    file = file.parent_path() / fs::read_symlink(file, error);
+  return file;
+}
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// Whether it takes bytes as they come: a pipe, a device, or /dev/fd/3, which stands for what a shell has opened.
+bool is_stream(const fs::path& file) {
+  std::error_code error;
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) return true;
+  const fs::path folder = fs::canonical(folder_of(file), error);
+  return !error && folder.string().starts_with("/proc/");
+}
+
+std::optional<struct stat> status_of(const fs::path& file) {
+  struct stat status = {};
+  return ::stat(file.c_str(), &status) == 0 ? std::optional(status) : std::nullopt;
+}
+
+/// Whether that name still stands for what the descriptor has open.
+bool names(const fs::path& file, int descriptor) {
+  struct stat by_name = {}, opened = {};
+  return ::lstat(file.c_str(), &by_name) == 0 && ::fstat(descriptor, &opened) == 0 && by_name.st_dev == opened.st_dev &&
+         by_name.st_ino == opened.st_ino;
+}
+
+bool is_regular(int descriptor) {
+  struct stat status = {};
+  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/// Gives the new file the owner and the permissions of the older one, as far as the system allows.
+void adopt(int descriptor, const struct stat& older) {
+  constexpr mode_t permissions = 0777, of_group = 0070, of_others = 0007;
+  mode_t mode = older.st_mode & permissions;
+  // Not even the owner can give a file to a group of others: that group then gets what others have.
+  if (::fchown(descriptor, older.st_uid, older.st_gid) != 0 && ::fchown(descriptor, uid_t(-1), older.st_gid) != 0)
+    mode = (mode & ~of_group) | (mode & of_others) << 3;
+  ::fchmod(descriptor, mode);
+}
+
+/// Whether nobody else has it, who is given half a second. True too where the file system knows no locks.
+bool locked(int descriptor) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::milliseconds(500);
+  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EINTR) continue;
+    if (errno != EWOULDBLOCK) return true;
+    if (Clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+}  // namespace
+
+void check_output(const fs::path& file) {
+  if (is_standard_output(file)) return;
+  const auto refuse = [&](const std::string& why) { throw OutputError(file.string() + ": " + why); };
+  std::error_code error;
+  if (fs::is_directory(file, error)) refuse("is a folder; name a file in it");
+  if (!file.has_filename()) refuse("is the name of a folder; name a file in it");
+  if (is_stream(file)) {
+    if (::access(file.c_str(), W_OK) != 0) refuse("is not writable; choose another name");
+    return;
+  }
+  const fs::path target = followed(file);
+  if (fs::is_symlink(target, error)) refuse("is a link that leads back to itself; choose another name");
+  const fs::path folder = folder_of(target);
+  if (!fs::is_directory(folder, error))
+    refuse("the folder " + folder.string() + " does not exist; create it first (mkdir -p)");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    refuse("the folder " + folder.string() + " is not writable; choose another");
+  // An administrator may write everything; a file that nobody may write is meant to stay all the same.
+  constexpr mode_t any_write = S_IWUSR | S_IWGRP | S_IWOTH;
+  if (const auto older = status_of(target);
+      older && ((older->st_mode & any_write) == 0 || ::access(target.c_str(), W_OK) != 0))
+    refuse("is read-only, so it is not replaced; choose another name, or make it writable (chmod u+w)");
+}
+
+OutputFile::OutputFile(const fs::path& file, Order order) : file_(file) {
+  check_output(file);
+  if (is_standard_output(file)) {
+    if (order == Order::front_to_back) return;
+    kind_ = Kind::gathered;
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> temporary(std::tmpfile(), std::fclose);
+    if (temporary) descriptor_ = ::fcntl(::fileno(temporary.get()), F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) fail(errno);
+  } else if (is_stream(file)) {
+    open_stream(order);
+  } else {
+    open_beside();
+  }
+}
+
+void OutputFile::open_stream(Order order) {
+  kind_ = Kind::stream;
+  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  if (descriptor_ < 0) fail(errno);
+  if (order == Order::front_to_back || ::lseek(descriptor_, 0, SEEK_CUR) >= 0) return;
+  ::close(descriptor_);
+  throw OutputError(file_.string() +
+                    ": what stands first in this output is written last, so it cannot be piped; name "
+                    "a file, or -");
+}
+
+void OutputFile::open_beside() {
+  kind_ = Kind::beside;
+  target_ = followed(file_);
+  beside_ = target_;
+  beside_ += ".incomplete";
+  const auto older = status_of(target_);
+  while (true) {
+    constexpr int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    // Nobody may read in the new file what nobody may read in the older one.
+    const int made = ::open(beside_.c_str(), O_RDWR | O_CREAT | O_EXCL | flags, older ? 0600 : 0666);
+    if (made < 0 && errno != EEXIST) fail(errno);
+    const int opened = made >= 0 ? made : ::open(beside_.c_str(), O_RDONLY | flags);
+    if (opened < 0 && errno == ENOENT) continue;  // it has just taken its name
+    const bool mine = opened >= 0 && locked(opened), still_there = mine && names(beside_, opened);
+    if (made >= 0 && still_there) {
+      descriptor_ = made;
+      if (older) adopt(descriptor_, *older);
+      return;
+    }
+    // What an earlier run left there, which nobody writes any more, makes room.
+    const bool in_the_way = opened < 0 || (still_there && (!is_regular(opened) || ::unlink(beside_.c_str()) != 0));
+    if (opened >= 0) ::close(opened);
+    if (in_the_way)
+      throw OutputError(beside_.string() + ": is in the way of a new file; remove it, or choose another name");
+    if (!mine)
+      throw OutputError(file_.string() + ": another program is writing it; wait for its end, or choose another name");
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (kind_ == Kind::beside && descriptor_ >= 0) {
+    if (kept_ == 0 && names(beside_, descriptor_)) ::unlink(beside_.c_str());
+    // Without the part of a row that a full disk may leave.
+    if (kept_ > 0 && kept_ < size_) [[maybe_unused]]
+      const int cut = ::ftruncate(descriptor_, off_t(kept_));
+  }
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputFile::fail(int error) const {
+  std::string what =
+      kind_ == Kind::gathered ? "the temporary file of " + lost_output(file_, error) : lost_output(file_, error);
+  if (kind_ == Kind::beside && kept_ > 0) what += "; what was complete before is kept in " + beside_.string();
+  throw OutputError(what);
+}
+
+void OutputFile::put(std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = kind_ == Kind::stream && offset == size_
+                          ? ::write(descriptor_, bytes.data(), bytes.size())
+                          : ::pwrite(descriptor_, bytes.data(), bytes.size(), off_t(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      size_ = std::max(size_, offset);
+      fail(n < 0 ? errno : ENOSPC);
+    }
+    offset += std::uint64_t(n);
+    bytes.remove_prefix(std::size_t(n));
+    size_ = std::max(size_, offset);
+  }
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (kind_ != Kind::standard_output) return put(size_, bytes);
+  file_output().write(bytes.data(), std::streamsize(bytes.size()));
+  flush_standard_output();
+}
+
+void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
+  put(offset, bytes);
+}
+
+void OutputFile::end(Reach reach) {
+  if (kind_ == Kind::gathered) return send_gathered();
+  if (kind_ == Kind::stream) {
+    if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+    return;
+  }
+  if (kind_ != Kind::beside) return;
+  const bool stands = status_of(target_).has_value();
+  if (reach == Reach::whole || (reach == Reach::stopped && !stands)) return take_place();
+  keep();
+}
+
+void OutputFile::send_gathered() {
+  std::string part(std::size_t{1} << 20, '\0');
+  for (std::uint64_t at = 0; at < size_;) {
+    const ssize_t n = ::pread(descriptor_, part.data(), part.size(), off_t(at));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail(errno);
+    file_output().write(part.data(), n);
+    at += std::uint64_t(n);
+  }
+  flush_standard_output();
+}
+
+void OutputFile::take_place() {
+  check_output(file_);  // much may have happened since
+  if (!names(beside_, descriptor_))
+    throw OutputError(file_.string() + ": cannot be written: another program removed " + beside_.string());
+  if (const auto older = status_of(target_)) adopt(descriptor_, *older);
+  // Some file systems tell only now that the disk is full. What is closed is a copy: the descriptor holds the lock.
+  if (const int copy = ::dup(descriptor_); copy >= 0 && ::close(copy) != 0) fail(errno);
+  if (::rename(beside_.c_str(), target_.c_str()) != 0) fail(errno);
+  kind_ = Kind::placed;
+}
+
+}  // namespace tyglab

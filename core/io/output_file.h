@@ -1,0 +1,71 @@
+// How every output is written: beside its name, which it takes once it is whole.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace tyglab {
+
+/// How far an output came, which decides whether it takes its name.
+enum class Reach {
+  whole,      ///< takes its name, and the place of an older file
+  stopped,    ///< whole in itself, but of work that was interrupted: takes its name unless an older file stands there
+  cut_short,  ///< the first part of what was asked for: does not take its name
+};
+
+/// Throws OutputError, with a sentence that says what to do, unless an output of that name can be written: where it
+/// names a folder, its folder is missing or closed, or a read-only file stands there. Nothing is touched.
+void check_output(const std::filesystem::path& file);
+
+/// One output while it is written. A file grows beside its name as FILE.incomplete, so that an older file stays as it
+/// is until the new one is whole, whatever ends the program. It then takes the older one's place with its permissions
+/// and, where the system allows it, its owner; a new file gets those of the process (umask). Of a symbolic link the
+/// file that it leads to is replaced; other hard links of a replaced file keep the older content. Standard output
+/// ("-"), pipes and devices take the bytes as they come.
+class OutputFile {
+ public:
+  enum class Order {
+    front_to_back,
+    any,  ///< earlier bytes are written again: standard output gets all at the end, and a pipe is refused
+  };
+
+  /// Throws OutputError; also where another program is writing the same output.
+  explicit OutputFile(const std::filesystem::path& file, Order order = Order::front_to_back);
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  /// Without end(): FILE.incomplete stays with what keep() covers, and is removed if that is nothing.
+  ~OutputFile();
+
+  /// Appends. Throws OutputError.
+  void write(std::string_view bytes);
+  /// Writes over earlier bytes (Order::any). Throws OutputError.
+  void write_at(std::uint64_t offset, std::string_view bytes);
+  /// What was written so far is complete in itself, and is kept if it goes no further.
+  void keep() { kept_ = size_; }
+  /// No more is written. Throws OutputError; FILE.incomplete stays then, as far as keep() covers it.
+  void end(Reach reach = Reach::whole);
+
+  /// Where the bytes are: FILE once it has taken its name, FILE.incomplete otherwise; what was named, of a stream.
+  std::filesystem::path path() const { return kind_ == Kind::beside ? beside_ : file_; }
+
+ private:
+  enum class Kind { standard_output, gathered, stream, beside, placed };
+
+  [[noreturn]] void fail(int error) const;
+  void open_stream(Order order);
+  void open_beside();
+  void put(std::uint64_t offset, std::string_view bytes);
+  void send_gathered();
+  void take_place();
+
+  std::filesystem::path file_;    ///< as it was named
+  std::filesystem::path target_;  ///< where links lead
+  std::filesystem::path beside_;
+  Kind kind_ = Kind::standard_output;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0, kept_ = 0;  ///< bytes
+};
+
+}  // namespace tyglab

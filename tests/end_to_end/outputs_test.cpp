@@ -1,0 +1,167 @@
+// The files of the commands, whatever ends them: an older good one stands until a new one is whole.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "core/io/preset_io.h"
+#include "tests/support/files.h"
+
+namespace tyglab::outputs_test {
+
+namespace fs = std::filesystem;
+
+/// Arguments of a run that writes each kind of file, but for how long it is.
+std::vector<std::string> run_of(std::vector<std::string> more) {
+  std::vector<std::string> all{"run",      "hanging", "--state", "s.csv", "--series", "t.csv",
+                               "--ledger", "l.csv",   "--pc2",   "c.pc2", "--values", "v.csv"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+constexpr std::array<const char*, 5> moments_and_histories{"s.csv", "v.csv", "t.csv", "l.csv", "c.pc2"};
+constexpr std::array<const char*, 3> histories{"t.csv", "l.csv", "c.pc2"};
+
+void put_older(const fs::path& folder) {
+  for (const char* name : moments_and_histories) test::write_file(folder / name, std::string("older ") + name);
+}
+
+bool is_older(const fs::path& folder, const std::string& name) {
+  return test::read_file(folder / name) == "older " + name;
+}
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Whether it is a series of whole rows, at least that many.
+void check_series(const fs::path& file, std::size_t least) {
+  const std::string text = test::read_file(file);
+  CHECK(text.ends_with('\n'));
+  const auto rows = test::lines(text);
+  REQUIRE(rows.size() >= 2 + least);
+  const auto columns = test::split(rows[1], ',').size();
+  for (std::size_t n = 2; n < rows.size(); ++n) CHECK(test::split(rows[n], ',').size() == columns);
+}
+
+TEST_CASE("a run that is killed leaves every older file, or the new one, and what it had beside them") {
+  const test::TemporaryFolder folder, whole;
+  // Short enough that some kills come after the end.
+  const std::vector<std::string> call = run_of({"--steps", "300", "--series-every", "1", "--fps", "1000"});
+  REQUIRE(test::tyglab(whole.path(), call).code == 0);
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> moment(0.005, 0.6);
+  int killed = 0;
+  for (int n = 0; n < 40; ++n) {
+    put_older(folder.path());
+    const auto outcome = test::tyglab_interrupted(folder.path(), call, moment(random), SIGKILL);
+    killed += outcome.code != 0;
+    for (const char* name : moments_and_histories) {
+      CAPTURE(std::string(name));
+      const bool new_one = test::read_file(folder / name) == test::read_file(whole / name);
+      CHECK((is_older(folder.path(), name) || new_one));
+    }
+  }
+  CHECK(killed > 0);
+  // What the kills left behind is in nobody's way.
+  REQUIRE(test::tyglab(folder.path(), call).code == 0);
+  CHECK(names_in(folder.path()) == names_in(whole.path()));
+}
+
+TEST_CASE("130: an interrupt replaces no older file, and keeps what is complete under a name that says so") {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    CAPTURE(signal);
+    const test::TemporaryFolder folder;
+    put_older(folder.path());
+    const auto outcome = test::tyglab_interrupted(
+        folder.path(), run_of({"--seconds", "100000", "--json", "r.json", "--obj", "frames"}), 1.5, signal);
+    CHECK(outcome.code == 130);
+    CHECK(outcome.err.find("no older file was replaced") != std::string::npos);
+    for (const char* name : moments_and_histories) CHECK(is_older(folder.path(), name));
+    check_series(folder / "t.csv.incomplete", 2);
+    check_series(folder / "l.csv.incomplete", 2);
+    CHECK(test::read_file(folder / "s.csv.incomplete").starts_with("# tyglab state"));
+    CHECK(test::read_file(folder / "v.csv.incomplete").starts_with("# tyglab values"));
+    const auto json = nlohmann::json::parse(test::read_file(folder / "r.json"));
+    CHECK(json["status"] == "interrupted");
+    const std::size_t particles = json["rows"].get<std::size_t>() * json["columns"].get<std::size_t>();
+    for (const auto& file : json["files"]) {
+      CHECK(outcome.out.find(file["path"].get<std::string>()) != std::string::npos);
+      if (file["kind"] == "pc2")
+        CHECK(fs::file_size(folder / "c.pc2.incomplete") == 32 + file["frames"].get<std::size_t>() * particles * 12);
+    }
+  }
+}
+
+TEST_CASE("130: where no older file stands, what is whole in itself gets its name, and the rest does not") {
+  const test::TemporaryFolder folder;
+  const auto outcome =
+      test::tyglab_interrupted(folder.path(), run_of({"--seconds", "100000", "--json", "r.json"}), 1.5);
+  CHECK(outcome.code == 130);
+  CHECK(names_in(folder.path()) == std::vector<std::string>{"c.pc2.incomplete", "l.csv.incomplete", "r.json", "s.csv",
+                                                            "t.csv.incomplete", "v.csv"});
+  CHECK(test::lines(test::read_file(folder / "s.csv")).size() > 100);
+  const auto picture = test::tyglab_interrupted(
+      folder.path(), {"render", "hanging", "--seconds", "100000", "--size", "64x48", "--png", "r.json"}, 1.5);
+  CHECK(picture.code == 130);
+  CHECK(test::read_file(folder / "r.json").starts_with("{"));
+  CHECK(test::read_file(folder / "r.json.incomplete").starts_with("\x89PNG"));
+}
+
+TEST_CASE("130: an interrupted benchmark leaves the older results") {
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "b.json", "older");
+  const auto outcome =
+      test::tyglab_interrupted(folder.path(), {"stability", "stress", "--cases", "1000000", "--json", "b.json"}, 1.5);
+  CHECK(outcome.code == 130);
+  CHECK(test::read_file(folder / "b.json") == "older");
+  CHECK(nlohmann::json::parse(test::read_file(folder / "b.json.incomplete")).contains("runs"));
+}
+
+TEST_CASE("6: a full disk leaves every older file, and whole rows and frames beside them") {
+  const test::TemporaryFolder folder;
+  put_older(folder.path());
+  // A limit of the shell for a file's size (blocks of 512 bytes) stands for the disk.
+  const auto outcome = test::run(
+      folder.path(), {"/bin/sh", "-c",
+                      "ulimit -f 200; " + std::string(TYGLAB_BINARY) +
+                          " run hanging --steps 100000 --series t.csv --series-every 1 --ledger l.csv --pc2 c.pc2"});
+  CHECK(outcome.code == 6);
+  CHECK(outcome.err.find("cannot be written") != std::string::npos);
+  CHECK(outcome.err.find(".incomplete") != std::string::npos);
+  for (const char* name : histories) CHECK(is_older(folder.path(), name));
+  check_series(folder / "t.csv.incomplete", 10);
+  check_series(folder / "l.csv.incomplete", 10);
+  const std::string cache = test::read_file(folder / "c.pc2.incomplete");
+  REQUIRE(cache.size() > 32);
+  CHECK(cache.size() == 32 + std::size_t(cache[28]) * 32 * 32 * 12);
+}
+
+TEST_CASE("6: a read-only file stops a command before its work, whoever runs it") {
+  const test::TemporaryFolder folder;
+  put_older(folder.path());
+  for (const char* name : moments_and_histories) {
+    CAPTURE(std::string(name));
+    REQUIRE(::chmod((folder / name).c_str(), 0444) == 0);
+    const auto outcome = test::tyglab(folder.path(), run_of({"--steps", "1000000000000"}));
+    CHECK(outcome.code == 6);
+    CHECK(outcome.err.find(std::string(name) + ": is read-only") != std::string::npos);
+    REQUIRE(::chmod((folder / name).c_str(), 0600) == 0);
+  }
+  REQUIRE(test::tyglab(folder.path(), run_of({"--steps", "1"})).code == 0);
+  for (const char* name : moments_and_histories) {
+    CAPTURE(std::string(name));
+    CHECK_FALSE(is_older(folder.path(), name));
+    CHECK((fs::status(folder / name).permissions() & fs::perms::all) == fs::perms(0600));
+  }
+}
+
+}  // namespace tyglab::outputs_test
