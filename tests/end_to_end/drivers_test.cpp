@@ -13,7 +13,8 @@ namespace tyglab::drivers_test {
 test::Outcome tyglab_with(const test::TemporaryFolder& home, const std::vector<std::string>& environment,
                           const std::vector<std::string>& arguments) {
   std::vector<std::string> command{"/usr/bin/env", "HOME=" + home.path().string(),
-                                   "XDG_CACHE_HOME=", "POCL_CACHE_DIR=" + (home / "pocl").string()};
+                                   "XDG_CACHE_HOME=" + (home / ".cache").string(),
+                                   "POCL_CACHE_DIR=" + (home / "pocl").string()};
   command.insert(command.end(), environment.begin(), environment.end());
   command.emplace_back(TYGLAB_BINARY);
   command.insert(command.end(), arguments.begin(), arguments.end());
