@@ -97,7 +97,6 @@ std::string unexpected(const CLI::ExtrasError& error) {
 
 void prepare_process() {
   filter_standard_streams();
-  explain_crashes_under_limit();
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For

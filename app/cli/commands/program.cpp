@@ -11,12 +11,14 @@
 #include "app/cli/commands/stability.h"
 #include "app/cli/commands/try_opencl.h"
 #include "app/process/driver_probe.h"
+#include "app/process/memory_limit.h"
 #include "app/process/program_trial.h"
 
 namespace tyglab {
 
 int run_program(int argc, char** argv) {
   prepare_process();
+  const CrashExplainer until_the_end;
   probe_drivers_in_child();
   try_programs_in_child();
   Action action;
