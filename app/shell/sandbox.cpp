@@ -320,17 +320,10 @@ int Sandbox::write_outputs() {
 
 void Sandbox::remember() {
   if (session_.scripted) return;
-  Settings& settings = settings_;
-  settings.labs = session_.labs.progress;
-  window_.remember(settings);
-  settings.plot_log = ui_.plots.log;
-  // Who quit with unsaved changes has said that they may go; a session that was interrupted brings them back.
-  Preset last = session_.quit ? session_.document.saved : session_.preset();
-  last.mode = session_.preset().mode;
-  settings.session =
-      LastSession{std::move(last), session_.document.saved, session_.document.label, session_.document.file};
+  remember_session(ui_);
+  window_.remember(settings_);
   try {
-    save_settings(settings);
+    save_settings(settings_);
   } catch (const OutputError& error) {
     std::cerr << "tyglab: " << error.what() << ". The settings of this session are not saved.\n";
   }

@@ -92,7 +92,7 @@ class JsonReader {
   JsonNode value() {
     if (++values_ > max_values) refuse("too many values for a preset");
     JsonNode node;
-    node.line = line_;
+    node.line = lines_ == Lines::told ? line_ : 0;
     const char c = now();
     if (c == '{') {
       node.type = JsonNode::Type::object;
