@@ -27,7 +27,7 @@ fs::path on_path(const std::string& name) {
 
 /// Whether a program, which prints nothing then, ended well.
 bool run_silently(const std::vector<std::string>& command) {
-  return run_program_silently(command.front(), command) == 0;
+  return run_program(command.front(), command).code == 0;
 }
 
 /// A new file in the system's folder for temporary ones, removed at the end; no path if none could be made.

@@ -92,7 +92,6 @@ std::string unexpected(const CLI::ExtrasError& error) {
 
 void prepare_process() {
   filter_standard_streams();
-  explain_crashes_under_limit();
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
@@ -106,7 +105,7 @@ void prepare_process() {
 
 std::vector<std::string> command_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* each : command.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
     names.push_back(each->get_name());
   return names;
 }

@@ -32,7 +32,7 @@ class UsageError : public std::runtime_error {
 /// What the command line picked: does the work and returns the exit code.
 using Action = std::function<int()>;
 
-/// Filters what is printed (core/io/terminal.h); has a crash under a limit of memory explained. Gives streams that were
+/// Filters what is printed (core/io/terminal.h). Gives streams that were
 /// closed (>&-) to nothing, so that no file that is opened later takes their place; makes writing beyond a limit
 /// (ulimit -f) or to nobody (| head) an error that is reported instead of the process's end.
 void prepare_process();

@@ -67,9 +67,21 @@ class Child {
 /// Runs a function in a child process and waits for its end. Throws ChildError.
 ChildExit run_in_child(const Child::Work& work, const ChildOptions& options = {});
 
-/// Runs another program, without output, and waits for its end. `arguments` begin with the program's name; `input` is
-/// the descriptor of its standard input, -1 for none. Returns its exit code, or nothing if it did not start or was
-/// ended by a signal.
-std::optional<int> run_program_silently(const std::string& path, std::vector<std::string> arguments, int input = -1);
+/// How another program ended.
+struct ProgramExit {
+  std::optional<int> code;  ///< exit code; none if it did not start or was ended by a signal
+  int signal = 0;           ///< that ended it; 0: none
+  bool timed_out = false;   ///< it was killed for taking too long
+  std::string output;       ///< what it wrote to standard output and error, the first 64 KiB
+};
+
+struct ProgramOptions {
+  int input = -1;           ///< descriptor of its standard input; -1: none
+  double most_seconds = 0;  ///< after which it is killed; 0: never
+};
+
+/// Runs another program, none of whose output is seen, and waits for its end. `arguments` begin with its name.
+ProgramExit run_program(const std::string& path, std::vector<std::string> arguments,
+                        const ProgramOptions& options = {});
 
 }  // namespace tyglab

@@ -6,6 +6,7 @@
 #include <array>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 
 namespace tyglab {
@@ -17,6 +18,7 @@ constexpr std::array<int, 5> crashes{SIGSEGV, SIGBUS, SIGABRT, SIGILL, SIGFPE};
 // A signal handler reaches nothing but globals, and allocates nothing.
 std::array<char, 300> sentence;
 std::size_t sentence_size = 0;
+bool explains = false;
 
 std::optional<rlim_t> memory_limit() {
   rlimit limit = {};
@@ -29,6 +31,11 @@ extern "C" void end_with_sentence(int) {
   ::_exit(exit_no_engine);
 }
 
+/// Some drivers call exit() where they are refused memory.
+void explain_exit() {
+  if (explains) end_with_sentence(0);
+}
+
 }  // namespace
 
 std::string memory_limit_words() {
@@ -38,15 +45,21 @@ std::string memory_limit_words() {
          " MB of memory at most (ulimit -v); raise that limit, or ask for less.";
 }
 
-void explain_crashes_under_limit() {
+CrashExplainer::CrashExplainer() {
   if (!memory_limit()) return;
   sentence_size = std::size_t(std::snprintf(
       sentence.data(), sentence.size(),
       "tyglab: A crash, as of graphics and OpenCL drivers that are refused memory.%s\n", memory_limit_words().c_str()));
   for (const int signal : crashes) std::signal(signal, end_with_sentence);
+  explains = std::atexit(explain_exit) == 0;
+}
+
+CrashExplainer::~CrashExplainer() {
+  leave_crashes_to_parent();
 }
 
 void leave_crashes_to_parent() {
+  explains = false;
   for (const int signal : crashes) std::signal(signal, SIG_DFL);
 }
 

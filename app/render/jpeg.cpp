@@ -4,7 +4,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstdint>
-#include <cstdio>  // jpeglib.h needs it
+#include <cstdio>  // which libjpeg's header needs
 
 #include <jpeglib.h>
 

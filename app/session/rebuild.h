@@ -8,7 +8,7 @@
 // cloth with the old one's state (another precision while it moves) is read from the old one, which therefore stands
 // still until then; cuts, pins and releases are kept and made afterwards. With --frames everything is built at once, so
 // that the same frames come on every machine. Programs of OpenCL devices are built by a child process
-// (app/process/kernel_prebuild.h), of small cloths too: a feature that is switched on counts once its program is there.
+// (app/process/program_trial.h), of small cloths too: a feature that is switched on counts once its program is there.
 #pragma once
 
 #include <cstdint>

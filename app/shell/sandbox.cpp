@@ -7,7 +7,7 @@
 
 #include "app/base/preset_files.h"
 #include "app/process/interrupt.h"
-#include "app/process/kernel_prebuild.h"
+#include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
 #include "app/session/document.h"
 #include "app/shell/start.h"
@@ -119,7 +119,7 @@ void Sandbox::start_preset() {
   if (!first.simulation) first.simulation = make_simulation(first_preset(), options_.threads, first.fallback);
   if (!first.fallback.empty()) session_.messages.warning(first.fallback);
   session_.simulation = std::move(first.simulation);
-  session_.rebuild.prepare_programs = prepare_programs;
+  session_.rebuild.prepare_programs = try_program;
   // The first texture has been read already.
   session_.show_texture = [&](const std::string&) -> std::optional<std::string> {
     scene_.redraw = true;

@@ -1,7 +1,7 @@
 #include "app/shell/start.h"
 
 #include "app/base/data_files.h"
-#include "app/process/kernel_prebuild.h"
+#include "app/process/program_trial.h"
 #include "app/session/document.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/io/files.h"

@@ -50,10 +50,10 @@ TEST_CASE("a child that nobody waits for is ended") {
 }
 
 TEST_CASE("another program's exit code, if it has one") {
-  CHECK(run_program_silently("/bin/sh", {"sh", "-c", "exit 7"}) == 7);
-  CHECK(run_program_silently("/bin/sh", {"sh", "-c", "cat"}) == 0);  // its input is empty
-  CHECK(run_program_silently("/bin/sh", {"sh", "-c", "kill -9 $$"}) == std::nullopt);
-  CHECK(run_program_silently("/no/such/program", {"program"}).value_or(127) == 127);
+  CHECK(run_program("/bin/sh", {"sh", "-c", "exit 7"}).code == 7);
+  CHECK(run_program("/bin/sh", {"sh", "-c", "cat"}).code == 0);  // its input is empty
+  CHECK(run_program("/bin/sh", {"sh", "-c", "kill -9 $$"}).code == std::nullopt);
+  CHECK(run_program("/no/such/program", {"program"}).code.value_or(127) == 127);
 }
 
 }  // namespace tyglab::child_test

@@ -46,6 +46,12 @@ TEST_CASE("all wrong lines of blocks are told at once, each with its number") {
   CHECK(says(unclosed, "never closed"));
 }
 
+TEST_CASE("a lab opens no image but a shipped one") {
+  CHECK(says(problem_in("open: hanging\nset: texture=/etc/passwd"), "texture=/etc/passwd is not a shipped texture"));
+  CHECK(says(problem_in("open: hanging\nset: texture=../a.png"), "is not a shipped texture"));
+  CHECK(problem_in("open: hanging\nset: texture=linen.png") == "none");
+}
+
 TEST_CASE("formulas and quantities are one piece, also where the file's lines end within them") {
   const Lab lab = parse_lab(
       "# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m), so Δ\n= m·g/k < 0.1\nm.\n",

@@ -30,6 +30,24 @@ void check_calls(const std::vector<Call>& calls, const fs::path& folder) {
   }
 }
 
+TEST_CASE("3: a preset's texture lies outside its folder; one that the user chose may lie anywhere") {
+  const test::TemporaryFolder folder;
+  fs::copy_file(TYGLAB_SOURCE_DIR "/textures/linen.png", folder / "own.png");
+  fs::create_directory(folder / "sub");
+  for (const char* texture : {"../own.png", "/etc/passwd"})
+    for (const char* command : {"run", "render"}) {
+      test::write_file(folder / "sub/a.json", std::string("{\"view\": {\"texture\": \"") + texture + "\"}}");
+      std::vector<std::string> call{command, "sub/a.json"};
+      if (std::string(command) == "render") call.insert(call.end(), {"--png", "a.png"});
+      check_calls({{call, 3, "sub/a.json:1: view.texture: '"}}, folder.path());
+    }
+  test::write_file(folder / "sub/a.json", "{}");
+  const auto chosen = test::tyglab(folder.path(), {"render", "sub/a.json", "--set", "texture=own.png", "--seconds", "0",
+                                                   "--size", "16x16", "--png", "a.png"});
+  CHECK(chosen.code == 0);
+  CHECK(chosen.err.empty());
+}
+
 TEST_CASE("0: help of the program and of every command, with an example; version; lists") {
   const test::TemporaryFolder folder;
   check_calls({{{"--help"}, 0, "run"},

@@ -2,7 +2,9 @@
 
 import json
 import os
+import shutil
 import subprocess
+import tempfile
 
 from cases import case, check, main
 from xclient import XClient
@@ -129,6 +131,23 @@ def threads(stage):
         report = json.load(file)
     check("2 threads" in report["engine"], "the engine has two threads")
     check((report["width"], report["height"]) == (800, 500), "--size is the window's")
+
+
+@case
+def dying_driver(stage):
+    """where the OpenCL driver dies late, here for want of a linker, the CPU engine goes on with a sentence"""
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(shutil.which("xdotool"), os.path.join(folder, "xdotool"))
+        own = {"PATH": folder, "HOME": folder, "XDG_CACHE_HOME": folder, "POCL_CACHE_DIR": os.path.join(folder, "pocl")}
+        sandbox = stage.start("hanging", "--engine", "opencl", environment=own)
+        report = sandbox.wait(lambda r: r["t"] > 0.1, "it to move")
+        if report["preset"]["solver"]["engine"] == "opencl":
+            print("        this OpenCL driver needs no linker: nothing more is tried")
+            return
+        said = sandbox.stderr().splitlines()
+        check(len(said) == 1 and said[0].startswith("tyglab: The OpenCL driver ")
+              and said[0].endswith("The CPU engine runs it instead."), str(said))
+        stage.keep("took_over")
 
 
 if __name__ == "__main__":

@@ -93,6 +93,44 @@ TEST_CASE("a link is written through, not replaced") {
   CHECK_THROWS_AS(write_atomically(folder / "circle.json", "text"), OutputError);
 }
 
+TEST_CASE("a preset in a file names no texture outside its folder") {
+  const test::TemporaryFolder folder;
+  fs::create_directories(folder / "mine/sub");
+  const auto with_texture = [&](const std::string& texture) {
+    Preset preset;
+    preset.texture = texture;
+    test::write_file(folder / "mine/a.json", preset_to_json(preset));
+    return load_error(folder / "mine/a.json");
+  };
+  test::write_file(folder / "secret.png", "x");
+  test::write_file(folder / "mine/own.png", "x");
+  test::write_file(folder / "mine/sub/own.png", "x");
+  fs::create_symlink("own.png", folder / "mine/inside.png");
+  fs::create_symlink("../secret.png", folder / "mine/outside.png");
+  fs::create_directory_symlink("..", folder / "mine/up");
+  for (const char* texture : {"denim.png", "own.png", "./own.png", "sub/own.png", "inside.png", "missing.png",
+                              "no/such/folder.png", "..png", ""}) {
+    CAPTURE(std::string(texture));
+    CHECK(with_texture(texture) == "");
+  }
+  const std::string absolute = (folder / "mine/own.png").string();
+  for (const std::string& texture :
+       {std::string("../secret.png"), std::string("sub/../../secret.png"), std::string("sub/../own.png"),
+        std::string(".."), absolute, std::string("/dev/zero"), std::string("outside.png"),
+        std::string("up/secret.png")}) {
+    CAPTURE(texture);
+    const std::string error = with_texture(texture);
+    CAPTURE(error);
+    CHECK(error.find("a.json:") != std::string::npos);
+    CHECK(error.find("view.texture: '" + texture + "' ") != std::string::npos);
+    CHECK(error.find("allowed: a shipped texture's name, or an image in the preset's own folder") != std::string::npos);
+  }
+  // What no file says is the user's own.
+  Preset preset;
+  preset.texture = absolute;
+  CHECK(parse_preset(preset_to_json(preset), "the last session") == preset);
+}
+
 TEST_CASE("every shipped preset is valid, has a name and a description, and the contract's names are there") {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {

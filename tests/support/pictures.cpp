@@ -1,7 +1,7 @@
 #include "tests/support/pictures.h"
 
 #include <array>
-#include <cstdio>  // jpeglib.h needs it
+#include <cstdio>  // which libjpeg's header needs
 #include <cstdlib>
 
 #include <jpeglib.h>

@@ -5,6 +5,7 @@
 #include <ranges>
 
 #include "app/process/child.h"
+#include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
 #include "app/render/headless_context.h"
 #include "app/render/mapped_buffer.h"
@@ -106,13 +107,14 @@ void print_opencl() {
               << names_of_methods(false) << ".\n";
 }
 
-/// Prints in a process of its own, since a driver that aborts takes its process along. Returns the signal that ended
-/// it, or 0. Throws OutputError if not all that it printed arrived.
-int print_in_child(void (*print)()) {
+/// Prints in a process of its own, since a driver that aborts takes its process along. Returns how that ended, or
+/// nothing if it came to its end. Throws OutputError if not all that it printed arrived.
+std::string print_in_child(void (*print)()) {
   flush_standard_output();
   const std::string arrived = "arrived";
   // What is thrown by a driver ends the child like an abort.
   const auto work = [&]() noexcept -> std::string {
+    send_chatter_to_log();
     print();
     try {
       flush_standard_output();
@@ -123,19 +125,23 @@ int print_in_child(void (*print)()) {
   };
   try {
     const ChildExit exit = run_in_child(work, {.interruptible = true});  // only this process speaks of Ctrl-C
-    if (exit.signal == 0 && exit.result != arrived)
-      throw OutputError("standard output: the list could not be written completely");
-    return exit.signal;
+    if (exit.signal != 0) return ::strsignal(exit.signal);
+    if (exit.code != 0) return "exit code " + std::to_string(exit.code);
+    if (exit.result != arrived) throw OutputError("standard output: the list could not be written completely");
+    return {};
   } catch (const ChildError&) {
-    return print(), 0;
+    return print(), std::string();
   }
 }
 
 int devices() {
   print_cpu();
-  if (const int signal = print_in_child(print_opencl))
-    std::cout << "\nAn OpenCL driver of this system crashed (" << ::strsignal(signal)
-              << ") while listing its devices, so none can be used. Pocl does so if /sys is not mounted.\n";
+  if (const std::string death = print_in_child(print_opencl); !death.empty())
+    std::cout
+        << "\nAn OpenCL driver of this system crashed (" << death
+        << ") while its devices were listed and tested. Pocl does so if /sys is not mounted, if there is no linker "
+           "(apt-get install binutils), or without room in its cache folder. What it said is in "
+        << driver_log().string() << ".\n";
   return exit_done;
 }
 

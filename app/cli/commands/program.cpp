@@ -9,13 +9,18 @@
 #include "app/cli/commands/run.h"
 #include "app/cli/commands/sandbox.h"
 #include "app/cli/commands/stability.h"
+#include "app/cli/commands/try_opencl.h"
 #include "app/process/driver_probe.h"
+#include "app/process/memory_limit.h"
+#include "app/process/program_trial.h"
 
 namespace tyglab {
 
 int run_program(int argc, char** argv) {
   prepare_process();
+  const CrashExplainer until_the_end;
   probe_drivers_in_child();
+  try_programs_in_child();
   Action action;
   CLI::App program(
       "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
@@ -34,6 +39,7 @@ int run_program(int argc, char** argv) {
   add_bench_command(program, action);
   add_stability_command(program, action);
   add_devices_command(program, action);
+  add_try_opencl_command(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

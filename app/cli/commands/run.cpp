@@ -11,7 +11,7 @@
 #include "app/cli/preset_argument.h"
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
-#include "app/process/kernel_prebuild.h"
+#include "app/process/program_trial.h"
 #include "core/analysis/engine_choice.h"
 #include "core/analysis/tolerance.h"
 #include "core/io/destination.h"

@@ -22,23 +22,24 @@ std::uint64_t fnv1a(const std::string& text, std::uint64_t hash) {
 
 /// Where what has that key is kept; empty: nowhere.
 fs::path file_of(const std::string& key) {
-  const char *xdg = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-  fs::path folder;
-  if (xdg != nullptr && *xdg == '/')
-    folder = xdg;
-  else if (home != nullptr && *home == '/')
-    folder = fs::path(home) / ".cache";
-  else
-    return {};
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return {};
   std::array<char, 48> name{};
   // Two seeds: 128 bits, so that two keys do not meet.
   std::snprintf(name.data(), name.size(), "%016llx%016llx.bin",
                 static_cast<unsigned long long>(fnv1a(key, 0xcbf29ce484222325u)),
                 static_cast<unsigned long long>(fnv1a(key, 0x9e3779b97f4a7c15u)));
-  return folder / "tyglab" / name.data();
+  return folder / name.data();
 }
 
 }  // namespace
+
+fs::path cache_folder() {
+  const char *xdg = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+  if (xdg != nullptr && *xdg == '/') return fs::path(xdg) / "tyglab";
+  if (home != nullptr && *home == '/') return fs::path(home) / ".cache" / "tyglab";
+  return {};
+}
 
 std::string kept_on_disk(const std::string& key) {
   const fs::path file = file_of(key);

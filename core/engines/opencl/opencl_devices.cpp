@@ -2,10 +2,47 @@
 #include "core/engines/opencl/opencl_devices.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
 
+#include "core/cloth/start.h"
+#include "core/engines/engine.h"
+#include "core/engines/opencl/program_features.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {
+namespace {
+
+std::mutex trial_mutex;  // of what follows
+ProgramTrial program_trial;
+std::map<std::string, std::string> tried;  ///< what came of each trial, by device and program
+
+/// Drivers build other kernels for small grids than for large ones.
+std::string size_class(const Preset& preset) {
+  constexpr int small_grid = 1 << 16;
+  const int size = lattice_of(preset).size();
+  return size <= most_solved_in_one_launch ? "small" : size <= small_grid ? "middle" : "large";
+}
+
+}  // namespace
+
+void set_program_trial(ProgramTrial trial) {
+  const std::lock_guard lock(trial_mutex);
+  program_trial = std::move(trial);
+  tried.clear();
+}
+
+void try_program(const Preset& preset, bool contacts) {
+  const std::string key = std::to_string(preset.device) + ' ' + preset.integrator + ' ' + size_class(preset) +
+                          (preset.precision == Precision::double_ ? " double" : " float") +
+                          opencl::program_features(preset, contacts);
+  const std::lock_guard lock(trial_mutex);  // who wants the same program waits for its trial
+  if (!program_trial) return;
+  auto known = tried.find(key);
+  if (known == tried.end()) known = tried.emplace(key, program_trial(preset, contacts)).first;
+  if (!known->second.empty()) throw EngineError(known->second);
+}
 
 int preferred_device(const std::vector<OpenClDevice>& devices) {
   const auto card =

@@ -8,6 +8,7 @@
 
 namespace tyglab {
 
+struct Preset;
 struct Scheme;
 
 struct OpenClDevice {
@@ -27,6 +28,17 @@ using DriverProbe = std::function<bool(const std::function<void()>& ask)>;
 /// Sets how to find out, once, whether the drivers survive being asked for their devices. Without a probe they are
 /// trusted.
 void set_driver_probe(DriverProbe probe);
+
+/// Builds and runs what an engine is about to, for a preset like that one, where a crash or a hang does no harm.
+/// `contacts`: with a program that notes what bodies stop. Returns what the driver did instead; empty if all went well,
+/// or if it refused in good order, which the engine will meet itself.
+using ProgramTrial = std::function<std::string(const Preset& preset, bool contacts)>;
+/// Sets how each program is tried, once for each device, before it is built here: drivers die late, where they lack a
+/// linker or room on a disk. Without a trial they are trusted.
+void set_program_trial(ProgramTrial trial);
+/// Tries the preset's program on its device, unless that has been done; what came of it stays. Throws EngineError if
+/// the driver did not survive.
+void try_program(const Preset& preset, bool contacts);
 
 /// The devices of all platforms, in the order of their numbers (--engine opencl:NUMBER). Never throws for what a driver
 /// does; if the drivers crash the probe, there are no devices.

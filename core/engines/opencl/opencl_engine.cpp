@@ -46,12 +46,7 @@ std::string OpenClEngine<R>::options(const Preset& p, bool contacts) const {
   if (width_ == 1) text += " -D GROUP=" + std::to_string(DeviceSolver<R>::group_items);
   if constexpr (sizeof(R) == 8) text += " -D REAL_IS_DOUBLE";
   text += device_->facts().fp64 ? " -D BODY_REAL=double -D BODY_REAL_IS_DOUBLE" : " -D BODY_REAL=float";
-  if (p.k_d > 0) text += " -D DAMPING";
-  if (p.kind == Kind::one_weight) return text + " -D ONE_WEIGHT";
-  if (p.k_b > 0) text += " -D BENDING";
-  if (p.W != glm::dvec3(0)) text += " -D WIND";
-  if (meets_bodies(p)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
-  return text;
+  return text + program_features(p, contacts);
 }
 
 template <class R>
@@ -63,6 +58,7 @@ std::string OpenClEngine<R>::program_name(const Preset& preset, const std::strin
 
 template <class R>
 typename OpenClEngine<R>::Kernels OpenClEngine<R>::make_kernels(const Preset& preset, bool contacts) const {
+  try_program(preset, contacts);
   const auto program = device_->program(program_text(*scheme_), options(preset, contacts));
   Kernels kernels;
   for (std::size_t n = 0; n < passes_.size(); ++n)
@@ -394,6 +390,8 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
                       "; use the CPU engine (--engine cpu), or an integrator with a fixed dt, such as verlet");
+  // Where there is no device, open_device() says so.
+  if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);
   if (preset.precision == Precision::float_)
     return std::make_unique<OpenClEngine<float>>(preset, lattice, std::move(device), width);

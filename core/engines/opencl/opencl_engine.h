@@ -36,6 +36,7 @@
 #include "core/engines/opencl/device_solver.h"
 #include "core/engines/opencl/device_state.h"
 #include "core/engines/opencl/make_opencl_engine.h"
+#include "core/engines/opencl/program_features.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/engines/step_guard.h"
 #include "core/engines/vertex_sharing.h"
@@ -99,7 +100,6 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::string copy_reason() const override;
 
   bool tears_watched() const { return preset_.F_max > 0 && preset_.k_s > 0 && preset_.kind == Kind::cloth; }
-  bool meets_bodies(const Preset& preset) const { return !preset.bodies.empty() && preset.kind == Kind::cloth; }
   double velocity_scale() const { return scheme_->keeps_displacement ? preset_.dt : 1; }
   std::string options(const Preset& preset, bool contacts) const;
   /// The name under which the device knows the kernels for such a preset.

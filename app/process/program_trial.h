@@ -1,0 +1,33 @@
+// Programs for OpenCL devices, tried in a process of their own: drivers that lack a linker, room on a disk or a sane
+// state end the process that they work in.
+//
+// The child does with a small cloth what an engine does with its own, and the driver, or disk_cache.h, keeps on disk
+// what it has built: so here it is only loaded. Built here, in a thread, it would keep the present cloth waiting, since
+// pocl starts no kernel while it builds another.
+#pragma once
+
+#include <filesystem>
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// Has core try each program in this very program, started as `tyglab try-opencl` (set_program_trial()). What the
+/// driver prints there, and nobody is to see, is kept in driver_log() if the trial fails.
+void try_programs_in_child();
+
+/// The child's work: everything that an engine's kernels are used for, on the preset's device. `contacts`: with steps
+/// that note what bodies stop. Throws EngineError.
+void use_all_kernels(const Preset& preset, bool contacts);
+
+/// Has the preset's device build what it would build at the first step and the first look, for a second or more where
+/// nothing is kept on disk: here and now. `ledger`: of steps that note what bodies stop. Nothing for other engines; a
+/// device that fails says so at the first step.
+void run_programs_once(const Preset& preset, bool ledger);
+
+/// opencl.log in the cache folder; empty: nowhere.
+std::filesystem::path driver_log();
+/// In a child process: what a driver prints goes to driver_log().
+void send_chatter_to_log();
+
+}  // namespace tyglab
