@@ -9,6 +9,7 @@
 #include "app/process/kernel_prebuild.h"
 #include "app/render/graphics_error.h"
 #include "app/session/document.h"
+#include "app/shell/settings_writer.h"
 #include "app/shell/start.h"
 #include "app/shell/window.h"
 #include "app/ui/frame/frame.h"
@@ -57,12 +58,14 @@ class Sandbox {
   void present();
   void save_picture();
   int write_outputs();
+  Settings present_settings() const;
   void remember();
   bool idle() const;
 
   SandboxOptions options_;
   Session session_;  // first: it takes the messages of what is read
   Settings settings_;
+  SettingsWriter writer_{settings_};
   InputQueue input_;
   Scene scene_{session_};
   Tools tools_{session_, scene_, input_, settings_.handling};
@@ -286,6 +289,8 @@ int Sandbox::run() {
   while (!session_.quit && !InterruptGuard::interrupted() && (options_.frames == 0 || frames_ < options_.frames)) {
     const double start = glfwGetTime();
     wait_for_events();
+    const auto present = [this] { return present_settings(); };
+    if (!session_.scripted && writer_.update(start, present, session_.messages)) ui_.draw_by = start;
     if (!due()) {
       input_.clear();
       continue;
@@ -316,9 +321,9 @@ int Sandbox::write_outputs() {
   return done;
 }
 
-void Sandbox::remember() {
-  if (session_.scripted) return;
-  Settings& settings = settings_;
+/// What the next session is to find, however this one ends.
+Settings Sandbox::present_settings() const {
+  Settings settings = settings_;
   settings.labs = session_.labs.progress;
   window_.remember(settings);
   settings.plot_log = ui_.plots.log;
@@ -327,8 +332,13 @@ void Sandbox::remember() {
   last.mode = session_.preset().mode;
   settings.session =
       LastSession{std::move(last), session_.document.saved, session_.document.label, session_.document.file};
+  return settings;
+}
+
+void Sandbox::remember() {
+  if (session_.scripted) return;
   try {
-    save_settings(settings);
+    writer_.finish(present_settings());
   } catch (const OutputError& error) {
     std::fprintf(stderr, "tyglab: %s. The settings of this session are not saved.\n", error.what());
   }

@@ -39,7 +39,7 @@ class Walker {
   std::optional<JsonFault> fault() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     skip_space();
-    if (ended()) return JsonFault{0, true, "it is empty; a preset is at least {}"};
+    if (ended()) return JsonFault{0, true, "it is empty; it must be at least {}", false};
     if (value()) {
       skip_space();
       if (!ended()) fail("the preset ends before this; remove what follows its closing }");
@@ -55,14 +55,14 @@ class Walker {
     while (sees(' ') || sees('\t') || sees('\n') || sees('\r')) ++at_;
   }
   bool fail_at(std::size_t at, std::string why) {
-    fault_ = JsonFault{at, false, std::move(why)};
+    fault_ = JsonFault{at, false, std::move(why), false};
     return false;
   }
   bool fail(std::string why) { return fail_at(at_, std::move(why)); }
   /// The text ends where more must come.
   bool fail_end(std::string why) {
     const std::size_t last = text_.find_last_not_of(" \t\r\n");
-    fault_ = JsonFault{last == std::string_view::npos ? 0 : last, true, std::move(why)};
+    fault_ = JsonFault{last == std::string_view::npos ? 0 : last, true, std::move(why), false};
     return false;
   }
   std::string word() const {
@@ -244,7 +244,9 @@ class Walker {
     if (is_letter(now()) || sees('.'))
       return fail_at(begin, "this is not a JSON number; write one such as 1000, 1.5 or 2e-3");
     if (std::isinf(std::strtod(std::string(text_.substr(begin, at_ - begin)).c_str(), nullptr)))
-      return fail_at(begin, "this number is too large; write a smaller one");
+      return fail_at(begin, std::string(text_.substr(begin, std::min<std::size_t>(at_ - begin, 40))) +
+                                " is too large for a number; write a smaller one"),
+             fault_->of_value = true, false;
     return true;
   }
 

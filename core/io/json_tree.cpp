@@ -10,9 +10,8 @@
 namespace tyglab {
 namespace {
 
-constexpr int max_tree_depth = 16;          // a preset needs 4; a bound keeps recursion over the tree safe
-constexpr std::size_t max_keys = 1000;      // in one block; each is compared with all before it
-constexpr std::size_t max_values = 200000;  // a list of every pin of a large cloth's border fits well
+constexpr int max_tree_depth = 16;      // a preset needs 4; a bound keeps recursion over the tree safe
+constexpr std::size_t max_keys = 1000;  // in one block; each is compared with all before it
 
 /// Input iterator that tells how far the parser has read.
 class Cursor {
@@ -43,12 +42,13 @@ class Cursor {
 
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
  public:
-  TreeBuilder(std::string_view text, const char** seen, JsonNode& root) : text_(text), seen_(seen) {
+  TreeBuilder(std::string_view text, const char** seen, JsonNode& root, std::size_t max_values)
+      : text_(text), seen_(seen), max_values_(max_values) {
     stack_.push_back(&root);
   }
 
   bool null() override { return put(JsonNode::Type::null); }
-  bool boolean(bool) override { return put(JsonNode::Type::boolean); }
+  bool boolean(bool v) override { return put(JsonNode::Type::boolean, v ? 1 : 0); }
   bool number_integer(number_integer_t v) override { return put(JsonNode::Type::integer, double(v)); }
   bool number_unsigned(number_unsigned_t v) override { return put(JsonNode::Type::integer, double(v)); }
   bool number_float(number_float_t v, const string_t&) override { return put(JsonNode::Type::number, v); }
@@ -63,7 +63,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(string_t& v) override {
-    if (stack_.back()->members.size() >= max_keys) return fail("too many keys in one object for a preset");
+    if (stack_.back()->members.size() >= max_keys)
+      return fail_at_key("too many keys in one object (" + std::to_string(max_keys) + " at most)");
     if (stack_.back()->find(v)) return fail("the key \"" + v + "\" appears twice; keep one of them");
     key_ = std::move(v);
     return true;
@@ -73,7 +74,8 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     if (!fault) return fail("cannot be read as JSON");
     const std::string_view before = text_.substr(0, fault->at);
     error_line_ = 1 + int(std::count(before.begin(), before.end(), '\n'));
-    error_ = (fault->end ? "" : "column " + std::to_string(column_after(before)) + ": ") + fault->why;
+    error_ = (fault->end ? "" : "column " + std::to_string(column_after(before)) + ": ") +
+             (fault->of_value ? named(fault->why) : fault->why);
     return false;
   }
   const std::string& error() const { return error_; }
@@ -98,13 +100,35 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     before.remove_prefix(before.rfind('\n') + 1);  // npos + 1 is 0
     return 1 + int(std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xC0) != 0x80; }));
   }
+  /// Where the next value belongs, like "bodies[0].c[1]"; empty at the top.
+  std::string key_path() const {
+    std::string path;
+    for (std::size_t level = 0; started_ && level < stack_.size(); ++level) {
+      const bool innermost = level + 1 == stack_.size();
+      const JsonNode& node = *stack_[level];
+      if (node.type == JsonNode::Type::list) {
+        path += "[" + std::to_string(node.items.size() - (innermost ? 0 : 1)) + "]";
+      } else if (node.type == JsonNode::Type::object) {
+        const std::string& key = innermost ? key_ : node.members.back().key;
+        if (!path.empty() && !key.empty()) path += '.';
+        path += key;
+      }
+    }
+    return path;
+  }
+  std::string named(const std::string& why) const {
+    const std::string path = key_path();
+    return path.empty() ? why : path + ": " + why;
+  }
+  bool fail_at_key(const std::string& why) { return fail(named(why)); }
   bool fail(std::string why) {
     error_ = std::move(why);
     error_line_ = line();
     return false;
   }
   JsonNode* place(JsonNode::Type type) {
-    if (++values_ > max_values) return fail("too many values for a preset"), nullptr;
+    if (++values_ > max_values_)
+      return fail_at_key("too many values (" + std::to_string(max_values_) + " at most)"), nullptr;
     JsonNode* parent = stack_.back();
     JsonNode* node = parent;
     if (started_) {
@@ -127,9 +151,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
   bool open(JsonNode::Type type) {
     const bool root = !started_;
+    if (int(stack_.size()) > max_tree_depth)
+      return fail_at_key("nested too deeply (" + std::to_string(max_tree_depth) + " levels at most)");
     JsonNode* node = place(type);
     if (!node) return false;
-    if (int(stack_.size()) > max_tree_depth) return fail("nested too deeply for a preset");
     if (!root) stack_.push_back(node);
     return true;
   }
@@ -145,7 +170,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   std::string error_;
   int error_line_ = 0;
   bool started_ = false;
-  std::size_t values_ = 0;
+  std::size_t max_values_, values_ = 0;
   std::size_t counted_to_ = 0;
   int lines_ = 1;
 };
@@ -183,10 +208,10 @@ std::string printable(std::string text) {
   return text;
 }
 
-JsonNode parse_json(std::string_view text, std::string_view source, Lines lines) {
+JsonNode parse_json(std::string_view text, std::string_view source, Lines lines, std::size_t max_values) {
   JsonNode root;
   const char* seen = text.data();
-  TreeBuilder builder(text, &seen, root);
+  TreeBuilder builder(text, &seen, root, max_values);
   const Cursor first(text.data(), &seen), last(text.data() + text.size(), &seen);
   if (!nlohmann::json::sax_parse(first, last, &builder)) {
     std::string where(source);

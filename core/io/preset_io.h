@@ -11,6 +11,8 @@
 
 namespace tyglab {
 
+struct JsonNode;
+
 /// A preset (or a --set) is wrong. `what()` names file, line, key and what is allowed.
 class PresetError : public std::runtime_error {
  public:
@@ -21,6 +23,8 @@ inline constexpr int preset_version = 1;
 
 /// Parses and checks a whole preset. `source` names it in errors. Throws PresetError; never returns half a preset.
 Preset parse_preset(std::string_view text, std::string_view source);
+/// The same of a part of a larger JSON file; `at` is the path of its keys there ("session.preset").
+Preset preset_from(const JsonNode& root, std::string_view source, std::string_view at = {});
 /// Reads a file. Throws PresetError (missing, unreadable, wrong).
 Preset load_preset(const std::filesystem::path& file);
 /// JSON text with every key, one block a line, ready to be read and edited by a person.

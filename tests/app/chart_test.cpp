@@ -15,7 +15,7 @@ constexpr ImU32 red = IM_COL32(255, 0, 0, 255);
 /// The picture of charts that each hold one series in red.
 Image picture(const std::vector<Chart>& charts) {
   const auto file = std::filesystem::temp_directory_path() / "tyglab-chart-test.png";
-  write_charts(file, charts, 2, 1);
+  write_charts(file, charts, Reach::whole, 2, 1);
   Image image = read_image(file);
   std::filesystem::remove(file);
   return image;

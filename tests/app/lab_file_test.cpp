@@ -46,6 +46,25 @@ TEST_CASE("all wrong lines of blocks are told at once, each with its number") {
   CHECK(says(unclosed, "never closed"));
 }
 
+TEST_CASE("a lab is read with a byte order mark and with the line ends of any system") {
+  const std::string plain = head + "open: hanging\nset: k_s=70\nstop: 2 s\n```\n\nWhy.\n";
+  std::string windows;
+  for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const Lab wanted = parse_lab(plain, "my.md");
+  for (const std::string& text : {"\xEF\xBB\xBF" + plain, windows, "\xEF\xBB\xBF" + windows}) {
+    const Lab lab = parse_lab(text, "my.md");
+    CHECK(lab.title == wanted.title);
+    REQUIRE(lab.steps.size() == 1);
+    CHECK(lab.steps[0].title == wanted.steps[0].title);
+    CHECK(lab.steps[0].text == wanted.steps[0].text);
+    CHECK(lab.steps[0].explanation == wanted.steps[0].explanation);
+    REQUIRE(lab.steps[0].open.has_value());
+    CHECK(lab.steps[0].open->settings == std::vector<std::string>{"k_s=70"});
+    CHECK(lab.steps[0].stop == 2);
+  }
+  CHECK(says(problem_of("\xEF\xBB\xBF" + head + "check: k_z > 3\n```\n"), "my.md:8: "));
+}
+
 TEST_CASE("formulas and quantities are one piece, also where the file's lines end within them") {
   const Lab lab = parse_lab(
       "# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m), so Δ\n= m·g/k < 0.1\nm.\n",

@@ -109,11 +109,12 @@ TEST_CASE("130: where no older file stands, what is whole in itself gets its nam
   CHECK(names_in(folder.path()) == std::vector<std::string>{"c.pc2.incomplete", "l.csv.incomplete", "r.json", "s.csv",
                                                             "t.csv.incomplete", "v.csv"});
   CHECK(test::lines(test::read_file(folder / "s.csv")).size() > 100);
+  test::write_file(folder / "p.png", "older");
   const auto picture = test::tyglab_interrupted(
-      folder.path(), {"render", "hanging", "--seconds", "100000", "--size", "64x48", "--png", "r.json"}, 1.5);
+      folder.path(), {"render", "hanging", "--seconds", "100000", "--size", "64x48", "--png", "p.png"}, 1.5);
   CHECK(picture.code == 130);
-  CHECK(test::read_file(folder / "r.json").starts_with("{"));
-  CHECK(test::read_file(folder / "r.json.incomplete").starts_with("\x89PNG"));
+  CHECK(test::read_file(folder / "p.png") == "older");
+  CHECK(test::read_file(folder / "p.png.incomplete").starts_with("\x89PNG"));
 }
 
 TEST_CASE("130: an interrupted benchmark leaves the older results") {

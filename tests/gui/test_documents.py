@@ -3,9 +3,10 @@
 import json
 import os
 import signal
+import time
 
 from cases import case, check, main
-from sandbox import k_s
+from sandbox import PATIENCE, k_s
 
 
 def fill(sandbox, field, text):
@@ -65,6 +66,52 @@ def session(stage):
     third = stage.start(config=sandbox.config)
     report = third.report()
     check(k_s(report) == 45 and report["unsaved"], "what was not saved is back, and counts as unsaved")
+
+
+def until(condition, what):
+    """Waits for what no report tells."""
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        check(time.monotonic() < end, "in time: " + what)
+        time.sleep(0.05)
+
+
+@case
+def killed(stage):
+    """kill -9 loses nothing: what was changed comes back, unsaved as it was"""
+    sandbox = stage.start("curtain")
+    sandbox.type_value("k_s", "71")
+
+    def written():
+        with open(sandbox.settings_file) as file:
+            session = json.load(file).get("session")
+        return session is not None and session["preset"]["forces"]["k_s"] == 71
+
+    until(written, "the change is on disk while the window is open")
+    sandbox.process.kill()
+    sandbox.process.wait()
+    again = stage.start(config=sandbox.config)
+    report = again.report()
+    check(report["label"] == "curtain" and k_s(report) == 71 and report["unsaved"], "it is back, and counts as unsaved")
+
+
+@case
+def settings_that_hold_up(stage):
+    """settings that are a pipe or 3 GB large are kept aside with a sentence, and the window opens with the defaults"""
+    sandbox = stage.start("hanging")
+    sandbox.key("ctrl+q")
+    sandbox.ended()
+    for make, said in ((lambda: os.mkfifo(sandbox.settings_file), "is not a file"),
+                       (lambda: os.truncate(os.open(sandbox.settings_file, os.O_CREAT | os.O_WRONLY), 3 << 30),
+                        "too large")):
+        if os.path.exists(sandbox.settings_file):
+            os.remove(sandbox.settings_file)
+        make()
+        again = stage.start("hanging", config=sandbox.config)
+        report = again.wait(lambda r: r["messages"], "a message")
+        check(said in report["messages"][0] and "settings.json.broken" in report["messages"][0],
+              f"it says so: {report['messages']}")
+        again.close()
 
 
 @case

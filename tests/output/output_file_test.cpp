@@ -132,7 +132,7 @@ TEST_CASE("a replaced file keeps its permissions and its owner, a new one gets t
     REQUIRE(::chmod(file.c_str(), mode) == 0);
     {
       OutputFile out(file);
-      CHECK(mode_of(out.path()) == mode);  // nobody reads in the new one what nobody reads in the older one
+      CHECK(mode_of(out.path()) == mode);  // the new one is as private as the older one
       out.write("new");
       out.end();
     }
