@@ -13,6 +13,9 @@ target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-re
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 # What outputs and reports call this version.
 target_compile_definitions(tyglab_options INTERFACE TYGLAB_VERSION="${PROJECT_VERSION}")
+# Builds that check preconditions (assert) check those of the standard library too: indices, empty optionals.
+target_compile_definitions(tyglab_options INTERFACE
+                           $<$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>:_GLIBCXX_ASSERTIONS>)
 # The oldest instruction set that the sweep is compiled for is SSE4, of 2008.
 target_compile_definitions(tyglab_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
 if(TYGLAB_SANITIZE)

@@ -136,6 +136,17 @@ void Lockstep::follow(double t) {
   }
 }
 
+Lockstep Lockstep::stand_in() const {
+  Lockstep still;
+  for (const Copy& copy : copies_)
+    still.copies_.push_back({copy.differences, copy.simulation->stand_in(), copy.cost, copy.seat});
+  return still;
+}
+
+void Lockstep::stop_when(const Stop& stop) {
+  for (Copy& copy : copies_) copy.simulation->stop_when(stop);
+}
+
 bool Lockstep::alive() const {
   return std::any_of(copies_.begin(), copies_.end(),
                      [](const Copy& copy) { return !copy.simulation->divergence().has_value(); });

@@ -57,6 +57,10 @@ class Lockstep {
   std::vector<std::string> resume(Simulation& original, int threads = 1);
   /// Every copy makes the whole steps that end by `t`, s; one that has diverged stands still.
   void follow(double t);
+  /// What the copies show now, to be looked at while another thread moves them (Simulation::stand_in).
+  Lockstep stand_in() const;
+  /// From now on follow() ends as soon as this says so, each copy with its last whole step; a later call goes on there.
+  void stop_when(const Stop& stop);
   /// Whether a copy could still move.
   bool alive() const;
   std::size_t bytes() const;

@@ -1,9 +1,11 @@
 #include "core/simulation.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/cloth/start.h"
+#include "core/engines/still_engine.h"
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
 #include "core/model/readable.h"
@@ -32,6 +34,15 @@ Ledger::Source source_of(const Edit& edit) {
   return hand ? Ledger::Source::hand : Ledger::Source::edits;
 }
 
+/// Of a motion that is beyond what the scene can hold.
+std::string cause_of_runaway(const Advance& part, const Preset& preset) {
+  const std::string sources = preset.kind == Kind::cloth
+                                  ? "springs, weight, wind, the hand and bodies can have given the cloth"
+                                  : "the spring and weight can have given the mass";
+  if (part.quantity == "position") return "a particle is farther away than " + sources + " the energy to fly";
+  return "the motion has " + short_number(part.excess, 2) + " times the energy that " + sources;
+}
+
 }  // namespace
 
 std::string Divergence::where() const {
@@ -40,6 +51,7 @@ std::string Divergence::where() const {
 }
 
 Simulation::Simulation(const Preset& preset, int threads) : threads_(threads) {
+  assert(threads >= 1 && check_preset(preset).empty());
   build(preset);
 }
 Simulation::~Simulation() = default;
@@ -48,6 +60,7 @@ Simulation::Simulation(const Simulation& from)
     : preset_(from.preset_),
       effective_preset_(from.effective_preset_),
       threads_(from.threads_),
+      stop_(from.stop_),
       lattice_(from.lattice_),
       tears_(from.tears_),
       pinned_mask_(from.pinned_mask_),
@@ -93,6 +106,7 @@ void Simulation::build(const Preset& next) {
 std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
                                                 const StateRows& rows, const Tears& tears, double t) const {
   auto engine = make_engine(in_gusts(next, t), lattice, threads_);
+  engine->stop_when(stop_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(fixed.pinned, fixed.held);
   engine->load(rows, tears);
@@ -216,6 +230,12 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   return other;
 }
 
+std::unique_ptr<Simulation> Simulation::stand_in() const {
+  std::unique_ptr<Simulation> other(new Simulation(*this));
+  other->engine_ = std::make_unique<StillEngine>(*engine_, acting(), lattice_, tears_);
+  return other;
+}
+
 /// Takes a preset of the same lattice before the first step: what counts at the start alone counts at once; cuts and
 /// the hand stay.
 void Simulation::restart_untouched(const Preset& next) {
@@ -297,9 +317,14 @@ void Simulation::move_body(const edit::MoveBody& e) {
   take_constants(next);
 }
 
+void Simulation::stop_when(Stop stop) {
+  stop_ = std::move(stop);
+  engine_->stop_when(stop_);
+}
+
 Advance Simulation::advance(int steps) {
   Advance total;
-  while (!divergence_ && total.steps < steps) {
+  while (!divergence_ && !total.stopped && total.steps < steps) {
     const Advance part = advance_part(watch_ ? 1 : steps - total.steps);
     const int before = total.steps, torn = total.torn;
     const bool released = total.released;
@@ -340,12 +365,14 @@ void Simulation::diverge(const Advance& part) {
   d.i = part.i, d.j = part.j, d.di = part.di, d.dj = part.dj;
   d.quantity = part.quantity;
   d.value = part.value;
-  d.cause = part.quantity == "spring length" ? "a spring is longer than 1000 times its rest length"
+  const bool runaway = part.excess > 0;
+  d.cause = runaway                            ? cause_of_runaway(part, preset_)
+            : part.quantity == "spring length" ? "a spring is longer than 1000 times its rest length"
             : part.quantity == "distance from x_0"
                 ? "the mass is farther from x_0 than 1000 times L (or its offset, if that is more)"
                 : "a " + part.quantity + " is no longer a finite number";
   const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
-  if (springs_too_weak(preset_)) {
+  if (!runaway && springs_too_weak(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight and wind; "
                                            : ": the spring is too weak for m·g; ";
     d.cause += preset_.integrator + " is stable here " + dt;
@@ -363,6 +390,7 @@ Snapshot Simulation::snapshot() {
 }
 
 void Simulation::restore(const Snapshot& then) {
+  assert(fits(then));
   tears_ = then.tears;
   held_ = {};
   hand_steps_left_ = 0;

@@ -1,6 +1,7 @@
 // One cloth (or a mass on a spring) in motion: ties presets, engines and edits together. No window, no clock.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <optional>
 
@@ -47,8 +48,8 @@ struct Snapshot {
 
 class Simulation {
  public:
-  /// Builds the cloth at its start; `threads`: at most that many. Throws EngineError; the preset must be valid
-  /// (check_preset).
+  /// Builds the cloth at its start; `threads`: at most that many, at least 1. Throws EngineError; the preset must be
+  /// valid (check_preset).
   explicit Simulation(const Preset& preset, int threads = 1);
   ~Simulation();
 
@@ -61,7 +62,10 @@ class Simulation {
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
   /// The constants with which it diverged; available only while divergence() holds one.
-  const Preset& diverged_preset() const { return diverged_preset_; }
+  const Preset& diverged_preset() const {
+    assert(divergence_);
+    return diverged_preset_;
+  }
   Engine& engine() { return *engine_; }
   /// Goes on with what is made of the present engine: tests see one fail in this way.
   void wrap_engine(const std::function<std::unique_ptr<Engine>(std::unique_ptr<Engine>)>& wrap) {
@@ -72,7 +76,10 @@ class Simulation {
   /// Of one particle.
   glm::dvec3 position(int i, int j) const { return engine_->position(i, j); }
 
-  bool pinned(int i, int j) const { return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0; }
+  bool pinned(int i, int j) const {
+    assert(lattice_.contains(i, j));
+    return pinned_mask_[std::size_t(i) * lattice_.columns + j] != 0;
+  }
   std::optional<Pins::Site> held() const;
   glm::dvec3 hand_force() const { return hand_force_; }
   /// Free particles that overlapping bodies left inside one of them in the last step.
@@ -83,10 +90,15 @@ class Simulation {
   /// A simulation as that edit (a Change or a Restart) would leave this one, which stays as it is. May run beside
   /// other threads that only look at this one: positions(), particle() and whatever else is const. Throws as apply().
   std::unique_ptr<Simulation> rebuilt(const Edit& edit) const;
+  /// What this one shows now, with an engine that stands still: to be looked at while another thread moves this one.
+  /// Changes of what is only seen may be applied to it, nothing else.
+  std::unique_ptr<Simulation> stand_in() const;
   /// Applies an edit. Throws PresetError or EngineError and leaves everything as it was if it cannot be done.
   void apply(const Edit& edit);
-  /// Makes up to `steps` steps; fewer when the run diverges. Does nothing once diverged.
+  /// Makes up to `steps` steps; fewer when the run diverges or is stopped. Does nothing once diverged.
   Advance advance(int steps);
+  /// From now on advance() ends with the last whole step as soon as this says so (Engine::stop_when).
+  void stop_when(Stop stop);
 
   EnergyReading energy();
   /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
@@ -158,6 +170,7 @@ class Simulation {
   Preset effective_preset_;  ///< the same with the wind of this moment, which the engine has; valid only while there
                              ///< are gusts
   int threads_;
+  Stop stop_;
   Lattice lattice_;
   Tears tears_;
   std::unique_ptr<Engine> engine_;

@@ -28,14 +28,14 @@ fs::path data_file(std::string_view name) {
   return file;
 }
 
-fs::path texture_file(const std::string& name) {
+bool is_shipped_texture(const std::string& name) {
   const fs::path given(name);
-  if (given.has_filename() && !given.has_parent_path()) {
-    const fs::path shipped = data_folder() / "textures" / given;
-    std::error_code error;
-    if (fs::exists(shipped, error)) return shipped;
-  }
-  return given;
+  std::error_code error;
+  return given.has_filename() && !given.has_parent_path() && fs::exists(data_folder() / "textures" / given, error);
+}
+
+fs::path texture_file(const std::string& name) {
+  return is_shipped_texture(name) ? data_folder() / "textures" / name : fs::path(name);
 }
 
 }  // namespace tyglab

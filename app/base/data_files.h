@@ -21,8 +21,9 @@ const std::filesystem::path& data_folder();
 /// A file (or folder) of the program, as "shaders/cloth.vert". Throws DataFileError if it is missing.
 std::filesystem::path data_file(std::string_view name);
 
-/// The file that a preset's `view.texture` means: a bare name is looked for among the shipped textures first, anything
-/// else (and a bare name that is not shipped) is a path. Need not exist.
+/// Whether there is a shipped texture of that name.
+bool is_shipped_texture(const std::string& name);
+/// The file of a texture: that of a shipped name, or else the path that it is. Need not exist.
 std::filesystem::path texture_file(const std::string& name);
 
 }  // namespace tyglab

@@ -1,10 +1,12 @@
-// Keyboard and pointer events since the last frame, in order, as GLFW's callbacks report it. Dear ImGui samples once a
-// frame and drops short presses when frames are long; this queue does not.
+// Keyboard and pointer events since the last frame, in order, as GLFW's callbacks report them. Who draws slowly still
+// gets every press, however short it was.
 #pragma once
 
-#include <cmath>
+#include <array>
+#include <bitset>
 #include <glm/vec2.hpp>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace tyglab {
@@ -25,43 +27,47 @@ struct PointerEvent {
   double time = 0;     ///< s, glfwGetTime
 };
 
-/// A character that was typed, and how many of the queue's keys were pressed before it.
 struct TypedCharacter {
-  unsigned character;
-  std::size_t keys_before;
+  unsigned code;  ///< of Unicode
 };
 
+using InputEvent = std::variant<KeyEvent, TypedCharacter, PointerEvent>;
+
 struct InputQueue {
+  static constexpr int most_keys = 512, most_buttons = 5;
+
   std::vector<KeyEvent> keys;
-  std::vector<TypedCharacter> text;  ///< filled only where Dear ImGui keeps no order itself (before 1.87)
   std::vector<PointerEvent> pointer;
-  std::vector<std::string> dropped;  ///< files dropped on the window
-  glm::vec2 at{-1e6f};               ///< the pointer's last position
-  int mods = 0;
-  bool scale_changed = false;   ///< the window went to a monitor with another content scale
-  bool anything = false;        ///< an event of any kind arrived
-  bool unread = false;          ///< Dear ImGui has not yet been shown everything that was typed
-  bool unshown = false;         ///< nor all else that happened: it comes in the next frames
-  bool double_click = false;    ///< the left button went down for the second time at the same place, just now
-  int double_click_frames = 0;  ///< for how many frames more that counts: Dear ImGui may show a press some frames late
-  double double_click_s = 0.4;  ///< longest time between its presses; longer where frames are slow
-  double last_press = -1;       ///< s, of the left button
+  std::vector<InputEvent> all;         ///< those and characters, in the order in which they came
+  std::vector<std::string> dropped;    ///< files dropped on the window
+  glm::vec2 at{-1e6f};                 ///< the pointer's last position
+  int mods = 0;                        ///< held now
+  std::bitset<most_keys> keys_down;    ///< now
+  std::bitset<most_buttons> buttons;   ///< likewise
+  bool focused = true, inside = true;  ///< the window has the keyboard; the pointer is over it
+  bool scale_changed = false;          ///< the window went to a monitor with another content scale
+  bool anything = false;               ///< an event of any kind arrived
+  bool unread = false;                 ///< Dear ImGui has not yet been shown everything that was typed
+  bool unshown = false;                ///< nor all else that happened: it comes in the next frames
+  bool double_click = false;           ///< the left button went down for the second time at the same place, just now
+  int double_click_frames = 0;         ///< for how many frames more that counts: Dear ImGui sees a press frames later
+  double double_click_s = 0.4;         ///< longest time between its presses; longer where frames are slow
+  double last_press = -1;              ///< s, of the left button
   glm::vec2 last_press_at{0};
 
-  /// Notes a press of the left button; two in quick succession are a double click even where one frame holds both.
-  void note_left_press(double time) {
-    const bool second =
-        time - last_press < double_click_s && std::hypot(at.x - last_press_at.x, at.y - last_press_at.y) < 6;
-    if (second) double_click = true, double_click_frames = 3;
-    last_press = second ? -1 : time;
-    last_press_at = at;
-  }
+  // What GLFW's callbacks are told; times are glfwGetTime's, s.
+  void on_key(int key, int action, int mods);
+  void on_character(unsigned code);
+  void on_button(int button, int action, int mods, double time);
+  void on_move(glm::vec2 to, double time);
+  void on_wheel(glm::vec2 by, double time);
 
-  void clear() {
-    keys.clear(), text.clear(), pointer.clear(), dropped.clear();
-    scale_changed = anything = false;
-    double_click = double_click_frames > 0 && --double_click_frames > 0;
-  }
+  /// The frame has taken what came.
+  void clear();
+
+ private:
+  void add(const PointerEvent& event);
+  void note_left_press(double time);
 };
 
 }  // namespace tyglab

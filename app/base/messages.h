@@ -2,7 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdio>
+#include <iostream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -45,7 +45,7 @@ class Messages {
   static double lifetime(Message::Severity severity) { return severity == Message::Severity::note ? 4 : 8; }
   void add(Message::Severity severity, std::string text) {
     const bool shown = std::erase_if(list_, [&](const Message& m) { return m.text == text; }) > 0;
-    if (severity != Message::Severity::note && !shown) std::fprintf(stderr, "tyglab: %s\n", text.c_str());
+    if (severity != Message::Severity::note && !shown) std::cerr << "tyglab: " + text + '\n';
     list_.push_back({severity, std::move(text), -1});
     if (list_.size() > most) list_.erase(list_.begin());
   }

@@ -120,7 +120,7 @@ ToolSettings handling_from(const Section& from) {
 LastSession session_from(const Section& from) {
   LastSession session;
   const auto take = [&](const char* key, Preset& preset) {
-    from.read(key, [&](const JsonNode& node, const std::string& path) { preset = preset_from(node, "", path); });
+    from.read(key, [&](const JsonNode& node, const std::string& path) { preset = preset_from(node, "", {}, path); });
   };
   take("preset", session.preset);
   session.saved = session.preset;

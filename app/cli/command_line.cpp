@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <csignal>
@@ -15,17 +16,25 @@
 #include "app/base/data_files.h"
 #include "app/cli/preset_argument.h"
 #include "app/process/interrupt.h"
+#include "app/process/memory_limit.h"
 #include "app/render/graphics_error.h"
 #include "app/session/lab.h"
 #include "core/engines/engine.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {
 namespace {
+
+/// One line, whatever names stand in it.
+void complain(std::string what) {
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  std::cerr << "tyglab: " << what << '\n';
+}
 
 /// The number that the whole text is.
 std::optional<double> number_in(const std::string& text) {
@@ -87,6 +96,8 @@ std::string unexpected(const CLI::ExtrasError& error) {
 }  // namespace
 
 void prepare_process() {
+  filter_standard_streams();
+  explain_crashes_under_limit();
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
   // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
@@ -108,12 +119,12 @@ std::vector<std::string> command_names(const CLI::App& command) {
 int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words) {
   if (error.get_exit_code() != 0) {
     if (const std::string problem = command_problem(program, words); !problem.empty()) {
-      std::cerr << "tyglab: " << problem << '\n';
+      complain(problem);
       return exit_command_line;
     }
   }
   if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    std::cerr << "tyglab: " << unexpected(*extras) << '\n';
+    complain(unexpected(*extras));
     return exit_command_line;
   }
   if (program.exit(error) != 0) return exit_command_line;
@@ -122,7 +133,7 @@ int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::
 
 int run_action(const Action& action) {
   const auto say = [](const std::string& what, ExitCode code) {
-    std::cerr << "tyglab: " << what << '\n';
+    complain(what);
     return code;
   };
   try {
@@ -139,13 +150,15 @@ int run_action(const Action& action) {
   } catch (const DataFileError& error) {
     return say(error.what(), exit_input);
   } catch (const EngineError& error) {
-    return say(error.what(), exit_engine);
+    return say(error.what() + memory_limit_words(), exit_engine);
   } catch (const GraphicsError& error) {
-    return say(error.what(), exit_engine);
+    return say(error.what() + memory_limit_words(), exit_engine);
   } catch (const OutputError& error) {
     return say(error.what(), exit_output);
   } catch (const std::bad_alloc&) {
-    return say("There is not enough memory for a cloth of this size; ask for fewer rows or columns.", exit_engine);
+    return say(
+        "There is not enough memory for a cloth of this size; ask for fewer rows or columns." + memory_limit_words(),
+        exit_engine);
   } catch (const std::exception& error) {
     return say(std::string("Internal error: ") + error.what(), exit_violation);
   }
@@ -156,6 +169,7 @@ std::string counted(std::int64_t count, const std::string& noun) {
 }
 
 CLI::Validator number_between(double lowest, double highest, const std::string& unit) {
+  assert(lowest <= highest);
   const auto check = [=](std::string& text) -> std::string {
     const auto value = number_in(text);
     if (!value) return "'" + text + "' is not a number; write it like 1.5 or 2e-3";
@@ -165,6 +179,7 @@ CLI::Validator number_between(double lowest, double highest, const std::string& 
 }
 
 CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest) {
+  assert(lowest <= highest);
   const auto check = [=](std::string& text) -> std::string {
     const auto value = number_in(text);
     if (!value || (std::isfinite(*value) && *value != std::floor(*value)))

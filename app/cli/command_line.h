@@ -32,8 +32,9 @@ class UsageError : public std::runtime_error {
 /// What the command line picked: does the work and returns the exit code.
 using Action = std::function<int()>;
 
-/// Gives streams that were closed (>&-) to nothing, so that no file that is opened later takes their place; makes
-/// writing beyond a limit (ulimit -f) or to nobody (| head) an error that is reported instead of the process's end.
+/// Filters what is printed (core/io/terminal.h); has a crash under a limit of memory explained. Gives streams that were
+/// closed (>&-) to nothing, so that no file that is opened later takes their place; makes writing beyond a limit
+/// (ulimit -f) or to nobody (| head) an error that is reported instead of the process's end.
 void prepare_process();
 /// Ends the program's parsing: prints help (0) or what is wrong with the command line (2). `words` are those typed
 /// after the program's name: one that should be a command and is none is named, with those that there are.

@@ -196,9 +196,10 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
   check_engine();
   ResolvedPreset resolved;
   resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
-  resolved.preset = load_preset(resolved.source.file);
+  const Preset read = read_preset(resolved.source.file);
   try {
-    resolved.preset = with_parsed_settings(resolved.preset, all_settings());
+    resolved.preset = with_parsed_settings(read, all_settings());
+    if (resolved.preset.texture != read.texture) resolved.preset.texture = chosen_texture(resolved.preset.texture);
   } catch (const PresetError& error) {
     throw UsageError(error.what());
   }

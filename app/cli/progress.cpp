@@ -3,14 +3,15 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <iostream>
+
+#include "core/io/terminal.h"
 
 namespace tyglab {
 
-Progress::Progress(std::string what) : what_(std::move(what)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(const std::string& what) : what_(visible(what)), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void Progress::clear() {
-  if (shown_) std::cerr << '\r' << std::string(what_.size() + 40, ' ') << '\r' << std::flush;
+  if (shown_) cursor_output() << '\r' << std::string(what_.size() + 40, ' ') << '\r' << std::flush;
   shown_ = false;
 }
 
@@ -23,7 +24,7 @@ void Progress::update(double done) {
   std::string line = what_ + ": " + std::to_string(static_cast<int>(100 * done)) + " %";
   if (done > 0) line += ", " + duration_text(passed * (1 - done) / done) + " left";
   line.resize(what_.size() + 40, ' ');
-  std::cerr << '\r' << line << std::flush;
+  cursor_output() << '\r' << line << std::flush;
   shown_ = true;
 }
 

@@ -9,6 +9,7 @@
 #include "app/cli/command_line.h"
 #include "app/process/interrupt.h"
 #include "core/io/text.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 
@@ -64,6 +65,7 @@ Stepper::Stepper(Simulation& simulation, std::int64_t steps, const std::string& 
       end_time_(double(steps) * simulation.preset().dt),
       timeline_{simulation.preset().dt},
       progress_(what) {
+  simulation_.stop_when(InterruptGuard::interrupted);
   if (!auto_dt) return;
   auto_.emplace();
   simulation_.enable_ledger(true);
@@ -119,7 +121,7 @@ std::string divergence_text(const Divergence& d) {
   std::string text = "diverged at t = ";
   append_number(text, d.t, 6);
   text += " s (step " + std::to_string(d.step) + "), " + d.where() + ": " + d.quantity + " = ";
-  append_number(text, d.value, 4);
+  text += std::isfinite(d.value) ? printed("%.4g", d.value) : short_number(d.value);
   return text + "; " + d.cause + ". " + d.advice;
 }
 

@@ -12,6 +12,8 @@
 #include <cstring>
 #include <utility>
 
+#include "app/process/memory_limit.h"
+
 namespace tyglab {
 namespace {
 
@@ -20,6 +22,7 @@ namespace {
 }
 
 void set_up_child(const ChildOptions& options) {
+  leave_crashes_to_parent();
   if (options.interruptible)
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
   else

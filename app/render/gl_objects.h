@@ -3,6 +3,7 @@
 
 #include <glad/gl.h>
 
+#include <cassert>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -19,7 +20,7 @@ namespace tyglab::gl {
 template <class Traits>
 class Object {
  public:
-  Object() : id_(Traits::make()) {}
+  Object() : id_(Traits::make()) { assert(id_ != 0); }  // 0: no context is current
   ~Object() { reset(); }
   Object(Object&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
   Object& operator=(Object&& other) noexcept {

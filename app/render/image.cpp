@@ -1,13 +1,36 @@
 #include "app/render/image.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <glm/common.hpp>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "app/render/jpeg.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
+
+namespace tyglab {
+namespace {
+
+constexpr int largest_side = 4096;
+// The largest that a picture of that size needs, 16 bits in each of four channels and a byte a row, with what inflating
+// it takes beyond. A small PNG can hold any number of bytes more; stb_image would take memory for all of them.
+constexpr std::size_t largest_block = (std::size_t(8) * largest_side + 1) * largest_side + (1 << 20);
+
+/// Zeros, so that what a file cut short leaves out is black, and no old content of the memory.
+void* decoder_memory(std::size_t bytes) {
+  return bytes <= largest_block ? std::calloc(bytes, 1) : nullptr;
+}
+
+void* more_decoder_memory(void* block, std::size_t bytes) {
+  return bytes <= largest_block ? std::realloc(block, bytes) : nullptr;
+}
+
+}  // namespace
+}  // namespace tyglab
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -17,11 +40,13 @@
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
+#define STBI_NO_JPEG  // that of Debian 12 writes out of bounds: jpeg.h
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
-#define STBI_MAX_DIMENSIONS 8192
+#define STBI_MALLOC(size) tyglab::decoder_memory(size)
+#define STBI_REALLOC(block, size) tyglab::more_decoder_memory(block, size)
+#define STBI_FREE(block) std::free(block)
 #define STBI_NO_STDIO
 #include <stb_image.h>
 #define STB_IMAGE_WRITE_STATIC
@@ -34,7 +59,6 @@ namespace tyglab {
 namespace {
 
 constexpr std::uintmax_t largest_file = 64 << 20;
-constexpr int largest_side = STBI_MAX_DIMENSIONS;
 
 std::vector<unsigned char> read_all(const std::filesystem::path& file) {
   std::error_code error;
@@ -70,7 +94,32 @@ std::vector<std::uint8_t> without_alpha(const unsigned char* rgba, std::size_t p
   return rgb;
 }
 
+/// What cannot hold its pixels is cut short, and is refused before memory is taken for them.
+bool holds_its_pixels(std::span<const unsigned char> bytes, double pixels) {
+  // The best that deflate does is 1032 to 1, on pixels of one bit; TGA's runs are of 128 pixels in two bytes.
+  const bool png = bytes.size() > 1 && bytes[0] == 0x89 && bytes[1] == 'P';
+  return pixels <= double(bytes.size()) * (png ? 8 * 1032 : 64);
+}
+
+/// PNG, BMP and TGA.
+Image decode_others(std::span<const unsigned char> bytes) {
+  const int length = int(bytes.size());
+  int width = 0, height = 0, channels = 0;
+  if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels) == 0)
+    throw DecodeError(stbi_failure_reason());
+  if (width < 1 || height < 1) throw DecodeError("it has no pixels");
+  if (width > largest_side || height > largest_side) throw ImageTooLarge(width, height, largest_side);
+  if (!holds_its_pixels(bytes, double(width) * height)) throw DecodeError("it is cut short");
+  using Pixels = std::unique_ptr<unsigned char, decltype(&stbi_image_free)>;
+  const Pixels pixels(stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4), &stbi_image_free);
+  if (pixels == nullptr) throw DecodeError(stbi_failure_reason());
+  return {width, height, without_alpha(pixels.get(), std::size_t(width) * height)};
+}
+
 }  // namespace
+
+ImageTooLarge::ImageTooLarge(int its_width, int its_height, int allowed_side)
+    : std::runtime_error("too large"), width(its_width), height(its_height), largest_side(allowed_side) {}
 
 std::filesystem::path write_png(const std::filesystem::path& file, const Image& image, Reach reach) {
   std::string bytes;
@@ -94,27 +143,21 @@ Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi) {
 }
 
 Image read_image(const std::filesystem::path& file) {
-  const std::vector<unsigned char> bytes = read_all(file);
-  const int length = int(bytes.size());
-  int width = 0, height = 0, channels = 0;
-  if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels) == 0) {
-    throw std::runtime_error(file.string() + " is not an image that can be read (" + stbi_failure_reason() +
-                             "). Use PNG, JPEG, BMP or TGA, at most " + std::to_string(largest_side) +
-                             " pixels a side.");
+  return decode_image(read_all(file), file.string());
+}
+
+Image decode_image(std::span<const unsigned char> bytes, const std::string& name) {
+  try {
+    return is_jpeg(bytes) ? decode_jpeg(bytes, largest_side) : decode_others(bytes);
+  } catch (const ImageTooLarge& error) {
+    throw std::runtime_error(name + " is " + std::to_string(error.width) + " x " + std::to_string(error.height) +
+                             " pixels; at most " + std::to_string(error.largest_side) +
+                             " a side are allowed. Make it smaller" +
+                             (is_jpeg(bytes) ? "." : ", or save it as a JPEG, which is scaled down while it is read."));
+  } catch (const DecodeError& error) {
+    throw std::runtime_error(name + " is not an image that can be read (" + error.what() +
+                             "). Use an undamaged PNG, JPEG, BMP or TGA.");
   }
-  if (width > largest_side || height > largest_side) {
-    throw std::runtime_error(file.string() + " is " + std::to_string(width) + " x " + std::to_string(height) +
-                             " pixels; at most " + std::to_string(largest_side) +
-                             " a side are allowed. Make it smaller.");
-  }
-  unsigned char* const pixels = stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4);
-  if (pixels == nullptr) {
-    throw std::runtime_error(file.string() + " is damaged (" + stbi_failure_reason() +
-                             "). Open it in an image editor and save it again.");
-  }
-  Image image{width, height, without_alpha(pixels, std::size_t(width) * height)};
-  stbi_image_free(pixels);
-  return image;
 }
 
 std::vector<Image> halvings(Image image) {

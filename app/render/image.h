@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
+#include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -23,9 +25,18 @@ std::filesystem::path write_png(const std::filesystem::path& file, const Image& 
 /// The part between two corners, pixels from the upper left one; what lies outside the picture is left out.
 Image cropped(const Image& image, glm::ivec2 lo, glm::ivec2 hi);
 
-/// Reads PNG, JPEG, BMP or TGA (transparency is laid over white). At most 8192 pixels a side and 64 MB as a file.
-/// Throws std::runtime_error with a sentence that names the file and the fix.
+/// A picture with more pixels a side than are allowed.
+struct ImageTooLarge : std::runtime_error {
+  ImageTooLarge(int its_width, int its_height, int allowed_side);
+  int width, height, largest_side;
+};
+
+/// Reads PNG, JPEG, BMP or TGA; transparency is laid over white, and a JPEG stands as its EXIF orientation says. At
+/// most 64 MB as a file and 4096 pixels a side, plenty for a cloth; a JPEG may have 32768 and is scaled down while it
+/// is read. Throws std::runtime_error with a sentence that names the file and the fix.
 Image read_image(const std::filesystem::path& file);
+/// The same of a file's content; errors call it by that name.
+Image decode_image(std::span<const unsigned char> bytes, const std::string& name);
 
 /// A picture, then its halves down to one pixel, each pixel the mean of four: against shimmering where it is drawn
 /// small.

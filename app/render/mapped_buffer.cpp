@@ -1,5 +1,6 @@
 #include "app/render/mapped_buffer.h"
 
+#include <cassert>
 #include <cstdint>
 #include <cstring>
 
@@ -12,6 +13,7 @@ bool MappedBuffer::available() {
 }
 
 MappedBuffer::MappedBuffer(int slots, std::size_t bytes) {
+  assert(0 < slots && slots <= most_slots);
   if (!available()) throw GraphicsError("this OpenGL has no ARB_buffer_storage");
   constexpr std::size_t page = PositionMemory::page;
   slot_bytes_ = (bytes + page - 1) / page * page;
@@ -40,6 +42,7 @@ std::optional<std::size_t> MappedBuffer::offset_of(const void* address) const {
 }
 
 int MappedBuffer::slot_of(const void* address) const {
+  assert(offset_of(address));
   return int((reinterpret_cast<std::uintptr_t>(address) - reinterpret_cast<std::uintptr_t>(first_)) / slot_bytes_);
 }
 

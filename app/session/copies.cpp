@@ -102,6 +102,7 @@ void add_copy(Session& session, const std::vector<Difference>& differences, bool
   Copies& copies = session.copies;
   if (session.rebuild.busy())
     return session.messages.note("Another cloth is being built; add a copy when it is ready.");
+  settle(session);
   try {
     copies.lockstep.add(*session.simulation, differences, session.threads);
   } catch (const std::exception& error) {
@@ -117,6 +118,7 @@ void add_copy(Session& session, const std::vector<Difference>& differences, bool
 void remove_copy(Session& session, std::size_t n) {
   Copies& copies = session.copies;
   if (n >= copies.lockstep.size()) return;
+  settle(session);
   copies.lockstep.remove(n);
   ++session.counts.copies;
   if (copies.reference == int(n)) copies.reference = Copies::original;
@@ -128,6 +130,7 @@ void remove_copy(Session& session, std::size_t n) {
 bool put_away_copies(Session& session) {
   Copies& copies = session.copies;
   if (copies.lockstep.empty()) return false;
+  settle(session);
   copies.lockstep.clear();
   ++session.counts.copies;
   copies.reference = Copies::original;
@@ -153,16 +156,20 @@ void copies_resume(Session& session) {
   session.copies.forget();
 }
 
-void copies_follow(Session& session, double wall_s) {
+void copies_note(Session& session, double t, double wall_s) {
   Copies& copies = session.copies;
   if (copies.lockstep.empty()) return;
-  const double t = session.simulation->time();
   copies.cost.add(t - copies.t, wall_s);
   copies.t = t;
-  copies.lockstep.follow(t);
+}
+
+void copies_follow(Session& session, double wall_s) {
+  copies_note(session, session.simulation->time(), wall_s);
+  session.copies.lockstep.follow(session.copies.t);
 }
 
 int copies_go_on(Session& session, int steps) {
+  if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, steps), 0;
   const double dt = session.preset().dt;
   const auto start = std::chrono::steady_clock::now();
   session.copies.t += steps * dt;

@@ -1,6 +1,6 @@
 #include "app/session/document.h"
 
-#include "app/base/data_files.h"
+#include "app/base/preset_files.h"
 #include "app/base/settings.h"
 #include "app/session/edits.h"
 #include "app/session/session.h"
@@ -46,6 +46,7 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
 }
 
 void take_built(Session& session, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
+  settle(session);
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));
   if (order.document) return begin_document(session, *order.document);
@@ -58,7 +59,7 @@ void take_built(Session& session, std::unique_ptr<Simulation> simulation, const 
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,
                    const std::vector<std::string>& settings) {
   try {
-    const Preset preset = with_settings(load_preset(file), settings);
+    const Preset preset = with_settings(read_preset(file), settings);
     const Document document{preset, file.stem().string(), shipped ? std::filesystem::path() : file};
     if (takes_long(session, preset) && preset.engine == EngineKind::cpu)
       return session.rebuild.order(session, {preset, true, false, document}, session.history);
@@ -77,6 +78,7 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
 bool save_document_as(Session& session, const std::filesystem::path& file, const std::string& name) {
   Preset preset = session.preset();
   preset.name = name;
+  std::string copied;
   try {
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
     // The program's own folder is made where it is missing; nobody else's.
@@ -85,7 +87,10 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
     if (folder == user_preset_folder()) std::filesystem::create_directories(folder, ignored);
     if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
       throw OutputError("The folder " + folder.string() + " does not exist; create it first, or choose another.");
-    save_preset(preset, file);
+    const std::string texture = preset.texture;
+    preset = write_preset(preset, file);
+    if (preset.texture != texture)
+      copied = " and its texture " + std::filesystem::path(preset.texture).filename().string();
   } catch (const std::exception& error) {
     session.not_saved = SaveProblem{file, name, error.what()};
     return false;
@@ -95,7 +100,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
   if (session.labs.opened == session.document.label)
     session.labs.opened = file.stem().string();  // it is the lab's cloth still
   session.document = {preset, file.stem().string(), file};
-  session.messages.note("Saved " + file.string());
+  session.messages.note("Saved " + file.string() + copied);
   return true;
 }
 

@@ -33,6 +33,12 @@ bool take_texture(Session& session, const Edit& edit) {
   return !problem;
 }
 
+/// Whether a stand-in of the cloth may take that edit.
+bool only_seen(const Session& session, const Edit& edit) {
+  const auto* change = std::get_if<edit::Change>(&edit);
+  return change != nullptr && changes(session.requested_preset(), change->preset).within(motionless);
+}
+
 void record(Session& session, const Preset& before, const Preset& now, unsigned gesture) {
   if (!changes(before, now).within(Effect::view)) session.history.record(before, gesture);
 }
@@ -117,6 +123,7 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     if (const auto* change = std::get_if<edit::Change>(&edit))
       if (const std::string wrong = check_preset(change->preset); !wrong.empty()) throw PresetError(wrong);
     if (!take_texture(session, edit)) return false;
+    if (!only_seen(session, edit)) settle(session);
     if (const auto taken = build_beside(session, edit, gesture)) return *taken;
     const Preset before = session.preset();
     apply_to_all(session, edit);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "app/base/data_files.h"
 #include "app/base/preset_files.h"
 #include "app/session/lab.h"
 #include "app/session/lab_condition.h"
@@ -194,7 +195,9 @@ void LabReader::end_opening() {
   try {
     const Preset preset = load_preset(find_preset(opening.preset).file);
     try {
-      with_settings(preset, opening.settings);
+      const std::string texture = with_settings(preset, opening.settings).texture;
+      if (texture != preset.texture && !is_shipped_texture(texture))
+        throw LabError("set: texture=" + texture + " is not a shipped texture, and a lab opens no other image");
     } catch (const PresetError&) {
       if (!note_wrong_settings(preset, opening.settings)) throw;
     }

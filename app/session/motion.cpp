@@ -20,6 +20,7 @@ bool rewind(Session& session) {
   const double t = session.simulation->time();
   if (session.rebuild.holds_present() || session.rewind.before(*session.simulation, t, rewinds_s) == nullptr)
     return false;
+  settle(session);
   session.rewind.go_back(*session.simulation, t, rewinds_s);
   copies_resume(session);
   if (!session.copies.lockstep.empty())
@@ -61,8 +62,9 @@ void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int step
 
 void single_step(Session& session, const std::optional<glm::dvec3>& hand) {
   session.pacing.playing = false;
-  if (session.rebuild.holds_present()) return;
+  if (session.rebuild.holds_present() || session.background_steps.busy()) return;
   move_hand(session, hand, 1);
+  if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, 1);
   session.steps_made += session.simulation->advance(1).steps;
   copies_follow(session, 0);
 }

@@ -79,6 +79,7 @@ void BackgroundRebuild::poll(Session& session) {
   if (!busy()) return;
   ++frames_beside_;
   if (!work_.ready()) return;
+  settle(session);
   auto outcome = work_.take();
   if (const auto* failure = std::get_if<JobError>(&outcome)) {
     give_up(session, *failure);

@@ -1,6 +1,7 @@
 #include "app/session/requests.h"
 
 #include "app/base/numbers.h"
+#include "app/base/preset_files.h"
 #include "app/session/document.h"
 #include "app/session/edits.h"
 #include "app/session/motion.h"
@@ -88,7 +89,7 @@ bool apply(Session& session, const request::SavePreset& what) {
 
 void apply(Session& session, const request::LoadTexture& what) {
   Preset next = session.requested_preset();
-  next.texture = what.name;
+  next.texture = chosen_texture(what.name);
   apply_edit(session, edit::Change{next});
 }
 

@@ -1,5 +1,6 @@
 #include "app/session/series.h"
 
+#include <cassert>
 #include <utility>
 
 #include "core/io/text.h"
@@ -7,6 +8,7 @@
 namespace tyglab {
 
 void Series::add(double t, std::span<const double> values) {
+  assert(values.size() == columns_.size());
   if (!t_.empty() && t <= t_.back()) {
     if (t == t_.back()) return;
     clear();
@@ -31,6 +33,7 @@ void Series::clear() {
 }
 
 std::string Series::csv(std::span<const std::string> names, std::string_view comment) const {
+  assert(names.size() == columns_.size());
   std::string text = "# " + std::string(comment) + "\nt";
   for (const std::string& name : names) text += "," + name;
   text += '\n';

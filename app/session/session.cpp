@@ -40,7 +40,8 @@ double step_budget(const FrameCosts& costs, double frame_time) {
 
 bool Session::idle() const {
   const bool over = simulation->divergence().has_value() && !copies.lockstep.alive();
-  return (!pacing.playing || over || asleep()) && !rebuild.busy() && !studies.engine.busy() && requests.empty();
+  return (!pacing.playing || over || asleep()) && !rebuild.busy() && !background_steps.busy() &&
+         !studies.engine.busy() && requests.empty();
 }
 
 void Session::update(double real_seconds, const SessionInput& input) {
@@ -66,6 +67,13 @@ void Session::update(double real_seconds, const SessionInput& input) {
 
 void Session::step(double real_seconds, const SessionInput& input) {
   const FrameCosts::Timer timer(costs, Part::simulate);
+  if (background_steps.busy()) {
+    pacing.due(real_seconds, preset().dt);
+    if (!background_steps.wait(Pacing::usual_budget_s)) return;
+    take_steps();
+    if (input.after_steps) input.after_steps();
+    return;
+  }
   sleep.begin(*simulation);
   if (const bool wanted = wants.ledger || auto_dt; wanted != simulation->ledger().has_value())
     if (!wanted || rebuild.ledger_ready(*this)) simulation->enable_ledger(wanted);
@@ -80,34 +88,55 @@ void Session::step(double real_seconds, const SessionInput& input) {
   const int due = up_to_stop(*this, pacing.due(real_seconds, dt));
   move_hand(*this, input.hand, due);
   pacing.budget_s = step_budget(costs, input.frame_time);
-  double spent_s = 0;
-  const int made = make_steps(due, input, spent_s);
-  pacing.made(made, dt, spent_s);
-  steps_made += made;
-  pause_at_stop(*this);
-  if (auto_dt && !simulation->divergence()) watch_dt(*this);
-  if (!scripted) sleep.look(*simulation, input.touched || !copies.lockstep.empty());
+  make_steps(due, input);
+  if (!background_steps.busy() && !scripted) sleep.look(*simulation, input.touched || !copies.lockstep.empty());
 }
 
 /// In pieces, so that a wrong guess of a step's cost cannot hold the window up.
-int Session::make_steps(int due, const SessionInput& input, double& spent_s) {
+void Session::make_steps(int due, const SessionInput& input) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const double dt = preset().dt;
   int made = 0;
+  double stepping_s = 0;
   while (made < due && !simulation->divergence() && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
     const double cost = pacing.step_cost_s();
     const int piece =
         cost > 0 && !input.after_steps ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, due - made) : 1;
     const double before = spent();
-    const Advance advance = simulation->advance(piece);
+    Advance advance;
+    if (BackgroundSteps::wanted(*this)) {
+      background_steps.start(*this, piece);
+      if (!background_steps.wait(std::max(pacing.budget_s - before, 0.0))) break;
+      const StepsMadeBeside beside = background_steps.take(*this);
+      copies_note(*this, beside.t, beside.seconds);
+      advance = beside.advance;
+    } else {
+      advance = simulation->advance(piece);
+      copies_follow(*this, spent() - before);
+    }
+    stepping_s = spent();
     made += advance.steps;
-    copies_follow(*this, spent() - before);
     if (input.after_steps) input.after_steps();
     warn_of(advance);
     if (advance.steps < piece) break;
   }
-  spent_s = spent();
-  return made;
+  made_steps(made, stepping_s, dt);
+}
+
+void Session::take_steps() {
+  const double dt = preset().dt;
+  const StepsMadeBeside beside = background_steps.take(*this);
+  copies_note(*this, beside.t, beside.seconds);
+  warn_of(beside.advance);
+  made_steps(beside.steps, beside.seconds, dt);
+}
+
+void Session::made_steps(int steps, double seconds, double dt) {
+  pacing.made(steps, dt, seconds);
+  steps_made += steps;
+  pause_at_stop(*this);
+  if (auto_dt && !simulation->divergence()) watch_dt(*this);
 }
 
 void Session::warn_of(const Advance& advance) {

@@ -12,6 +12,7 @@
 
 #include "app/base/frame_costs.h"
 #include "app/base/messages.h"
+#include "app/session/background_steps.h"
 #include "app/session/copies.h"
 #include "app/session/document.h"
 #include "app/session/history.h"
@@ -57,6 +58,7 @@ struct Session {
   Document document;
   History history;
   BackgroundRebuild rebuild;
+  BackgroundSteps background_steps;
   Pacing pacing;
   Sleep sleep;
   Rewind rewind;
@@ -99,12 +101,15 @@ struct Session {
     return rebuild.requested_preset() != nullptr ? *rebuild.requested_preset() : preset();
   }
   void request(Request request) { requests.push_back(std::move(request)); }
+  /// Takes the steps that were made beside the frames, with what follows from them; waits for them. Throws EngineError.
+  void take_steps();
   /// Asks for the constants to become these.
   void propose(Preset next, unsigned gesture = 0) { request(request::Apply{edit::Change{std::move(next)}, gesture}); }
 
  private:
   void step(double real_seconds, const SessionInput& input);
-  int make_steps(int due, const SessionInput& input, double& spent_s);
+  void make_steps(int due, const SessionInput& input);
+  void made_steps(int steps, double seconds, double dt);
   void warn_of(const Advance& advance);
 };
 

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
+#include <iostream>
 #include <limits>
 
+#include "app/base/preset_files.h"
 #include "app/process/interrupt.h"
 #include "app/process/kernel_prebuild.h"
 #include "app/render/graphics_error.h"
@@ -15,6 +16,7 @@
 #include "app/ui/frame/frame.h"
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/state/ui.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
@@ -147,7 +149,7 @@ Document Sandbox::first_document() {
   const LastSession& session = *settings_.session;
   // What was saved is on disk; where it is gone, the session itself is all there is.
   try {
-    return {session.file.empty() ? session.saved : load_preset(session.file), session.label, session.file};
+    return {session.file.empty() ? session.saved : read_preset(session.file), session.label, session.file};
   } catch (const std::exception& error) {
     session_.messages.warning(std::string(error.what()) +
                               " The state of the last session is shown; save it under a name.");
@@ -182,7 +184,7 @@ bool Sandbox::due() {
 
 /// When a frame is wanted again though nothing moves; the panels have said what they want of it.
 void Sandbox::plan_next_frame() {
-  const bool cursor_blinks = ui_.slider.typing != 0 || ImGui::GetIO().WantTextInput;
+  const bool cursor_blinks = ui_.slider.typing != 0 || gui::typing_text();
   if (cursor_blinks) ui_.draw_by = std::min(ui_.draw_by, ui_.now + 0.25);
   ui_.draw_by = std::min(ui_.draw_by, session_.messages.next_end() + 0.01);
   ui_.draw_by = std::min(ui_.draw_by, ui_.now + (session_.again_at - session_.now));
@@ -205,7 +207,7 @@ void Sandbox::rescale() {
   ui_.fonts = build_fonts(ui_.theme.scale);
   if (!first) gui_.fonts_changed();
   if (first)
-    for (const std::string& note : ui_.fonts.notes) std::fprintf(stderr, "tyglab: %s\n", note.c_str());
+    for (const std::string& note : ui_.fonts.notes) std::cerr << "tyglab: " + note + '\n';
 }
 
 void Sandbox::draw_cloth() {
@@ -315,7 +317,7 @@ int Sandbox::write_outputs() {
     }
     if (report_) report_->finish(ui_);
   } catch (const OutputError& error) {
-    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    std::cerr << "tyglab: " << error.what() << '\n';
     return no_output;
   }
   return done;
@@ -340,7 +342,7 @@ void Sandbox::remember() {
   try {
     writer_.finish(present_settings());
   } catch (const OutputError& error) {
-    std::fprintf(stderr, "tyglab: %s. The settings of this session are not saved.\n", error.what());
+    std::cerr << "tyglab: " << error.what() << ". The settings of this session are not saved.\n";
   }
 }
 
@@ -350,9 +352,9 @@ int run_sandbox(const SandboxOptions& options) {
   try {
     return Sandbox(options).run();
   } catch (const GraphicsError& error) {
-    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    std::cerr << "tyglab: " << error.what() << '\n';
   } catch (const EngineError& error) {
-    std::fprintf(stderr, "tyglab: %s\n", error.what());
+    std::cerr << "tyglab: " << error.what() << '\n';
   }
   return no_device;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
 #include <utility>
 
 #include "app/render/current_gl_context.h"
@@ -28,59 +27,33 @@ InputQueue& queue_of(GLFWwindow* window) {
 }
 
 void on_key(GLFWwindow* window, int key, int, int action, int mods) {
-  InputQueue& queue = queue_of(window);
-  queue.anything = true;
-  if (action != GLFW_RELEASE) queue.keys.push_back({key, mods, action == GLFW_REPEAT});
-  // GLFW tells the modifiers as they were before a modifier key itself changed.
-  const auto track = [&](int left, int right, int bit) {
-    if (key == left || key == right) mods = action == GLFW_RELEASE ? mods & ~bit : mods | bit;
-  };
-  track(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT);
-  track(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL);
-  track(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT);
-  queue.mods = mods;
+  queue_of(window).on_key(key, action, mods);
 }
 
-/// Whether a press does nothing but type a character. Dear ImGui needs such keys only as text; shown as keys too, they
-/// would take it a frame each.
-bool only_types(int key, int mods) {
-  return key < GLFW_KEY_ESCAPE && (mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) == 0;
+void on_character(GLFWwindow* window, unsigned code) {
+  queue_of(window).on_character(code);
 }
-
-/// In place of the backend's callback, which calls on_key itself.
-void on_key_for_gui(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  if (action != GLFW_RELEASE && only_types(key, mods)) return on_key(window, key, scancode, action, mods);
-  ImGui_ImplGlfw_KeyCallback(window, key, scancode, action, mods);
-}
-
-#if IMGUI_VERSION_NUM < 18700
-void on_character(GLFWwindow* window, unsigned character) {
-  InputQueue& queue = queue_of(window);
-  queue.anything = true;
-  queue.text.push_back({character, queue.keys.size()});
-}
-#endif
 
 void on_button(GLFWwindow* window, int button, int action, int mods) {
-  InputQueue& queue = queue_of(window);
-  queue.anything = true;
-  queue.mods = mods;
-  if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) queue.note_left_press(glfwGetTime());
-  const auto type = action == GLFW_PRESS ? PointerEvent::Type::press : PointerEvent::Type::release;
-  queue.pointer.push_back({type, button, mods, queue.at, {0, 0}, glfwGetTime()});
+  queue_of(window).on_button(button, action, mods, glfwGetTime());
 }
 
 void on_move(GLFWwindow* window, double x, double y) {
-  InputQueue& queue = queue_of(window);
-  queue.anything = true;
-  queue.at = {x, y};
-  queue.pointer.push_back({PointerEvent::Type::move, 0, queue.mods, queue.at, {0, 0}, glfwGetTime()});
+  queue_of(window).on_move({x, y}, glfwGetTime());
 }
 
 void on_wheel(GLFWwindow* window, double x, double y) {
-  InputQueue& queue = queue_of(window);
-  queue.anything = true;
-  queue.pointer.push_back({PointerEvent::Type::wheel, 0, queue.mods, queue.at, {x, y}, glfwGetTime()});
+  queue_of(window).on_wheel({x, y}, glfwGetTime());
+}
+
+void on_focus(GLFWwindow* window, int focused) {
+  queue_of(window).focused = focused != 0;
+  queue_of(window).anything = true;
+}
+
+void on_enter(GLFWwindow* window, int entered) {
+  queue_of(window).inside = entered != 0;
+  queue_of(window).anything = true;
 }
 
 void on_drop(GLFWwindow* window, int count, const char** files) {
@@ -153,6 +126,8 @@ Window::Window(int width, int height, const Settings& settings, InputQueue& queu
   gl_in_use_.emplace(current_gl_context(glfwGetProcAddress));
   glfwSetWindowUserPointer(window_, &queue);
   install_callbacks();
+  queue.focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
+  queue.inside = glfwGetWindowAttrib(window_, GLFW_HOVERED) != 0;
   glfwShowWindow(window_);
   windowed_ = place();
 }
@@ -165,10 +140,13 @@ Window::~Window() {
 
 void Window::install_callbacks() {
   glfwSetKeyCallback(window_, on_key);
+  glfwSetCharCallback(window_, on_character);
   glfwSetMouseButtonCallback(window_, on_button);
   glfwSetCursorPosCallback(window_, on_move);
   glfwSetScrollCallback(window_, on_wheel);
   glfwSetDropCallback(window_, on_drop);
+  glfwSetWindowFocusCallback(window_, on_focus);
+  glfwSetCursorEnterCallback(window_, on_enter);
   const auto anything = [](GLFWwindow* window) { queue_of(window).anything = true; };
   glfwSetWindowRefreshCallback(window_, anything);
   glfwSetWindowCloseCallback(window_, anything);
@@ -254,16 +232,11 @@ Image Window::pixels() const {
   return image;
 }
 
-Gui::Gui(GLFWwindow* window) : window_(window) {
+Gui::Gui(GLFWwindow* window) {
   IMGUI_CHECKVERSION();
   ImGui::CreateContext();
   gui::prepare_io(ImGui::GetIO());
-  // The backend calls the callbacks that stood before its own, so the input queue keeps seeing everything.
-  ImGui_ImplGlfw_InitForOpenGL(window, true);
-  glfwSetKeyCallback(window, on_key_for_gui);
-#if IMGUI_VERSION_NUM < 18700
-  glfwSetCharCallback(window, on_character);  // in place of the backend's: the order of keys and characters matters
-#endif
+  ImGui_ImplGlfw_InitForOpenGL(window, false);  // it has its events from the input queue
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -273,145 +246,11 @@ Gui::~Gui() {
   ImGui::DestroyContext();
 }
 
-#if IMGUI_VERSION_NUM < 18700
-/// Before 1.87 Dear ImGui looks at the keyboard once a frame: text fields miss presses that are shorter, and see a
-/// frame's characters before its keys. So every press is shown for a frame; the same key again, keys with other
-/// modifiers, and characters typed after a key that edits, in a later one.
-void Gui::show_typing(InputQueue& input) {
-  ImGuiIO& io = ImGui::GetIO();
-  std::size_t next = 0;
-  for (std::size_t n = 0; n <= input.keys.size(); ++n) {
-    for (; next < input.text.size() && input.text[next].keys_before <= n; ++next)
-      waiting_.push_back({{GLFW_KEY_UNKNOWN, 0, false}, input.text[next].character});
-    if (n == input.keys.size()) break;
-    const KeyEvent& event = input.keys[n];
-    const bool modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;  // in the mods
-    if (event.key >= 0 && !event.repeat && !modifier && !only_types(event.key, event.mods))
-      waiting_.push_back({event, 0});
-  }
-  const std::vector<int> before = std::move(shown_);
-  shown_.clear();
-  for (const int key : before) io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
-  const auto down = [&](int left, int right) { return io.KeysDown[left] || io.KeysDown[right]; };
-  const auto has = [](const std::vector<int>& keys, int key) {
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
-  };
-  std::optional<int> mods;
-  bool edits = false;
-  std::size_t done = 0;
-  for (; done < waiting_.size(); ++done) {
-    const auto& [event, character] = waiting_[done];
-    if (event.key == GLFW_KEY_UNKNOWN) {
-      if (edits) break;
-      io.AddInputCharacter(character);
-      continue;
-    }
-    const bool again = has(before, event.key) || has(shown_, event.key);
-    if (has(before, event.key)) io.KeysDown[event.key] = false;
-    if (again || (mods && event.mods != mods)) break;
-    io.KeysDown[event.key] = true;
-    mods = event.mods;
-    edits = true;
-    shown_.push_back(event.key);
-  }
-  waiting_.erase(waiting_.begin(), waiting_.begin() + std::ptrdiff_t(done));
-  // The backend has noted them as down already: seen now, they would act before their turn, and not in it.
-  for (const auto& [event, character] : waiting_)
-    if (event.key != GLFW_KEY_UNKNOWN) io.KeysDown[event.key] = false;
-  input.unread = input.unshown = !waiting_.empty();
-  io.KeyCtrl = down(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL) || (mods.value_or(0) & GLFW_MOD_CONTROL) != 0;
-  io.KeyShift = down(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT) || (mods.value_or(0) & GLFW_MOD_SHIFT) != 0;
-  io.KeyAlt = down(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT) || (mods.value_or(0) & GLFW_MOD_ALT) != 0;
-}
-
-/// It looks at the buttons once a frame too, and at the pointer's last place: a click and the way on within one frame
-/// would choose nothing. So every frame is shown one press or release at most, with the pointer where it was then.
-void Gui::show_pointer(InputQueue& input) {
-  ImGuiIO& io = ImGui::GetIO();
-  const auto is_button = [](const PointerEvent& event) { return event.type != PointerEvent::Type::move; };
-  for (const PointerEvent& event : input.pointer)
-    if (event.type != PointerEvent::Type::wheel && event.button < int(down_.size())) pointer_.push_back(event);
-  const auto next = std::find_if(pointer_.begin(), pointer_.end(), is_button);
-  if (next == pointer_.end()) {  // what the backend has seen is all there is
-    pointer_.clear();
-    std::copy(std::begin(io.MouseDown), std::end(io.MouseDown), down_.begin());
-    return;
-  }
-  const bool dragging = std::find(down_.begin(), down_.end(), true) != down_.end();
-  if (dragging && next != pointer_.begin()) {  // where a drag leads counts before the release that ends it
-    std::copy(down_.begin(), down_.end(), io.MouseDown);
-    io.MousePos = {(next - 1)->at.x, (next - 1)->at.y};
-    pointer_.erase(pointer_.begin(), next);
-    input.unshown = true;
-    return;
-  }
-  down_[std::size_t(next->button)] = next->type == PointerEvent::Type::press;
-  std::copy(down_.begin(), down_.end(), io.MouseDown);
-  io.MousePos = {next->at.x, next->at.y};
-  io.KeyCtrl |= (next->mods & GLFW_MOD_CONTROL) != 0;
-  io.KeyShift |= (next->mods & GLFW_MOD_SHIFT) != 0;
-  io.KeyAlt |= (next->mods & GLFW_MOD_ALT) != 0;
-  pointer_.erase(pointer_.begin(), next + 1);
-  input.unshown |= !pointer_.empty();
-}
-#endif
-
-#if IMGUI_VERSION_NUM >= 18700
-namespace {
-
-bool is_key(const ImGuiInputEvent& event) {
-  return event.Type == ImGuiInputEventType_Key;
-}
-
-bool is_modifier(const ImGuiInputEvent& event) {
-  const ImGuiKey key = event.Key.Key;
-  return is_key(event) && ((key & ImGuiMod_Mask_) != 0 || (key >= ImGuiKey_LeftCtrl && key <= ImGuiKey_RightSuper) ||
-                           (key >= ImGuiKey_ReservedForModCtrl && key <= ImGuiKey_ReservedForModSuper));
-}
-
-/// A press of another key than a modifier.
-bool is_press(const ImGuiInputEvent& event) {
-  return is_key(event) && event.Key.Down && !is_modifier(event);
-}
-
-/// Cuts off what is for a later frame, and returns it: from the first change of a modifier behind a press on, and from
-/// the first release of a button behind a move.
-std::vector<ImGuiInputEvent> cut_for_later(ImVector<ImGuiInputEvent>& events) {
-  bool pressed = false, moved = false;
-  const ImGuiInputEvent* cut = events.begin();
-  for (; cut != events.end(); ++cut) {
-    const bool releases = cut->Type == ImGuiInputEventType_MouseButton && !cut->MouseButton.Down;
-    if ((pressed && is_modifier(*cut)) || (moved && releases)) break;
-    pressed |= is_press(*cut);
-    moved |= cut->Type == ImGuiInputEventType_MousePos;
-  }
-  std::vector<ImGuiInputEvent> later(cut, std::as_const(events).end());
-  events.resize(events.Size - int(later.size()));
-  return later;
-}
-
-}  // namespace
-#endif
-
 void Gui::begin_frame(InputQueue& input) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-#if IMGUI_VERSION_NUM < 18700
-  show_typing(input);
-  show_pointer(input);
+  input_.feed(input);
   ImGui::NewFrame();
-#else
-  // It spreads what one frame cannot hold over the next ones itself, but lets go of Ctrl in the frame that shows A, and
-  // of a drag in the frame that shows where it leads.
-  ImVector<ImGuiInputEvent>& queue = ImGui::GetCurrentContext()->InputEventsQueue;
-  const std::vector<ImGuiInputEvent> later = cut_for_later(queue);
-  ImGui::NewFrame();
-  for (const ImGuiInputEvent& event : later) queue.push_back(event);
-  input.unshown = !queue.empty();
-  input.unread = std::any_of(queue.begin(), queue.end(), [](const ImGuiInputEvent& event) {
-    return is_press(event) || event.Type == ImGuiInputEventType_Text;
-  });
-#endif
 }
 
 void Gui::draw() {

@@ -5,14 +5,13 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-#include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/base/input.h"
 #include "app/base/settings.h"
 #include "app/render/image.h"
+#include "app/ui/frame/gui_input.h"
 #include "core/engines/opencl/gl_context.h"
 
 namespace tyglab {
@@ -68,7 +67,7 @@ class Gui {
   ~Gui();
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
-  /// Shows it also the keys and buttons that went down and up since the last frame.
+  /// Shows it what the queue holds.
   void begin_frame(InputQueue& input);
   /// Ends the frame and draws it.
   void draw();
@@ -76,19 +75,7 @@ class Gui {
   void fonts_changed();
 
  private:
-  void show_typing(InputQueue& input);
-  void show_pointer(InputQueue& input);
-
-  GLFWwindow* window_;
-  /// A press that is to be shown, or a character (then key is GLFW_KEY_UNKNOWN).
-  struct Waiting {
-    KeyEvent event;
-    unsigned character;
-  };
-  std::vector<Waiting> waiting_;
-  std::vector<int> shown_;             ///< keys shown as pressed in the last frame
-  std::vector<PointerEvent> pointer_;  ///< moves and buttons that are to be shown
-  std::array<bool, 5> down_{};         ///< buttons shown as pressed in the last frame
+  GuiInput input_;
 };
 
 }  // namespace tyglab

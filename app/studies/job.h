@@ -3,6 +3,9 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -41,6 +44,8 @@ struct JobError {
 
 /// Lowers the priority of the calling thread, where the system can.
 void run_below_frames();
+/// Whether work below the frames has a lower priority at all. Tests wait for it on machines that others use: without.
+void let_work_yield(bool yields);
 
 /// One piece of work at a time. What the work reads it must own (values, shared_ptr<const …>); it is destroyed by the
 /// job's owner, never by the worker, since what it owns may belong to the owner's OpenGL context.
@@ -75,6 +80,11 @@ class Job {
   bool busy() const { return state_ != nullptr; }
   /// Whether take() need not wait.
   bool ready() const { return state_ && state_->ended; }
+  /// Waits until ready(), but no longer than that, s; returns ready(). busy() must hold.
+  bool wait(double seconds) const {
+    std::unique_lock lock(state_->mutex);
+    return state_->end.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return bool(state_->ended); });
+  }
   /// Whether the worker is still at it.
   bool working() const { return state_ && !state_->ended; }
   void cancel() {
@@ -83,6 +93,7 @@ class Job {
   double progress() const { return state_ ? state_->control.progress() : 0; }
   /// Waits for the end and gives the outcome; busy() must hold.
   Outcome take() {
+    assert(busy());
     const std::unique_ptr<State> state = std::move(state_);
     state->thread.join();
     return std::move(*state->outcome);
@@ -101,6 +112,8 @@ class Job {
     JobControl control;
     std::optional<Outcome> outcome;
     std::atomic<bool> ended = false;
+    std::mutex mutex;
+    std::condition_variable end;
     std::thread thread;
   };
   template <class Work>
@@ -114,7 +127,9 @@ class Job {
       } catch (const std::exception& error) {
         this->outcome.emplace(JobError{error.what()});
       }
+      const std::lock_guard lock(this->mutex);
       this->ended = true;
+      this->end.notify_all();
     }
     Work work;
   };

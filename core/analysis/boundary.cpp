@@ -1,6 +1,7 @@
 #include "core/analysis/boundary.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -133,6 +134,7 @@ double damping_for(const Preset& sheet, double zeta) {
 }
 
 bool unstable(const Preset& sheet) {
+  assert(sheet.precision == Precision::double_);
   Perturbed cloth(sheet);
   for (int steps = 0; steps < steps_that_count; steps += steps_between_looks)
     if (!cloth.advance(steps_between_looks) || cloth.growth() >= growth_that_counts) return true;

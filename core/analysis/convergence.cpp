@@ -178,10 +178,11 @@ std::string convergence_csv(const Convergence& study) {
                      preset_hash(study.of) + "\ndt [s],error [m],difference to dt/2 [m],status\n";
   for (const ConvergencePoint& point : study.points) {
     const bool diverged = !std::isfinite(point.error_rms_m);
-    text += printed("%.9g,", point.dt);
-    if (study.referenced && !diverged) text += printed("%.9g", point.error_rms_m);
+    append_number(text, point.dt, 9);
     text += ',';
-    if (point.difference_rms_m >= 0) text += printed("%.9g", point.difference_rms_m);
+    if (study.referenced) append_number(text, point.error_rms_m, 9);
+    text += ',';
+    if (point.difference_rms_m >= 0) append_number(text, point.difference_rms_m, 9);
     text += diverged ? ",diverged\n" : point.resolved ? ",ok\n" : ",below_floor\n";
   }
   return text;

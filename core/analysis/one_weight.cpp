@@ -1,6 +1,7 @@
 #include "core/analysis/one_weight.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/simulation.h"
@@ -38,6 +39,7 @@ WeightMotion falling(const Preset& p, double t) {
 }  // namespace
 
 WeightMotion exact_weight(const Preset& p, double t) {
+  assert(p.kind == Kind::one_weight && t >= 0);
   if (p.k == 0) return falling(p, t);
   const double delta = p.k_d / (2 * p.m), omega2 = p.k / p.m;
   const double rest = p.x_0.y - p.m * p.g / p.k, A = p.x_0.y + p.offset - rest, v = p.v_0.y;

@@ -1,7 +1,6 @@
 // The motion that integrators' errors are measured against, and how far it can be trusted.
 #pragma once
 
-#include <functional>
 #include <glm/vec3.hpp>
 #include <span>
 #include <stdexcept>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "core/analysis/accuracy_scene.h"
+#include "core/engines/stop.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -34,7 +34,6 @@ class Stopped : public std::runtime_error {
  public:
   Stopped() : std::runtime_error("stopped") {}
 };
-using Stop = std::function<bool()>;
 
 /// Makes both references of a scene and measures how long it can be predicted. `quick`: a hundredfold less exact, in
 /// seconds. Throws Stopped soon after `stop` says so.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <chrono>
 #include <stdexcept>
 
@@ -24,7 +25,8 @@ Preset scene_of(int side) {
 
 std::unique_ptr<Engine> make_engine_for(const SkipFeature& feature, SkipState state, const Preset& preset) {
   const Lattice lattice = lattice_of(preset);
-  if (state == SkipState::absent) return cpu::make_engine_without(feature.part, preset, lattice);
+  if (state == SkipState::absent && feature.absent != 0)
+    return cpu::make_engine_without(feature.absent, preset, lattice);
   return make_engine(preset, lattice, 1);
 }
 
@@ -36,16 +38,16 @@ std::string_view name_of(SkipState state) {
 
 std::vector<SkipFeature> skip_features(int side) {
   std::vector<SkipFeature> features;
-  const auto add = [&](std::string name, std::string on_means, unsigned which, auto on, auto off) {
-    SkipFeature feature{std::move(name), std::move(on_means), which, scene_of(side), scene_of(side)};
+  const auto add = [&](std::string name, std::string on_means, unsigned absent, auto on, auto off) {
+    SkipFeature feature{std::move(name), std::move(on_means), absent, scene_of(side), scene_of(side)};
     on(feature.preset_on), off(feature.preset_off);
     features.push_back(std::move(feature));
   };
   const auto plain = [](Preset&) {};
-  add("bending", "k_b = 5 N/m, as in the default cloth", part::bending, plain, [](Preset& p) { p.k_b = 0; });
-  add("damping", "k_d = 0.002 Ns/m, as in the default cloth", part::damping, plain, [](Preset& p) { p.k_d = 0; });
+  add("bending", "k_b = 5 N/m, as in the default cloth", 0, plain, [](Preset& p) { p.k_b = 0; });
+  add("damping", "k_d = 0.002 Ns/m, as in the default cloth", 0, plain, [](Preset& p) { p.k_d = 0; });
   add(
-      "wind", "on every triangle", part::wind,
+      "wind", "on every triangle", 0,
       [](Preset& p) {
         p.W = {0, 0, 1e-3};
       },
@@ -54,17 +56,17 @@ std::vector<SkipFeature> skip_features(int side) {
     p.bodies = {Body{}, Body{.shape = Body::Shape::plane, .y = -100}};
     p.bodies[0].c = {0, 50, 0};
   };
-  add("bodies", "a sphere and a plane, out of reach", part::bodies, bodies, plain);
+  add("bodies", "a sphere and a plane, out of reach", part::all_but_pins, bodies, plain);
   // As people tear a cloth: steps of 1 ms, and a limit that is thirty times what the topmost springs bear.
   const auto hung_by_a_row = [](Preset& p) { p.dt = 1e-3, p.pins.mode = Pins::Mode::top_row; };
   const auto watched = [&](Preset& p) { hung_by_a_row(p), p.F_max = 30 * p.rows * p.m * p.g; };
-  add("tearing", "F_max is set, and no spring reaches it", part::tearing, watched, hung_by_a_row);
+  add("tearing", "F_max is set, and no spring reaches it", part::all_but_pins, watched, hung_by_a_row);
   // Without pins the cloth falls: a short way, so that floats can still tell its particles apart.
   const auto pinned_by = [](Pins::Mode mode) { return [mode](Preset& p) { p.dt = 1e-6, p.pins.mode = mode; }; };
   add("pins", "a column of pinned particles", part::pins, pinned_by(Pins::Mode::left_column),
       pinned_by(Pins::Mode::none));
   add(
-      "hand", "a particle in the middle is held, F_release is watched", part::hand,
+      "hand", "a particle in the middle is held, F_release is watched", part::all_but_pins,
       [](Preset& p) { p.F_release = 1e9; }, plain);
   features.back().held_when_on = true;
   return features;
@@ -72,6 +74,7 @@ std::vector<SkipFeature> skip_features(int side) {
 
 SkipCase::SkipCase(const SkipFeature& feature, SkipState state) {
   const Preset& preset = state == SkipState::on ? feature.preset_on : feature.preset_off;
+  assert(state != SkipState::absent || preset.precision == Precision::float_);
   const Lattice lattice = lattice_of(preset);
   particles_ = lattice.size();
   tears_ = Tears(lattice);

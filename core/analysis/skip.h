@@ -19,7 +19,8 @@ std::string_view name_of(SkipState);
 struct SkipFeature {
   std::string name;           ///< "bending"
   std::string on_means;       ///< what is measured as "on", for people
-  unsigned part = 0;          ///< of the engine (core/engines/cpu/parts.h)
+  unsigned absent = 0;        ///< parts that the engine without it lacks (core/engines/cpu/parts.h); 0: none, it is the
+                              ///< sweep's, and the engine without it is that with it off
   Preset preset_on;           ///< the scene with it
   Preset preset_off;          ///< the same scene without it
   bool held_when_on = false;  ///< a particle in the middle is held

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <tuple>
 
 #include "core/cloth/start.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
+#include "core/io/text.h"
 #include "core/model/changes.h"
 #include "core/model/notation.h"
 #include "core/simulation.h"
@@ -136,11 +136,15 @@ std::string map_csv(const Preset& preset, std::span<const MapCell> cells) {
   std::string text = "# tyglab stability map, " + preset.integrator + ", preset hash " + preset_hash(preset) + "\n" +
                      key + " [N/m],dt [s],outcome,t [s],energy error,dt by theory [s]\n";
   for (const MapCell& cell : cells) {
-    std::array<char, 200> line;
-    const int size = std::snprintf(line.data(), line.size(), "%.9g,%.9g,%s,%.9g,%.9g,", cell.stiffness, cell.dt,
-                                   cell.diverged ? "diverged" : "bounded", cell.t, cell.share);
-    text.append(line.data(), std::size_t(size));
-    if (cell.dt_theory > 0) std::snprintf(line.data(), line.size(), "%.9g", cell.dt_theory), text += line.data();
+    append_number(text, cell.stiffness, 9);
+    text += ',';
+    append_number(text, cell.dt, 9);
+    text += cell.diverged ? ",diverged," : ",bounded,";
+    append_number(text, cell.t, 9);
+    text += ',';
+    append_number(text, cell.share, 9);
+    text += ',';
+    if (cell.dt_theory > 0) append_number(text, cell.dt_theory, 9);
     text += '\n';
   }
   return text;

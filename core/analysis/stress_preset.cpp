@@ -1,6 +1,7 @@
 #include "core/analysis/stress_preset.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/analysis/frequency.h"
@@ -92,6 +93,7 @@ double StressRandom::uniform(double low, double high) {
 }
 
 double StressRandom::decades(double low, double high) {
+  assert(0 < low && low <= high);
   return std::clamp(std::exp(uniform(std::log(low), std::log(high))), low, high);
 }
 

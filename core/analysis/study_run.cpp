@@ -23,12 +23,10 @@ double step_effort(const Preset& preset) {
 }
 
 void advance_study(Simulation& simulation, int steps, const Stop& stop) {
-  const Preset& preset = simulation.preset();
-  const int portion = is_implicit(scheme(preset.integrator)) ? 1 : std::max(1, int(1e6 / step_effort(preset)));
-  for (int left = steps; left > 0 && !simulation.divergence(); left -= portion) {
-    if (stop()) throw Stopped();
-    simulation.advance(std::min(left, portion));
-  }
+  simulation.stop_when(stop);
+  const bool stopped = simulation.advance(steps).stopped;
+  simulation.stop_when({});
+  if (stopped) throw Stopped();
 }
 
 double whole_dt(double seconds, double dt, int& steps) {

@@ -1,4 +1,4 @@
-// Runs that studies are made of: from one state, in pieces, so that a stop is soon heard.
+// Runs that studies are made of: from one state, and soon stopped.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace tyglab {
 /// The simulation with those settings at the start of the study, on the CPU engine: the only one that has every method,
 /// and whose time is this thread's.
 std::unique_ptr<Simulation> begin_study(const StudyStart& start, const Preset& preset);
-/// Makes `steps` steps in short pieces; fewer where the run diverges. Throws Stopped.
+/// Makes `steps` steps; fewer where the run diverges. Throws Stopped.
 void advance_study(Simulation& simulation, int steps, const Stop& stop);
 /// Particles times force evaluations of a step; what an implicit method needs is not known before.
 double step_effort(const Preset& preset);

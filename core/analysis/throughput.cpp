@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -82,6 +83,7 @@ class Load {
 }  // namespace
 
 double median(std::vector<double> values) {
+  assert(!values.empty());
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -137,6 +139,7 @@ ThroughputRow measure_throughput(const ThroughputCase& which, int repeats) {
   std::vector<double> times;
   times.reserve(std::size_t(repeats));
   for (int n = 0; n < repeats; ++n) times.push_back(seconds_of(simulation, steps) * 1e9 / steps / particles);
+  assert(!simulation.divergence());
   ThroughputRow row = row_of(which, simulation, times);
   // The limits are this processor's, in that many threads.
   if (row.threads_used > processors()) return row;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -43,6 +44,7 @@ struct Lattice {
   bool contains(int i, int j) const { return i >= 0 && i < rows && j >= 0 && j < columns; }
   /// Whether the spring of that direction owned by (i, j) exists (torn or not).
   bool has_spring(int direction, int i, int j) const {
+    assert(direction >= 0 && direction < int(directions.size()));
     const Direction& d = directions[direction];
     return contains(i, j) && contains(i + d.di, j + d.dj);
   }

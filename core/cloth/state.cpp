@@ -1,10 +1,15 @@
 #include "core/cloth/state.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tyglab {
 
 StateRows rows_of(const State& state, int columns) {
+  assert(columns > 0 && state.x.x.size() % std::size_t(columns) == 0);
+  assert(state.x.y.size() == state.x.x.size() && state.x.z.size() == state.x.x.size());
+  assert(state.v.x.size() == state.x.x.size() && state.v.y.size() == state.x.x.size() &&
+         state.v.z.size() == state.x.x.size());
   return [&state, columns](int i, const StateRow& row) {
     const auto copy = [&](const VectorField<double>& from, double* const* to) {
       const Array<double>* components[] = {&from.x, &from.y, &from.z};

@@ -1,6 +1,7 @@
 // Which springs are whole. Allocated only once something is torn, so an untorn cloth pays nothing.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -31,7 +32,10 @@ class Tears {
   void mend() { masks_.clear(), torn_ = 0; }
 
  private:
-  std::size_t index(int i, int j) const { return std::size_t(i) * lattice_.columns + j; }
+  std::size_t index(int i, int j) const {
+    assert(lattice_.contains(i, j));
+    return std::size_t(i) * lattice_.columns + j;
+  }
   Lattice lattice_;
   std::vector<std::uint8_t> masks_;
   int torn_ = 0;  ///< stretch springs

@@ -1,10 +1,12 @@
 #include "core/energy/energy.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/cloth/start.h"
 #include "core/energy/spring_sums.h"
 #include "core/forces/readout.h"
 #include "core/forces/spring-inl.h"
@@ -111,6 +113,7 @@ class Reader {
 }  // namespace
 
 EnergyReading read_energy(const Preset& preset, const Tears& tears, const State& state, const Held& held) {
+  assert(state.x.x.size() == std::size_t(lattice_of(preset).size()));
   return Reader(preset, tears, state).read(held);
 }
 

@@ -1,6 +1,7 @@
 #include "core/energy/ledger.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tyglab {
@@ -18,6 +19,7 @@ void RunningIntegral::restart(double value) {
 }
 
 void RunningIntegral::add(double value, double h) {
+  assert(count_ <= 1 || h == h_);
   if (count_ == int(last_.size())) {
     // Five values are there: what they span stands fixed, and each further step is added by itself.
     closed_ += open();

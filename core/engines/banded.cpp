@@ -1,6 +1,7 @@
 #include "core/engines/banded.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tyglab {
@@ -11,9 +12,10 @@ void BandedCholesky::begin(int size, int band) {
   column_.assign(std::size_t(band) + 1, 0.0);
 }
 
-bool BandedCholesky::factor() {
+bool BandedCholesky::factor(const Stop& stop) {
   for (int k = 0; k < size_; ++k) {
     const double pivot = at(k, k);
+    if (stop && stop()) return false;
     if (!(pivot > 0) || !std::isfinite(pivot)) return false;
     const double root = std::sqrt(pivot);
     at(k, k) = root;
@@ -31,6 +33,7 @@ bool BandedCholesky::factor() {
 }
 
 void BandedCholesky::solve(std::span<double> b) const {
+  assert(b.size() == std::size_t(size_));
   for (int k = 0; k < size_; ++k) {
     double sum = b[k];
     for (int c = std::max(0, k - band_); c < k; ++c) sum -= at(k, c) * b[c];

@@ -3,9 +3,12 @@
 // two such lines. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems (1981), 4.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <vector>
+
+#include "core/engines/stop.h"
 
 namespace tyglab {
 
@@ -16,9 +19,10 @@ class BandedCholesky {
   /// Starts a new matrix, all of whose elements are 0.
   void begin(int size, int band);
   /// The element, row >= column, row - column <= band.
-  double& at(int row, int column) { return elements_[std::size_t(row) * (band_ + 1) + (column - row + band_)]; }
-  /// Replaces the matrix by its factor. Returns false if it is not positive definite, to rounding.
-  bool factor();
+  double& at(int row, int column) { return elements_[index(row, column)]; }
+  /// Replaces the matrix by its factor. Returns false if it is not positive definite, to rounding, or if it was
+  /// stopped.
+  bool factor(const Stop& stop = {});
   /// Replaces the right-hand side by the solution.
   void solve(std::span<double> b) const;
   std::size_t bytes() const { return (elements_.capacity() + column_.capacity()) * sizeof(double); }
@@ -27,7 +31,11 @@ class BandedCholesky {
   static double work(double size, double band) { return size * band * band / 2; }
 
  private:
-  double at(int row, int column) const { return elements_[std::size_t(row) * (band_ + 1) + (column - row + band_)]; }
+  double at(int row, int column) const { return elements_[index(row, column)]; }
+  std::size_t index(int row, int column) const {
+    assert(row >= column && row - column <= band_);
+    return std::size_t(row) * (band_ + 1) + (column - row + band_);
+  }
 
   int size_ = 0, band_ = 0;
   std::vector<double> elements_;  ///< row by row, each from its first element within the band to the diagonal

@@ -51,10 +51,11 @@ void DirectSolver::assemble(const LinearSystem& system) {
   });
 }
 
-bool DirectSolver::solve(const LinearSystem& system, const std::function<void(int i, int j, int c, double s)>& take) {
+bool DirectSolver::solve(const LinearSystem& system, const std::function<void(int i, int j, int c, double s)>& take,
+                         const Stop& stop) {
   const Lattice& lattice = system.lattice;
   assemble(system);
-  if (!matrix_.factor()) return false;
+  if (!matrix_.factor(stop)) return false;
   right_side_.resize(3 * std::size_t(lattice.size()));
   const auto at = [&](int i, int j, int c) -> double& { return right_side_[std::size_t(first(lattice, i, j) + c)]; };
   for_each(lattice, [&](int i, int j) {

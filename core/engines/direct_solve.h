@@ -29,8 +29,9 @@ class DirectSolver {
   /// Whether a factorization takes no more than about a second.
   static bool is_quick(const Lattice& lattice);
   /// Solves A s = r and passes every component of s to `take`. Returns false if A is not positive definite, to
-  /// rounding.
-  bool solve(const LinearSystem& system, const std::function<void(int i, int j, int c, double s)>& take);
+  /// rounding, or if it was stopped.
+  bool solve(const LinearSystem& system, const std::function<void(int i, int j, int c, double s)>& take,
+             const Stop& stop);
   std::size_t bytes() const { return matrix_.bytes() + right_side_.capacity() * sizeof(double); }
 
  private:

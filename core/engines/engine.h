@@ -2,16 +2,20 @@
 // and files belong to Simulation, and how a device's arrays reach OpenGL to VertexSharing.
 #pragma once
 
+#include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
+#include "core/engines/stop.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
 
@@ -47,9 +51,11 @@ struct Advance {
   int di = 0, dj = 0;     ///< to the other end, if a spring diverged
   std::string quantity;
   double value = 0;
+  double excess = 0;               ///< energy of the motion over all that the scene can hold; 0: not what is wrong
   int torn = 0;                    ///< stretch springs that broke
   int left_inside = 0;             ///< free particles inside a body after the last step (overlapping bodies)
   bool released = false;           ///< the hand's force exceeded F_release
+  bool stopped = false;            ///< Engine::stop_when() asked for it; the state is that of the last whole step
   glm::dvec3 hand_force{0, 0, 0};  ///< on the held particle in the last step, N; the method itself takes it as 0
 };
 
@@ -99,7 +105,11 @@ class Engine {
 
   /// Replaces the state by positions and (full-step) velocities, from which the method derives what it starts with.
   virtual void load(const StateRows& rows, const Tears& tears) = 0;
-  void load(const State& state, const Tears& tears) { load(rows_of(state, positions().columns), tears); }
+  void load(const State& state, const Tears& tears) {
+    const PositionView view = positions();
+    assert(state.x.x.size() == std::size_t(view.rows) * std::size_t(view.columns));
+    load(rows_of(state, view.columns), tears);
+  }
   /// Changes constants, integrator, dt and bodies, and keeps the velocities. The lattice and the precision must be the
   /// same as before.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
@@ -109,7 +119,8 @@ class Engine {
   /// The same for note_contacts(true).
   virtual bool ready_for_contacts() const { return true; }
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
-  /// Makes up to `steps` steps; stops early on divergence or when the hand lets go. Updates `tears` as springs break.
+  /// Makes up to `steps` steps; stops early on divergence, when the hand lets go, and when stop_when() says so. Updates
+  /// `tears` as springs break.
   virtual Advance advance(int steps, Tears& tears) = 0;
   /// Whether steps record what bodies stop, which only the energy ledger needs.
   virtual void note_contacts(bool on) = 0;
@@ -141,6 +152,22 @@ class Engine {
   virtual std::vector<StepFeature> features() const = 0;
   /// For display, such as "CPU, AVX2, 2 threads".
   virtual std::string name() const = 0;
+
+  /// From now on advance() ends as soon as this says so: between two steps, and within a step where a step can take
+  /// long, that is where the method solves, iterates or chooses its own steps. What such a step has done is undone.
+  virtual void stop_when(Stop stop) { stop_ = std::move(stop); }
+  /// The part of the present step that is done, 0 to 1, as far as the method can tell: 0 for a method whose steps are
+  /// all alike. Any thread may ask.
+  virtual double step_progress() const { return step_progress_; }
+
+ protected:
+  const Stop& stop() const { return stop_; }
+  bool stops() const { return stop_ && stop_(); }
+  void set_step_progress(double part) { step_progress_ = part; }
+
+ private:
+  Stop stop_;
+  std::atomic<double> step_progress_ = 0;
 };
 
 /// Creates the engine that the preset names, with at most `threads` threads: fewer if the cloth is too small for them

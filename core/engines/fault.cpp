@@ -6,12 +6,11 @@
 #include <numbers>
 #include <utility>
 
+#include "core/forces/contact.h"
 #include "core/simd/row_distances.h"
 
 namespace tyglab {
 namespace {
-
-constexpr double longest_factor = 1000;  // a spring longer than that many rest lengths has diverged
 
 /// Whether all values of a row are finite. The loop does not stop early, so that the compiler can use SIMD.
 template <class R>
@@ -41,6 +40,11 @@ bool finite(const Lattice& lattice, const StateView<R>& state, Fault& fault) {
   return true;
 }
 
+bool all_whole(const Tears& tears, int d, int i, int begin, int end) {
+  const std::uint8_t* masks = tears.row(i);
+  return masks == nullptr || std::all_of(masks + begin, masks + end, [&](auto mask) { return (mask >> d & 1) != 0; });
+}
+
 /// By how much any spring of a row in one direction may still grow, m; less than 0: `fault` is too long.
 template <class R>
 double growth_left(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state, int d,
@@ -51,8 +55,7 @@ double growth_left(const Preset& preset, const Lattice& lattice, const Tears& te
   const int begin = std::max(0, -dir.dj), end = columns - std::max(0, dir.dj);
   if (begin >= end) return bound;
   // First all of them in the state's precision and in SIMD; one by one and exactly only if one may be too long or torn.
-  const std::uint8_t* masks = tears.row(i);
-  if (masks == nullptr || std::all_of(masks + begin, masks + end, [&](auto mask) { return (mask >> d & 1) != 0; })) {
+  if (all_whole(tears, d, i, begin, end)) {
     const R longest =
         simd::longest_squared(state.x_row(i, 0), state.stride, dir.di * 3 * state.stride + dir.dj, begin, end);
     const double left = bound - std::sqrt(double(longest)) * (1 + rounding<R>);
@@ -89,6 +92,52 @@ bool within_bounds(const Preset& preset, const Lattice& lattice, const Tears& te
   return true;
 }
 
+/// Σ (|x_ij| - rest)² over the whole springs of a row in one direction that pull or push, m².
+template <class R>
+double strain_squared(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
+                      int d, int i) {
+  const Direction& dir = directions[d];
+  const double rest = dir.rest * preset.L;
+  const int begin = std::max(0, -dir.dj), end = lattice.columns - std::max(0, dir.dj);
+  if (begin >= end) return 0;
+  if (all_whole(tears, d, i, begin, end))
+    return simd::strain_squared(state.x_row(i, 0), state.stride, dir.di * 3 * state.stride + dir.dj, begin, end,
+                                R(rest), dir.bending);
+  double sum = 0;
+  for (int j = begin; j < end; ++j) {
+    if (!tears.whole(d, i, j)) continue;
+    const double longer = std::sqrt(distance2(state, i, j, dir)) - rest;
+    if ((longer < 0) == dir.bending) sum += longer * longer;
+  }
+  return sum;
+}
+
+/// How far bodies are about to push a particle out of themselves, m, at most: out of one into the next, too.
+double pushed(const Preset& preset, const glm::dvec3& x) {
+  double inside = 0, all = 0;
+  for (const Body& body : preset.bodies) {
+    const double deep = std::max(depth(body, x), 0.0);
+    inside = std::max(inside, deep);
+    all += body.shape == Body::Shape::plane ? deep : 2 * body.r;
+  }
+  return inside > 0 && preset.bodies.size() > 1 ? all : inside;
+}
+
+/// |v|² of a particle as it is stored.
+template <class R>
+double speed_squared(const StateView<R>& state, int i, int j) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += double(state.v_row(i, c)[j]) * double(state.v_row(i, c)[j]);
+  return sum;
+}
+
+template <class R>
+double farthest(const StateView<R>& state, int i, int j) {
+  double most = 0;
+  for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(double(state.x_row(i, c)[j])));
+  return most;
+}
+
 }  // namespace
 
 double max_elongation(double max_displacement) {
@@ -122,6 +171,58 @@ bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears
   return !finite(lattice, state, fault) || !within_bounds(preset, lattice, tears, state, fault, divergence_budget);
 }
 
+template <class R>
+Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
+                 double to_velocity) {
+  Motion motion;
+  double speeds = 0, pushes = 0;
+  const bool meets_bodies = preset.kind == Kind::cloth && !preset.bodies.empty();
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j) {
+      speeds += speed_squared(state, i, j);
+      motion.farthest = std::max(motion.farthest, farthest(state, i, j));
+      if (!meets_bodies) continue;
+      const double push = pushed(preset, {state.x_row(i, 0)[j], state.x_row(i, 1)[j], state.x_row(i, 2)[j]});
+      pushes += push * push;
+    }
+  motion.squared = speeds * to_velocity * to_velocity;
+  motion.pushed = std::sqrt(pushes);
+  if (preset.kind == Kind::one_weight) {
+    const double away = double(state.x_row(0, 1)[0]) - preset.x_0.y;
+    motion.squared += preset.k / preset.m * away * away;
+    return motion;
+  }
+  for (int d = 0; d < int(directions.size()); ++d)
+    for (int i = 0; i + directions[d].di < lattice.rows; ++i)
+      motion.squared += (directions[d].bending ? preset.k_b : preset.k_s) / preset.m *
+                        strain_squared(preset, lattice, tears, state, d, i);
+  return motion;
+}
+
+template <class R>
+bool find_runaway(const MotionLimit& limit, const Lattice& lattice, const StateView<R>& state, double to_velocity,
+                  Fault& fault) {
+  constexpr double about = 1 + 1e-3;
+  double sum = 0, fastest = 0, far = 0;
+  Fault of_speed{0, 0, "velocity", 0}, of_place{0, 0, "position", 0};
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int j = 0; j < lattice.columns; ++j) {
+      const double squared = speed_squared(state, i, j) * to_velocity * to_velocity, away = farthest(state, i, j);
+      sum += squared;
+      if (squared > about * fastest) fastest = squared, of_speed.i = i, of_speed.j = j;
+      if (away > about * far) far = away, of_place.i = i, of_place.j = j;
+    }
+  of_speed.value = std::sqrt(fastest), of_place.value = far;
+  of_speed.excess = of_place.excess = MotionLimit::factor * sum / limit.most_squared();
+  const bool too_fast = !(sum <= limit.most_squared());
+  fault = too_fast ? of_speed : of_place;
+  return too_fast || !(far <= limit.farthest());
+}
+
+template Motion motion_of(const Preset&, const Lattice&, const Tears&, const StateView<float>&, double);
+template Motion motion_of(const Preset&, const Lattice&, const Tears&, const StateView<double>&, double);
+template bool find_runaway(const MotionLimit&, const Lattice&, const StateView<float>&, double, Fault&);
+template bool find_runaway(const MotionLimit&, const Lattice&, const StateView<double>&, double, Fault&);
 template double growth_left<float>(const Preset&, const LongestSquared&);
 template double growth_left<double>(const Preset&, const LongestSquared&);
 template double distance2(const StateView<float>&, int, int, const Direction&);

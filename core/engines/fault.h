@@ -1,5 +1,5 @@
-// What ends a run: a number that is not finite, or a spring that is far too long. Engines examine the cloth for it only
-// when particles have moved far enough since the last time (StepGuard).
+// What ends a run: a number that is not finite, a spring that is far too long, or a motion that nothing in the scene
+// can have caused. Engines examine the cloth for it only when particles have moved far or fast enough (StepGuard).
 #pragma once
 
 #include <cstddef>
@@ -7,6 +7,7 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/tears.h"
+#include "core/engines/motion_limit.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
@@ -17,7 +18,12 @@ struct Fault {
   const char* quantity;
   double value;
   int di = 0, dj = 0;
+  double excess = 0;  ///< energy of the motion over all that the scene can hold; 0: not what is wrong
 };
+
+/// A spring that is longer than that many rest lengths has diverged; a mass on a spring, that is farther from x_0 than
+/// that many times the larger of L and |offset|.
+inline constexpr double longest_factor = 1000;
 
 /// An engine's x and v, rows as in row_field.h.
 template <class R>
@@ -53,5 +59,16 @@ double distance2(const StateView<R>& state, int i, int j, const Direction& to);
 template <class R>
 bool find_fault(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
                 Fault& fault, double& divergence_budget);
+
+/// Measures the present motion. `to_velocity`: what stored velocities are to be multiplied by, to be in m/s.
+template <class R>
+Motion motion_of(const Preset& preset, const Lattice& lattice, const Tears& tears, const StateView<R>& state,
+                 double to_velocity);
+
+/// Whether particles are faster all together than the scene can make them, or one is farther away than it can have
+/// come. Of several that are about as fast it names the first, so that rounding does not decide.
+template <class R>
+bool find_runaway(const MotionLimit& limit, const Lattice& lattice, const StateView<R>& state, double to_velocity,
+                  Fault& fault);
 
 }  // namespace tyglab

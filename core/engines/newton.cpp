@@ -14,6 +14,7 @@ constexpr int most_tries = 20;
 bool find_step(ImplicitStage& stage, bool& direct) {
   if (direct && stage.solve_directly()) return true;
   if (stage.gradients()) return true;
+  if (stage.stops()) return false;
   direct = !direct && stage.solve_directly();
   return direct;
 }
@@ -27,6 +28,7 @@ double take_step(ImplicitStage& stage, double slope, SolveCounts& counts) {
   ImplicitStage::Trial now{};
   for (int tries = 0; tries <= most_tries; ++tries) {
     now = stage.try_part(part);
+    if (stage.stops()) break;
     ++counts.force_evaluations;
     if (std::abs(now.slope) <= flat_enough * slope || (now.slope > 0 && part == 1)) break;
     if (!(now.slope > 0)) {  // beyond it, or not finite
@@ -53,8 +55,11 @@ void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) 
   bool solved = first == 0;
   double norm = first;
   for (int n = 0; n < rules.most && !solved && std::isfinite(norm); ++n) {
+    stage.note_progress(double(n) / rules.most);
     stage.linearize();
-    if (!find_step(stage, direct)) ++counts.unconverged;
+    const bool found = find_step(stage, direct);
+    if (stage.stops()) return;
+    if (!found) ++counts.unconverged;
     ++counts.newton;
     if (rules.most == 1) return stage.accept();
     const ImplicitStage::Step step = stage.step();

@@ -51,6 +51,10 @@ class ImplicitStage {
   virtual Trial try_part(double part) = 0;
   /// Accepts the whole step without evaluating r.
   virtual void accept() = 0;
+  /// Whether to abandon the stage, which may then be left anyhow. Once it says so it goes on to say so.
+  virtual bool stops() = 0;
+  /// Tells how much of the stage is done, 0 to 1, if the iterations that are allowed are all needed.
+  virtual void note_progress(double part) = 0;
 };
 
 struct NewtonRules {
@@ -62,7 +66,7 @@ struct NewtonRules {
 template <class R>
 constexpr double newton_tolerance = sizeof(R) == 8 ? 1e-10 : 1e-5;
 
-/// Solves the stage. Adds to the counts everything but the iterations of conjugate gradients.
+/// Solves the stage, unless it stops. Adds to the counts everything but the iterations of conjugate gradients.
 void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts);
 
 }  // namespace tyglab

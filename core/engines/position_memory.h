@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 
 namespace tyglab {
@@ -14,7 +15,7 @@ struct PositionMemory {
   static constexpr std::size_t page = 4096;  ///< slots begin at multiples of it, bytes
   std::array<void*, count> slots{};          ///< filled with zeros
   std::size_t bytes = 0;                     ///< of each
-  int shown = -1;                            ///< the slot that is being drawn; -1: none
+  std::atomic<int> shown = -1;  ///< the slot that is being drawn; -1: none. Steps may go on beside the drawing
   PositionMemory() = default;
   PositionMemory(const PositionMemory&) = delete;
   PositionMemory& operator=(const PositionMemory&) = delete;

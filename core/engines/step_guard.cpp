@@ -1,8 +1,11 @@
 #include "core/engines/step_guard.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "core/model/changes.h"
 
 namespace tyglab {
 
@@ -16,11 +19,23 @@ void StepGuard::invalidate() {
   since_backup_ = -1;
 }
 
+void StepGuard::accept_changes(const Preset& from, const Preset& to) {
+  EffectSet changed = changes(from, to);
+  if (changed.touches(Effect::force) && from.W != to.W) {
+    // Wind alone, which gusts change all the time, changes no energy.
+    Preset in_old_wind = to;
+    in_old_wind.W = from.W;
+    changed = changes(from, in_old_wind);
+  }
+  energy_stale_ |= changed.touches(Effect::force), pushes_stale_ |= changed.touches(Effect::bodies);
+}
+
 int StepGuard::steps_ahead(int most, bool tears_by_itself) const {
+  assert(most >= 1);
   const double motion =
       rules_.tearing && !tears_by_itself ? std::min(divergence_budget_, tear_budget_) : divergence_budget_;
-  if (!(motion > 0)) return 1;
   constexpr double margin = 2;  // motion does not double within a few steps, unless something is going wrong
+  if (!(motion > 0) || limit_.may_be_exceeded(margin * elongation_)) return 1;
   return int(std::clamp(motion / (margin * elongation_), 1.0, double(most)));
 }
 
@@ -31,15 +46,18 @@ bool StepGuard::overload_within(int steps) const {
 StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
   for (int n = 0; n < count; ++n) {
     const StepOutcome step = engine.outcome(n);
+    limit_.pass(step.dt);
     elongation_ = std::isfinite(step.elongation) ? step.elongation : std::numeric_limits<double>::infinity();
     divergence_budget_ -= elongation_, tear_budget_ -= elongation_;
     if (step.tear_budget) tear_budget_ = *step.tear_budget;
     left_inside_ = step.left_inside;
     const bool tear = rules_.tearing && !step.tear_budget && !(tear_budget_ > 0), look = !(divergence_budget_ > 0);
+    const bool fast = limit_.may_be_exceeded(elongation_, step.dt);
     const bool release = step.hand_force && rules_.F_release > 0 && glm::length(*step.hand_force) > rules_.F_release;
-    if ((tear || look || release) && n < count - 1) return {n + 1, StepsEnd::rolled_back};
+    if ((tear || look || fast || release) && n < count - 1) return {n + 1, StepsEnd::rolled_back};
     if (tear) tear_budget_ = engine.tear_overloaded(tears);
     if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, StepsEnd::fault};
+    if (fast && engine.find_runaway(limit_, fault)) return {n, StepsEnd::fault};
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
     if (release) return {n + 1, StepsEnd::released};
   }
@@ -49,43 +67,63 @@ StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault&
 void StepGuard::keep_backup(GuardedSteps& engine, const Tears& tears) {
   engine.keep_backup();
   if (rules_.tearing) tears_backup_ = tears;
+  limit_backup_ = limit_;
   since_backup_ = 0;
 }
 
-void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears) {
+/// `unjudged`: how many of the last steps are still to be judged.
+void StepGuard::repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudged) {
   if (rules_.tearing) tears = tears_backup_;
   spend_budgets();
+  limit_ = limit_backup_;
   engine.repeat(steps, tears);
   spend_budgets();
+  limit_ = limit_backup_;  // whether or not the engine has judged them
+  for (int n = unjudged; n < steps; ++n) limit_.pass(limit_.dt());
+}
+
+void StepGuard::remeasure(GuardedSteps& engine, const Tears& tears) {
+  const Motion motion = engine.motion(tears);
+  energy_stale_ ? limit_.begin(motion) : limit_.push(motion.pushed);
+  energy_stale_ = pushes_stale_ = false;
 }
 
 /// Makes steps that have been overwritten again, up to the one to be examined, and examines it.
 StepsMade StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
-  repeat(engine, since_backup_ + count, tears);
+  repeat(engine, since_backup_ + count, tears, 1);
   const StepsMade last = judge(engine, 1, tears, fault);
   return {count - 1 + last.count, last.end};
 }
 
-Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears) {
+Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop) {
   Advance result;
   const int torn_before = tears.torn_count();
   Fault fault{};
-  while (result.steps < steps && !result.diverged && !result.released) {
+  if (energy_stale_ || pushes_stale_) remeasure(engine, tears);
+  while (result.steps < steps && !result.diverged && !result.released && !result.stopped) {
+    if (stop && stop()) {
+      result.stopped = true;
+      break;
+    }
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(engine, tears);
-    const int most = std::min(steps - result.steps, steps_between_backups - since_backup_);
+    const int most =
+        rules_.costly_steps && stop ? 1 : std::min(steps - result.steps, steps_between_backups - since_backup_);
     StepsMade made = engine.make_steps(most, tears, fault);
+    assert(made.count <= most);
     const bool rolled_back = made.end == StepsEnd::rolled_back;
     if (rolled_back) made = examine_last(engine, made.count, tears, fault);
     result.diverged = made.end == StepsEnd::fault;
     result.released = made.end == StepsEnd::released;
+    result.stopped = made.end == StepsEnd::stopped;
     result.steps += made.count;
-    if (result.diverged) repeat(engine, since_backup_ + made.count, tears);
+    if (result.diverged || (result.stopped && rules_.costly_steps))
+      repeat(engine, since_backup_ + made.count, tears, 0);
     // After a fault nothing is known of the next step; what has just been repeated must not be repeated again.
     since_backup_ = result.diverged || rolled_back || rules_.costly_steps ? -1 : since_backup_ + made.count;
     torn_ = tears.torn_count();
   }
   result.i = fault.i, result.j = fault.j, result.di = fault.di, result.dj = fault.dj, result.value = fault.value;
-  if (result.diverged) result.quantity = fault.quantity;
+  if (result.diverged) result.quantity = fault.quantity, result.excess = fault.excess;
   result.torn = tears.torn_count() - torn_before;
   result.left_inside = left_inside_;
   result.hand_force = hand_force_;

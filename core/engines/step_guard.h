@@ -1,8 +1,10 @@
 // Finds the first step that goes wrong without examining every one. A spring grows by no more than its two ends move,
 // so after all springs have been measured it is known how much motion may pass before one can be too long or
 // overloaded; each step spends some of these budgets, and only when one is used up is the cloth examined again. The
-// state is backed up now and then: if a step turns out to be bad, or later steps have overwritten the one to be
-// examined, the engine returns to the backup and repeats the good steps, which gives the same bits.
+// same motion over dt bounds every speed, so speeds are summed up only where all particles at that speed would have
+// more energy than the scene can hold (MotionLimit). The state is backed up now and then: if a step turns out to be
+// bad, or later steps have overwritten the one to be examined, the engine returns to the backup and repeats the good
+// steps, which gives the same bits.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -12,6 +14,7 @@
 #include "core/cloth/tears.h"
 #include "core/engines/engine.h"
 #include "core/engines/fault.h"
+#include "core/engines/motion_limit.h"
 
 namespace tyglab {
 
@@ -20,6 +23,7 @@ enum class StepsEnd {
   complete,
   fault,       ///< the step after those that count diverged; the state is the one after it
   released,    ///< in the last step the hand's force exceeded F_release
+  stopped,     ///< from outside; where steps are costly, within the step after those that count
   rolled_back  ///< the last step that counts must be examined, but later ones have overwritten its state
 };
 
@@ -31,6 +35,7 @@ struct StepsMade {
 /// What the guard needs to know of a step.
 struct StepOutcome {
   double elongation = 0;                 ///< by which any spring can have grown at most, m; may be non-finite
+  double dt = 1;                         ///< s
   int left_inside = 0;                   ///< free particles inside a body
   std::optional<glm::dvec3> hand_force;  ///< on the held particle, N, if there is one
   std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
@@ -53,6 +58,10 @@ class GuardedSteps {
   /// Examines every particle and whole spring of the present state, with `tears` brought up to date. If all is well,
   /// sets by how much any spring may grow before it can be too long, m.
   virtual bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) = 0;
+  /// Whether the present motion is beyond the limit.
+  virtual bool find_runaway(const MotionLimit& limit, Fault& fault) = 0;
+  /// Measures the present motion.
+  virtual Motion motion(const Tears& tears) = 0;
   /// Copies the present state, in place of an earlier copy.
   virtual void keep_backup() = 0;
   /// Returns to the backup, whose tears are given, and makes that many steps again, all of which are known to be good
@@ -69,15 +78,28 @@ class StepGuard {
   static constexpr int steps_between_backups = 256;
 
   struct Rules {
-    bool tearing = false;       ///< springs can be overloaded
-    double F_release = 0;       ///< N; 0: the hand does not let go
-    bool costly_steps = false;  ///< a step costs more than a backup, so every run of steps begins with one
+    bool tearing = false;  ///< springs can be overloaded
+    double F_release = 0;  ///< N; 0: the hand does not let go
+    /// A step costs more than a backup, and may be stopped halfway: every run of steps begins with a backup, and has
+    /// one step where it may be stopped.
+    bool costly_steps = false;
   };
   /// Sets what to watch for. Call invalidate() where the scene has changed.
   void set_rules(const Rules& rules) { rules_ = rules; }
 
   /// Voids the budgets and the backup: something other than the particles' motion has changed the state.
   void invalidate();
+  /// Takes constants, wind and hand as they are from now on; of the hand, the velocity of the held particle, m/s.
+  void set_scene(const Preset& preset, const Lattice& lattice, const Held& held) {
+    limit_.set_scene(preset, lattice, held.particle >= 0, held.velocity);
+  }
+  /// The motion begins with this one.
+  void begin(const Motion& motion) { limit_.begin(motion), energy_stale_ = pushes_stale_ = false; }
+  /// Constants change from some to others: what that does to the springs' energy, or where bodies are now, is measured
+  /// before the next step.
+  void accept_changes(const Preset& from, const Preset& to);
+  /// Bodies may overlap free particles now: that is measured before the next step.
+  void expect_pushes() { pushes_stale_ = true; }
   /// Whether springs have been cut from outside since the last step.
   bool springs_cut(const Tears& tears) const { return torn_ != tears.torn_count(); }
   /// Takes these tears as known. The budgets stay valid without the springs that were cut, the backup does not.
@@ -90,14 +112,15 @@ class StepGuard {
   bool overload_within(int steps) const;
 
   /// Makes up to `steps` good steps, as Engine::advance().
-  Advance advance(GuardedSteps& engine, int steps, Tears& tears);
+  Advance advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop);
   /// Judges steps that have been made, of which the state of the last is present.
   StepsMade judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
 
  private:
   void keep_backup(GuardedSteps& engine, const Tears& tears);
   void spend_budgets();
-  void repeat(GuardedSteps& engine, int steps, Tears& tears);
+  void remeasure(GuardedSteps& engine, const Tears& tears);
+  void repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudged);
   StepsMade examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
 
   Rules rules_;
@@ -107,6 +130,8 @@ class StepGuard {
   int since_backup_ = -1;                                        ///< steps; < 0: there is no backup
   int torn_ = 0;                                                 ///< springs, after the last step
   Tears tears_backup_;
+  MotionLimit limit_, limit_backup_;
+  bool energy_stale_ = false, pushes_stale_ = false;
   int left_inside_ = 0;
   glm::dvec3 hand_force_{0};
 };

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cassert>
+#include <cstdlib>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -44,7 +46,10 @@ class Neighborhood {
 
  private:
   static constexpr int side = 2 * reach + 1;
-  std::size_t index(int i, int j) const { return std::size_t((i - i_ + reach) * side + j - j_ + reach); }
+  std::size_t index(int i, int j) const {
+    assert(std::abs(i - i_) <= reach && std::abs(j - j_) <= reach);
+    return std::size_t((i - i_ + reach) * side + j - j_ + reach);
+  }
   int i_, j_;
   std::array<glm::dvec3, std::size_t(side) * side> x_{}, v_{};
 };

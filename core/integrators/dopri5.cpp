@@ -6,8 +6,6 @@
 
 namespace tyglab {
 
-using namespace rows;
-
 namespace {
 
 constexpr int stages = 7;
@@ -44,6 +42,7 @@ std::vector<Term> accelerations(const Row& of, int dt_power) {
 
 /// What is small comes first: x is rounded once.
 Assignment position_of(int stage) {
+  using namespace rows;
   double c = 0;
   for (const double weight : weights[stage]) c += weight;
   Assignment made{stage_x, accelerations(through_velocities(weights[stage]), 2)};
@@ -51,6 +50,7 @@ Assignment position_of(int stage) {
   return made;
 }
 Assignment velocity_of(int stage) {
+  using namespace rows;
   Assignment made{stage_v, accelerations(weights[stage], 1)};
   made.terms.push_back({v, 1, 0});
   return made;
@@ -92,6 +92,7 @@ Estimate estimate() {
 }
 
 std::vector<Sweep> sweeps() {
+  using namespace rows;
   std::vector<Sweep> list;
   for (int i = 0; i < stages; ++i) {
     Sweep sweep{i == 0 ? x : stage_x, i == 0 ? v : stage_v, 0, {{first_a + i, {{a, 1, 0}}}}};

@@ -3,9 +3,8 @@
 
 namespace tyglab {
 
-using namespace rows;
-
 std::vector<Scheme> explicit_schemes() {
+  using namespace rows;
   return {
       {.name = "euler",
        .title = "Euler",

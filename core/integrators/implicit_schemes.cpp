@@ -5,8 +5,6 @@
 
 namespace tyglab {
 
-using namespace rows;
-
 namespace {
 
 constexpr double gamma = 2 - std::numbers::sqrt2;  // of TR-BDF2, and the weights of its second stage
@@ -15,6 +13,7 @@ constexpr double bdf_stage = 1 / (gamma * (2 - gamma)), bdf_start = (1 - gamma) 
 }  // namespace
 
 std::vector<Scheme> implicit_schemes() {
+  using namespace rows;
   return {
       {.name = "implicit_euler",
        .title = "Implicit Euler",

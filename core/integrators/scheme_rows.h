@@ -7,7 +7,7 @@
 
 namespace tyglab {
 
-/// The vectors of a table as its rows write them.
+/// The vectors of a table as its rows write them; used within functions alone, since files are compiled together.
 namespace rows {
 inline constexpr int x = vector_x, v = vector_v, a = acceleration;
 }

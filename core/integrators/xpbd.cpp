@@ -3,8 +3,6 @@
 
 namespace tyglab {
 
-using namespace rows;
-
 namespace {
 
 constexpr int q = 2;  // q: the displacement within the step
@@ -12,6 +10,7 @@ constexpr int q = 2;  // q: the displacement within the step
 }  // namespace
 
 Scheme xpbd() {
+  using namespace rows;
   return {.name = "xpbd",
           .title = "XPBD",
           .equation = "",

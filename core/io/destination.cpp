@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "core/io/files.h"
+#include "core/io/terminal.h"
 
 namespace tyglab {
 
@@ -46,9 +47,10 @@ std::filesystem::path write_output(const std::filesystem::path& file, std::strin
 
 void flush_standard_output() {
   errno = 0;
+  file_output().flush();
   std::cout.flush();
   std::fflush(stdout);
-  if (std::cout.good() && std::ferror(stdout) == 0) return;
+  if (file_output().good() && std::cout.good() && std::ferror(stdout) == 0) return;
   // An earlier write may be the one that failed: then errno says nothing of it.
   throw OutputError(lost_output("-", errno));
 }

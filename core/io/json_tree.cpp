@@ -1,178 +1,282 @@
 #include "core/io/json_tree.h"
 
 #include <algorithm>
-#include <iterator>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
-#include "core/io/json_fault.h"
 #include "core/io/preset_io.h"
 
 namespace tyglab {
 namespace {
 
-constexpr int max_tree_depth = 16;      // a preset needs 4; a bound keeps recursion over the tree safe
-constexpr std::size_t max_keys = 1000;  // in one block; each is compared with all before it
+constexpr int max_depth = 16;           // a preset needs 4; a bound keeps recursion safe
+constexpr std::size_t max_keys = 1000;  // in one object; each is compared with all before it
 
-/// Input iterator that tells how far the parser has read.
-class Cursor {
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+/// Bytes of the UTF-8 character that begins the text; 0 if none does (RFC 3629).
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xC2 && first <= 0xDF ? 2 : first <= 0xEF ? 3 : first <= 0xF4 ? 4 : 0;
+  if (first < 0xC2 || length == 0) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+  const bool overlong = (first == 0xE0 && byte(1) < 0xA0) || (first == 0xF0 && byte(1) < 0x90);
+  const bool no_character = (first == 0xED && byte(1) > 0x9F) || (first == 0xF4 && byte(1) > 0x8F);
+  return overlong || no_character ? 0 : length;
+}
+
+/// Reads the text by JSON's grammar (RFC 8259). What breaks it is thrown as a PresetError, in words for the person who
+/// wrote it: what was expected, and the fix.
+class JsonReader {
  public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
-  Cursor(const char* at, const char** seen) : at_(at), seen_(seen) {}
-  reference operator*() const { return *at_; }
-  Cursor& operator++() {
-    *seen_ = ++at_;
-    return *this;
+  JsonReader(std::string_view text, std::string_view source, Lines lines, std::size_t max_values)
+      : text_(text), source_(source), lines_(lines), max_values_(max_values) {}
+
+  JsonNode read() {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
+    skip_space();
+    if (ended()) fail_end("it is empty; it must be at least {}");
+    JsonNode root = value();
+    skip_space();
+    if (!ended()) fail("the preset ends before this; remove what follows its closing }");
+    return root;
   }
-  Cursor operator++(int) {
-    Cursor old = *this;
-    ++*this;
-    return old;
-  }
-  bool operator==(const Cursor& other) const { return at_ == other.at_; }
-  bool operator!=(const Cursor& other) const { return at_ != other.at_; }
 
  private:
-  const char* at_;
-  const char** seen_;
-};
+  enum class Columns { told, none };
 
-class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
- public:
-  TreeBuilder(std::string_view text, const char** seen, JsonNode& root, std::size_t max_values)
-      : text_(text), seen_(seen), max_values_(max_values) {
-    stack_.push_back(&root);
+  bool ended() const { return at_ >= text_.size(); }
+  char now() const { return ended() ? '\0' : text_[at_]; }
+  bool sees(char c) const { return !ended() && text_[at_] == c; }
+  void skip_space() {
+    for (; sees(' ') || sees('\t') || sees('\n') || sees('\r'); ++at_) line_ += sees('\n') ? 1 : 0;
   }
-
-  bool null() override { return put(JsonNode::Type::null); }
-  bool boolean(bool v) override { return put(JsonNode::Type::boolean, v ? 1 : 0); }
-  bool number_integer(number_integer_t v) override { return put(JsonNode::Type::integer, double(v)); }
-  bool number_unsigned(number_unsigned_t v) override { return put(JsonNode::Type::integer, double(v)); }
-  bool number_float(number_float_t v, const string_t&) override { return put(JsonNode::Type::number, v); }
-  bool string(string_t& v) override {
-    JsonNode* node = place(JsonNode::Type::text);
-    if (node) node->text = std::move(v);
-    return node != nullptr;
+  int line_of(std::size_t at) const {
+    return 1 + int(std::count(text_.begin(), text_.begin() + std::ptrdiff_t(at), '\n'));
   }
-  bool binary(binary_t&) override { return fail("binary data does not belong in a preset"); }
-  bool start_object(std::size_t) override { return open(JsonNode::Type::object); }
-  bool start_array(std::size_t) override { return open(JsonNode::Type::list); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool key(string_t& v) override {
-    if (stack_.back()->members.size() >= max_keys)
-      return fail_at_key("too many keys in one object (" + std::to_string(max_keys) + " at most)");
-    if (stack_.back()->find(v)) return fail("the key \"" + v + "\" appears twice; keep one of them");
-    key_ = std::move(v);
-    return true;
-  }
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception&) override {
-    const auto fault = find_json_fault(text_);
-    if (!fault) return fail("cannot be read as JSON");
-    const std::string_view before = text_.substr(0, fault->at);
-    error_line_ = 1 + int(std::count(before.begin(), before.end(), '\n'));
-    error_ = (fault->end ? "" : "column " + std::to_string(column_after(before)) + ": ") +
-             (fault->of_value ? named(fault->why) : fault->why);
-    return false;
-  }
-  const std::string& error() const { return error_; }
-  int error_line() const { return error_line_; }
-
- private:
-  /// Line of the token that was just read. The parser reads one character past a number, so step back over that and
-  /// over white space first.
-  int line() {
-    std::size_t end = std::size_t(*seen_ - text_.data());
-    end = end > 0 ? end - 1 : 0;
-    while (end > counted_to_ && (text_[end] == '\n' || text_[end] == '\r' || text_[end] == ' ' || text_[end] == '\t'))
-      --end;
-    if (end > counted_to_) {
-      lines_ += int(std::count(text_.begin() + std::ptrdiff_t(counted_to_), text_.begin() + std::ptrdiff_t(end), '\n'));
-      counted_to_ = end;
-    }
-    return lines_;
-  }
-  /// Column of the character that follows, the first is 1; a character may take several bytes.
-  static int column_after(std::string_view before) {
+  /// The first is 1; a character may take several bytes.
+  int column_of(std::size_t at) const {
+    std::string_view before = text_.substr(0, at);
     before.remove_prefix(before.rfind('\n') + 1);  // npos + 1 is 0
     return 1 + int(std::count_if(before.begin(), before.end(), [](char c) { return (c & 0xC0) != 0x80; }));
   }
-  /// Where the next value belongs, like "bodies[0].c[1]"; empty at the top.
-  std::string key_path() const {
-    std::string path;
-    for (std::size_t level = 0; started_ && level < stack_.size(); ++level) {
-      const bool innermost = level + 1 == stack_.size();
-      const JsonNode& node = *stack_[level];
-      if (node.type == JsonNode::Type::list) {
-        path += "[" + std::to_string(node.items.size() - (innermost ? 0 : 1)) + "]";
-      } else if (node.type == JsonNode::Type::object) {
-        const std::string& key = innermost ? key_ : node.members.back().key;
-        if (!path.empty() && !key.empty()) path += '.';
-        path += key;
-      }
+  [[noreturn]] void fail_at(std::size_t at, const std::string& why, Columns columns = Columns::told) const {
+    std::string where = source_;
+    if (lines_ == Lines::told) where += ":" + std::to_string(line_of(at));
+    if (columns == Columns::told) where += ": column " + std::to_string(column_of(at));
+    throw PresetError(printable(where + ": " + why));
+  }
+  [[noreturn]] void fail(const std::string& why) const { fail_at(at_, why); }
+  /// With the key that it is about.
+  std::string named(const std::string& why) const { return path_.empty() ? why : path_ + ": " + why; }
+  /// It is JSON, but not what is wanted.
+  [[noreturn]] void refuse(const std::string& why) const { fail_at(at_, named(why), Columns::none); }
+  /// The text ends where more must come.
+  [[noreturn]] void fail_end(const std::string& why) const {
+    const std::size_t last = text_.find_last_not_of(" \t\r\n");
+    fail_at(last == std::string_view::npos ? 0 : last, why, Columns::none);
+  }
+  std::string word() const {
+    std::size_t end = at_;
+    while (end < text_.size() && end < at_ + 40 && (is_letter(text_[end]) || is_digit(text_[end]))) ++end;
+    return std::string(text_.substr(at_, end - at_));
+  }
+
+  JsonNode value() {
+    if (++values_ > max_values_) refuse("too many values (" + std::to_string(max_values_) + " at most)");
+    JsonNode node;
+    node.line = line_;
+    const char c = now();
+    if (c == '{') {
+      node.type = JsonNode::Type::object;
+      items('}', [&] { member(node); });
+    } else if (c == '[') {
+      node.type = JsonNode::Type::list;
+      items(']', [&] { node.items.push_back(value_of("[" + std::to_string(node.items.size()) + "]")); });
+    } else if (c == '"') {
+      node.type = JsonNode::Type::text;
+      node.text = string();
+    } else if (c == '-' || is_digit(c)) {
+      number(node);
+    } else {
+      literal(node);
     }
-    return path;
-  }
-  std::string named(const std::string& why) const {
-    const std::string path = key_path();
-    return path.empty() ? why : path + ": " + why;
-  }
-  bool fail_at_key(const std::string& why) { return fail(named(why)); }
-  bool fail(std::string why) {
-    error_ = std::move(why);
-    error_line_ = line();
-    return false;
-  }
-  JsonNode* place(JsonNode::Type type) {
-    if (++values_ > max_values_)
-      return fail_at_key("too many values (" + std::to_string(max_values_) + " at most)"), nullptr;
-    JsonNode* parent = stack_.back();
-    JsonNode* node = parent;
-    if (started_) {
-      if (parent->type == JsonNode::Type::object) {
-        parent->members.push_back({std::move(key_), {}});
-        node = &parent->members.back().value;
-      } else {
-        node = &parent->items.emplace_back();
-      }
-    }
-    started_ = true;
-    node->type = type;
-    node->line = line();
     return node;
   }
-  bool put(JsonNode::Type type, double number = 0) {
-    JsonNode* node = place(type);
-    if (node) node->number = number;
-    return node != nullptr;
+  /// The value that belongs to a part of the present one: "[2]" or ".k_s".
+  JsonNode value_of(const std::string& part) {
+    const std::size_t length = path_.size();
+    path_ += path_.empty() && part[0] == '.' ? part.substr(1) : part;
+    JsonNode node = value();
+    path_.resize(length);
+    return node;
   }
-  bool open(JsonNode::Type type) {
-    const bool root = !started_;
-    if (int(stack_.size()) > max_tree_depth)
-      return fail_at_key("nested too deeply (" + std::to_string(max_tree_depth) + " levels at most)");
-    JsonNode* node = place(type);
-    if (!node) return false;
-    if (!root) stack_.push_back(node);
+  void literal(JsonNode& node) {
+    const std::string name = word();
+    if (name == "true" || name == "false")
+      node.type = JsonNode::Type::boolean, node.number = name == "true" ? 1 : 0;
+    else if (name != "null")
+      no_value(name);
+    at_ += name.size();
+  }
+  /// What to say where a value should begin and does not.
+  [[noreturn]] void no_value(const std::string& name) const {
+    const char c = now();
+    if (ended()) fail_end("it ends where a value is expected");
+    refuse_comment(), refuse_bytes();
+    if (depth_ == 0) fail("a preset is a JSON object, so it begins with {");
+    if (c == '\'') fail("strings are written in double quotes: \"…\", not '…'");
+    if (c == '+') fail("a number has no + sign; remove it");
+    if (c == '.') fail("a number begins with a digit: 0.5, not .5");
+    if (c == ',') fail("a value is missing before this comma");
+    if (name == "NaN" || name == "nan" || name == "Infinity" || name == "inf")
+      fail("a number must be finite, such as 1.5 or 2e-3");
+    if (name == "True" || name == "False") fail("write true or false in lowercase");
+    if (name == "None") fail("write null instead of None");
+    if (!name.empty()) fail("strings are written in double quotes: \"" + name + "\"");
+    fail("a value was expected here: a number, a \"string\", a [list] or an object {…}");
+  }
+  void refuse_bytes() const {
+    if (utf8_length(text_.substr(at_)) == 0) fail("these bytes are not UTF-8 text; save the file as UTF-8");
+  }
+  void refuse_comment() const {
+    if (sees('/') || sees('#')) fail("JSON has no comments; remove it, or move it into the preset's \"description\"");
+  }
+
+  /// Items between commas up to `close`.
+  template <class Item>
+  void items(char close, const Item& item) {
+    if (++depth_ > max_depth) refuse("nested too deeply (" + std::to_string(max_depth) + " levels at most)");
+    const std::size_t open = at_++;
+    skip_space();
+    for (std::size_t comma = open; !sees(close) || comma != open; skip_space()) {
+      if (sees(close))
+        fail_at(comma,
+                std::string("nothing follows this comma; remove it, or add what is missing before the ") + close);
+      if (!ended()) item(), skip_space();
+      if (ended())
+        fail_end(std::string("the ") + text_[open] + " of line " + std::to_string(line_of(open)) +
+                 " is never closed; add its " + close);
+      if (sees(close)) break;
+      if (!sees(',')) no_comma(open, close);
+      comma = at_++;
+    }
+    ++at_, --depth_;
+  }
+  [[noreturn]] void no_comma(std::size_t open, char close) const {
+    refuse_comment();
+    const char c = now();
+    if (c == '}' || c == ']')
+      fail(std::string("the ") + text_[open] + " before it is closed by " + close + ", not by " + c);
+    if (c == '"' || c == '{' || c == '[' || c == '-' || is_digit(c) || is_letter(c))
+      fail("a comma is missing before this");
+    refuse_bytes();
+    fail(std::string("a comma or ") + close + " was expected here");
+  }
+  void member(JsonNode& object) {
+    if (!sees('"')) no_key();
+    const std::size_t begin = at_;
+    const std::string key = string();
+    if (object.members.size() >= max_keys)
+      refuse("too many keys in one object (" + std::to_string(max_keys) + " at most)");
+    if (object.find(key)) refuse("the key \"" + key + "\" appears twice; keep one of them");
+    const std::string quoted(text_.substr(begin, std::min<std::size_t>(at_ - begin, 60)));
+    skip_space();
+    if (ended()) fail_end("it ends after the key " + quoted + "; a colon and its value are missing");
+    if (sees('=')) fail("write a colon between a key and its value, not =");
+    if (!sees(':')) fail("a colon is missing after the key " + quoted);
+    ++at_;
+    skip_space();
+    object.members.push_back({key, value_of("." + key)});
+  }
+  [[noreturn]] void no_key() const {
+    refuse_comment();
+    if (sees('\'')) fail("keys are written in double quotes: \"…\", not '…'");
+    if (is_letter(now())) fail("keys are written in double quotes: \"" + word() + "\"");
+    if (sees(',')) fail("one comma is enough; remove this one");
+    refuse_bytes();
+    fail("a key in double quotes was expected here, such as \"k_s\"");
+  }
+
+  std::string string() {
+    const std::size_t open = at_++;
+    while (!sees('"')) {
+      if (ended() || sees('\n') || sees('\r')) fail_at(open, "the string that begins here lacks its closing \"");
+      if (static_cast<unsigned char>(now()) < ' ') fail("a string cannot contain this character; write \\t for a tab");
+      refuse_bytes();
+      sees('\\') ? escape() : void(at_ += utf8_length(text_.substr(at_)));
+    }
+    ++at_;
+    return nlohmann::json::parse(text_.substr(open, at_ - open)).get<std::string>();
+  }
+  void escape() {
+    const char c = at_ + 1 < text_.size() ? text_[at_ + 1] : '\0';
+    if (c == 'u') return unicode_escape();
+    if (c == '\0' || std::string_view("\"\\/bfnrt").find(c) == std::string_view::npos)
+      fail("JSON has no such escape; write \\\\ for a backslash");
+    at_ += 2;
+  }
+  /// The code of \uXXXX here; -1 if it is none.
+  int unicode() const {
+    if (text_.substr(at_, 2) != "\\u" || text_.size() < at_ + 6) return -1;
+    const std::string digits(text_.substr(at_ + 2, 4));
+    const auto is_hex = [](unsigned char c) { return std::isxdigit(c) != 0; };
+    return std::all_of(digits.begin(), digits.end(), is_hex) ? std::stoi(digits, nullptr, 16) : -1;
+  }
+  void unicode_escape() {
+    const std::size_t begin = at_;
+    const int code = unicode();
+    if (code < 0) fail("four hexadecimal digits must follow \\u, as in \\u00e5");
+    at_ += 6;
+    if (code < 0xD800 || code > 0xDFFF) return;
+    const int second = unicode();
+    if (code > 0xDBFF || second < 0xDC00 || second > 0xDFFF)
+      fail_at(begin, "half a surrogate pair; write the character itself");
+    at_ += 6;
+  }
+
+  bool digits() {
+    if (!is_digit(now())) return false;
+    while (is_digit(now())) ++at_;
     return true;
   }
-  bool close() {
-    if (stack_.size() > 1) stack_.pop_back();
-    return true;
+  void number(JsonNode& node) {
+    const std::size_t begin = at_;
+    if (sees('-')) ++at_;
+    const bool zero = sees('0');
+    if (!digits()) fail_at(begin, "digits are missing after the minus");
+    if (zero && at_ - begin > (text_[begin] == '-' ? 2u : 1u)) fail_at(begin, "a number has no leading 0; remove it");
+    if (sees('.') && (++at_, !digits())) fail_at(begin, "digits are missing after the point: 1.0 or 1");
+    if (sees('e') || sees('E')) {
+      ++at_;
+      if (sees('+') || sees('-')) ++at_;
+      if (!digits()) fail_at(begin, "digits are missing after the e, as in 1e-3");
+    }
+    if (is_letter(now()) || sees('.')) fail_at(begin, "this is not a JSON number; write one such as 1000, 1.5 or 2e-3");
+    const auto value = nlohmann::json::parse(text_.substr(begin, at_ - begin), nullptr, false);
+    if (!value.is_number())
+      fail_at(begin, named(std::string(text_.substr(begin, std::min<std::size_t>(at_ - begin, 40))) +
+                           " is too large for a number; write a smaller one"));
+    node.type = value.is_number_integer() ? JsonNode::Type::integer : JsonNode::Type::number;
+    node.number = value.get<double>();
   }
 
   std::string_view text_;
-  const char** seen_;
-  std::vector<JsonNode*> stack_;
-  std::string key_;
-  std::string error_;
-  int error_line_ = 0;
-  bool started_ = false;
-  std::size_t max_values_, values_ = 0;
-  std::size_t counted_to_ = 0;
-  int lines_ = 1;
+  std::string source_;
+  Lines lines_;
+  std::size_t max_values_;
+  std::size_t at_ = 0, values_ = 0;
+  std::string path_;  ///< of the value that is read, like "bodies[0].c[1]"
+  int line_ = 1;
+  int depth_ = 0;
 };
 
 }  // namespace
@@ -209,16 +313,7 @@ std::string printable(std::string text) {
 }
 
 JsonNode parse_json(std::string_view text, std::string_view source, Lines lines, std::size_t max_values) {
-  JsonNode root;
-  const char* seen = text.data();
-  TreeBuilder builder(text, &seen, root, max_values);
-  const Cursor first(text.data(), &seen), last(text.data() + text.size(), &seen);
-  if (!nlohmann::json::sax_parse(first, last, &builder)) {
-    std::string where(source);
-    if (builder.error_line() > 0 && lines == Lines::told) where += ":" + std::to_string(builder.error_line());
-    throw PresetError(printable(where + ": " + builder.error()));
-  }
-  return root;
+  return JsonReader(text, source, lines, max_values).read();
 }
 
 }  // namespace tyglab

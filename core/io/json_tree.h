@@ -1,5 +1,6 @@
-// JSON text as a tree whose every value knows its line, with doubled keys refused. (nlohmann-json's own tree keeps
-// neither, so its event interface builds this one.)
+// JSON text as a tree whose every value knows its line, with doubled keys refused and faults told in words. (The tree
+// of nlohmann-json keeps neither lines nor doubled keys, and its errors speak of tokens: here it reads strings and
+// numbers.)
 #pragma once
 
 #include <cstdint>
@@ -40,7 +41,7 @@ enum class Lines { told, one };
 
 constexpr std::size_t max_json_values = 200000;  // a list of every pin of a large cloth's border fits well
 
-/// Throws PresetError naming `source`, the line, and the key where it is about a value.
+/// Throws PresetError naming `source`, line and column, and the key where it is about a value.
 JsonNode parse_json(std::string_view text, std::string_view source, Lines lines,
                     std::size_t max_values = max_json_values);
 

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -18,6 +17,7 @@
 
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/io/terminal.h"
 
 namespace tyglab {
 namespace {
@@ -201,7 +201,7 @@ void OutputFile::put(std::uint64_t offset, std::string_view bytes) {
 
 void OutputFile::write(std::string_view bytes) {
   if (kind_ != Kind::standard_output) return put(size_, bytes);
-  std::cout.write(bytes.data(), std::streamsize(bytes.size()));
+  file_output().write(bytes.data(), std::streamsize(bytes.size()));
   flush_standard_output();
 }
 
@@ -227,7 +227,7 @@ void OutputFile::send_gathered() {
     const ssize_t n = ::pread(descriptor_, part.data(), part.size(), off_t(at));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail(errno);
-    std::cout.write(part.data(), n);
+    file_output().write(part.data(), n);
     at += std::uint64_t(n);
   }
   flush_standard_output();

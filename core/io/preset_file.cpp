@@ -19,7 +19,7 @@ Preset load_preset(const std::filesystem::path& file) {
   } catch (const InputError& problem) {
     throw PresetError(problem.what());
   }
-  return parse_preset(text, file.string());
+  return parse_preset(text, file.string(), file.has_parent_path() ? file.parent_path() : ".");
 }
 
 void save_preset(const Preset& preset, const std::filesystem::path& file) {

@@ -328,16 +328,32 @@ void apply_setting(const Setting& setting, Preset& p) {
 
 }  // namespace
 
-Preset parse_preset(std::string_view text, std::string_view source) {
-  return preset_from(parse_json(text, source, Lines::told), source);
+std::string texture_problem(const std::string& texture, const std::filesystem::path& folder) {
+  const std::string advice =
+      "; allowed: a shipped texture's name, or an image in the preset's own folder or below it. Copy the image there, "
+      "or choose it with --set texture=FILE";
+  const std::filesystem::path named(texture);
+  if (named.is_absolute() || std::find(named.begin(), named.end(), "..") != named.end())
+    return "'" + texture + "' lies outside the preset's folder" + advice;
+  std::error_code error;
+  const std::filesystem::path inside = std::filesystem::canonical(folder, error);
+  const std::filesystem::path image = std::filesystem::canonical(folder / named, error);
+  if (error) return {};  // it is missing, which is no error
+  const auto [end, rest] = std::mismatch(inside.begin(), inside.end(), image.begin(), image.end());
+  return end == inside.end() ? "" : "'" + texture + "' is a link that leads out of the preset's folder" + advice;
 }
 
-Preset preset_from(const JsonNode& root, std::string_view source, std::string_view at) {
+Preset parse_preset(std::string_view text, std::string_view source, const std::filesystem::path& folder) {
+  return preset_from(parse_json(text, source, Lines::told), source, folder);
+}
+
+Preset preset_from(const JsonNode& root, std::string_view source, const std::filesystem::path& folder,
+                   std::string_view at) {
   const Reader reader(source, at);
   if (root.type != Type::object) reader.wrong_type(root, "", "an object {…}");
   if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
   Preset preset;
-  int pins_line = 0;
+  int pins_line = 0, texture_line = 0;
   for (const auto& [name, node] : root.members) {
     if (name == "tyglab_preset" || reader.top_key(name, node, preset)) continue;
     if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
@@ -349,9 +365,13 @@ Preset preset_from(const JsonNode& root, std::string_view source, std::string_vi
     for (const auto& [key, child] : node.members) {
       reader.key(name, key, child, name + "." + key, preset);
       if (key == "pins") pins_line = child.line;
+      if (key == "texture") texture_line = child.line;
     }
   }
   if (const auto problem = pins_problem(preset); !problem.empty()) reader.fail(pins_line, "cloth.pins", problem);
+  if (!folder.empty())
+    if (const auto problem = texture_problem(preset.texture, folder); !problem.empty())
+      reader.fail(texture_line, "view.texture", problem);
   return preset;
 }
 

@@ -21,12 +21,17 @@ class PresetError : public std::runtime_error {
 
 inline constexpr int preset_version = 1;
 
-/// Parses and checks a whole preset. `source` names it in errors. Throws PresetError; never returns half a preset.
-Preset parse_preset(std::string_view text, std::string_view source);
+/// Parses and checks a whole preset. `source` names it in errors. `folder`: that of the preset's file, which then may
+/// name no texture outside it (texture_problem()). Throws PresetError; never returns half a preset.
+Preset parse_preset(std::string_view text, std::string_view source, const std::filesystem::path& folder = {});
 /// The same of a part of a larger JSON file; `at` is the path of its keys there ("session.preset").
-Preset preset_from(const JsonNode& root, std::string_view source, std::string_view at = {});
+Preset preset_from(const JsonNode& root, std::string_view source, const std::filesystem::path& folder = {},
+                   std::string_view at = {});
 /// Reads a file. Throws PresetError (missing, unreadable, wrong).
 Preset load_preset(const std::filesystem::path& file);
+/// Why a preset in that folder may not name this texture, so that who opens a stranger's preset opens no other file; or
+/// empty: it is a plain name, or lies in the folder or below it, where no link leads out of it either. Need not exist.
+std::string texture_problem(const std::string& texture, const std::filesystem::path& folder);
 /// JSON text with every key, one block a line, ready to be read and edited by a person.
 std::string preset_to_json(const Preset& preset);
 /// Writes atomically: a temporary file beside it, then renamed. Throws OutputError.

@@ -75,7 +75,10 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
   }
   text += "\no cloth\n";
 
-  for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) append_line(text, "v", {x.x[p], x.y[p], x.z[p]});
+  for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) {
+    for (const double value : {x.x[p], x.y[p], x.z[p]}) float_coordinate(value);
+    append_line(text, "v", {x.x[p], x.y[p], x.z[p]});
+  }
   for (int i = 0; i < lattice.rows; ++i)
     for (int j = 0; j < lattice.columns; ++j)
       append_line(text, "vt",

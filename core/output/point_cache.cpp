@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/io/text.h"
+
 namespace tyglab {
 namespace {
 
@@ -32,7 +34,7 @@ PointCache::PointCache(const std::filesystem::path& file, std::int32_t points)
 void PointCache::add(const VectorField<double>& x) {
   sample_.clear();
   for (std::size_t p = 0; p < std::size_t(points_); ++p)
-    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, static_cast<float>(value));
+    for (const double value : {x.x[p], x.y[p], x.z[p]}) append_little_endian(sample_, float_coordinate(value));
   out_.write(sample_);
   ++samples_;
   std::string count;

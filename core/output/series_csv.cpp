@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/io/text.h"
 
 namespace tyglab {

@@ -28,6 +28,22 @@ R longest(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, in
 }
 
 template <class R>
+double strain(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, R rest, bool pushes) {
+  using D = hn::ScalableTag<R>;
+  using V = Vec3<D>;
+  constexpr int lanes = int(hn::MaxLanes(D()));
+  const auto sign = hn::Set(D(), pushes ? R(-1) : R(1)), length = hn::Set(D(), rest);
+  auto sum = hn::Zero(D());
+  for (int j = begin; j < end; j += lanes) {
+    const V way = V::load(x + j + other, stride) - V::load(x + j, stride);
+    const auto longer = hn::Max(hn::Mul(sign, hn::Sub(hn::Sqrt(dot(way, way).v), length)), hn::Zero(D()));
+    const auto kept = hn::IfThenElseZero(hn::FirstN(D(), std::size_t(end - j)), longer);
+    sum = hn::MulAdd(kept, kept, sum);
+  }
+  return double(hn::GetLane(hn::SumOfLanes(D(), sum)));
+}
+
+template <class R>
 R nearest(const R* x, std::ptrdiff_t stride, int columns, const R* point) {
   using D = hn::ScalableTag<R>;
   using V = Vec3<D>;
@@ -62,6 +78,14 @@ float longest_float(const float* x, std::ptrdiff_t stride, std::ptrdiff_t other,
 double longest_double(const double* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end) {
   return longest(x, stride, other, begin, end);
 }
+double strain_float(const float* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, float rest,
+                    bool pushes) {
+  return strain(x, stride, other, begin, end, rest, pushes);
+}
+double strain_double(const double* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, double rest,
+                     bool pushes) {
+  return strain(x, stride, other, begin, end, rest, pushes);
+}
 float nearest_float(const float* x, std::ptrdiff_t stride, int columns, const float* point) {
   return nearest(x, stride, columns, point);
 }
@@ -83,6 +107,8 @@ namespace tyglab::simd {
 
 HWY_EXPORT(longest_float);
 HWY_EXPORT(longest_double);
+HWY_EXPORT(strain_float);
+HWY_EXPORT(strain_double);
 HWY_EXPORT(nearest_float);
 HWY_EXPORT(nearest_double);
 HWY_EXPORT(lowest_float);
@@ -95,6 +121,16 @@ float longest_squared(const float* x, std::ptrdiff_t stride, std::ptrdiff_t othe
 template <>
 double longest_squared(const double* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end) {
   return HWY_DYNAMIC_DISPATCH(longest_double)(x, stride, other, begin, end);
+}
+template <>
+double strain_squared(const float* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, float rest,
+                      bool pushes) {
+  return HWY_DYNAMIC_DISPATCH(strain_float)(x, stride, other, begin, end, rest, pushes);
+}
+template <>
+double strain_squared(const double* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, double rest,
+                      bool pushes) {
+  return HWY_DYNAMIC_DISPATCH(strain_double)(x, stride, other, begin, end, rest, pushes);
 }
 template <>
 float nearest_squared(const float* x, std::ptrdiff_t stride, int columns, const float point[3]) {

@@ -10,6 +10,10 @@ namespace tyglab::simd {
 template <class R>
 R longest_squared(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end);
 
+/// Σ (|x[j + other] - x[j]| - rest)² over begin <= j < end, m²: of the shorter ones where `pushes`, else of the longer.
+template <class R>
+double strain_squared(const R* x, std::ptrdiff_t stride, std::ptrdiff_t other, int begin, int end, R rest, bool pushes);
+
 /// The smallest distance² of the row's first `columns` particles from a point, m².
 template <class R>
 R nearest_squared(const R* x, std::ptrdiff_t stride, int columns, const R point[3]);

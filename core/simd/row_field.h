@@ -2,6 +2,7 @@
 // is contiguous, and the sweep reaches all its components from one pointer.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 
@@ -34,8 +35,8 @@ class RowField {
   }
   bool empty() const { return data_.empty(); }
   std::ptrdiff_t pitch() const { return 3 * std::ptrdiff_t(stride_); }  ///< from a row to the next
-  R* row(int i) { return data_.data() + lead_ + i * pitch(); }
-  const R* row(int i) const { return data_.data() + lead_ + i * pitch(); }
+  R* row(int i) { return data_.data() + offset(i); }
+  const R* row(int i) const { return data_.data() + offset(i); }
   R* row(int i, int component) { return row(i) + component * std::ptrdiff_t(stride_); }
   const R* row(int i, int component) const { return row(i) + component * std::ptrdiff_t(stride_); }
   /// All rows. In fields of one size, an index means the same component of the same particle.
@@ -44,6 +45,11 @@ class RowField {
   std::size_t bytes() const { return data_.size() * sizeof(R); }
 
  private:
+  std::size_t offset(int i) const {
+    assert(i >= 0 && lead_ + std::size_t(i * pitch()) < data_.size());
+    return lead_ + std::size_t(i * pitch());
+  }
+
   int stride_ = 0;
   std::size_t lead_ = 0;
   Array<R> data_;

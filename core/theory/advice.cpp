@@ -42,9 +42,12 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
 }
 
 std::string advice(const Preset& p) {
-  const std::string stiffness = p.kind == Kind::cloth ? "k_s" : "k";
+  const Mode fastest = any_configuration(p);
+  const bool overdamped = fastest.damping > 2 * fastest.omega();
+  const std::string stiffness = overdamped ? "k_d" : p.kind == Kind::cloth ? "k_s" : "k";
   const double verlet_dt = advised_dt(p, "verlet");
   if (p.integrator == "verlet") {
+    if (p.dt <= verlet_dt && overdamped) return "Use a smaller dt or a smaller k_d, and restart.";
     if (p.dt <= verlet_dt) return "Use a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
     return "Use dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
   }

@@ -1,6 +1,7 @@
 #include "core/theory/amplification.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,7 @@ bool stable(const Scheme& scheme, double h, double zeta) {
 }  // namespace
 
 Matrix amplification(const Scheme& scheme, double h, double zeta) {
+  assert(zeta >= 0);
   const int n = scheme.vectors;
   Matrix now = identity(n);  // row: a vector's coefficients in terms of the vectors at the beginning of the step
   std::vector<double> force(std::size_t(n), 0);

@@ -57,13 +57,17 @@ TEST_CASE("keys that follow the palette's Enter within its frame are kept for wh
   ImGui::SetCurrentContext(gui);
   test::Desk desk(test::cloth(8, 8));
   open_palette(desk.ui, false);
-  desk.input.keys = {{GLFW_KEY_ENTER, 0, false}, {GLFW_KEY_M, 0, false}};
-  desk.input.text = {{'x', 0}, {'m', 2}};
+  desk.input.on_character('x');
+  desk.input.on_key(GLFW_KEY_ENTER, GLFW_PRESS, 0);
+  desk.input.on_key(GLFW_KEY_M, GLFW_PRESS, 0);
+  desk.input.on_character('m');
   handle_keys(desk.ui);
   CHECK(desk.ui.palette.enter);
   CHECK(desk.ui.actions.empty());
-  REQUIRE(desk.input.text.size() == 1);  // what was typed before Enter is looked for, what came after it is not
-  CHECK(desk.input.text[0].character == 'x');
+  // What was typed before Enter is looked for, what came after it is not.
+  REQUIRE(desk.input.all.size() == 3);
+  CHECK(std::get<TypedCharacter>(desk.input.all[0]).code == 'x');
+  for (const int key : {1, 2}) CHECK(std::holds_alternative<KeyEvent>(desk.input.all[key]));
   desk.input.clear();
   desk.ui.palette.open = desk.ui.palette.enter = false;  // it has acted
   handle_keys(desk.ui);

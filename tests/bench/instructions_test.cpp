@@ -113,7 +113,9 @@ TEST_CASE("a feature that is off costs at most 1 % more instructions than an eng
     CAPTURE(feature);
     const double off = run["instructions_off"], absent = run["instructions_absent"], on = run["instructions_on"];
     CHECK(off <= 1.01 * absent);
-    CHECK(on >= off);
+    // Where the sweep itself has it, off and absent are one engine: what is off is left out, so on takes clearly more.
+    const bool swept = feature == "bending" || feature == "damping" || feature == "wind";
+    CHECK(on >= (swept ? 1.1 * off : off));
     for (const char* time : {"ns_off", "ns_absent", "ns_on"}) CHECK(run[time] > 0.0);
   }
 }

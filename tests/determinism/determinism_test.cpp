@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/engines/cpu/cpu_engine.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::determinism_test {
@@ -27,7 +28,7 @@ Preset busy(const std::string& integrator, Precision precision) {
 /// Under the sanitizers methods with many sweeps a step take a minute each; there one precision shows what both do.
 bool skipped_here(const std::string& integrator, Precision precision) {
   const bool long_steps = integrator == "dopri5" || integrator == "xpbd";
-  return TYGLAB_SANITIZED && long_steps && precision == Precision::double_;
+  return test::sanitized && long_steps && precision == Precision::double_;
 }
 
 TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
@@ -82,9 +83,9 @@ Preset large(const std::string& integrator, Precision precision) {
 
 // Under the sanitizers a step takes ten times as long, and five threads on two processors mostly wait.
 std::vector<int> team_sizes() {
-  return TYGLAB_SANITIZED ? std::vector{3} : std::vector{2, 3, 5};
+  return test::sanitized ? std::vector{3} : std::vector{2, 3, 5};
 }
-constexpr int some_steps = TYGLAB_SANITIZED ? 12 : 60;
+constexpr int some_steps = test::fewer(60, 12);
 
 TEST_CASE("threads change nothing, to the last bit") {
   for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "xpbd"}) {
@@ -134,7 +135,7 @@ TEST_CASE("threads that come and go in the middle of a run change nothing, to th
   for (const char* integrator : {"verlet", "euler", "rk4", "dopri5", "xpbd", "implicit_euler"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       const bool implicit = std::string(integrator) == "implicit_euler";
-      if (skipped_here(integrator, precision) || (implicit && TYGLAB_SANITIZED)) continue;
+      if (skipped_here(integrator, precision) || (implicit && test::sanitized)) continue;
       CAPTURE(std::string(integrator));
       const int steps = implicit ? 5 : some_steps;
       const Preset preset = large(integrator, precision);

@@ -5,13 +5,14 @@
 #include <algorithm>
 
 #include "tests/support/files.h"
+#include "tests/support/sanitized.h"
 
 namespace tyglab::endurance_test {
 
 namespace fs = std::filesystem;
 
 /// A sanitizer makes each step about ten times as slow, and finds what it finds in the first seconds.
-constexpr const char* seconds = TYGLAB_SANITIZED ? "2" : "60";
+constexpr const char* seconds = test::sanitized ? "2" : "60";
 
 std::vector<std::string> shipped() {
   std::vector<std::string> names;

@@ -230,4 +230,30 @@ TEST_CASE("130: Ctrl-C while a huge cloth is built ends at once, with a sentence
   CHECK(outcome.err.find("Interrupted") != std::string::npos);
 }
 
+TEST_CASE("130: a single step that would take minutes is interrupted, and what was asked for is written") {
+  for (const char* integrator : {"dopri5", "implicit_euler"}) {
+    CAPTURE(std::string(integrator));
+    const test::TemporaryFolder folder;
+    const auto outcome = test::tyglab_interrupted(folder.path(), {"run",     "hanging",
+                                                                  "--set",   std::string("integrator=") + integrator,
+                                                                  "--set",   "rows=300",
+                                                                  "--set",   "columns=300",
+                                                                  "--set",   "k_s=1e6",
+                                                                  "--set",   "dt=0.03",
+                                                                  "--set",   "iterations=1000",
+                                                                  "--set",   "tolerance=1e-11",
+                                                                  "--set",   "precision=double",
+                                                                  "--steps", "100",
+                                                                  "--state", "s.csv",
+                                                                  "--json",  "j.json"},
+                                                  1.5);
+    CHECK(outcome.code == 130);
+    CHECK_MESSAGE(outcome.err.find("Interrupted; what was written so far is complete, and no older file was replaced") != std::string::npos,
+                  outcome.err);
+    const std::string state = test::read_file(folder / "s.csv");
+    CHECK(test::lines(state).size() > 90'000);
+    CHECK(test::read_file(folder / "j.json").find("\"interrupted\"") != std::string::npos);
+  }
+}
+
 }  // namespace tyglab::exit_codes_test

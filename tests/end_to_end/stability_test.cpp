@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/files.h"
+#include "tests/support/sanitized.h"
 
 namespace tyglab::stability_test {
 
@@ -43,7 +44,7 @@ TEST_CASE("stress writes every case, and goes on where it is told") {
 }
 
 TEST_CASE("boundary writes its rows in the order that programs rely on, each within 1 % of its prediction" *
-          doctest::skip(TYGLAB_SANITIZED)) {
+          doctest::skip(test::sanitized)) {
   const test::TemporaryFolder folder;
   const auto run = test::tyglab(folder.path(), {"stability", "boundary", "--quick", "--json", "boundary.json"});
   CHECK(run.code == 0);
@@ -64,7 +65,7 @@ TEST_CASE("boundary writes its rows in the order that programs rely on, each wit
 }
 
 TEST_CASE("drift tells every method on both scenes; which of them loses, keeps and gains energy" *
-          doctest::skip(TYGLAB_SANITIZED)) {
+          doctest::skip(test::sanitized)) {
   const test::TemporaryFolder folder;
   const auto run = test::tyglab(folder.path(), {"stability", "drift", "--quick", "--json", "drift.json"});
   CHECK(run.code == 0);

@@ -2,6 +2,7 @@
 
 import json
 import os
+import signal
 import subprocess
 import tempfile
 import time
@@ -151,6 +152,24 @@ class Sandbox:
         self.later(2)
         self.release(button)
 
+    def in_one_frame(self, *arguments):
+        """Runs xdotool while the program stands still, so that all of it falls into one of its frames."""
+        before = self.report()["events"]
+        self.process.send_signal(signal.SIGSTOP)
+        self.xdotool(*arguments)
+        self.process.send_signal(signal.SIGCONT)
+        self.wait(lambda r: r["events"] > before, "the events to arrive")
+        return self.later(3)
+
+    def find(self, text):
+        """Does what the palette finds first."""
+        self.key("ctrl+p")
+        self.wait(lambda r: r["palette"] and r["typing"], "the palette to take keys")
+        self.type(text)
+        self.later(3)
+        self.key("Return")
+        self.wait(lambda r: not r["palette"], "the palette to close")
+
     def key(self, *keys):
         return self.acted("the key " + " ".join(keys), "key", *keys)
 
@@ -171,16 +190,6 @@ class Sandbox:
         self.key(end)
         self.wait(lambda r: not r["typing"], "the text field to close")
         return self.later(2)
-
-    def write_export(self, name):
-        """In the dialog that asks for an export's file: writes it into the own folder, and returns its path."""
-        self.wait(lambda r: r["dialog"] == "write_export" and r["typing"], "the dialog")
-        file = os.path.join(self.own.name, name)
-        self.key("ctrl+a")
-        self.type(file)
-        self.key("Return")
-        self.wait(lambda r: r["dialog"] == "none" and os.path.exists(file), "the file to be written")
-        return file
 
     def rest(self):
         """Takes the pointer where it touches nothing."""

@@ -1,7 +1,10 @@
-"""As much of the X protocol as it takes to press a window's close button where there is no window manager."""
+"""As much of the X protocol as it takes to be a window manager's close button, a file manager and a monitor's settings."""
 
 import socket
 import struct
+
+SELECTION_REQUEST = 30
+RESOURCE_MANAGER, STRING = 23, 31  # atoms that every server has
 
 
 def padded(data):
@@ -15,9 +18,11 @@ class XClient:
         self.socket.connect("/tmp/.X11-unix/X" + display.lstrip(":"))
         self.socket.sendall(struct.pack("<BxHHHHxx", ord("l"), 11, 0, 0, 0))
         accepted, _, _, _, length = struct.unpack("<BBHHH", self.receive(8))
-        self.receive(4 * length)
+        setup = self.receive(4 * length)
         if accepted != 1:
             raise RuntimeError(f"the X server of {display} refused the connection")
+        self.id, vendor, formats = struct.unpack("<4xI8xH3xB", setup[:22])
+        self.root, = struct.unpack_from("<I", setup, 32 + len(padded(b" " * vendor)) + 8 * formats)
 
     def receive(self, count):
         data = b""
@@ -32,14 +37,53 @@ class XClient:
         """InternAtom."""
         text = name.encode()
         self.socket.sendall(struct.pack("<BBHHxx", 16, 0, 2 + len(padded(text)) // 4, len(text)) + padded(text))
-        return struct.unpack("<8xI20x", self.receive(32))[0]
+        return struct.unpack("<8xI20x", self.answer(1))[0]
+
+    def answer(self, code):
+        """The next reply (1) or event of that code; others are passed over."""
+        while True:
+            packet = self.receive(32)
+            if packet[0] == 0:
+                raise RuntimeError(f"the X server says error {packet[1]}")
+            if packet[0] & 127 == code:
+                return packet
+
+    def send_event(self, window, event):
+        self.socket.sendall(struct.pack("<BBHII", 25, 0, 11, window, 0) + event.ljust(32, b"\0"))
+
+    def send_message(self, window, kind, *values):
+        """A ClientMessage of up to five numbers."""
+        values += (0,) * (5 - len(values))
+        self.send_event(window, struct.pack("<BBHII5I", 33, 32, 0, window, kind, *values))
+
+    def set_property(self, window, name, kind, data):
+        """ChangeProperty."""
+        self.socket.sendall(struct.pack("<BBHIIIBxxxI", 18, 0, 6 + len(padded(data)) // 4, window, name, kind, 8, len(data)) +
+                            padded(data))
 
     def close_window(self, window):
-        """SendEvent with WM_DELETE_WINDOW: what a window manager sends when the close button is pressed."""
-        protocols, delete = self.atom("WM_PROTOCOLS"), self.atom("WM_DELETE_WINDOW")
-        event = struct.pack("<BBHIIIIIII", 33, 32, 0, window, protocols, delete, 0, 0, 0, 0)
-        self.socket.sendall(struct.pack("<BBHII", 25, 0, 11, window, 0) + event)
+        """What a window manager sends when the close button is pressed."""
+        self.send_message(window, self.atom("WM_PROTOCOLS"), self.atom("WM_DELETE_WINDOW"))
         self.atom("WM_PROTOCOLS")  # its answer comes after the event was passed on
+
+    def set_dpi(self, dpi):
+        """What the desktop's settings say of its monitor, for programs that start from now on."""
+        self.set_property(self.root, RESOURCE_MANAGER, STRING, f"Xft.dpi:\t{dpi}\n".encode())
+        self.atom("WM_PROTOCOLS")
+
+    def drop(self, window, file, x, y):
+        """What a file manager sends when a file is dropped on a window (XDND version 5)."""
+        selection, uris = self.atom("XdndSelection"), self.atom("text/uri-list")
+        own = self.id
+        self.socket.sendall(struct.pack("<BBHIIhhHHHHII", 1, 0, 8, own, self.root, 0, 0, 1, 1, 0, 1, 0, 0))  # CreateWindow
+        self.socket.sendall(struct.pack("<BBHIII", 22, 0, 4, own, selection, 0))  # SetSelectionOwner
+        self.send_message(window, self.atom("XdndEnter"), own, 5 << 24, uris)
+        self.send_message(window, self.atom("XdndPosition"), own, 0, x << 16 | y, 0, self.atom("XdndActionCopy"))
+        self.send_message(window, self.atom("XdndDrop"), own, 0, 0)
+        time, _, requestor, _, target, name = struct.unpack("<4x6I4x", self.answer(SELECTION_REQUEST))
+        self.set_property(requestor, name, target, f"file://{file}\r\n".encode())
+        self.send_event(requestor, struct.pack("<BBHIIIII", 31, 0, 0, time, requestor, selection, target, name))
+        self.atom("WM_PROTOCOLS")
 
     def close(self):
         self.socket.close()

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/glfw_keys.h"
+#include "app/ui/frame/frame.h"
 #include "core/analysis/convergence.h"
 #include "tests/ui/null_ui.h"
 
@@ -82,6 +83,33 @@ TEST_CASE("the card keeps the ledger while it is open: energy moves from height 
   CHECK_FALSE(window.cloth().ledger().has_value());
 }
 
+TEST_CASE("what an open card needs is wanted in the frame that opens it, whether anything is drawn or not") {
+  test::NullUi window;
+  const Wants& wants = window.session.wants;
+  const auto undrawn_frame = [&] { act_on_events(window.ui, 1.0 / 60, 1.0 / 60); };
+  const auto after = [&](const char* command) {
+    window.ui.command(command);
+    undrawn_frame();
+  };
+  CHECK((wants.forces && wants.stability));
+  CHECK_FALSE((wants.map || wants.ledger || wants.step));
+  after("show_energy");
+  CHECK(wants.ledger);
+  CHECK(window.cloth().ledger().has_value());  // from the first step on
+  after("toggle_map");
+  CHECK(wants.map);
+  const bool forces = wants.forces;
+  for (int n = 0; n < 5; ++n) {
+    undrawn_frame();
+    CHECK((wants.map && wants.stability && wants.forces == forces));
+  }
+  after("toggle_map");
+  CHECK_FALSE(wants.map);
+  after("toggle_panels");
+  CHECK_FALSE((wants.forces || wants.stability || wants.ledger));
+  CHECK_FALSE(window.cloth().ledger().has_value());
+}
+
 TEST_CASE("what Euler makes of energy is seen, before it is a divergence") {
   test::NullUi window({.with = [](Preset& preset) { preset.integrator = "euler", preset.dt = 5e-5; }});
   window.pause();
@@ -143,6 +171,52 @@ TEST_CASE("every evaluation of Runge-Kutta's step is told") {
   window.key(GLFW_KEY_I);
   window.until([&] { return window.session.inspector.shown() != nullptr; }, "the step to be written out");
   CHECK(window.session.inspector.shown()->stages.size() == 4);
+}
+
+TEST_CASE("the accuracy card measures the present settings beside the frames, anew when a constant changes") {
+  test::NullUi window;
+  const auto study = [&] { return studies(window).accuracy.study(); };
+  window.frames(10);
+  CHECK_FALSE(study().has_value());  // nothing is measured while nobody looks
+  window.click("plots.Accuracy");
+  const auto error = [&] { return study() && study()->present ? study()->present->error_rms_m : std::nan(""); };
+  window.until([&] { return error() > 0; }, "the error to be measured");
+  CHECK(error() < 1e-3);
+  const double t = window.t();
+  CHECK(t > 0);
+  window.until([&] { return study()->points.size() > 3; }, "other methods beside it");
+  window.until([&] { return window.t() > t; }, "the cloth to move on");
+  window.type_value("dt", "0.0001");
+  window.until([&] { return error() < 2e-6; }, "the error of a tenth of dt");
+  window.click("plots.Accuracy");
+  CHECK_FALSE(study().has_value());  // the work ends with the card
+}
+
+TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work") {
+  test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 13; }});
+  const auto cells = [&] {
+    const auto map = studies(window).map.findings();
+    return map ? map->cells.size() : 0;
+  };
+  window.key(GLFW_KEY_M);
+  const Box map = window.control("plots.map");
+  const auto at = [&](float x, float y) { return map.lo + glm::vec2(x, y) * (map.hi - map.lo); };
+  window.until([&] { return cells() > 60; }, "cells to be measured");
+  const double t = window.t();
+  window.until([&] { return cells() > 140 && window.t() > t; }, "a quarter of the map, while the cloth moves on");
+  window.move(at(0.8f, 0.2f));
+  window.frames(2);
+  CHECK(window.drew("Click to use these values."));
+  window.click(at(0.8f, 0.2f));
+  CHECK(window.preset().k_s > 200);
+  CHECK(window.preset().dt > 0.003);
+  window.until([&] { return window.diverged(); }, "what the map foretold: it diverges");
+  window.click(at(0.3f, 0.9f));
+  CHECK(window.preset().k_s < 50);
+  CHECK(window.preset().dt < 0.001);
+  window.key(GLFW_KEY_M);
+  window.frames(2);
+  CHECK_FALSE(studies(window).map.findings().has_value());
 }
 
 }  // namespace tyglab::cards_test

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
+#include <vector>
 
 #include "app/base/glfw_keys.h"
 #include "app/tools/wind_arrow.h"
@@ -271,6 +273,88 @@ TEST_CASE("copies are colored each by its own values on one scale; the distance 
   CHECK(color(window) == "distance");
   window.until([&] { return window.t() > 1 && shown_colors(window.scene)->top() < 0.1; },
                "a scale for what they are apart");
+}
+
+TEST_CASE("K goes through what can color the cloth, each with a scale, and back to the cloth's own look") {
+  test::NullUi window;
+  fall(window, 0.3);
+  window.pause();
+  CHECK_FALSE(color(window).has_value());
+  for (const std::string name : {"tension", "strain", "speed", "kinetic"}) {
+    window.key(GLFW_KEY_K);
+    window.frames(2);
+    CHECK(color(window) == name);
+    CHECK(shown_colors(window.scene)->top() > 0);
+    CHECK(window.settings.color == name);  // remembered
+  }
+  window.key(GLFW_KEY_K);
+  CHECK_FALSE(color(window).has_value());
+  CHECK(window.settings.color.empty());
+}
+
+TEST_CASE("C makes a cut run along the pointer's path: a slanting stroke parts the springs that it crosses, once") {
+  test::NullUi window({.preset = "taut_sheet"});
+  window.pause();
+  window.key(GLFW_KEY_C);
+  CHECK(window.settings.handling.cut_along_path);
+  CHECK(window.said("crosses"));
+  const glm::vec2 corner = at(window, 0, 0), along = at(window, 0, 1) - corner, down = at(window, 1, 0) - corner;
+  const glm::vec2 a = corner + 0.2f * along + 0.3f * down, b = corner + 0.8f * along + 0.8f * down;
+  const std::int64_t steps = window.steps();
+  window.drag({a, a + 0.25f * (b - a), a + 0.5f * (b - a), a + 0.75f * (b - a), b});
+  const int torn = window.torn();
+  CHECK(torn > 20);
+  CHECK(torn < 400);
+  CHECK(window.steps() == steps);  // a cut makes no step
+  window.key(GLFW_KEY_SPACE);
+  fall(window, 0.2);
+  CHECK(window.torn() == torn);  // nothing is cut once the knife is put away
+}
+
+TEST_CASE("in gusts the wind that blows follows simulated time, is shown, and leaves W alone") {
+  test::NullUi window({.preset = "flag", .with = [](Preset& preset) { preset.gust = 0.6, preset.gust_period = 0.8; }});
+  const glm::dvec3 W = window.preset().W;
+  std::vector<double> seen;
+  for (int n = 1; n < 6; ++n) {
+    fall(window, 0.15 * n);
+    CHECK(window.preset().W == W);
+    seen.push_back(window.cloth().wind().x);
+  }
+  const auto [lo, hi] = std::minmax_element(seen.begin(), seen.end());
+  CHECK(*hi - *lo > 0.1 * W.x);
+}
+
+TEST_CASE("a click on a variable in the read-out shows or hides its arrow; a position has none") {
+  test::NullUi window;
+  fall(window, 0.6);
+  window.pause();
+  using Names = std::set<std::string>;
+  const Names& arrows = window.settings.handling.arrows;
+  CHECK(arrows == Names{"F_b", "F_d", "F_g", "F_s"});
+  for (const std::string name : {"F", "v", "a"}) window.click("constants." + name);
+  window.click("constants.F_s");
+  window.click("constants.x");
+  CHECK(arrows == Names{"F", "F_b", "F_d", "F_g", "a", "v"});
+  window.rest();
+  window.frames(60);
+  CHECK(window.ui.placing.find("scale m/s²") != nullptr);  // those of v and a have scales of their own
+  CHECK(window.ui.placing.find("scale m/s") != nullptr);
+}
+
+TEST_CASE("a mat on the ground comes to rest and falls asleep: no more steps; a restart wakes it") {
+  test::NullUi window({.preset = "rubber_mat"});
+  window.until([&] { return window.session.asleep(); }, "the cloth to fall asleep");
+  const std::int64_t steps = window.steps();
+  CHECK(steps > 1000);
+  CHECK_FALSE(window.paused());
+  CHECK(window.session.idle());
+  window.frames(10);
+  CHECK(window.steps() == steps);
+  window.key(GLFW_KEY_R);
+  window.frames(4);
+  CHECK_FALSE(window.session.asleep());
+  CHECK(window.steps() > 0);
+  CHECK(window.steps() < steps);
 }
 
 }  // namespace tyglab::cloth_ui_test

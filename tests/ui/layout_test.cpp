@@ -2,7 +2,10 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
+#include <tuple>
+#include <vector>
 
 #include "app/base/glfw_keys.h"
 #include "tests/ui/null_ui.h"
@@ -238,6 +241,144 @@ TEST_CASE("a lab begins without the copies that were there, and says so") {
   CHECK(window.session.copies.lockstep.empty());
   CHECK(window.said("removed"));
   CHECK(window.ui.viewport.columns * window.ui.viewport.rows == 1);
+}
+
+/// Every control stands within the window, and none of the top bar over another.
+void check_controls(test::NullUi& window) {
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  std::vector<Box> bar;
+  for (const auto& [name, box] : window.controls()) {
+    CAPTURE(name);
+    CHECK(box.lo.x >= -1);
+    CHECK(box.lo.y >= -1);
+    CHECK(box.hi.x <= size.x + 1);
+    CHECK(box.hi.y <= size.y + 1);
+    if (!name.starts_with("top.")) continue;
+    const Box inner{box.lo + 1.f, box.hi - 1.f};
+    for (const Box& other : bar) CHECK_FALSE(overlap(inner, other));
+    bar.push_back(box);
+  }
+  CHECK(window.sees("top.play"));
+}
+
+TEST_CASE("at every size of the window its controls stay within it and apart, and the cloth keeps room") {
+  for (const double scale : {1.0, 2.0}) {
+    CAPTURE(scale);
+    test::NullUi window(options("hanging", scale));
+    for (const glm::ivec2 size : {glm::ivec2{900, 600}, {1560, 960}, {640, 400}, {480, 320}, {1280, 720}}) {
+      CAPTURE(size.x);
+      window.resize(size);
+      check_controls(window);
+      if (scale != 1) continue;
+      CHECK(window.ui.viewport.whole().x >= 200);
+      CHECK(window.ui.viewport.whole().y >= 200);
+    }
+  }
+}
+
+TEST_CASE("where both columns have no room, tabs choose one; what asks for a card, or for a constant, brings it") {
+  test::NullUi window(options("hanging", 1, "dark", {700, 600}));
+  CHECK(window.sees("side.columns.2"));
+  CHECK(window.sees("constants.k_s.slider"));
+  window.click("side.columns.2");
+  CHECK(window.sees("plots.Stability"));
+  CHECK_FALSE(window.sees("constants.k_s.slider"));
+  check_controls(window);
+  window.click("side.columns.1");
+  CHECK(window.sees("constants.k_s.slider"));
+  window.key(GLFW_KEY_M);
+  window.frames(4);
+  CHECK(window.sees("plots.map"));
+  window.find("constant, stretching");
+  CHECK(window.sees("constants.k_s.slider"));
+  window.key(GLFW_KEY_ESCAPE);
+  window.key(GLFW_KEY_M);  // to the front
+  window.frames(4);
+  window.key(GLFW_KEY_M);
+  window.resize({1280, 720});
+  CHECK_FALSE(window.sees("side.columns.1"));
+  CHECK(window.sees("constants.k_s.slider"));
+  CHECK(window.sees("plots.Stability"));
+}
+
+TEST_CASE("the borders between the regions drag, the cloth gets what is left, and nothing is cut") {
+  test::NullUi window(options("hanging"));
+  const Box& box = window.ui.viewport.box;
+  const glm::vec2 before = box.lo, size = window.ui.viewport.whole();
+  const float y = before.y + 300;
+  window.drag({{before.x, y}, {before.x - 20, y}, {before.x - 60, y + 10}});
+  window.frames(2);
+  CHECK(std::abs(box.lo.x - (before.x - 60)) <= 2);
+  CHECK(window.ui.viewport.whole().x > size.x + 50);
+  const float right = before.x + size.x;
+  window.drag({{right, y}, {right - 30, y}, {right - 80, y - 10}});
+  window.frames(2);
+  CHECK(std::abs(box.lo.x + window.ui.viewport.whole().x - (right - 80)) <= 2);
+  CHECK(window.torn() == 0);
+  CHECK(window.settings.layout.left_width < Layout().left_width);  // remembered
+  CHECK(window.settings.layout.right_width > Layout().right_width);
+}
+
+TEST_CASE("Ctrl and + or - change the size of text, Ctrl+0 brings it back, and a small window keeps its controls") {
+  test::NullUi window(options("hanging"));
+  const auto height = [&] {
+    const Box row = window.control("constants.k_s.slider");
+    return row.hi.y - row.lo.y;
+  };
+  const float before = height();
+  for (int n = 0; n < 4; ++n) window.key(GLFW_KEY_EQUAL, GLFW_MOD_CONTROL);
+  const float larger = height();
+  CHECK(larger > 1.3f * before);
+  check_controls(window);
+  window.key(GLFW_KEY_MINUS, GLFW_MOD_CONTROL);
+  CHECK(height() < larger);
+  for (int n = 0; n < 6; ++n) window.key(GLFW_KEY_EQUAL, GLFW_MOD_CONTROL);
+  window.resize({640, 400});
+  check_controls(window);
+  window.resize({1280, 720});
+  window.key(GLFW_KEY_0, GLFW_MOD_CONTROL);
+  CHECK(height() == before);
+}
+
+TEST_CASE("Tab hides the panels and brings them back; neither that nor a view changes the preset") {
+  test::NullUi window(options("hanging"));
+  const Box before = window.ui.viewport.box;
+  window.key(GLFW_KEY_4);
+  CHECK(window.preset().mode == 4);
+  window.key(GLFW_KEY_TAB);
+  window.frames(2);
+  CHECK(window.ui.viewport.whole() == glm::vec2(1280, 720));
+  CHECK_FALSE(window.sees("constants.k_s.slider"));
+  window.key(GLFW_KEY_TAB);
+  window.frames(2);
+  CHECK(window.ui.viewport.box.lo == before.lo);
+  CHECK(window.ui.viewport.box.hi == before.hi);
+  window.key(GLFW_KEY_F1);
+  CHECK(window.ui.help);
+  window.frames(2);
+  CHECK(window.drew("pins or unpins a particle"));
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK_FALSE(window.ui.help);
+  CHECK_FALSE(unsaved(window.session));
+}
+
+TEST_CASE("Ctrl+T goes through the themes and round again, and each colors the panels and the cloth's ground") {
+  test::NullUi window(options("hanging"));
+  const auto brightness = [](ImU32 color) { return (color & 255) + (color >> 8 & 255) + (color >> 16 & 255); };
+  const auto panel = [&] { return brightness(window.ui.theme.colors.panel); };
+  CHECK(window.settings.theme == "dark");
+  CHECK(panel() < 200);
+  const float scale = window.ui.theme.scale;
+  for (const auto& [name, light, larger] :
+       {std::tuple{"light", true, false}, {"projector", true, true}, {"dark", false, false}}) {
+    CAPTURE(name);
+    window.key(GLFW_KEY_T, GLFW_MOD_CONTROL);
+    window.frames(2);
+    CHECK(window.settings.theme == name);
+    CHECK((panel() > 600) == light);
+    CHECK((window.ui.theme.scale > scale) == larger);
+    CHECK((ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x > 0.7f) == light);
+  }
 }
 
 }  // namespace tyglab::layout_test

@@ -3,7 +3,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <map>
@@ -25,57 +24,6 @@ namespace {
 constexpr double ui_frame_time = 1.0 / 60;         // s
 constexpr std::chrono::seconds longest_wait{100};  // far above what a loaded machine takes
 constexpr int settled = 3;                         // frames after which a layout stands still
-
-/// Dear ImGui's keys that text fields know.
-constexpr std::array known_keys{
-    std::pair{ImGuiKey_Tab, GLFW_KEY_TAB},
-    std::pair{ImGuiKey_LeftArrow, GLFW_KEY_LEFT},
-    std::pair{ImGuiKey_RightArrow, GLFW_KEY_RIGHT},
-    std::pair{ImGuiKey_UpArrow, GLFW_KEY_UP},
-    std::pair{ImGuiKey_DownArrow, GLFW_KEY_DOWN},
-    std::pair{ImGuiKey_PageUp, GLFW_KEY_PAGE_UP},
-    std::pair{ImGuiKey_PageDown, GLFW_KEY_PAGE_DOWN},
-    std::pair{ImGuiKey_Home, GLFW_KEY_HOME},
-    std::pair{ImGuiKey_End, GLFW_KEY_END},
-    std::pair{ImGuiKey_Delete, GLFW_KEY_DELETE},
-    std::pair{ImGuiKey_Backspace, GLFW_KEY_BACKSPACE},
-    std::pair{ImGuiKey_Enter, GLFW_KEY_ENTER},
-    std::pair{ImGuiKey_Escape, GLFW_KEY_ESCAPE},
-    std::pair{ImGuiKey_A, GLFW_KEY_A},
-    std::pair{ImGuiKey_C, GLFW_KEY_C},
-    std::pair{ImGuiKey_V, GLFW_KEY_V},
-    std::pair{ImGuiKey_X, GLFW_KEY_X},
-    std::pair{ImGuiKey_Y, GLFW_KEY_Y},
-    std::pair{ImGuiKey_Z, GLFW_KEY_Z},
-};
-
-void map_keys() {
-#if IMGUI_VERSION_NUM < 18700
-  for (const auto& [gui, glfw] : known_keys) ImGui::GetIO().KeyMap[gui] = glfw;
-#endif
-}
-
-void show_key(int key, bool down) {
-#if IMGUI_VERSION_NUM < 18700
-  ImGui::GetIO().KeysDown[key] = down;
-#else
-  for (const auto& [gui, glfw] : known_keys)
-    if (glfw == key) ImGui::GetIO().AddKeyEvent(gui, down);
-#endif
-}
-
-void show_mods(int mods) {
-  ImGuiIO& io = ImGui::GetIO();
-#if IMGUI_VERSION_NUM < 18700
-  io.KeyCtrl = (mods & GLFW_MOD_CONTROL) != 0;
-  io.KeyShift = (mods & GLFW_MOD_SHIFT) != 0;
-  io.KeyAlt = (mods & GLFW_MOD_ALT) != 0;
-#else
-  io.AddKeyEvent(ImGuiMod_Ctrl, (mods & GLFW_MOD_CONTROL) != 0);
-  io.AddKeyEvent(ImGuiMod_Shift, (mods & GLFW_MOD_SHIFT) != 0);
-  io.AddKeyEvent(ImGuiMod_Alt, (mods & GLFW_MOD_ALT) != 0);
-#endif
-}
 
 /// Fonts of one scale, which all tests share: to build them takes longer than most tests.
 struct BuiltFonts {
@@ -131,13 +79,14 @@ NullUi::NullUi(const UiOptions& options) : context_(nullptr) {
   ImGui::SetCurrentContext(context_);
   ImGuiIO& io = ImGui::GetIO();
   gui::prepare_io(io);
-  map_keys();
   io.DisplaySize = ImVec2(float(options.size.x), float(options.size.y));
   io.DeltaTime = float(ui_frame_time);
   settings.tour_seen = true;
   options.settings(settings);
   ui.controls = &places_;
   session.labs.progress = settings.labs;
+  let_work_yield(false);
+  session.pacing.patient = true;
   const Preset preset = first_preset(options);
   std::string fallback;
   session.simulation = make_simulation(preset, 1, fallback);
@@ -157,6 +106,7 @@ void NullUi::frame() {
   if (take_look(ui, 1)) ui.fonts = fonts_of(ui.theme.scale).fonts;
   act_on_events(ui, ui_frame_time, ui_frame_time);
   scene.draw({1, 1});
+  gui_input_.feed(input);
   ImGui::NewFrame();
   draw_panels(ui);
   ImGui::Render();
@@ -179,68 +129,51 @@ void NullUi::until(const std::function<bool()>& condition, std::string_view what
   }
 }
 
+void NullUi::resize(glm::ivec2 size) {
+  ImGui::GetIO().DisplaySize = ImVec2(float(size.x), float(size.y));
+  frames(settled + 1);
+}
+
 void NullUi::key(int key, int mods) {
-  input.keys.push_back({key, mods, false});
-  show_mods(mods);
-  show_key(key, true);
+  input.on_key(key, GLFW_PRESS, mods);
+  input.mods = mods;
   frame();
-  show_key(key, false);
-  show_mods(0);
+  input.on_key(key, GLFW_RELEASE, mods);
+  input.mods = 0;
   frame();
+}
+
+void NullUi::add_typed(std::string_view text) {
+  for (const char letter : text) {
+    const int key = std::toupper(static_cast<unsigned char>(letter));
+    input.on_key(key, GLFW_PRESS, 0);
+    input.on_character(static_cast<unsigned char>(letter));
+    input.on_key(key, GLFW_RELEASE, 0);
+  }
 }
 
 void NullUi::type(std::string_view text) {
-  for (const char letter : text)
-    if (std::isalnum(static_cast<unsigned char>(letter)) != 0)
-      input.keys.push_back({std::toupper(static_cast<unsigned char>(letter)), 0, false});
-  ImGui::GetIO().AddInputCharactersUTF8(std::string(text).c_str());
+  add_typed(text);
   frames(2);
 }
 
-void NullUi::push(PointerEvent::Type type, int button, glm::vec2 wheel) {
-  input.pointer.push_back({type, button, input.mods, input.at, wheel, ui.now});
-  input.anything = true;
-}
-
 void NullUi::move(glm::vec2 to) {
-  input.at = to;
-  push(PointerEvent::Type::move, 0);
-#if IMGUI_VERSION_NUM < 18700
-  ImGui::GetIO().MousePos = {to.x, to.y};
-#else
-  ImGui::GetIO().AddMousePosEvent(to.x, to.y);
-#endif
+  input.on_move(to, ui.now);
   frame();
 }
 
 void NullUi::press(int button) {
-  if (button == GLFW_MOUSE_BUTTON_LEFT) input.note_left_press(ui.now);
-  push(PointerEvent::Type::press, button);
-#if IMGUI_VERSION_NUM < 18700
-  ImGui::GetIO().MouseDown[button] = true;
-#else
-  ImGui::GetIO().AddMouseButtonEvent(button, true);
-#endif
+  input.on_button(button, GLFW_PRESS, input.mods, ui.now);
   frames(2);
 }
 
 void NullUi::release(int button) {
-  push(PointerEvent::Type::release, button);
-#if IMGUI_VERSION_NUM < 18700
-  ImGui::GetIO().MouseDown[button] = false;
-#else
-  ImGui::GetIO().AddMouseButtonEvent(button, false);
-#endif
+  input.on_button(button, GLFW_RELEASE, input.mods, ui.now);
   frames(2);
 }
 
 void NullUi::wheel(float y) {
-  push(PointerEvent::Type::wheel, 0, {0, y});
-#if IMGUI_VERSION_NUM < 18700
-  ImGui::GetIO().MouseWheel += y;
-#else
-  ImGui::GetIO().AddMouseWheelEvent(0, y);
-#endif
+  input.on_wheel({0, y}, ui.now);
   frames(2);
 }
 
@@ -317,11 +250,9 @@ void NullUi::type_value(const std::string& constant, std::string_view text, int 
   apart();
   move(at);
   input.mods = GLFW_MOD_CONTROL;
-  show_mods(GLFW_MOD_CONTROL);
   press();
   release();
   input.mods = 0;
-  show_mods(0);
   until([&] { return typing(); }, "the number to become a text field");
   frames(2);
   type(text);
@@ -374,7 +305,7 @@ bool NullUi::said(std::string_view part) const {
 
 bool NullUi::typing() const {
   const bool starts = ui.slider.typing_starts || ui.dialog.refused || ui.dialog.selecting;
-  return !starts && (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput);
+  return !starts && (ui.slider.typing != 0 || gui::typing_text());
 }
 
 glm::vec2 NullUi::pixel_of(int i, int j) {

@@ -8,10 +8,12 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "app/ui/frame/gui_input.h"
 #include "app/ui/kit/control_places.h"
 #include "tests/app/desk.h"
 #include "tests/support/files.h"
@@ -38,6 +40,11 @@ class NullUi : public Desk {
   /// Frames until the condition holds. Fails the test where it never does.
   void until(const std::function<bool()>& condition, std::string_view what);
 
+  void resize(glm::ivec2 size);
+
+  /// What GLFW tells of text that is typed, before the next frame.
+  void add_typed(std::string_view text);
+
   /// GLFW's key and modifiers: goes down, and up in the next frame.
   void key(int key, int mods = 0);
   void type(std::string_view text);
@@ -57,6 +64,8 @@ class NullUi : public Desk {
   glm::vec2 middle(const std::string& name);
   /// The name of the first control that begins so; fails the test where there is none.
   std::string control_beginning(const std::string& start) const;
+  /// All that are seen now, pixels of the window.
+  const std::map<std::string, Box>& controls() const { return places_.shown(); }
   bool sees(const std::string& name) const { return places_.shown().contains(name); }
   void click(const std::string& name, int button = 0) { click(middle(name), button); }
   /// The point at that part of a slider, 0 at its left end, 1 at its right.
@@ -96,10 +105,10 @@ class NullUi : public Desk {
 
  private:
   void apart();
-  void push(PointerEvent::Type type, int button, glm::vec2 wheel = {0, 0});
   std::string drawn_text() const;
 
   ImGuiContext* context_;
+  GuiInput gui_input_;
   ControlPlaces places_;
   std::string drawn_;
 };

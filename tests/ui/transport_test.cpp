@@ -13,6 +13,12 @@ void run(test::NullUi& window, int count) {
   window.until([&] { return window.steps() > begun + count; }, "the motion");
 }
 
+/// A press that is over before a frame is.
+void press(test::NullUi& window, int key) {
+  window.input.on_key(key, GLFW_PRESS, 0);
+  window.input.on_key(key, GLFW_RELEASE, 0);
+}
+
 TEST_CASE("Space stops and starts the motion, → and O make exactly one step of dt") {
   test::NullUi window;
   run(window, 50);
@@ -57,10 +63,10 @@ TEST_CASE("thirty key presses within a frame make thirty steps, and an odd numbe
   test::NullUi window;
   window.pause();
   const std::int64_t steps = window.steps();
-  for (int n = 0; n < 30; ++n) window.input.keys.push_back({GLFW_KEY_RIGHT, 0, false});
+  for (int n = 0; n < 30; ++n) press(window, GLFW_KEY_RIGHT);
   window.frames(3);
   CHECK(window.steps() == steps + 30);
-  for (int n = 0; n < 7; ++n) window.input.keys.push_back({GLFW_KEY_SPACE, 0, false});
+  for (int n = 0; n < 7; ++n) press(window, GLFW_KEY_SPACE);
   window.frames(3);
   CHECK_FALSE(window.paused());
   CHECK(window.steps() > steps + 30);
@@ -70,8 +76,9 @@ TEST_CASE("→ held down goes on stepping, and stops when it is let go") {
   test::NullUi window;
   window.pause();
   const std::int64_t steps = window.steps();
-  window.input.keys.push_back({GLFW_KEY_RIGHT, 0, false});
-  for (int n = 0; n < 6; ++n, window.frame()) window.input.keys.push_back({GLFW_KEY_RIGHT, 0, true});
+  window.input.on_key(GLFW_KEY_RIGHT, GLFW_PRESS, 0);
+  for (int n = 0; n < 6; ++n, window.frame()) window.input.on_key(GLFW_KEY_RIGHT, GLFW_REPEAT, 0);
+  window.input.on_key(GLFW_KEY_RIGHT, GLFW_RELEASE, 0);
   const std::int64_t stepped = window.steps();
   CHECK(stepped > steps + 5);
   window.frames(5);

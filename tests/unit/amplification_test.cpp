@@ -71,7 +71,7 @@ TEST_CASE("the tables say what the running code does: a weight on its spring gro
         if (!has_step_limit(s)) continue;
         Preset preset = test::one_weight(std::string(s.name));
         preset.g = 0, preset.v_0 = {0, 0, 0}, preset.offset = 1e-3;
-        preset.m = 1, preset.k = 1, preset.k_d = 2 * zeta, preset.dt = h / std::sqrt(preset.k / preset.m);
+        preset.m = 1, preset.k = 100, preset.k_d = 20 * zeta, preset.dt = h / std::sqrt(preset.k / preset.m);
         const double growth = std::log(radius(s.name.data(), h, zeta));
         // What leaves every bound, or falls under rounding, before it can be measured is left out.
         const int window = std::min(40, int(8 / std::abs(growth)));

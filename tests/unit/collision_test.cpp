@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "tests/support/sanitized.h"
+
 #include "tests/support/scenes.h"
 
 namespace tyglab::collision_test {
@@ -127,7 +129,7 @@ TEST_CASE("no free particle is left inside by more than 8 ulp, whatever falls on
   for (const char* integrator : methods) {
     for (const Precision precision : {Precision::double_, Precision::float_}) {
       for (const double e : {0.0, 0.4}) {
-        if (TYGLAB_SANITIZED && (e > 0) != (precision == Precision::float_)) continue;
+        if (test::sanitized && (e > 0) != (precision == Precision::float_)) continue;
         CAPTURE(std::string(integrator));
         CAPTURE(e);
         Preset preset = test::cloth(11, 11, integrator);

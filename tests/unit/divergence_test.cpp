@@ -134,6 +134,57 @@ TEST_CASE("particles without a whole spring still diverge when they are no longe
   CHECK(test::all_finite(simulation.read()));
 }
 
+/// Stretched so much that the first step tears every spring, and far above what dt allows.
+Preset torn_at_once(const std::string& integrator, Precision precision) {
+  Preset preset = test::cloth(32, 32, integrator);
+  preset.precision = precision;
+  preset.F_max = 0.1, preset.k_s = 1e6, preset.initial_stretch = 1.5, preset.dt = 1e-3;
+  preset.tilt_deg = 0, preset.pins.mode = Pins::Mode::none;
+  return preset;
+}
+
+TEST_CASE("an explosion that leaves no spring whole is a divergence too, with pins, without, and for any threads") {
+  for (const char* integrator : {"verlet", "semi_implicit_euler", "velocity_verlet", "euler", "rk4"})
+    for (const Precision precision : {Precision::float_, Precision::double_})
+      for (const Pins::Mode pins : {Pins::Mode::none, Pins::Mode::top_corners}) {
+        CAPTURE(std::string(integrator));
+        CAPTURE(int(precision));
+        Preset preset = torn_at_once(integrator, precision);
+        preset.pins.mode = pins;
+        Simulation simulation(preset), single(preset), threads(preset, 3);
+        CHECK(simulation.advance(200).diverged);
+        REQUIRE(simulation.divergence().has_value());
+        const Divergence& d = *simulation.divergence();
+        check_report(d, simulation);
+        CHECK(d.step <= 2);
+        CHECK(d.quantity == "velocity");
+        CHECK(d.value > 1e4);
+        CHECK(d.cause.find("times the energy that springs, weight") != std::string::npos);
+        CHECK(d.advice.find("smaller k_s") != std::string::npos);
+        CHECK(test::all_finite(simulation.read()));
+        for (int n = 0; n < 200; ++n) single.advance(1);
+        threads.advance(200);
+        for (const Simulation* other : {&single, &threads}) {
+          REQUIRE(other->divergence().has_value());
+          CHECK(other->divergence()->step == d.step);
+          CHECK(other->divergence()->where() == d.where());
+          CHECK(other->divergence()->value == d.value);
+        }
+      }
+}
+
+TEST_CASE("damping that tears every spring within one step is found, and blamed") {
+  Preset preset = test::cloth(19, 13, "dopri5");
+  preset.k_d = 2.6e5, preset.g = 100, preset.F_max = 9e7, preset.L = 3.2e-3, preset.initial_stretch = 8;
+  preset.pins.mode = Pins::Mode::none, preset.precision = Precision::float_;
+  Simulation simulation(preset);
+  simulation.advance(50);
+  REQUIRE(simulation.divergence().has_value());
+  check_report(*simulation.divergence(), simulation);
+  CHECK(simulation.divergence()->advice.find("smaller k_d") != std::string::npos);
+  CHECK(test::all_finite(simulation.read()));
+}
+
 TEST_CASE("a diverged run stands still until it is restarted") {
   const Preset preset = explosive("euler", Precision::double_);
   Simulation simulation(preset);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/simulation.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::implicit_energy_test {
@@ -27,7 +28,7 @@ double largest_growth(double k_s, int iterations, int steps) {
 }
 
 TEST_CASE("its energy never grows by more than its solves leave, however stiff the springs") {
-  const int steps = TYGLAB_SANITIZED ? 10 : 200;
+  const int steps = test::fewer(200);
   CHECK(largest_growth(50, 100, steps) < 1e-8);
   CHECK(largest_growth(1e5, 100, steps) < 1e-8);
   CHECK(largest_growth(1e9, 100, steps) < 1e-7);

@@ -9,6 +9,7 @@
 
 #include "core/forces/readout.h"
 #include "core/simulation.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::ledger_test {
@@ -112,14 +113,14 @@ TEST_CASE("what nothing explains falls at the order of the method, down to round
   for (const Case& c : {Case{"euler", 0.002, 6.25e-6, 1}, Case{"verlet", 0, 4e-4, 2}, Case{"verlet", 0.002, 1e-5, 1},
                         Case{"velocity_verlet", 0.002, 4e-4, 2}, Case{"implicit_midpoint", 0.002, 4e-4, 2},
                         Case{"rk4", 0.002, 2.5e-5, 4}}) {
-    if (TYGLAB_SANITIZED && c.dt < 1e-4) continue;  // many steps, and none that the others do not make
+    if (test::sanitized && c.dt < 1e-4) continue;  // many steps, and none that the others do not make
     CAPTURE(c.method);
     CAPTURE(c.k_d);
     const double order = order_of(taut(c.method, c.k_d), c.dt);
     CHECK(order > c.order - 0.15);
     CHECK(order < c.order + 0.15);
   }
-  if (!TYGLAB_SANITIZED) CHECK(std::abs(left_over(taut("rk4", 0.002), 6.25e-6, 0.096)) < 1e-13);
+  if (!test::sanitized) CHECK(std::abs(left_over(taut("rk4", 0.002), 6.25e-6, 0.096)) < 1e-13);
 }
 
 TEST_CASE("a body's impact and friction are contact's, and leave little unexplained") {
@@ -136,7 +137,7 @@ TEST_CASE("a body's impact and friction are contact's, and leave little unexplai
     preset.integrator = method;
     Simulation simulation(preset);
     simulation.enable_ledger(true);
-    simulation.advance(TYGLAB_SANITIZED ? 800 : 4000);
+    simulation.advance(test::fewer(4000, 800));
     const LedgerReading ledger = *simulation.ledger();
     CHECK(ledger.works.contact < -0.5 * ledger.start);
     CHECK(std::abs(ledger.share()) < 2e-3);

@@ -7,6 +7,7 @@
 
 #include "core/engines/cpu/projection_rows.h"
 #include "core/simd/row_field.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::projection_test {
@@ -161,7 +162,7 @@ TEST_CASE("xpbd stays bounded at any dt and stiffness, without damping") {
         Preset preset = test::cloth(10, 10, "xpbd");
         preset.k_s = k_s, preset.k_d = 0, preset.dt = dt, preset.precision = precision;
         Simulation simulation(preset);
-        simulation.advance(TYGLAB_SANITIZED ? 200 : 2000);
+        simulation.advance(test::fewer(2000));
         CHECK_FALSE(simulation.divergence().has_value());
       }
 }

@@ -19,7 +19,7 @@ class OneSpring final : public GuardedSteps {
  public:
   explicit OneSpring(std::function<double(int)> length) : length_(std::move(length)) {}
 
-  Advance advance(int steps) { return guard.advance(*this, steps, tears); }
+  Advance advance(int steps) { return guard.advance(*this, steps, tears, {}); }
 
   StepsMade make_steps(int most, Tears& torn, Fault& fault) override {
     const int count = std::min(guard.steps_ahead(most), at_once);
@@ -30,7 +30,7 @@ class OneSpring final : public GuardedSteps {
   }
   StepOutcome outcome(int step) override {
     StepOutcome result;
-    result.elongation = length_(first_ + step + 1) - length_(first_ + step);
+    result.elongation = length_(first_ + step + 1) - length_(first_ + step), result.dt = dt;
     if (hand) result.hand_force = glm::dvec3(0, length_(first_ + step + 1), 0);
     return result;
   }
@@ -48,6 +48,13 @@ class OneSpring final : public GuardedSteps {
     fault = {0, 0, "spring length", length_(made), 0, 1};
     return !(budget >= 0);
   }
+  bool find_runaway(const MotionLimit& limit, Fault& fault) override {
+    ++summed;
+    const double speed = (length_(made) - length_(made - 1)) / (2 * dt);
+    fault = {0, 0, "velocity", speed};
+    return speed * speed > limit.most_squared();
+  }
+  Motion motion(const Tears&) override { return ++measured, Motion{}; }
   void keep_backup() override { backup_ = made, torn_at_backup_ = tears.torn_count(), ++backups; }
   /// As an engine would: every step is examined, and what is overloaded breaks.
   void repeat(int steps, Tears& torn) override {
@@ -61,7 +68,8 @@ class OneSpring final : public GuardedSteps {
 
   StepGuard guard;
   Tears tears{Lattice{2, 2}};
-  int at_once = 1, made = 0, examined = 0, backups = 0, rolled_back = 0, torn_at = 0;
+  int at_once = 1, made = 0, examined = 0, summed = 0, measured = 0, backups = 0, rolled_back = 0, torn_at = 0;
+  double dt = 1;
   bool hand = false, tearing = false;
 
  private:
@@ -148,6 +156,47 @@ TEST_CASE("a length that is no number is found in the step that makes it") {
   CHECK(all.diverged);
   CHECK(all.steps == 300);
   CHECK(spring.made == 300);
+}
+
+TEST_CASE("a motion that nothing can have caused ends the run in its step, and speeds are hardly ever summed up") {
+  // It falls from rest, 2 g dt a step for the spring between two that fall apart, until a kick in step 701.
+  constexpr int kick = 700;
+  const auto falls = [](int n) { return 1e-3 * n * n + (n > kick ? 50.0 * (n - kick) : 0); };
+  for (const int at_once : {1, 7, 256})
+    for (const int calls : {1, 3, 1000}) {
+      CAPTURE(at_once);
+      CAPTURE(calls);
+      OneSpring spring(falls);
+      spring.at_once = at_once, spring.tears.tear(0, 0, 0);
+      Preset preset;
+      preset.dt = spring.dt, preset.g = 1e-3, preset.F_max = 1e-9, preset.k_b = 0;
+      spring.guard.set_scene(preset, spring.tears.lattice(), {});
+      spring.guard.begin({});
+      int steps = 0;
+      Advance last;
+      for (int n = 0; n < 2000 && !last.diverged; n += std::max(1, 2000 / calls))
+        last = spring.advance(std::max(1, 2000 / calls)), steps += last.steps;
+      CHECK(last.diverged);
+      CHECK(last.quantity == "velocity");
+      CHECK(steps == kick);
+      CHECK(spring.made == steps);
+      CHECK(spring.summed < 4);
+      CHECK(spring.measured == 0);
+    }
+}
+
+TEST_CASE("what an edit may have given is measured before the next step, and wind alone is not") {
+  OneSpring spring([](int) { return 1.0; });
+  Preset preset;
+  Preset next = preset;
+  next.W = {0, 0, 0.01};
+  spring.guard.accept_changes(preset, next), spring.advance(1);
+  CHECK(spring.measured == 0);
+  next.k_s = 100;
+  spring.guard.accept_changes(preset, next), spring.advance(1), spring.advance(1);
+  CHECK(spring.measured == 1);
+  spring.guard.expect_pushes(), spring.advance(1), spring.advance(1);
+  CHECK(spring.measured == 2);
 }
 
 TEST_CASE("the state is backed up every 256 steps, after cuts, and before every run of costly steps") {

@@ -2,14 +2,14 @@
 #include <doctest/doctest.h>
 
 #include "core/simulation.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::waves_test {
 
-/// Under the sanitizers, where a step takes ten times as long, a fraction of the steps: every path through the code is
-/// still taken, and the other builds compare the bits at length.
+/// Under the sanitizers still enough for two waves.
 constexpr int steps_of(int steps) {
-  return TYGLAB_SANITIZED ? steps / 3 : steps;
+  return test::fewer(steps, 15);
 }
 
 /// Large enough for three threads, with an odd number of rows.
@@ -39,7 +39,8 @@ TEST_CASE("waves give the bits of single steps, with every integrator") {
     CAPTURE(std::string(integrator));
     Preset preset = threads_worth(integrator);
     preset.dt = 1e-4;
-    for (const int threads : {2, 3}) same_as_single_steps(preset, steps_of(130), threads);
+    for (const int threads : {2, 3})
+      if (threads == 3 || !test::sanitized) same_as_single_steps(preset, steps_of(130), threads);
     preset.precision = Precision::double_;
     same_as_single_steps(preset, steps_of(70), 3);
   }
@@ -68,6 +69,7 @@ TEST_CASE("a cloth that no cache holds is stepped in waves on one thread too") {
 
 TEST_CASE("the hand's force and its release are those of single steps") {
   const Preset preset = threads_worth("verlet");
+  const int pull = test::fewer(100, 20);  // steps
   for (const double F_release : {0.0, 0.02}) {
     CAPTURE(F_release);
     Simulation waves(preset, 3), single(preset);
@@ -76,11 +78,11 @@ TEST_CASE("the hand's force and its release are those of single steps") {
       with.F_release = F_release;
       simulation->apply(edit::Change{with});
       simulation->apply(edit::Grab{40, 30});
-      simulation->apply(edit::MoveHand{{0, 0.5, 0.5}, 100});
+      simulation->apply(edit::MoveHand{{0, 0.5, 0.5}, pull});
     }
     int released_waves = 0, released_single = 0;
-    for (int n = 0; n < 10; ++n) released_waves += int(waves.advance(30).released);
-    for (int n = 0; n < 300; ++n) released_single += int(single.advance(1).released);
+    for (int n = 0; n < 10; ++n) released_waves += int(waves.advance(3 * pull / 10).released);
+    for (int n = 0; n < 3 * pull; ++n) released_single += int(single.advance(1).released);
     CHECK(released_waves == released_single);
     CHECK((released_single > 0) == (F_release > 0));
     if (F_release == 0) CHECK(waves.hand_force() == single.hand_force());

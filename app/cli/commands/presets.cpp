@@ -7,6 +7,7 @@
 #include "app/cli/preset_argument.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
+#include "core/io/destination.h"
 #include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
@@ -27,12 +28,12 @@ int list() {
 }
 
 int show(const std::string& name) {
-  std::cout << preset_to_json(load_preset(find_preset(name).file));
+  write_output("-", preset_to_json(load_preset(find_preset(name).file)));
   return exit_done;
 }
 
 int check(const std::string& name_or_file) {
-  const Preset preset = load_preset(find_preset(name_or_file).file);
+  const Preset preset = read_preset(find_preset(name_or_file).file);
   warn_of_missing_texture(preset);
   std::cout << name_or_file << " is a valid preset: " << printable(preset.name) << ", "
             << (preset.kind == Kind::one_weight

@@ -122,7 +122,7 @@ Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
   return chart;
 }
 
-float stability_card_height(const Ui& ui) {
+float stability_card_height(const Ui& ui, float) {
   return card_height(ui, stability_heading, words_at_1 + chart_at_1);
 }
 
@@ -138,7 +138,7 @@ void stability_card(Ui& ui, float height) {
   end_card(ui);
 }
 
-float accuracy_card_height(const Ui& ui) {
+float accuracy_card_height(const Ui& ui, float) {
   const float words = ui.plots.convergence ? convergence_words_at_1 : words_at_1 + 50;
   return card_height(ui, accuracy_heading, ways_at_1 + words + chart_at_1);
 }

@@ -10,11 +10,11 @@ namespace tyglab {
 
 /// Growth of an oscillation per step over ω·dt, with the cloth's fastest modes marked.
 void stability_card(Ui& ui, float height);
-float stability_card_height(const Ui& ui);
+float stability_card_height(const Ui& ui, float width);
 
 /// Error of the present settings and of other methods over their run time.
 void accuracy_card(Ui& ui, float height);
-float accuracy_card_height(const Ui& ui);
+float accuracy_card_height(const Ui& ui, float width);
 
 /// The chart of a study: error over cost, a line for each method, the present settings as a disc of their own.
 Chart accuracy_chart(const Tokens& colors, const AccuracyStudy& study);

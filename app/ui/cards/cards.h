@@ -19,9 +19,4 @@ inline constexpr const char *height = "Height", *forces = "Forces", *distances =
 bool in_front(const Ui& ui, std::string_view name);
 /// Brings a card into sight: the column, its tab where it is one, what stands under its heading.
 void show_card(Ui& ui, std::string_view name);
-/// Whether it was drawn in the last frame, of cards that are not always there.
-bool in_sight(const Ui& ui, std::string_view name);
-/// Of a card that is not always there: brings it into sight, or closes it where it is in sight already.
-void toggle_card(Ui& ui, std::string_view name, bool Layout::*there);
-
 }  // namespace tyglab

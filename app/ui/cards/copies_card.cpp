@@ -28,24 +28,19 @@ constexpr const char* copies_explanation =
 constexpr const char* add_label = "Add a copy with…";
 constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
 
-/// Width of what stands in the card, before it has begun.
-float copies_inner_width(const Ui& ui) {
-  return plot_card_inner_width(ui, ui.plots.width);
-}
-
 bool costs_shown(const Ui& ui) {
-  return copies_inner_width(ui) >= ui.theme.px(costs_from_at_1);
+  return plot_card_inner_width(ui, ui.plots.width) >= ui.theme.px(costs_from_at_1);
 }
 
-/// Whether the two buttons have no room in one row.
-bool buttons_wrap(const Ui& ui) {
+/// Whether the two buttons have no room in one row of a card of that width.
+bool buttons_wrap(const Ui& ui, float width) {
   const float add = text_width(*ui.fonts.text, add_label) + 2 * ImGui::GetStyle().FramePadding.x;
-  return add + ui.theme.px(10) + segments_size(ui, copies_ways.data(), 2).x > copies_inner_width(ui);
+  return add + ui.theme.px(10) + segments_size(ui, copies_ways.data(), 2).x > plot_card_inner_width(ui, width);
 }
 
-float explanation_height(const Ui& ui) {
+float explanation_height(const Ui& ui, float width) {
   const ImFont& font = *ui.fonts.text;
-  return font.CalcTextSizeA(font.FontSize, 1e9f, copies_inner_width(ui), copies_explanation).y;
+  return font.CalcTextSizeA(font.FontSize, 1e9f, plot_card_inner_width(ui, width), copies_explanation).y;
 }
 
 /// What a copy may be made with; constants offer the same in their own menus.
@@ -135,6 +130,7 @@ void cloth_line(Ui& ui, int n) {
 }
 
 void buttons(Ui& ui, bool any) {
+  const bool wrap = buttons_wrap(ui, ui.plots.width);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(3)});
   if (text_button(ui, add_label, !any)) ImGui::OpenPopup("copy menu");
@@ -142,8 +138,8 @@ void buttons(Ui& ui, bool any) {
   copy_menu(ui);
   if (any) {
     const float right = ImGui::GetItemRectMax().x + ui.theme.px(10);
-    ImGui::SetCursorScreenPos(buttons_wrap(ui) ? ImVec2(lo.x, lo.y + ui.theme.px(buttons_at_1 + 3))
-                                               : ImVec2(right, lo.y + ui.theme.px(4)));
+    ImGui::SetCursorScreenPos(wrap ? ImVec2(lo.x, lo.y + ui.theme.px(buttons_at_1 + 3))
+                                   : ImVec2(right, lo.y + ui.theme.px(4)));
     if (const int k = segments(ui, "ways", copies_ways.data(), 2, ui.session.copies.overlaid);
         k >= 0 && (k == 1) != ui.session.copies.overlaid) {
       ui.session.copies.overlaid = k == 1;
@@ -151,7 +147,7 @@ void buttons(Ui& ui, bool any) {
     }
     report_control(ui, "ways");
   }
-  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(any && buttons_wrap(ui) ? 2 * buttons_at_1 : buttons_at_1)});
+  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(any && wrap ? 2 * buttons_at_1 : buttons_at_1)});
 }
 
 }  // namespace
@@ -180,11 +176,11 @@ void copies_plot(Ui& ui, ImVec2 size) {
   zoom_time(ui, frame, draw_plot(ui, "plot", {size.x, size.y - used}, curves, frame));
 }
 
-float copies_card_height(const Ui& ui) {
+float copies_card_height(const Ui& ui, float width) {
   const std::size_t copies = ui.session.copies.lockstep.size();
   if (copies == 0)
-    return card_height(ui, heading, explanation_height(ui) / ui.theme.scale + under_words_at_1 + buttons_at_1);
-  const float buttons = buttons_wrap(ui) ? 2 * buttons_at_1 : buttons_at_1;
+    return card_height(ui, heading, explanation_height(ui, width) / ui.theme.scale + under_words_at_1 + buttons_at_1);
+  const float buttons = buttons_wrap(ui, width) ? 2 * buttons_at_1 : buttons_at_1;
   return card_height(ui, heading, card::line + line_at_1 * float(copies + 1) + buttons);
 }
 

@@ -10,6 +10,6 @@ void copies_plot(Ui& ui, ImVec2 size);
 
 /// The card in the plots column, closed unless the user has opened it or added a copy, and its height (pixels).
 void copies_card(Ui& ui, float height);
-float copies_card_height(const Ui& ui);
+float copies_card_height(const Ui& ui, float width);
 
 }  // namespace tyglab

@@ -80,7 +80,7 @@ std::string share_text(const LedgerReading& reading) {
          " J";
 }
 
-float energy_card_height(const Ui& ui) {
+float energy_card_height(const Ui& ui, float) {
   return card_height(ui, energy_heading, float(energy_rows({}).size()) * card::line + 2 * gap_at_1);
 }
 

@@ -25,6 +25,6 @@ std::string share_text(const LedgerReading& reading);
 
 /// The card in the plots column, closed unless the user has opened it, and its height (pixels).
 void energy_card(Ui& ui, float height);
-float energy_card_height(const Ui& ui);
+float energy_card_height(const Ui& ui, float width);
 
 }  // namespace tyglab

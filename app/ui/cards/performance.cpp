@@ -215,7 +215,7 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   return facts;
 }
 
-float performance_card_height(const Ui& ui) {
+float performance_card_height(const Ui& ui, float) {
   return card_height(ui, performance_heading, float(std::size(features) + performance_facts(ui).size()) * card::line);
 }
 

@@ -29,6 +29,6 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui);
 
 /// The card at the foot of the plots column, closed unless the user has opened it, and its height (pixels).
 void performance_card(Ui& ui, float height);
-float performance_card_height(const Ui& ui);
+float performance_card_height(const Ui& ui, float width);
 
 }  // namespace tyglab

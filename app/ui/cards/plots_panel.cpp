@@ -67,72 +67,53 @@ struct Card {
   const char* name;
   void (*draw)(Ui&, float height);
   float (*least)(const Ui&, float width);  ///< px; lower it could not be read
-  Wants (*wants)(const Ui&) = nullptr;     ///< null: nothing
+  bool Wants::*wants = nullptr;            ///< null: nothing
 };
-
-template <bool Wants::*need>
-Wants needs(const Ui&) {
-  Wants wants;
-  wants.*need = true;
-  return wants;
-}
-
-Wants accuracy_wants(const Ui& ui) {
-  Wants wants;
-  if (ui.session.simulation->lattice().size() > AccuracyWatch::largest) return wants;
-  (ui.plots.convergence ? wants.convergence : wants.accuracy) = true;
-  return wants;
-}
 
 std::vector<Card> plot_cards(const Ui& ui) {
   std::vector<Card> cards;
   const Session& session = ui.session;
   if (session.preset().kind == Kind::one_weight)
-    cards.push_back({card_name::height, height_card, height_card_least, needs<&Wants::height>});
-  cards.push_back({card_name::forces, force_card, force_card_least, needs<&Wants::forces>});
+    cards.push_back({card_name::height, height_card, height_card_least, &Wants::height});
+  cards.push_back({card_name::forces, force_card, force_card_least, &Wants::forces});
   if (!session.copies.lockstep.empty())
-    cards.push_back({card_name::distances, copies_plot_card, least_of<160>, needs<&Wants::copies>});
-  if (ui.settings.layout.map) cards.push_back({card_name::map, map_plot_card, least_of<270>, needs<&Wants::map>});
-  if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<70>, needs<&Wants::step>});
+    cards.push_back({card_name::distances, copies_plot_card, least_of<160>, &Wants::copies});
+  if (ui.settings.layout.map) cards.push_back({card_name::map, map_plot_card, least_of<270>, &Wants::map});
+  if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<70>, &Wants::step});
   return cards;
 }
 
-/// A card at the foot: its heading, and under it what it holds unless it is folded.
+/// A card at the foot: its heading, and under it what it holds unless it is folded. It is never cut.
 struct FootCard {
   Card card;
-  float (*wanted)(const Ui&);
   float height = 0;  ///< px; 0 once it has become a tab
 };
-
-/// The least of one that is not to be cut.
-template <float (*wanted)(const Ui&)>
-float whole(const Ui& ui, float) {
-  return wanted(ui);
-}
-
-template <float (*height)(const Ui&)>
-FootCard foot_card(const char* name, void (*draw)(Ui&, float), Wants (*wants)(const Ui&)) {
-  return {{name, draw, whole<height>, wants}, height};
-}
+using Foot = std::array<FootCard, 5>;
 
 /// The lowest first.
-std::array<FootCard, 5> foot_cards() {
-  return {foot_card<performance_card_height>(card_name::performance, performance_card, nullptr),
-          foot_card<energy_card_height>(card_name::energy, energy_card, needs<&Wants::ledger>),
-          foot_card<accuracy_card_height>(card_name::accuracy, accuracy_card, accuracy_wants),
-          foot_card<stability_card_height>(card_name::stability, stability_card, needs<&Wants::stability>),
-          foot_card<copies_card_height>(card_name::copies, copies_card, needs<&Wants::copies>)};
+Foot foot_cards(const Ui& ui) {
+  const bool small = ui.session.simulation->lattice().size() <= AccuracyWatch::largest;
+  const auto accuracy = ui.plots.convergence ? &Wants::convergence : &Wants::accuracy;
+  return {{{{card_name::performance, performance_card, performance_card_height}},
+           {{card_name::energy, energy_card, energy_card_height, &Wants::ledger}},
+           {{card_name::accuracy, accuracy_card, accuracy_card_height, small ? accuracy : nullptr}},
+           {{card_name::stability, stability_card, stability_card_height, &Wants::stability}},
+           {{card_name::copies, copies_card, copies_card_height, &Wants::copies}}}};
 }
 
-/// Draws it, and notes what it wants unless it is folded.
-void draw_card(Ui& ui, const Card& card, float height) {
-  if (card.wants != nullptr && ui.settings.layout.folded.count(card.name) == 0) ui.wants |= card.wants(ui);
-  card.draw(ui, height);
-}
+/// What of the column is seen, and how high: known before any of it is drawn.
+struct ColumnPlan {
+  std::vector<Card> cards;       ///< above the foot: one above the other, or behind tabs
+  Foot foot;                     ///< what stands below them
+  float available = 0;           ///< px, height above the foot
+  bool tabs = false;             ///< one of the cards is seen
+  std::size_t chosen = 0;        ///< which one
+  std::vector<float> heights{};  ///< of those above each other, px
+};
 
 /// Heights of the cards at the foot, where the plots can spare that much room (px). What has no room, a heading or an
 /// open card, joins the plots. Returns the height of those that stay, with their gaps.
-float place_at_foot(Ui& ui, std::span<FootCard> foot, float room, std::vector<Card>& plots) {
+float place_at_foot(const Ui& ui, float width, float room, Foot& foot, std::vector<Card>& plots) {
   const float gap = ui.theme.px(margin_at_1), head = ui.theme.px(card::head);
   room -= float(foot.size()) * (head + gap);
   float all = 0;
@@ -140,7 +121,7 @@ float place_at_foot(Ui& ui, std::span<FootCard> foot, float room, std::vector<Ca
   for (; joined < foot.size() && room < 0; ++joined) room += head + gap;
   for (std::size_t k = foot.size(); k-- > 0;) {
     FootCard& card = foot[k];
-    const float more = std::ceil(card.wanted(ui) - head);
+    const float more = std::ceil(card.card.least(ui, width) - head);
     if (k < joined || more > room) {
       plots.push_back(card.card);
       if (k >= joined) room += head + gap;
@@ -153,20 +134,43 @@ float place_at_foot(Ui& ui, std::span<FootCard> foot, float room, std::vector<Ca
   return all;
 }
 
-/// Height of a card that shares the column with others, px.
-float stacked_height(const Ui& ui, const Card& card) {
-  return std::max(card.least(ui, ui.plots.width), ui.theme.px(stacked_at_1));
+/// Index of the card whose tab is chosen: the one that is to come to the front, the one that is there, or the first.
+std::size_t chosen_tab(const Plots& plots, std::span<const Card> cards) {
+  for (const std::string& name : {plots.wanted, plots.tab}) {
+    const auto found = std::find_if(cards.begin(), cards.end(), [&](const Card& card) { return card.name == name; });
+    if (found != cards.end()) return std::size_t(found - cards.begin());
+  }
+  return 0;
 }
 
-/// Cards above each other: what is left over is shared out alike. One alone does not need the whole column: a plot much
-/// taller than wide is hard to read.
-std::vector<float> heights_of(const Ui& ui, std::span<const Card> cards, float available, float spare) {
-  if (cards.size() == 1)
-    return {std::floor(std::max(cards[0].least(ui, ui.plots.width),
-                                std::max(0.6f * available, std::min(available, ui.theme.px(420)))))};
-  std::vector<float> heights;
-  for (const Card& card : cards) heights.push_back(std::floor(stacked_height(ui, card) + spare / float(cards.size())));
-  return heights;
+ColumnPlan plan_column(const Ui& ui, ImVec2 column) {
+  const float gap = ui.theme.px(margin_at_1), tabs = ui.theme.px(tabs_at_1) + ui.theme.px(under_tabs_at_1);
+  ColumnPlan plan{plot_cards(ui), foot_cards(ui)};
+  float stacked = 0, tallest = 0;
+  for (const Card& card : plan.cards) {
+    const float least = card.least(ui, column.x);
+    plan.heights.push_back(std::max(least, ui.theme.px(stacked_at_1)));
+    stacked += plan.heights.back() + gap;
+    tallest = std::max(tallest, least);
+  }
+  const float alone = float(plan.cards.size());
+  plan.available = column.y - place_at_foot(ui, column.x, column.y - tallest - tabs - gap, plan.foot, plan.cards);
+  const float spare = plan.available - stacked + gap;
+  plan.tabs = plan.cards.size() > plan.heights.size() || (plan.cards.size() > 1 && spare < 0);
+  plan.chosen = chosen_tab(ui.plots, plan.cards);
+  // What is left over is shared out alike; one alone does not need the whole column: a plot much taller than wide is
+  // hard to read.
+  for (float& height : plan.heights) height = std::floor(height + spare / alone);
+  if (plan.heights.size() == 1)
+    plan.heights[0] =
+        std::floor(std::max({tallest, 0.6f * plan.available, std::min(plan.available, ui.theme.px(420))}));
+  return plan;
+}
+
+/// Size of the column in its region.
+ImVec2 column_size(const Ui& ui, ImVec2 region) {
+  const float margins = 2 * ui.theme.px(margin_at_1);
+  return {region.x - margins, region.y - margins};
 }
 
 void draw_stacked(Ui& ui, std::span<const Card> cards, std::span<const float> heights) {
@@ -174,7 +178,7 @@ void draw_stacked(Ui& ui, std::span<const Card> cards, std::span<const float> he
   float top = ImGui::GetCursorScreenPos().y;
   for (std::size_t k = 0; k < cards.size(); ++k) {
     ImGui::SetCursorScreenPos({left, top});
-    draw_card(ui, cards[k], heights[k]);
+    cards[k].draw(ui, heights[k]);
     top += heights[k] + ui.theme.px(margin_at_1);
   }
 }
@@ -183,7 +187,7 @@ void draw_stacked(Ui& ui, std::span<const Card> cards, std::span<const float> he
 void draw_foldable(Ui& ui, const Card& card, float height) {
   const std::set<std::string>& folded = ui.settings.layout.folded;
   const bool before = folded.count(card.name) != 0;
-  draw_card(ui, card, height);
+  card.draw(ui, height);
   const bool after = folded.count(card.name) != 0;
   if (before && !after) ui.plots.wanted = card.name;
   if (!before && after && ui.plots.tab == card.name) ui.plots.tab.clear();
@@ -196,16 +200,15 @@ void begin_scrolling(Ui& ui, const char* id, ImVec2 size, float content) {
 }
 
 /// One card, and tabs for all.
-void draw_tabbed(Ui& ui, std::span<const Card> cards, ImVec2 size) {
+void draw_tabbed(Ui& ui, const ColumnPlan& plan, float width) {
   Plots& plots = ui.plots;
-  for (const Card& card : cards) plots.cards.emplace_back(card.name);
   std::vector<const char*> names;
-  for (const Card& card : cards) names.push_back(card.name);
-  if (std::find(plots.cards.begin(), plots.cards.end(), plots.wanted) != plots.cards.end()) plots.tab = plots.wanted;
-  const auto found = std::find(plots.cards.begin(), plots.cards.end(), plots.tab);
-  const int chosen = found == plots.cards.end() ? 0 : int(found - plots.cards.begin());
-  const Card& card = cards[std::size_t(chosen)];
+  for (const Card& card : plan.cards) names.push_back(card.name);
+  plots.cards.assign(names.begin(), names.end());
+  const Card& card = plan.cards[plan.chosen];
+  if (card.name == plots.wanted) plots.tab = plots.wanted;
   ui.settings.layout.folded.erase(card.name);  // who chooses a tab wants to see what it holds
+  const ImVec2 size{width, plan.available};
   const CardTabs tabs(ui, names, size);
   const float above = tabs.height() + ui.theme.px(under_tabs_at_1), least = card.least(ui, plots.width);
   const bool stay = size.y >= ui.theme.px(tabs_stay_at_1);
@@ -213,7 +216,7 @@ void draw_tabbed(Ui& ui, std::span<const Card> cards, ImVec2 size) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   if (!stay) begin_scrolling(ui, card.name, size, above + height);
   const ImVec2 top = ImGui::GetCursorScreenPos();
-  const int clicked = tabs.draw(ui, chosen);
+  const int clicked = tabs.draw(ui, int(plan.chosen));
   ImGui::SetCursorScreenPos({top.x, top.y + above});
   if (stay)
     ImGui::SetCursorScreenPos({corner.x, corner.y + above}),
@@ -227,39 +230,42 @@ void draw_tabbed(Ui& ui, std::span<const Card> cards, ImVec2 size) {
 
 void plots_panel(Ui& ui, const Region& region) {
   Plots& plots = ui.plots;
-  const float margin = ui.theme.px(margin_at_1), gap = margin;
+  const float margin = ui.theme.px(margin_at_1);
   if (!begin_region("plots", region, ui.theme.colors.ground, {margin, margin})) return end_region();
-  const ImVec2 column = ImGui::GetContentRegionAvail(), corner = ImGui::GetCursorScreenPos();
+  const ImVec2 column = column_size(ui, region.size), corner = ImGui::GetCursorScreenPos();
   plots.width = column.x;
   plots.cards.clear();
-  std::vector<Card> cards = plot_cards(ui);
-  const std::size_t alone = cards.size();
-  float stacked = 0, tallest = 0;
-  for (const Card& card : cards) {
-    stacked += stacked_height(ui, card) + gap;
-    tallest = std::max(tallest, card.least(ui, column.x));
-  }
-  std::array<FootCard, 5> foot = foot_cards();
-  const float tabs = ui.theme.px(tabs_at_1) + ui.theme.px(under_tabs_at_1);
-  const float available = column.y - place_at_foot(ui, foot, column.y - tallest - tabs - gap, cards);
-  const float spare = available - stacked + gap;
-  if (cards.size() > alone || (cards.size() > 1 && spare < 0)) {
-    draw_tabbed(ui, cards, {column.x, available});
+  const ColumnPlan plan = plan_column(ui, column);
+  if (plan.tabs) {
+    draw_tabbed(ui, plan, column.x);
   } else {
-    const std::vector<float> heights = heights_of(ui, cards, available, spare);
-    begin_scrolling(ui, "column", {column.x, available}, heights.size() == 1 ? heights[0] : available);
-    draw_stacked(ui, cards, heights);
+    begin_scrolling(ui, "column", {column.x, plan.available},
+                    plan.heights.size() == 1 ? plan.heights[0] : plan.available);
+    draw_stacked(ui, plan.cards, plan.heights);
     ImGui::EndChild();
   }
   plots.wanted.clear();
   float lowest = corner.y + column.y;
-  for (const FootCard& card : foot) {
+  for (const FootCard& card : plan.foot) {
     if (card.height <= 0) continue;
     ImGui::SetCursorScreenPos({corner.x, lowest - card.height});
     draw_foldable(ui, card.card, card.height);
-    lowest -= card.height + gap;
+    lowest -= card.height + margin;
   }
   end_region();
+}
+
+Wants plots_want(const Ui& ui, ImVec2 size) {
+  const ColumnPlan plan = plan_column(ui, column_size(ui, size));
+  Wants wants;
+  const auto add = [&](const Card& card) {
+    if (card.wants != nullptr) wants.*card.wants = true;
+  };
+  for (std::size_t k = 0; k < plan.cards.size(); ++k)
+    if (!plan.tabs || k == plan.chosen) add(plan.cards[k]);
+  for (const FootCard& card : plan.foot)
+    if (card.height > 0 && ui.settings.layout.folded.count(card.card.name) == 0) add(card.card);
+  return wants;
 }
 
 }  // namespace tyglab

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <set>
+#include <span>
 #include <string>
 
 #include "app/base/numbers.h"
@@ -22,6 +23,10 @@ constexpr std::array<std::string_view, 3> motion{"x", "v", "a"};
 /// Whether the variable can be drawn at the particle: a position is a place, not an arrow, a mass on a spring has none.
 bool has_arrow(const Ui& ui, std::string_view key) {
   return ui.session.preset().kind == Kind::cloth && key != "x";
+}
+
+glm::dvec3 value_of(const ParticleReadout* readout, std::string_view key) {
+  return readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
 }
 
 /// Whether a body's contact, which no formula gives, is missing from what is shown.
@@ -116,57 +121,45 @@ void tick_and_sample(Ui& ui, std::string_view key, float left, float middle) {
   draw_styled_line(*ImGui::GetWindowDrawList(), sample, 2, curve_style(ui.theme.colors, key), ui.theme.scale);
 }
 
-/// Symbol with the sample of its curve, magnitude, unit. The number ends `end` after the cell's left edge.
-void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end) {
+/// A variable's symbol with the sample of its curve, its numbers, its unit. The numbers end at those distances from the
+/// left edge, the unit follows the last.
+void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float width,
+                   std::span<const std::string> numbers, std::span<const float> ends) {
   const Tokens& c = ui.theme.colors;
   const Variable& what = variable(key);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = end + ui.theme.px(18);
   const float height = line_height(ui), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
   if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
   report_control(ui, key);
   tick_and_sample(ui, key, lo.x, middle);
-  const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
-  variable_tooltip(ui, gui::item_id(), what, value, lacks_contact(readout, key));
+  variable_tooltip(ui, gui::item_id(), what, value_of(readout, key), lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 symbol{lo.x + ui.theme.px(symbol_at), baseline_at(ui.fonts, middle)};
-  draw_symbol(draw, ui.fonts, symbol, what.symbol, c.text);
-  if (lacks_contact(readout, key)) contact_mark(ui, symbol, what.symbol);
-  const std::string text = readout != nullptr ? steady_number(glm::length(value)) : "–";
-  const ImFont& mono = *ui.fonts.mono;
   const float baseline = baseline_at(ui.fonts, middle);
-  draw_on_baseline(draw, mono, {lo.x + end - text_width(mono, text), baseline}, c.text, text);
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + end + ui.theme.px(5), baseline}, c.quiet, what.unit);
-}
-
-/// Symbol, three components, unit.
-void motion_line(Ui& ui, std::string_view key, const ParticleReadout* readout) {
-  const Tokens& c = ui.theme.colors;
-  const Variable& what = variable(key);
-  const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = ui.row_width, height = line_height(ui), middle = std::round(lo.y + height / 2);
-  ImGui::PushID(key.data(), key.data() + key.size());
-  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
-  report_control(ui, key);
-  tick_and_sample(ui, key, lo.x, middle);
-  const glm::dvec3 value = readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
-  variable_tooltip(ui, gui::item_id(), what, value, lacks_contact(readout, key));
-  ImGui::PopID();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 symbol{lo.x + ui.theme.px(symbol_at), baseline_at(ui.fonts, middle)};
+  const ImVec2 symbol{lo.x + ui.theme.px(symbol_at), baseline};
   draw_symbol(draw, ui.fonts, symbol, what.symbol, c.text);
   if (lacks_contact(readout, key)) contact_mark(ui, symbol, what.symbol);
   const ImFont& mono = *ui.fonts.mono;
-  const float baseline = baseline_at(ui.fonts, middle);
-  const Grid columns = grid(ui);
-  const float ends[3] = {columns.first_end, columns.middle_end, columns.last_end};
-  for (int k = 0; k < 3; ++k) {
-    const std::string text = readout != nullptr ? steady_number(value[k]) : "–";
+  for (std::size_t k = 0; k < ends.size(); ++k) {
+    const std::string text = readout != nullptr ? numbers[k] : "–";
     draw_on_baseline(draw, mono, {lo.x + ends[k] - text_width(mono, text), baseline}, c.text, text);
   }
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + columns.last_end + ui.theme.px(5), baseline}, c.quiet, what.unit);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ends.back() + ui.theme.px(5), baseline}, c.quiet, what.unit);
+}
+
+/// Its magnitude ends `end` after the cell's left edge.
+void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end) {
+  const std::string magnitude = steady_number(glm::length(value_of(readout, key)));
+  variable_cell(ui, key, readout, end + ui.theme.px(18), {&magnitude, 1}, {&end, 1});
+}
+
+/// Three components.
+void motion_line(Ui& ui, std::string_view key, const ParticleReadout* readout, const Grid& columns) {
+  const glm::dvec3 value = value_of(readout, key);
+  const std::string numbers[3] = {steady_number(value.x), steady_number(value.y), steady_number(value.z)};
+  const float ends[3] = {columns.first_end, columns.middle_end, columns.last_end};
+  variable_cell(ui, key, readout, ui.row_width, numbers, ends);
 }
 
 constexpr const char* card_title = "Picked particle";
@@ -212,7 +205,7 @@ void particle_panel(Ui& ui) {
   }
   // F stands alone on the last line of the forces.
   if (lacks_contact(shown, "F")) contact_note(ui, {lo.x + columns.second_start, ImGui::GetItemRectMin().y});
-  for (std::string_view key : motion) motion_line(ui, key, shown);
+  for (std::string_view key : motion) motion_line(ui, key, shown, columns);
 }
 
 }  // namespace tyglab

@@ -11,6 +11,7 @@
 #include "app/ui/cards/cards.h"
 #include "app/ui/frame/dialogs.h"
 #include "app/ui/frame/palette.h"
+#include "app/ui/frame/panels.h"
 #include "app/ui/frame/tour.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
@@ -36,9 +37,13 @@ template <const char* const& name>
 void show(Ui& ui) {
   show_card(ui, name);
 }
-template <const char* const& name, bool Layout::*there>
-void toggle_card_of(Ui& ui) {
-  toggle_card(ui, name, there);
+/// Of a card that is not always there: brings it into sight, or closes it where it is in sight already, which is where
+/// what it wants is wanted.
+template <const char* const& name, bool Layout::*there, bool Wants::*wants>
+void toggle_card(Ui& ui) {
+  bool& open = ui.settings.layout.*there;
+  open = !(open && layout_wants(ui, ImGui::GetIO().DisplaySize).*wants);
+  if (open) show_card(ui, name);
 }
 
 void toggle_play(Ui& ui) {
@@ -277,14 +282,14 @@ std::vector<CommandRow> all_rows() {
        {{GLFW_KEY_M, 0}},
        "maps which k_s and dt are stable",
        "stability card",
-       toggle_card_of<card_name::map, &Layout::map>},
+       toggle_card<card_name::map, &Layout::map, &Wants::map>},
       {"toggle_inside",
        "Inside a step",
        "I",
        {{GLFW_KEY_I, 0}},
        "shows a step of the picked particle in formulas",
        "formula springs particle",
-       toggle_card_of<card_name::step, &Layout::inside>},
+       toggle_card<card_name::step, &Layout::inside, &Wants::step>},
       {"show_forces", "Forces card", "", {}, "", "plot curves particle", show<card_name::forces>},
       {"show_height", "Height card", "", {}, "", "plot curve weight figure", show<card_name::height>, no_weight},
       {"show_copies", "Copies card", "", {}, "", "compare lockstep beside add a copy", show<card_name::copies>},

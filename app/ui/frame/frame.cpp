@@ -45,7 +45,7 @@ void act_on_events(Ui& ui, double elapsed, double frame_time) {
   ui.run_actions();
   follow_session(ui);
   handle_pointer(ui.tools);
-  ui.session.wants = ui.wants;
+  ui.session.wants = layout_wants(ui, ImGui::GetIO().DisplaySize);
   SessionInput input = ui.tools.session_input();
   input.dragging = ui.slider.dragged != 0;
   input.frame_time = frame_time;

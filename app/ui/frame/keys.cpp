@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "app/ui/frame/commands.h"
+#include "app/ui/kit/imgui_compat.h"
 
 namespace tyglab {
 namespace {
@@ -37,7 +38,7 @@ void lab_field_takes(Ui& ui, const KeyEvent& event) {
 /// Keys of a text field: only those that end it matter here. True if the field has the key.
 bool typing_takes(Ui& ui, const KeyEvent& event) {
   SliderState& slider = ui.slider;
-  if (slider.typing == 0 && !ImGui::GetIO().WantTextInput) return false;
+  if (slider.typing == 0 && !gui::typing_text()) return false;
   if (event.key == GLFW_KEY_Q && (event.mods & counted) == GLFW_MOD_CONTROL) {
     slider.cancel = true;  // a number half typed is no change that could be lost
     return false;
@@ -122,6 +123,15 @@ void take_key(Ui& ui, const KeyEvent& event) {
   if (!taken) command_for(ui, event);
 }
 
+/// Characters that were typed after the n-th key are no part of what is looked for.
+void forget_text_after(std::vector<InputEvent>& events, std::size_t n) {
+  auto after = events.begin();
+  for (std::size_t keys = 0; keys <= n && after != events.end(); ++after)
+    keys += std::holds_alternative<KeyEvent>(*after);
+  const auto is_text = [](const InputEvent& event) { return std::holds_alternative<TypedCharacter>(event); };
+  events.erase(std::remove_if(after, events.end(), is_text), events.end());
+}
+
 }  // namespace
 
 void handle_keys(Ui& ui) {
@@ -132,9 +142,7 @@ void handle_keys(Ui& ui) {
   for (std::size_t n = 0; n < ui.input.keys.size(); ++n) {
     const bool before = palette.enter;
     take_key(ui, ui.input.keys[n]);
-    // Letters typed after it are no part of what is looked for.
-    if (palette.enter && !before)
-      std::erase_if(ui.input.text, [&](const TypedCharacter& typed) { return typed.keys_before > n + 1; });
+    if (palette.enter && !before) forget_text_after(ui.input.all, n);
   }
 }
 

@@ -41,8 +41,8 @@ void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& w
 }
 
 /// Chooses which of the two columns stands in the place that they share; or, where the cloth has none beside it
-/// (`all`), which of the three. `lab`: it is seen with the constants, not with the plots. Returns its height.
-float side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
+/// (`all`), which of the three. `lab`: it is seen with the constants, not with the plots.
+void side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
   const char* const names[] = {lab ? "Constants, lab" : "Constants", "Plots", "Cloth"};
   if (begin_region("side", region, ui.theme.colors.panel, {ui.theme.px(16), ui.theme.px(8)})) {
     const int now = all && ui.side_cloth ? 2 : ui.side_plots ? 1 : 0;
@@ -53,13 +53,18 @@ float side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
             "The window is too narrow for all columns at once; Ctrl+- makes text and panels smaller.");
   }
   end_region();
-  return region.size.y;
 }
 
-}  // namespace
+/// Where the regions are; what has no width or no height is not there.
+struct LayoutPlan {
+  Region viewport, lab, top, status, constants, plots;
+  Region tabs;                 ///< which choose between columns
+  bool in_turn = false;        ///< the cloth is one of those
+  bool lab_with_side = false;  ///< the lab stands with the constants, not with the plots
+};
 
-void draw_layout(Ui& ui, ImVec2 window) {
-  Layout& layout = ui.settings.layout;
+LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
+  const Layout& layout = ui.settings.layout;
   const bool panels = ui.panels;
   const float top = panels ? ui.theme.px(48) : 0;
   const float bottom = panels && layout.status ? ui.theme.px(30) : 0;
@@ -75,8 +80,6 @@ void draw_layout(Ui& ui, ImVec2 window) {
   // Where not even one has room beside the cloth, all three do.
   const bool in_turn = left > 0 && left + ui.theme.px(140) > window.x;
   if (in_turn) left = ui.side_cloth ? 0 : window.x;
-  ui.viewport_left = left;
-  ui.wants = {};
 
   float lab = panels ? lab_panel_height(ui, height) : 0;
   const float middle = window.x - left - right, strip = ui.theme.px(42);
@@ -87,31 +90,61 @@ void draw_layout(Ui& ui, ImVec2 window) {
   if (apart && left > 0 && ui.side_plots) lab = 0;
   const bool below = lab > 0 && left > 0 && narrow;
   const float low = below ? 0 : left, column = window.y - top - (below ? lab + bottom : 0);
-  const float over_cloth = in_turn ? strip : 0;
-  if (middle > 0) {
-    viewport_panel(ui, {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}});
+  const float over_cloth = in_turn ? strip : 0, tabs = shared || in_turn ? strip : 0;
+
+  LayoutPlan plan;
+  plan.in_turn = in_turn, plan.lab_with_side = apart;
+  plan.viewport = {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}};
+  plan.lab = {{low, top + height - lab}, {left + middle - low, lab}};
+  plan.top = {{0, 0}, {window.x, top}};
+  plan.status = {{low, window.y - bottom}, {left + middle - low, bottom}};
+  plan.tabs = {{0, top}, {in_turn ? window.x : left, tabs}};
+  const Region side{{0, top + tabs}, {left, column - tabs}};
+  (shared && ui.side_plots ? plan.plots : plan.constants) = side;
+  if (right > 0) plan.plots = {{window.x - right, top}, {right, window.y - top}};
+  return plan;
+}
+
+}  // namespace
+
+void draw_layout(Ui& ui, ImVec2 window) {
+  Layout& layout = ui.settings.layout;
+  const LayoutPlan plan = plan_layout(ui, window);
+  const Region& viewport = plan.viewport;
+  const float left = viewport.at.x, right = left + viewport.size.x;
+  ui.viewport_left = left;
+  if (viewport.size.x > 0) {
+    viewport_panel(ui, viewport);
   } else {
     ui.viewport.box = {};
     ui.viewport.covers.clear();
   }
-  if (lab > 0) lab_panel(ui, {{low, top + height - lab}, {left + middle - low, lab}});
-  if (panels) top_bar(ui, {{0, 0}, {window.x, top}});
-  const Region over_side{{0, top}, {in_turn ? window.x : left, strip}};
-  const float tabs = shared || in_turn ? side_tabs(ui, over_side, in_turn, apart) : 0;
-  const Region side{{0, top + tabs}, {left, column - tabs}};
-  const bool plots_at_side = shared && ui.side_plots;
-  ui.wants.stability = left > 0 && !plots_at_side;  // the gauge under dt, the zones under sliders
-  if (left > 0) plots_at_side ? plots_panel(ui, side) : constants_panel(ui, side);
-  if (right > 0) plots_panel(ui, {{window.x - right, top}, {right, window.y - top}});
-  if (bottom > 0) status_bar(ui, {{low, window.y - bottom}, {left + middle - low, bottom}});
-  if (left > 0 && !in_turn) splitter(ui, "left border", left, top, top + column, layout.left_width, 1);
-  if (right > 0) splitter(ui, "right border", window.x - right, top, window.y, layout.right_width, -1);
+  if (plan.lab.size.y > 0) lab_panel(ui, plan.lab);
+  if (plan.top.size.y > 0) top_bar(ui, plan.top);
+  if (plan.tabs.size.y > 0) side_tabs(ui, plan.tabs, plan.in_turn, plan.lab_with_side);
+  if (plan.constants.size.x > 0) constants_panel(ui, plan.constants);
+  if (plan.plots.size.x > 0) plots_panel(ui, plan.plots);
+  if (plan.status.size.y > 0) status_bar(ui, plan.status);
+  const float top = plan.top.size.y;
+  if (left > 0 && !plan.in_turn) {
+    const Region& side = plan.constants.size.x > 0 ? plan.constants : plan.plots;
+    splitter(ui, "left border", left, top, side.at.y + side.size.y, layout.left_width, 1);
+  }
+  if (right < window.x) splitter(ui, "right border", right, top, window.y, layout.right_width, -1);
   tour_card(ui);
   help_overlay(ui);
   palette(ui);
   dialogs(ui);
   ui.lab_enter = false;
   ui.viewport.blocked = ui.palette.open || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+}
+
+Wants layout_wants(const Ui& ui, ImVec2 window) {
+  const LayoutPlan plan = plan_layout(ui, window);
+  Wants wants;
+  if (plan.plots.size.x > 0) wants = plots_want(ui, plan.plots.size);
+  if (plan.constants.size.x > 0) wants.stability = true;  // the gauge under dt, the zones under sliders
+  return wants;
 }
 
 }  // namespace tyglab

@@ -17,5 +17,7 @@ inline constexpr float lab_two_columns = 544;
 
 /// All regions, with the borders between them that drag.
 void draw_layout(Ui& ui, ImVec2 window);
+/// What they want to be worked out, in a window of that size (px): by what is open and has room, drawn or not.
+Wants layout_wants(const Ui& ui, ImVec2 window);
 
 }  // namespace tyglab

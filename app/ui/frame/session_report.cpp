@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/tools/wind_arrow.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/state/ui.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
@@ -258,7 +259,7 @@ void add_window(Json& json, const Ui& ui) {
   json["theme"] = ui.settings.theme;
   const SliderState& slider = ui.slider;
   const bool starts = slider.typing_starts || ui.dialog.refused || ui.dialog.selecting;  // takes no keys yet
-  json["typing"] = !starts && (slider.typing != 0 || ImGui::GetIO().WantTextInput);
+  json["typing"] = !starts && (slider.typing != 0 || gui::typing_text());
   json["dialog"] = name_of(ui.dialog.kind);
   json["problem"] = ui.dialog.problem;
   json["palette"] = ui.palette.open;

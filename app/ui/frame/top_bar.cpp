@@ -157,6 +157,17 @@ float speed_combo(Ui& ui, float x, float end) {
   return x + width + ui.theme.px(18);
 }
 
+/// How far a step is that takes long; empty where none does.
+std::string step_under_way(const Session& session) {
+  constexpr double unnoticed = 0.3;  // s
+  if (!session.background_steps.busy()) return {};
+  const double seconds = session.now - session.background_steps.begun();
+  if (seconds < unnoticed) return {};
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f %%, %.1f s", 100 * session.background_steps.progress(), seconds);
+  return text;
+}
+
 void readings(Ui& ui, float x, float end) {
   const Tokens& c = ui.theme.colors;
   char text[64];
@@ -166,6 +177,13 @@ void readings(Ui& ui, float x, float end) {
   const double part = ui.session.pacing.aim() > 0 ? ui.session.pacing.reached() / ui.session.pacing.aim() : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * ui.session.pacing.reached());
   const bool running = ui.session.pacing.playing && !ui.session.simulation->divergence() && !ui.session.asleep();
+  if (const std::string step = step_under_way(ui.session); !step.empty()) {
+    const std::string label = "step " + std::to_string(ui.session.simulation->steps() + 1);
+    reading(ui, x, end, label.c_str(), step, "100 %, 00.0 s", c.warning,
+            "This step takes longer than a frame: how much of it is done, as far as the method can tell, and the time "
+            "that it has taken. Any change stops it and starts it again.");
+    return;
+  }
   x = reading(ui, x, end, "real time", running ? text : "–", "100 %",
               !running      ? c.quiet
               : part > 0.95 ? c.good

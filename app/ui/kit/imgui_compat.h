@@ -25,18 +25,77 @@ inline ImGuiID item_id() {
   return ImGui::GetItemID();
 }
 
+/// Whether a text field that was drawn in the last frame takes keys. io.WantTextInput says so two frames late, of fields
+/// that are gone too.
+inline bool typing_text() {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  return g.ActiveId != 0 && g.ActiveIdIsAlive == g.ActiveId && g.InputTextState.ID == g.ActiveId;
+}
+
 /// An OpenGL texture as Dear ImGui names it.
 inline ImTextureID texture(unsigned id) {
   return (ImTextureID)(std::intptr_t)id;
 }
 
-/// Key presses reach our sliders through the window's own callback; Dear ImGui need not repeat inputs over frames.
+/// A new context's settings. What happens is shown to it frame by frame (app/ui/frame/gui_input.h), so it need not
+/// spread inputs itself.
 inline void prepare_io(ImGuiIO& io) {
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
 #if IMGUI_VERSION_NUM >= 18700
-  io.ConfigInputTrickleEventQueue = true;
+  io.ConfigInputTrickleEventQueue = false;
+#else
+  for (int key = 0; key < ImGuiKey_COUNT; ++key) io.KeyMap[key] = key;
+#endif
+}
+
+#if IMGUI_VERSION_NUM >= 18700
+constexpr ImGuiKey keypad_enter = ImGuiKey_KeypadEnter;
+#else
+constexpr ImGuiKey keypad_enter = ImGuiKey_KeyPadEnter;
+#endif
+
+// What the next frame sees of keyboard and mouse.
+
+inline void show_key(ImGuiKey key, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddKeyEvent(key, down);
+#else
+  ImGui::GetIO().KeysDown[ImGui::GetIO().KeyMap[key]] = down;
+#endif
+}
+
+inline void show_mods(bool ctrl, bool shift, bool alt) {
+  ImGuiIO& io = ImGui::GetIO();
+#if IMGUI_VERSION_NUM >= 18700
+  io.AddKeyEvent(ImGuiMod_Ctrl, ctrl), io.AddKeyEvent(ImGuiMod_Shift, shift), io.AddKeyEvent(ImGuiMod_Alt, alt);
+#else
+  io.KeyCtrl = ctrl, io.KeyShift = shift, io.KeyAlt = alt;
+#endif
+}
+
+inline void show_pointer(ImVec2 at) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMousePosEvent(at.x, at.y);
+#else
+  ImGui::GetIO().MousePos = at;
+#endif
+}
+
+inline void show_button(int button, bool down) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMouseButtonEvent(button, down);
+#else
+  ImGui::GetIO().MouseDown[button] = down;
+#endif
+}
+
+inline void show_wheel(float x, float y) {
+#if IMGUI_VERSION_NUM >= 18700
+  ImGui::GetIO().AddMouseWheelEvent(x, y);
+#else
+  ImGui::GetIO().MouseWheelH += x, ImGui::GetIO().MouseWheel += y;
 #endif
 }
 

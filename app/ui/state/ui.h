@@ -131,7 +131,6 @@ struct Ui : UiContext {
   bool side_plots = false;               ///< where both columns have no room, the plots stand in the constants' place
   bool side_cloth = true;  ///< where not even one has room beside the cloth: the cloth is shown, and neither
 
-  Wants wants;                          ///< of the panels and cards that are open
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
   bool full_screen = false;             ///< as the window is
   bool toggle_full_screen = false;

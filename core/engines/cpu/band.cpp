@@ -1,6 +1,7 @@
 #include "core/engines/cpu/band.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "core/engines/cpu/row_update.h"
@@ -16,11 +17,20 @@ constexpr int ring_lead = 43;  // cache lines: away from where the vectors lie i
 }  // namespace
 
 template <class R, unsigned Present>
-Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth), begin_(begin), end_(end) {
+Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth) {
   ring_.resize(4, cloth.stride, ring_lead);
   // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.
   if (begin > 0) head_.x.resize(6, cloth.stride), head_.v.resize(6, cloth.stride);
   if (end < cloth.lattice.rows) tail_.x.resize(6, cloth.stride), tail_.v.resize(6, cloth.stride);
+  cover(begin, end);
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::cover(int begin, int end) {
+  assert(begin % 2 == 0 && (end % 2 == 0 || end == cloth_.lattice.rows));
+  assert((begin == 0 && end == cloth_.lattice.rows) || end - begin >= least_rows);
+  assert((begin == 0 || !head_.x.empty()) && (end == cloth_.lattice.rows || !tail_.x.empty()));
+  begin_ = begin, end_ = end;
 }
 
 template <class R, unsigned Present>
@@ -134,6 +144,7 @@ void Band<R, Present>::fix_row(int i) {
 template <class R, unsigned Present>
 void Band<R, Present>::assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i) {
   for (const auto& assignment : assignments) {
+    assert(assignment.terms.size() <= std::size_t(RowSum<R>::most_terms));
     RowSum<R> sum{.target = cloth_.row(assignment.target, i, 0)};
     for (const auto [vector, factor] : assignment.terms) {
       sum.source[sum.terms] = vector == acceleration ? force_row(i, 0) : cloth_.row(vector, i, 0);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -94,7 +95,7 @@ class Band {
   Band(Cloth<R>& cloth, int begin, int end);
   static constexpr int least_rows = 8;
   /// Covers other rows from now on: on no side where the first ones ended at the cloth's edge may these end within it.
-  void cover(int begin, int end) { begin_ = begin, end_ = end; }
+  void cover(int begin, int end);
   /// Allocates buffers, before the first sweep. `old_rows`: also for the positions before a pair is overwritten, for
   /// bodies and for watching the motion in methods with more vectors.
   void allocate(bool old_rows);
@@ -159,7 +160,7 @@ class Band {
   };
 
   Cloth<R>& cloth_;
-  int begin_, end_;
+  int begin_ = 0, end_ = 0;
   Pass pass_;
   unsigned features_ = 0;  ///< of the sweep
   Field ring_;             ///< force rows i … i+3

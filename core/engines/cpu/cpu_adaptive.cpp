@@ -163,7 +163,11 @@ void CpuEngine<R, Present>::step_adaptively(int number, Tears& tears, Fault& fau
   team_->barrier();
   do {
     try_inner_step(number, tears);
-    if (number == 0) judge_inner_step();
+    if (number == 0) {
+      judge_inner_step();
+      if (!repeating_ && stops()) abandoned_ = true, accepted_ = false, left_of_dt_ = 0;
+      set_step_progress(1 - left_of_dt_ / cloth_.preset.dt);
+    }
     team_->barrier();
     if (!accepted_) continue;
     band.reset_watch();

@@ -1,8 +1,10 @@
 #include "core/engines/cpu/cpu_engine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "core/cloth/start.h"
 #include "core/model/changes.h"
 
 namespace tyglab::cpu {
@@ -35,6 +37,7 @@ void classify(ResolvedSweep& sweep, const Scheme& scheme) {
 
 /// Rows and threads that pay: a barrier costs about as much as a thousand particles.
 int useful_threads(const Lattice& lattice, int asked) {
+  assert(asked >= 1);
   constexpr int least_particles = 1500;
   return std::clamp(std::min(lattice.size() / least_particles, lattice.rows / Band<float>::least_rows), 1, asked);
 }
@@ -109,13 +112,14 @@ void CpuEngine<R, Present>::resolve() {
       lead += lines_apart;
     }
   }
-  cloth_.features = Present & ((cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
-                               (cloth_.preset.W != glm::dvec3(0) ? wind : 0u));
+  cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
+                    (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
   make_waves();
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,
-                    .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_)});
+                    .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_)});
+  guard_.set_scene(p, cloth_.lattice, cloth_.held);
   guard_.invalidate();
 }
 
@@ -186,6 +190,7 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
       }
     }
   });
+  guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1));
   if (!scheme_->start.empty()) {
     // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
     const ResolvedSweep start = resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
@@ -202,8 +207,10 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
+  assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision);
   const EffectSet changed = changes(cloth_.preset, preset);
   if (!changed.within(motionless | Effect::start)) restart_control();  // nothing else moves a cloth that is under way
+  guard_.accept_changes(cloth_.preset, preset);
   // What lags half a step depends on dt, and the velocity must stay.
   const bool shifts = scheme_->lags && changed.touches(Effect::dt);
   if (changed.touches(Effect::integrator) || (shifts && !scheme_->keeps_displacement)) {
@@ -227,8 +234,12 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
+  if (held.particle != cloth_.held.particle ||
+      !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end()))
+    guard_.expect_pushes();  // who is let go may be inside a body
   pinned_.assign(pinned.begin(), pinned.end());
   cloth_.held = held;
+  guard_.set_scene(cloth_.preset, cloth_.lattice, held);
   springs_changed_ = true;
   restart_control();
   std::vector<int> all(pinned_);
@@ -268,14 +279,18 @@ void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tear
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
+bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   for (const auto& band : bands()) band->assign(sweep.before, false);
-  solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-                [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); });
+  const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
+  return solver_.solve(
+      cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
+      [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
+      {repeating_ ? never_ : stop(), [&](double part) { set_step_progress((stage + part) / stages); }});
 }
 
 template <class R, unsigned Present>
 std::vector<Contact> CpuEngine<R, Present>::contacts() const {
+  assert(cloth_.notes_contacts);
   if (scheme_->estimate) return inner_contacts_;
   std::vector<Contact> all;
   for (const auto& band : bands()) all.insert(all.end(), band->contacts().begin(), band->contacts().end());
@@ -334,6 +349,7 @@ PositionView CpuEngine<R, Present>::positions() const {
 
 template <class R, unsigned Present>
 StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
+  assert(cloth_.lattice.contains(i, j));
   const auto at = [&](int vector) {
     return glm::dvec3(cloth_.row(vector, i, 0)[j], cloth_.row(vector, i, 1)[j], cloth_.row(vector, i, 2)[j]);
   };
@@ -386,7 +402,7 @@ TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 std::unique_ptr<Engine> make_engine_without([[maybe_unused]] unsigned absent, [[maybe_unused]] const Preset& preset,
                                             [[maybe_unused]] const Lattice& lattice) {
 #ifdef TYGLAB_WHOLE_ENGINES
-  throw EngineError("this build, with sanitizers, has no engine without a part; use the release build");
+  throw EngineError("this build, with sanitizers, has no engine without some parts; use the release build");
 #else
 #define TYGLAB_MAKE(R, present) \
   if (absent == (part::everything & ~(present))) return std::make_unique<CpuEngine<R, (present)>>(preset, lattice, 1);

@@ -89,8 +89,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
   /// F/m at two of the vectors. `of_step`: as Band has it.
   void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
-  /// The implicit stage of a sweep, on this thread alone.
-  void solve(const ResolvedSweep& sweep, const Tears& tears);
+  /// The implicit stage of a sweep, on this thread alone. Returns false where it was stopped.
+  bool solve(const ResolvedSweep& sweep, const Tears& tears);
   /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
   /// The same in place, for inner steps, where it happens often.
@@ -113,6 +113,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   StepOutcome outcome(int step) override;
   double tear_overloaded(Tears& tears) override;
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
+  bool find_runaway(const MotionLimit& limit, Fault& fault) override;
+  Motion motion(const Tears& tears) override;
   void keep_backup() override;
   void repeat(int steps, Tears& tears) override;
 
@@ -129,8 +131,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// The same with as many threads as the team has now.
   StepsMade run_together(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
-  /// A sweep that projects, with its assignments.
-  void project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
+  /// A sweep that projects, with its assignments. Returns false, to all threads, where it was stopped.
+  bool project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
   void read_hand(const Tears& tears);
   /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
@@ -165,8 +167,11 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< one for each sweep of a wave, over all rows
   std::vector<Progress> progress_;                        ///< of each thread's last sweep in a wave
   StepGuard guard_;
-  StepsMade made_;            ///< by the present run
-  int together_ = 0;          ///< steps that are made in one pass over the rows; 0: the run is over
+  StepsMade made_;          ///< by the present run
+  int together_ = 0;        ///< steps that are made in one pass over the rows; 0: the run is over
+  bool abandoned_ = false;  ///< the present step was stopped halfway
+  bool repeating_ = false;  ///< known steps, which are not stopped
+  const Stop never_{};
   glm::dvec3 hand_force_{0};  ///< on the held particle, of a method that projects
 };
 

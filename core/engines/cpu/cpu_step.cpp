@@ -57,6 +57,16 @@ bool CpuEngine<R, Present>::find_fault(Tears& tears, Fault& fault, double& diver
 }
 
 template <class R, unsigned Present>
+bool CpuEngine<R, Present>::find_runaway(const MotionLimit& limit, Fault& fault) {
+  return tyglab::find_runaway(limit, cloth_.lattice, view(), 1 / cloth_.velocity_scale(), fault);
+}
+
+template <class R, unsigned Present>
+Motion CpuEngine<R, Present>::motion(const Tears& tears) {
+  return motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1 / cloth_.velocity_scale());
+}
+
+template <class R, unsigned Present>
 StepOutcome CpuEngine<R, Present>::outcome(int step) {
   std::span<const std::unique_ptr<Band<R, Present>>> judged = bands();
   if (together_ > 1) judged = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
@@ -69,7 +79,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
     if (hand && !projected && band->has_hand()) result.hand_force = band->hand_force();
   }
   if (hand && projected) result.hand_force = hand_force_;
-  result.elongation = max_elongation(largest);
+  result.elongation = max_elongation(largest), result.dt = cloth_.dt;
   return result;
 }
 
@@ -80,12 +90,13 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
     if (sweep.projects) {
-      project(number, sweep, tears, last);
+      if (!project(number, sweep, tears, last)) return;
       continue;
     }
     if (sweep.solve_dt != 0) {
-      if (number == 0) solve(sweep, tears);
+      if (number == 0) abandoned_ = !solve(sweep, tears);
       team_->barrier();
+      if (abandoned_) return;
       band.assign(sweep.assignments, last);
       team_->barrier();
       continue;
@@ -98,18 +109,27 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
 }
 
 template <class R, unsigned Present>
-void CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last) {
+bool CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last) {
   const int begin = band_begin(number), end = band_begin(number + 1);
   if (number == 0) {
     projector_.prepare(cloth_, tears, springs_changed_ || projected_torn_ != tears.torn_count());
     springs_changed_ = false, projected_torn_ = tears.torn_count();
   }
   team_->barrier();
-  projector_.project(cloth_, sweep.velocity, begin, end, *team_);
+  const int iterations = cloth_.preset.iterations;
+  const bool finished = projector_.project(cloth_, sweep.velocity, begin, end, *team_, [&](int n) {
+    set_step_progress(double(n) / iterations);
+    return repeating_ || !stops();
+  });
+  if (!finished) {
+    if (number == 0) abandoned_ = true;
+    return false;
+  }
   bands_[std::size_t(number)]->assign(sweep.assignments, last);
   team_->barrier();
   projector_.damp(cloth_, begin, end, *team_);
   if (number == 0 && has(part::hand) && cloth_.held.particle >= 0) read_hand(tears);
+  return true;
 }
 
 /// The springs' part of the force on the held particle is in no sweep of a method that projects.
@@ -156,8 +176,10 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
 template <class R, unsigned Present>
 StepsMade CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fault, bool waves) {
   made_ = {};
+  abandoned_ = false;
   const auto plan = [&] {
-    const int left = made_.end == StepsEnd::complete ? steps - made_.count : 0;
+    int left = made_.end == StepsEnd::complete ? steps - made_.count : 0;
+    if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = StepsEnd::stopped, left = 0;
     together_ = left > 0 && waves ? steps_in_wave(left) : std::min(left, 1);
     for (Progress& progress : progress_) progress.restart();
   };
@@ -177,7 +199,7 @@ StepsMade CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fa
         step_in_bands(number, tears);
       }
       if (number == 0) {
-        if (!chooses_steps(*scheme_)) judge();  // inner steps have been checked
+        if (!chooses_steps(*scheme_) && !abandoned_) judge();  // inner steps have been checked
         plan();
       }
       team_->barrier();
@@ -233,23 +255,28 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
   Fault known{};
+  repeating_ = true;
   run(steps, tears, known, false);
+  repeating_ = false;
 }
 
 template <class R, unsigned Present>
 Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   if (guard_.springs_cut(tears)) restart_control(), guard_.accept_cuts(tears);
-  return guard_.advance(*this, steps, tears);
+  return guard_.advance(*this, steps, tears, stop());
 }
 
 // What the engine's other files need of this one.
-#define TYGLAB_MAKE(R, present)                                                \
-  template Advance CpuEngine<R, (present)>::advance(int, Tears&);              \
-  template StepsMade CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&); \
-  template StepOutcome CpuEngine<R, (present)>::outcome(int);                  \
-  template double CpuEngine<R, (present)>::tear_overloaded(Tears&);            \
-  template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);  \
-  template void CpuEngine<R, (present)>::keep_backup();                        \
+#define TYGLAB_MAKE(R, present)                                                    \
+  template Advance CpuEngine<R, (present)>::advance(int, Tears&);                  \
+  template StepsMade CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&);     \
+  template StepOutcome CpuEngine<R, (present)>::outcome(int);                      \
+  template double CpuEngine<R, (present)>::tear_overloaded(Tears&);                \
+  template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);      \
+  template bool CpuEngine<R, (present)>::find_runaway(const MotionLimit&, Fault&); \
+  template Motion CpuEngine<R, (present)>::motion(const Tears&);                   \
+  template StateView<R> CpuEngine<R, (present)>::view() const;                     \
+  template void CpuEngine<R, (present)>::keep_backup();                            \
   template void CpuEngine<R, (present)>::repeat(int, Tears&);
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE

@@ -34,12 +34,14 @@ double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
 }
 
 template <class R>
-void ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
-                              const Accelerations& accelerations) {
-  task_ = {&cloth, position, velocity, dt, &tears, &accelerations};
+bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
+                              const Accelerations& accelerations, const Watch& watch) {
+  task_ = {&cloth, position, velocity, dt, &tears, &accelerations, &watch};
+  stopped_ = false;
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
   tyglab::solve(*this, {cloth.preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), dt}, counts_);
+  return !stopped_;
 }
 
 template <class R>
@@ -86,7 +88,7 @@ void ImplicitSolver<R>::linearize() {
   for (int i = 0; i < rows_; ++i)
     for (int c = 0; c < 3; ++c) std::fill_n(block(i) + c * stride_, cloth().lattice.columns, R(mass_));
   if (!weight)
-    for (int i = 0; i < rows_; ++i)
+    for (int i = 0; i < rows_ && !stops(); ++i)
       for (int d = 0; d < springs_of_a_particle; ++d) linearize_row(d, i);
   invert_blocks();
 }
@@ -176,6 +178,7 @@ bool ImplicitSolver<R>::conjugate_gradients() {
   double before = std::numeric_limits<double>::infinity();
   for (int n = 0; n < most; ++n) {
     if (now.squared <= enough) return true;
+    if (stops()) return false;
     const double keep = now.preconditioned / before;
     for (int i = 0; i < rows_; ++i)
       add_scaled_row(preconditioned_.row(i), keep, direction_.row(i), int(direction_.pitch()));
@@ -208,8 +211,9 @@ bool ImplicitSolver<R>::solve_directly() {
     return {{part[0], part[stride_], part[2 * stride_]}, part[3 * stride_]};
   };
   const auto right_side = [&](int i, int j, int c) { return double(residual_.row(i, c)[j]); };
-  return direct_.solve({lattice, mass_, fixed, spring, right_side},
-                       [&](int i, int j, int c, double s) { step_.row(i, c)[j] = R(s); });
+  return direct_.solve(
+      {lattice, mass_, fixed, spring, right_side}, [&](int i, int j, int c, double s) { step_.row(i, c)[j] = R(s); },
+      task_.watch->stop);
 }
 
 template class ImplicitSolver<float>;

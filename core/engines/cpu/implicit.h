@@ -18,9 +18,16 @@ class ImplicitSolver final : private ImplicitStage {
   /// Writes a for the vectors that are being solved for.
   using Accelerations = std::function<void(Field&)>;
 
+  /// What surrounds a solution.
+  struct Watch {
+    const Stop& stop;
+    std::function<void(double part)> progress;
+  };
+
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
-  void solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
-             const Accelerations& accelerations);
+  /// Returns false where it was stopped; the vectors may then hold anything.
+  bool solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
+             const Accelerations& accelerations, const Watch& watch);
   const SolveCounts& counts() const { return counts_; }
   std::size_t bytes() const;
 
@@ -32,6 +39,7 @@ class ImplicitSolver final : private ImplicitStage {
     double dt;
     const Tears* tears;
     const Accelerations* accelerations;
+    const Watch* watch;
   };
   double start_size() override;
   double evaluate() override;
@@ -41,6 +49,8 @@ class ImplicitSolver final : private ImplicitStage {
   Step step() override;
   Trial try_part(double part) override;
   void accept() override;
+  bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
+  void note_progress(double part) override { task_.watch->progress(part); }
 
   const Cloth<R>& cloth() const { return *task_.cloth; }
   Field& position() { return task_.cloth->vector(task_.position); }
@@ -55,6 +65,7 @@ class ImplicitSolver final : private ImplicitStage {
   R* block(int i) { return blocks_.data() + std::size_t(i) * 6 * stride_; }
 
   Task task_{};
+  bool stopped_ = false;
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs
   Field start_x_, start_v_;  ///< c_x and c_v

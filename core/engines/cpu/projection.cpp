@@ -1,6 +1,7 @@
 #include "core/engines/cpu/projection.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace tyglab::cpu {
@@ -88,6 +89,7 @@ void Projector<R>::damp_color(Cloth<R>& cloth, const Color& color, int i) {
 template <class R>
 template <class Work>
 void Projector<R>::in_colors(int begin, int end, bool bending, Team& team, Work work) {
+  assert(begin % 2 == 0);
   static constexpr Color in_row[]{{E, 0, 0}, {E, 1, 1}, {EE, 0, 2}, {EE, 2, 3}};
   static constexpr Color to_next[]{{S, 0, 4}, {SE, 0, 5}, {SW, 0, 6}};
   static constexpr Color to_second{SS, 0, 7};
@@ -121,17 +123,25 @@ void Projector<R>::project_weight(Cloth<R>& cloth, int q) {
 }
 
 template <class R>
-void Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& team) {
+bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& team,
+                           const std::function<bool(int n)>& goes_on) {
   if (cloth.preset.kind == Kind::one_weight) {
     if (begin == 0) project_weight(cloth, q);
     team.barrier();
-    return;
+    return true;
   }
+  assert(end % 2 == 0 || end == rows_);
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
-  for (int n = 0; n < cloth.preset.iterations; ++n)
+  for (int n = 0; n < cloth.preset.iterations; ++n) {
+    // Read by all after the barriers of this iteration, and written again after those of the next.
+    bool& stopped = stopped_[n % 2];
+    if (begin == 0) stopped = n > 0 && !goes_on(n);
     in_colors(begin, end, cloth.preset.k_b > 0, team,
               [&](const Color& color, int i) { project_color(cloth, q, color, i); });
+    if (stopped) return false;
+  }
+  return true;
 }
 
 template <class R>

@@ -3,6 +3,8 @@
 // the same rows at a time, so the result has the same bits for any number of threads.
 #pragma once
 
+#include <functional>
+
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/projection_rows.h"
 #include "core/engines/cpu/team.h"
@@ -18,8 +20,9 @@ class Projector {
   /// whether either may differ from the last step.
   void prepare(const Cloth<R>& cloth, const Tears& tears, bool changed);
   /// Makes all iterations on the displacements in vector q, in rows [begin, end). Called by all threads together, each
-  /// with its rows: begin is even, and so is end except for the last.
-  void project(Cloth<R>& cloth, int q, int begin, int end, Team& team);
+  /// with its rows: begin is even, and so is end except for the last. `goes_on(n)`: asked by the thread of the first
+  /// row before iteration n from the second on. Returns to all threads whether it went on to the end.
+  bool project(Cloth<R>& cloth, int q, int begin, int end, Team& team, const std::function<bool(int n)>& goes_on);
   /// Damps the velocities by k_d, likewise.
   void damp(Cloth<R>& cloth, int begin, int end, Team& team);
   std::size_t bytes() const;
@@ -42,7 +45,8 @@ class Projector {
 
   static constexpr int lambdas = 8;
   int rows_ = 0, stride_ = 0;
-  Array<R> lambda_;  ///< row by row, in each color by color
+  Array<R> lambda_;                   ///< row by row, in each color by color
+  bool stopped_[2] = {false, false};  ///< in iterations of even and odd number
   bool masked_ = false;
   Array<R> free_;   ///< of particles
   Array<R> whole_;  ///< row by row, in each direction by direction

@@ -1,10 +1,10 @@
 #include "core/engines/cpu/team.h"
 
+#include <cassert>
+
 #if defined(__x86_64__) || defined(__i386__)
 #include <immintrin.h>
 #endif
-
-#include <algorithm>
 
 namespace tyglab::cpu {
 namespace {
@@ -41,7 +41,8 @@ void Progress::wait_for(int rows) const {
     wait_for_change(rows_, now);
 }
 
-Team::Team(int capacity) : size_(std::max(1, capacity)), starts_(std::size_t(size_) - 1) {
+Team::Team(int capacity) : size_(capacity), starts_(std::size_t(capacity) - 1) {
+  assert(capacity >= 1);
   for (int n = 1; n < size_; ++n) threads_.emplace_back([this, n] { serve(n); });
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <cassert>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -35,7 +36,10 @@ class alignas(64) Team {
   /// Threads that run() uses.
   int size() const { return size_; }
   /// Between runs: 1 … capacity().
-  void resize(int size) { size_ = size; }
+  void resize(int size) {
+    assert(1 <= size && size <= capacity());
+    size_ = size;
+  }
   /// Runs work(0) here and work(1) … work(size - 1) on the others; returns when all are done.
   void run(const std::function<void(int)>& work);
   /// Waits until all threads have arrived. Called inside run() by all of them.

@@ -1,6 +1,7 @@
 #include "core/engines/cpu/thread_governor.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace tyglab::cpu {
 namespace {
@@ -19,7 +20,8 @@ constexpr double first_interval = 20, longest_interval = 320;  // trials
 }  // namespace
 
 ThreadGovernor::ThreadGovernor(int most) {
-  for (int threads = std::max(most, 1); threads > 1; threads /= 2) levels_.push_back({threads, first_rest});
+  assert(most >= 1);
+  for (int threads = most; threads > 1; threads /= 2) levels_.push_back({threads, first_rest});
   levels_.push_back({1, first_rest});
   std::reverse(levels_.begin(), levels_.end());
   serve_at(levels_.size() - 1);

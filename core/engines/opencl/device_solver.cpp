@@ -1,6 +1,7 @@
 #include "core/engines/opencl/device_solver.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -49,13 +50,15 @@ std::size_t DeviceSolver<R>::bytes() const {
 }
 
 template <class R>
-void DeviceSolver<R>::solve(const Task& task) {
+bool DeviceSolver<R>::solve(const Task& task) {
   task_ = task;
+  stopped_ = false;
   const int position = task.position, velocity = task.velocity;
   state_.copy(state_.vector(position), start_x_.get()), state_.copy(state_.vector(velocity), start_v_.get());
   tyglab::solve(*this, {task.preset->iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task.h},
                 counts_);
   arrive();
+  return !stopped_;
 }
 
 template <class R>
@@ -216,9 +219,17 @@ typename DeviceSolver<R>::Left DeviceSolver<R>::make_gradients_in_launches(int m
   const cl_mem residual = residual_.get(), p = directions_[0].get(), out = progress_[0].get();
   set_arguments(begin, set_system(begin), residual, p, out);
   launch(begin, groups_);
-  constexpr int least = 4;  // launches between two looks
+  constexpr int least = 4;           // launches between two looks
+  constexpr double patience = 0.02;  // s between two looks where the step may be stopped
+  using Clock = std::chrono::steady_clock;
+  const auto begun = Clock::now();
   Left left{};
-  for (int n = 0, end = std::max(last_count_, least); n < most; end = n + std::max(n / 8, least)) {
+  for (int n = 0, end = task_.stop ? least : std::max(last_count_, least); n < most && !stops();
+       end = n + std::max(n / 8, least)) {
+    if (task_.stop && n > 0) {
+      const double seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+      end = std::min(end, n + std::max(int(patience * n / seconds), 1));
+    }
     for (end = std::min(end, most); n < end; ++n) launch_step(n, most);
     left = read_left(progress_[std::size_t(n % 2)], groups_);
     if (left.count < n || left.squared <= left.enough || !std::isfinite(left.squared)) break;
@@ -246,10 +257,11 @@ bool DeviceSolver<R>::solve_directly() {
   const R* const r = state_.map(residual_.get(), CL_MAP_READ);
   R* const s = state_.map(step_.get(), CL_MAP_WRITE);
   const auto at = [&](int i, int j, int c) { return (3 * std::ptrdiff_t(i) + c) * state_.stride() + j; };
-  const bool solved = direct_.solve({lattice_, own_stiffness(*task_.preset, task_.h),
-                                     [&](int i, int j) { return fixed[std::size_t(i) * lattice_.columns + j] != 0; },
-                                     spring, [&](int i, int j, int c) { return double(r[at(i, j, c)]); }},
-                                    [&](int i, int j, int c, double value) { s[at(i, j, c)] = R(value); });
+  const bool solved = direct_.solve(
+      {lattice_, own_stiffness(*task_.preset, task_.h),
+       [&](int i, int j) { return fixed[std::size_t(i) * lattice_.columns + j] != 0; }, spring,
+       [&](int i, int j, int c) { return double(r[at(i, j, c)]); }},
+      [&](int i, int j, int c, double value) { s[at(i, j, c)] = R(value); }, task_.stop);
   state_.unmap(residual_.get(), const_cast<R*>(r)), state_.unmap(step_.get(), s);
   return solved;
 }

@@ -49,9 +49,12 @@ class DeviceSolver final : private ImplicitStage {
     int position, velocity;         ///< vectors
     double h;                       ///< β dt
     Residual residual;
+    Stop stop;
+    std::function<void(double part)> progress;
   };
-  /// Replaces c_x and c_v in the two vectors by the solution.
-  void solve(const Task& task);
+  /// Replaces c_x and c_v in the two vectors by the solution. Returns false where it was stopped; the vectors may then
+  /// hold anything.
+  bool solve(const Task& task);
   const SolveCounts& counts() const { return counts_; }
   std::size_t bytes() const;
 
@@ -74,6 +77,8 @@ class DeviceSolver final : private ImplicitStage {
   Step step() override;
   Trial try_part(double part) override;
   void accept() override;
+  bool stops() override { return stopped_ = stopped_ || (task_.stop && task_.stop()); }
+  void note_progress(double part) override { task_.progress(part); }
 
   /// Makes the velocity that was tried the present one.
   void arrive();
@@ -107,6 +112,7 @@ class DeviceSolver final : private ImplicitStage {
   Memory coefficients_, blocks_, sums_;
   DirectSolver direct_;
   Task task_{};
+  bool stopped_ = false;
   bool away_ = false;  ///< a velocity is being tried
   double start_size_ = 0;
   int last_count_ = 16;  ///< iterations for the last system: about as many are likely again

@@ -1,6 +1,7 @@
 #include "core/engines/opencl/device_state.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/integrators/scheme.h"
 #include "core/simd/row_field.h"
@@ -75,6 +76,7 @@ const R* DeviceState<R>::host(int n) const {
 
 template <class R>
 glm::dvec3 DeviceState<R>::at(int n, int i, int j) const {
+  assert(lattice_.contains(i, j));
   if (device_->facts().shared_memory) host(n);
   const std::lock_guard lock(mutex_);
   Vector& vector = vectors_[std::size_t(n)];
@@ -123,6 +125,7 @@ void DeviceState<R>::end_views() {
 
 template <class R>
 bool DeviceState<R>::use_memory(std::shared_ptr<PositionMemory> memory) {
+  assert(memory->bytes >= slot_bytes());
   std::array<Memory, PositionMemory::count> slots;
   for (std::size_t n = 0; n < slots.size(); ++n)
     if (!(slots[n] = device_->in_place(memory->slots[n], slot_bytes()))) return false;
@@ -162,6 +165,7 @@ const float* DeviceState<R>::floats() {
 
 template <class R>
 void DeviceState<R>::upload(std::span<const std::uint8_t> bytes, cl_mem to) const {
+  assert(bytes.size() == std::size_t(lattice_.size()));
   const std::size_t columns = std::size_t(lattice_.columns);
   std::vector<std::uint8_t> all(mask_bytes_);
   for (std::size_t i = 0; i < std::size_t(lattice_.rows); ++i)

@@ -1,8 +1,10 @@
 #include "core/engines/opencl/opencl_engine.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "core/cloth/start.h"
 #include "core/engines/opencl/arguments.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
@@ -111,6 +113,7 @@ void OpenClEngine<R>::resolve() {
   }
   upload_bodies();
   guard_.set_rules({.tearing = tears_watched(), .F_release = preset_.F_release, .costly_steps = is_implicit(*scheme_)});
+  guard_.set_scene(preset_, lattice_, held_);
   guard_.invalidate();
 }
 
@@ -207,15 +210,17 @@ void OpenClEngine<R>::enqueue_sweep(const Kernel& kernel, const Resolved& resolv
 }
 
 template <class R>
-void OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
+bool OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
   std::vector<int> fixed = pinned_;
   if (held_.particle >= 0) fixed.push_back(held_.particle);
   const auto residual = [&](cl_mem x, cl_mem v, cl_mem c_v, cl_mem out) {
     const int at = set_arguments(kernels_.residual, 0, x, x, v, v, c_v, c_v, out, out);
     launch_sweep(kernels_.residual, at, resolved.constants, slot, 1);
   };
-  solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
-                  resolved.sweep->solves * preset_.dt, residual});
+  const double pass = double(&resolved - resolved_.data()), passes = double(resolved_.size());
+  return solver_->solve({&kernels_.solver, &preset_, &fixed, resolved.sweep->position, resolved.sweep->velocity,
+                         resolved.sweep->solves * preset_.dt, residual, repeating_ ? Stop{} : stop(),
+                         [&](double part) { set_step_progress((pass + part) / passes); }});
 }
 
 template <class R>
@@ -245,6 +250,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
       std::transform(row.v[c], row.v[c] + columns, v + to, [](double a) { return R(a); });
     }
   }
+  guard_.begin(motion_of(preset_, lattice_, tears, StateView<R>{x, v, state_.stride()}, 1));
   state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
   upload_masks(tears);
   guard_.accept_cuts(tears);
@@ -259,6 +265,7 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
 
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
+  assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
   const bool shifts = scheme_->lags && changes(preset_, preset).touches(Effect::dt);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
@@ -279,6 +286,7 @@ void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
           "starting a kernel");
   }
   if (wanted != options_) kernels_ = std::move(next), options_ = wanted, noted_run_ = false;
+  guard_.accept_changes(preset_, preset);
   preset_ = preset;
   resolve();
   if (!kept.x.x.empty()) Engine::load(kept, tears);
@@ -315,8 +323,10 @@ void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
       held.particle == held_.particle && std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
   pinned_.assign(pinned.begin(), pinned.end());
   held_ = held;
+  guard_.set_scene(preset_, lattice_, held_);
   if (!same) {
     masks_stale_ = true;
+    guard_.expect_pushes();  // who is let go may be inside a body
     fixed_list_ = device_->zeros(std::max<std::size_t>(pinned_.size(), 1) * sizeof(int));
     if (!pinned_.empty())
       check(clEnqueueWriteBuffer(device_->queue(), fixed_list_.get(), CL_TRUE, 0, pinned_.size() * sizeof(int),

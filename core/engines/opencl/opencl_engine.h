@@ -25,6 +25,7 @@
 // what stands near it.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <span>
 #include <string>
@@ -55,7 +56,10 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void set_fixed(std::span<const int> pinned, Held held) override;
   Advance advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override;
-  std::vector<Contact> contacts() const override { return contacts_; }
+  std::vector<Contact> contacts() const override {
+    assert(notes_contacts_);
+    return contacts_;
+  }
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
   PositionView positions() const override;
@@ -115,8 +119,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void launch_sweep(const Kernel& kernel, int at, const Constants& constants, int slot, int levels) const;
   /// Queues one sweep, or `levels` steps of a method of one sweep.
   void enqueue_sweep(const Kernel& kernel, const Resolved& resolved, int slot, int levels = 1);
-  /// Solves the implicit stage of a sweep; waits for it.
-  void solve(const Resolved& resolved, int slot);
+  /// Solves the implicit stage of a sweep; waits for it. Returns false where it was stopped.
+  bool solve(const Resolved& resolved, int slot);
   void plan_bands();
   void enqueue_tear(int slot);
   /// Writes F/m of the present state into acceleration_.
@@ -126,17 +130,22 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void accept_changes(const Tears& tears);
   void upload_masks(const Tears& tears);
   void read_stored(State& state) const;
+  StateView<R> view() const { return {state_.host(vector_x), state_.host(vector_v), state_.stride()}; }
 
   // What the guard asks for.
   StepsMade make_steps(int most, Tears& tears, Fault& fault) override;
   StepOutcome outcome(int step) override;
   double tear_overloaded(Tears& tears) override;
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
+  bool find_runaway(const MotionLimit& limit, Fault& fault) override;
+  Motion motion(const Tears& tears) override;
   void keep_backup() override { state_.keep_backup(); }
   void repeat(int steps, Tears& tears) override;
 
-  /// Makes that many steps, and reads their reports. `tear_each`: each breaks overloaded springs.
-  void run(int count, bool tear_each);
+  /// Makes that many steps, and reads their reports. `tear_each`: each breaks overloaded springs. Returns false where a
+  /// step was stopped halfway.
+  bool run(int count, bool tear_each);
+  int steps_of_batch(int most) const;
   /// find_fault() on the device, which leaves the state there. False: something may be wrong.
   bool well_on_device(double& divergence_budget);
   /// What kernels report outside of a step.
@@ -172,8 +181,10 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::vector<StepReport> report_;
   std::vector<R> hand_forces_;  ///< of each step of the batch
   StepGuard guard_;
-  bool tears_each_ = false;    ///< the steps that are being checked have each broken overloaded springs
-  bool tears_unread_ = false;  ///< some were broken that `tears` does not have yet
+  bool tears_each_ = false;      ///< the steps that are being checked have each broken overloaded springs
+  bool tears_unread_ = false;    ///< some were broken that `tears` does not have yet
+  bool repeating_ = false;       ///< known steps, which are not stopped
+  double seconds_per_step_ = 0;  ///< of the last batch; 0: not known
 };
 
 }  // namespace tyglab::opencl

@@ -1,6 +1,7 @@
 // Stepping on a device: steps are queued in batches, as long as the guard expects none of them to need examining, and
 // checked by their reports.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/engines/opencl/arguments.h"
@@ -31,7 +32,8 @@ void OpenClEngine<R>::enqueue_tear(int slot) {
 }
 
 template <class R>
-void OpenClEngine<R>::run(int count, bool tear_each) {
+bool OpenClEngine<R>::run(int count, bool tear_each) {
+  const auto begun = std::chrono::steady_clock::now();
   state_.end_views();
   const cl_uint zero = 0;
   const std::size_t bytes = std::size_t(count) * sizeof(StepReport);
@@ -41,22 +43,33 @@ void OpenClEngine<R>::run(int count, bool tear_each) {
   for (int n = 0, levels = 1; n < count; n += levels) {
     levels = std::min(most, count - n);
     for (std::size_t p = 0; p < resolved_.size(); ++p)
-      if (resolved_[p].work == Work::solution)
-        solve(resolved_[p], n);
-      else
+      if (resolved_[p].work != Work::solution)
         enqueue_sweep(kernels_.passes[p], resolved_[p], n, levels);
+      else if (!solve(resolved_[p], n))
+        return false;
     if (tear_each) enqueue_tear(n);
     if (n == 0) check(clFlush(device_->queue()), "starting a step");
   }
   report_.resize(std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, bytes, report_.data(), 0, nullptr, nullptr),
         "making a step");
+  seconds_per_step_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() / count;
   if (!noted_run_) device_->note_run(program_name(preset_, options_)), noted_run_ = true;
-  if (held_.particle < 0) return;
+  if (held_.particle < 0) return true;
   hand_forces_.resize(4 * std::size_t(count));
   check(clEnqueueReadBuffer(device_->queue(), hand_.get(), CL_TRUE, 0, hand_forces_.size() * sizeof(R),
                             hand_forces_.data(), 0, nullptr, nullptr),
         "making a step");
+  return true;
+}
+
+/// A batch cannot be stopped, so where somebody may want to it is no longer than a person notices.
+template <class R>
+int OpenClEngine<R>::steps_of_batch(int most) const {
+  if (solver_) return 1;              // to solve is to wait anyway
+  constexpr double unnoticed = 0.03;  // s
+  const int batch = guard_.steps_ahead(most, tears_each_);
+  return stop() && seconds_per_step_ > 0 ? std::clamp(int(unnoticed / seconds_per_step_), 1, batch) : batch;
 }
 
 template <class R>
@@ -101,8 +114,17 @@ template <class R>
 bool OpenClEngine<R>::find_fault(Tears& tears, Fault& fault, double& divergence_budget) {
   read_tears(tears);  // what has been torn is no fault
   if (remote() && preset_.kind == Kind::cloth && well_on_device(divergence_budget)) return false;
-  const StateView<R> now{state_.host(vector_x), state_.host(vector_v), state_.stride()};
-  return tyglab::find_fault(preset_, lattice_, tears, now, fault, divergence_budget);
+  return tyglab::find_fault(preset_, lattice_, tears, view(), fault, divergence_budget);
+}
+
+template <class R>
+bool OpenClEngine<R>::find_runaway(const MotionLimit& limit, Fault& fault) {
+  return tyglab::find_runaway(limit, lattice_, view(), 1 / velocity_scale(), fault);
+}
+
+template <class R>
+Motion OpenClEngine<R>::motion(const Tears& tears) {
+  return motion_of(preset_, lattice_, tears, view(), 1 / velocity_scale());
 }
 
 template <class R>
@@ -122,7 +144,8 @@ template <class R>
 StepOutcome OpenClEngine<R>::outcome(int step) {
   const StepReport& report = report_[std::size_t(step)];
   StepOutcome result;
-  result.elongation = max_elongation(report.way), result.left_inside = int(report.left_inside);
+  result.elongation = max_elongation(report.way), result.dt = preset_.dt;
+  result.left_inside = int(report.left_inside);
   if (tears_each_) result.tear_budget = tear_slack(report), tears_unread_ |= report.torn != 0;
   if (held_.particle >= 0) {
     const R* f = hand_forces_.data() + 4 * std::size_t(step);
@@ -135,8 +158,8 @@ template <class R>
 StepsMade OpenClEngine<R>::make_steps(int most, Tears& tears, Fault& fault) {
   constexpr int soon = 8;  // steps: where springs must be examined that often, each step had better do so by itself
   tears_each_ = guard_.overload_within(soon);
-  const int batch = solver_ ? 1 : guard_.steps_ahead(most, tears_each_);  // to solve is to wait anyway
-  run(batch, tears_each_);
+  const int batch = steps_of_batch(most);
+  if (!run(batch, tears_each_)) return {0, StepsEnd::stopped};
   const StepsMade made = guard_.judge(*this, batch, tears, fault);
   read_tears(tears);
   return made;
@@ -149,7 +172,9 @@ void OpenClEngine<R>::repeat(int steps, Tears& tears) {
   state_.restore();
   if (watched) upload_masks(tears);
   if (steps > 0) {
+    repeating_ = true;
     run(steps, watched);
+    repeating_ = false;
     report_.erase(report_.begin(), report_.end() - 1);
     if (held_.particle >= 0) hand_forces_.erase(hand_forces_.begin(), hand_forces_.end() - 4);
   }
@@ -161,7 +186,7 @@ template <class R>
 Advance OpenClEngine<R>::advance(int steps, Tears& tears) {
   state_.end_views();
   accept_changes(tears);
-  const Advance result = guard_.advance(*this, steps, tears);
+  const Advance result = guard_.advance(*this, steps, tears, stop());
   if (notes_contacts_ && !report_.empty() && meets_bodies(preset_)) read_contacts(report_.back().contacts);
   return result;
 }

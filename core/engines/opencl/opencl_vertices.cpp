@@ -1,5 +1,7 @@
 // How an OpenCL engine's positions reach OpenGL: in memory that both use, or in buffers that both open.
 #include "core/engines/opencl/arguments.h"
+
+#include <cassert>
 #include "core/engines/opencl/card_vertices.h"
 #include "core/engines/opencl/opencl_engine.h"
 
@@ -43,6 +45,7 @@ GlSharing OpenClEngine<R>::gl_sharing() const {
 
 template <class R>
 std::unique_ptr<GlVertices> OpenClEngine<R>::share(const GlBuffers& buffers) const {
+  assert(gl_sharing() != GlSharing::none);
   return std::make_unique<CardVertices>(device_, buffers, sizeof(R) == sizeof(double));
 }
 

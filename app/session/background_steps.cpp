@@ -1,0 +1,77 @@
+#include "app/session/background_steps.h"
+
+#include <chrono>
+#include <utility>
+
+#include "app/session/engine_fallback.h"
+#include "app/session/session.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+bool may_take_long(const Preset& preset) {
+  const Scheme& method = scheme(preset.integrator);
+  return is_implicit(method) || chooses_steps(method) || projects(method);
+}
+
+/// What was only seen of the stand-in and has been changed there.
+void take_appearance(Simulation& cloth, const Simulation& stand_in) {
+  if (!(cloth.preset() == stand_in.preset())) cloth.apply(edit::Change{stand_in.preset()});
+}
+
+}  // namespace
+
+bool BackgroundSteps::wanted(const Session& session) {
+  if (session.scripted || session.pacing.patient) return false;
+  const Lockstep& copies = session.copies.lockstep;
+  bool any = !session.simulation->divergence() && may_take_long(session.preset());
+  for (std::size_t n = 0; n < copies.size(); ++n)
+    any = any || (!copies[n].simulation->divergence() && may_take_long(copies[n].simulation->preset()));
+  return any;
+}
+
+void BackgroundSteps::start(Session& session, int steps) {
+  Lockstep still = session.copies.lockstep.stand_in();
+  cloth_ = std::exchange(session.simulation, session.simulation->stand_in());
+  copies_ = std::exchange(session.copies.lockstep, std::move(still));
+  begun_ = session.now;
+  const double alone_until = session.copies.t + steps * session.preset().dt;
+  work_.start(Priority::normal, [cloth = cloth_, &copies = copies_, steps, alone_until](const JobControl& control) {
+    const Stop stop = [&control] { return control.cancelled(); };
+    const auto begun = std::chrono::steady_clock::now();
+    const bool diverged = cloth->divergence().has_value();
+    cloth->stop_when(stop), copies.stop_when(stop);
+    StepsMadeBeside made;
+    made.advance = cloth->advance(steps);
+    made.steps = diverged ? steps : made.advance.steps;
+    made.t = diverged ? alone_until : cloth->time();
+    copies.follow(made.t);
+    cloth->stop_when({}), copies.stop_when({});
+    made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    return made;
+  });
+}
+
+StepsMadeBeside BackgroundSteps::take(Session& session) {
+  auto outcome = work_.take();
+  take_appearance(*cloth_, *session.simulation);
+  for (std::size_t n = 0; n < copies_.size(); ++n)
+    take_appearance(*copies_[n].simulation, *session.copies.lockstep[n].simulation);
+  session.simulation = std::exchange(cloth_, nullptr);
+  session.copies.lockstep = std::exchange(copies_, {});
+  if (const auto* error = std::get_if<JobError>(&outcome)) throw EngineError(error->what);
+  return std::get<StepsMadeBeside>(outcome);
+}
+
+void settle(Session& session) {
+  if (!session.background_steps.busy()) return;
+  session.background_steps.cancel();
+  try {
+    session.take_steps();
+  } catch (const EngineError& error) {
+    fall_back(session, error.what());
+  }
+}
+
+}  // namespace tyglab

@@ -1,0 +1,59 @@
+// Steps that may take longer than a frame are made beside the frames, in a thread of their own.
+//
+// Of most methods a step costs the same each time, and frames make as many as they have time for (Pacing). A method
+// that solves, iterates or chooses its own steps may need seconds for one. Its steps, and those of the copies, are made
+// by a worker that has the true cloth to itself; the session shows a stand-in meanwhile (Simulation::stand_in), the
+// cloth as it was before. Each update waits for the worker as long as steps may take anyway, so quick steps are there
+// in the same frame. Whoever would change the cloth stops the step first (settle), which undoes what it has done.
+#pragma once
+
+#include <memory>
+
+#include "app/studies/job.h"
+#include "core/lockstep.h"
+#include "core/simulation.h"
+
+namespace tyglab {
+
+struct Session;
+
+/// What has become of a piece of steps.
+struct StepsMadeBeside {
+  Advance advance;     ///< of the original; nothing where it had diverged
+  int steps = 0;       ///< of its dt, by which time has gone on
+  double t = 0;        ///< s, until which the copies were to go
+  double seconds = 0;  ///< that all of them took
+};
+
+class BackgroundSteps {
+ public:
+  /// Whether steps of the cloth or one of its copies are to be made here.
+  static bool wanted(const Session& session);
+
+  /// Whether the session shows a stand-in.
+  bool busy() const { return cloth_ != nullptr; }
+  /// Begins that many steps of the cloth and its copies, or of the copies alone where it has diverged.
+  void start(Session& session, int steps);
+  /// Waits for them, but no longer than that, s. Whether they are there.
+  bool wait(double seconds) const { return work_.wait(seconds); }
+  bool ready() const { return work_.ready(); }
+  /// Puts the cloth back, with the steps made. Waits for them. Throws EngineError if they could not be made.
+  StepsMadeBeside take(Session& session);
+  void cancel() { work_.cancel(); }
+
+  /// How much of the present step is done, 0 to 1, as far as its method can tell.
+  double progress() const { return cloth_ ? cloth_->engine().step_progress() : 0; }
+  /// The session's time at which they were begun, s; busy() must hold.
+  double begun() const { return begun_; }
+
+ private:
+  std::shared_ptr<Simulation> cloth_;  ///< the true one, while it is away
+  Lockstep copies_;
+  double begun_ = 0;
+  Job<StepsMadeBeside> work_;
+};
+
+/// Stops what is being computed beside the frames, so that the cloth can be changed: it stands at its last whole step.
+void settle(Session& session);
+
+}  // namespace tyglab

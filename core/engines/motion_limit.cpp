@@ -1,0 +1,73 @@
+#include "core/engines/motion_limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/engines/fault.h"
+
+namespace tyglab {
+namespace {
+
+/// What springs can hold that whole springs may be long, as Σ |v|², m²/s²: the rule that judges their lengths comes
+/// first. A step that makes a spring that long moves its ends by as much, hence 1/dt².
+double reach_squared(const Preset& p, const Lattice& lattice) {
+  const double per_step = 1 / (p.dt * p.dt);
+  if (p.kind == Kind::one_weight) {
+    const double farthest = longest_factor * std::max(p.L, std::abs(p.offset));
+    return farthest * farthest * (p.k / p.m + per_step);
+  }
+  double sum = 0;
+  for (int d = 0; d < int(directions.size()); ++d) {
+    const Direction& dir = directions[d];
+    const double springs = double(std::max(lattice.rows - dir.di, 0)) * std::max(lattice.columns - std::abs(dir.dj), 0);
+    double longest = longest_factor * dir.rest * p.L;
+    if (p.F_max > 0 && p.k_s > 0) longest = std::min(longest, p.F_max / p.k_s);
+    const double held = dir.bending ? p.k_b * std::pow(dir.rest * p.L, 2) : p.k_s * longest * longest;
+    sum += springs * (held / p.m + longest * longest * per_step);
+  }
+  return sum;
+}
+
+}  // namespace
+
+void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, const glm::dvec3& hand) {
+  constexpr double stretch_springs = 8, bending_springs = 4, triangles = 8, corners = 3;
+  const bool cloth = p.kind == Kind::cloth;
+  // What the hand lets go keeps its velocity.
+  if (!held) begun_squared_ += hand_squared_;
+  const double hand_speed = held ? glm::length(hand) : 0;
+  hand_squared_ = hand_speed * hand_speed;
+  particles_ = lattice.size(), dt_ = p.dt;
+  const double wind = cloth ? triangles / corners * glm::length(p.W) / p.m : 0;
+  const double at_hand = std::sqrt((stretch_springs * p.k_s + bending_springs * p.k_b) / p.m);
+  acceleration_ = std::sqrt(particles_) * (std::abs(p.g) + wind) + at_hand * hand_speed;
+  damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
+  fastest_mode_ = std::sqrt((12 * p.k_s + 8 * p.k_b) / p.m);
+  reach_squared_ = reach_squared(p, lattice);
+  update();
+}
+
+void MotionLimit::begin(const Motion& motion) {
+  begun_squared_ = motion.squared, gained_ = 0;
+  farthest_ = motion.farthest;
+  push(motion.pushed);
+}
+
+void MotionLimit::push(double distance) {
+  gained_ += fastest_mode_ * distance, farthest_ += distance;
+  update();
+}
+
+void MotionLimit::update() {
+  const double most = std::sqrt(begun_squared_) + gained_;
+  most_squared_ = factor * (most * most + hand_squared_ + reach_squared_);
+}
+
+void MotionLimit::pass(double dt) {
+  gained_ += acceleration_ * dt, begun_squared_ += damping_ * dt;
+  update();
+  farthest_ += std::sqrt(most_squared_) * dt;
+}
+
+}  // namespace tyglab

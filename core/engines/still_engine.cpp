@@ -1,0 +1,48 @@
+#include "core/engines/still_engine.h"
+
+#include <algorithm>
+
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+
+StillEngine::StillEngine(Engine& of, const Preset& preset, const Lattice& lattice, const Tears& tears)
+    : lattice_(lattice),
+      lag_(scheme(preset.integrator).keeps_displacement ? preset.dt / 2 : 0),
+      stride_(simd::row_stride<double>(lattice.columns)),
+      contacts_(of.contacts()),
+      bytes_(of.bytes()),
+      threads_(of.threads()),
+      threads_at_work_(of.threads_at_work()),
+      solves_(of.solves()),
+      inner_steps_(of.inner_steps()),
+      features_(of.features()),
+      name_(of.name()) {
+  of.read(state_, tears);
+  of.read_raw(raw_, tears);
+  x_.resize(lattice.rows, stride_);
+  const Array<double>* from[] = {&state_.x.x, &state_.x.y, &state_.x.z};
+  for (int i = 0; i < lattice.rows; ++i)
+    for (int c = 0; c < 3; ++c)
+      std::copy_n(from[c]->data() + std::size_t(i) * lattice.columns, lattice.columns, x_.row(i, c));
+}
+
+Advance StillEngine::advance(int, Tears&) {
+  Advance none;
+  none.stopped = true;
+  return none;
+}
+
+PositionView StillEngine::positions() const {
+  PositionView view{lattice_.rows, lattice_.columns, 3 * stride_};
+  for (int c = 0; c < 3; ++c) view.d[c] = x_.row(0, c);
+  return view;
+}
+
+StoredParticle StillEngine::stored(int i, int j) const {
+  const std::size_t p = std::size_t(i) * lattice_.columns + j;
+  const glm::dvec3 v(raw_.v.x[p], raw_.v.y[p], raw_.v.z[p]);
+  return {{raw_.x.x[p], raw_.x.y[p], raw_.x.z[p]}, v, v, lag_};
+}
+
+}  // namespace tyglab

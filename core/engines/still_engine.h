@@ -1,0 +1,51 @@
+// A state that stands still behind the face of an engine: what is looked at while the cloth's own engine is in the
+// middle of a step, in another thread.
+#pragma once
+
+#include "core/engines/engine.h"
+#include "core/simd/row_field.h"
+
+namespace tyglab {
+
+class StillEngine final : public Engine {
+ public:
+  /// What the engine of a cloth with these constants holds now, and says of itself. The velocity that damping sees is
+  /// taken to be the particle's own.
+  StillEngine(Engine& of, const Preset& preset, const Lattice& lattice, const Tears& tears);
+
+  /// Nothing here can be changed or moved: that is for the engine itself.
+  void load(const StateRows&, const Tears&) override {}
+  void set_preset(const Preset&, const Tears&) override {}
+  void set_fixed(std::span<const int>, Held) override {}
+  Advance advance(int, Tears&) override;
+  void note_contacts(bool) override {}
+
+  std::vector<Contact> contacts() const override { return contacts_; }
+  void read(State& state, const Tears&) override { state = state_; }
+  void read_raw(State& state, const Tears&) override { state = raw_; }
+  PositionView positions() const override;
+  StoredParticle stored(int i, int j) const override;
+  std::size_t bytes() const override { return bytes_; }
+  int threads() const override { return threads_; }
+  int threads_at_work() const override { return threads_at_work_; }
+  SolveCounts solves() const override { return solves_; }
+  InnerSteps inner_steps() const override { return inner_steps_; }
+  std::vector<StepFeature> features() const override { return features_; }
+  std::string name() const override { return name_; }
+
+ private:
+  Lattice lattice_;
+  State state_, raw_;
+  double lag_;                ///< s, of the velocities in raw_
+  simd::RowField<double> x_;  ///< in the layout of positions()
+  int stride_;
+  std::vector<Contact> contacts_;
+  std::size_t bytes_;
+  int threads_, threads_at_work_;
+  SolveCounts solves_;
+  InnerSteps inner_steps_;
+  std::vector<StepFeature> features_;
+  std::string name_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,117 @@
+// Steps that are stopped from outside, wherever that happens: what remains is the last whole step, and who goes on from
+// there comes to the same bits as who was never stopped.
+#include <doctest/doctest.h>
+
+#include <memory>
+#include <string>
+
+#include "core/integrators/scheme.h"
+#include "core/simulation.h"
+#include "tests/engines/engine_pair.h"
+#include "tests/support/devices.h"
+
+namespace tyglab::stop_test {
+namespace {
+
+bool same_bits(const State& a, const State& b) {
+  return std::equal(a.x.x.begin(), a.x.x.end(), b.x.x.begin()) &&
+         std::equal(a.x.y.begin(), a.x.y.end(), b.x.y.begin()) &&
+         std::equal(a.x.z.begin(), a.x.z.end(), b.x.z.begin()) &&
+         std::equal(a.v.x.begin(), a.v.x.end(), b.v.x.begin()) &&
+         std::equal(a.v.y.begin(), a.v.y.end(), b.v.y.begin()) && std::equal(a.v.z.begin(), a.v.z.end(), b.v.z.begin());
+}
+
+/// A scene in which everything can happen within a step, and steps take many iterations.
+Preset busy(const std::string& method) {
+  Preset preset = test::everything(Precision::double_);
+  preset.integrator = method;
+  preset.F_max = 40;
+  return preset;
+}
+
+/// Says yes at the n-th time that it is asked, and from then on.
+struct Alarm {
+  std::shared_ptr<int> asked = std::make_shared<int>(0);
+  int at;
+  explicit Alarm(int n) : at(n) {}
+  bool operator()() const { return ++*asked >= at; }
+};
+
+/// How often a method asks during that many steps.
+int questions(const Preset& preset, int steps, int threads) {
+  Simulation simulation(preset, threads);
+  const Alarm never(1 << 30);
+  simulation.stop_when(never);
+  simulation.advance(steps);
+  return *never.asked;
+}
+
+void check_stops(const Preset& preset, int threads) {
+  constexpr int steps = 4;
+  CAPTURE(preset.integrator);
+  CAPTURE(threads);
+  std::vector<State> whole;
+  std::vector<int> torn;
+  Simulation undisturbed(preset, threads);
+  for (int n = 0; n <= steps; ++n) {
+    whole.push_back(undisturbed.read_raw()), torn.push_back(undisturbed.tears().torn_count());
+    undisturbed.advance(1);
+  }
+  const int most = questions(preset, steps, threads);
+  REQUIRE(most > 0);
+  for (int part = 1; part <= 5; ++part) {
+    CAPTURE(part);
+    Simulation simulation(preset, threads);
+    simulation.stop_when(Alarm(1 + most * part / 6));
+    const Advance stopped = simulation.advance(steps);
+    CHECK(stopped.stopped == (stopped.steps < steps));
+    CHECK(simulation.steps() == stopped.steps);
+    CHECK(simulation.tears().torn_count() == torn[std::size_t(stopped.steps)]);
+    CHECK(same_bits(simulation.read_raw(), whole[std::size_t(stopped.steps)]));
+    if (stopped.stopped) CHECK(simulation.advance(1).steps == 0);
+    simulation.stop_when({});
+    CHECK(simulation.advance(steps - stopped.steps).steps == steps - stopped.steps);
+    CHECK(same_bits(simulation.read_raw(), whole[steps]));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("stopped anywhere in a step, every method stands at its last whole step and goes on from there") {
+  for (const Scheme& method : schemes())
+    for (const int threads : {1, 2}) check_stops(busy(std::string(method.name)), threads);
+}
+
+TEST_CASE("the same on an OpenCL device") {
+  if (test::skipped_without_device()) return;
+  for (const Scheme& method : schemes()) {
+    if (!runs_on_opencl(method)) continue;
+    Preset preset = busy(std::string(method.name));
+    preset.engine = EngineKind::opencl;
+    check_stops(preset, 1);
+  }
+}
+
+TEST_CASE("a step that takes many iterations asks in each of them, and tells how far it is") {
+  for (const char* method : {"implicit_euler", "xpbd", "dopri5"}) {
+    CAPTURE(std::string(method));
+    Preset preset = busy(method);
+    preset.iterations = 40, preset.tolerance = 1e-9, preset.k_s = 1e5, preset.dt = 0.01;
+    Simulation simulation(preset, 2);
+    double least = 1, most = 0;
+    int asked = 0;
+    simulation.stop_when([&] {
+      ++asked;
+      const double part = simulation.engine().step_progress();
+      least = std::min(least, part), most = std::max(most, part);
+      return false;
+    });
+    simulation.advance(1);
+    CHECK(asked > 20);
+    CHECK(least < 0.2);
+    CHECK(most > 0.3);
+    CHECK(most <= 1);
+  }
+}
+
+}  // namespace tyglab::stop_test

@@ -1,0 +1,227 @@
+// Clicks, drags and words that are over before a frame is: each counts, in its turn.
+#include <doctest/doctest.h>
+
+#include <initializer_list>
+
+#include "app/base/glfw_keys.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::input_test {
+
+constexpr int left = GLFW_MOUSE_BUTTON_LEFT, ctrl = GLFW_MOD_CONTROL;
+
+// What GLFW tells before the next frame.
+
+void go(test::NullUi& window, glm::vec2 to) {
+  window.input.on_move(to, window.ui.now);
+}
+
+void button(test::NullUi& window, int action) {
+  window.input.on_button(left, action, window.input.mods, window.ui.now);
+}
+
+void click_and_leave(test::NullUi& window, glm::vec2 at, glm::vec2 to, int times = 1) {
+  go(window, at);
+  for (int n = 0; n < times; ++n) button(window, GLFW_PRESS), button(window, GLFW_RELEASE);
+  go(window, to);
+}
+
+void press(test::NullUi& window, int key, int mods = 0) {
+  window.input.on_key(key, GLFW_PRESS, mods);
+  window.input.on_key(key, GLFW_RELEASE, mods);
+}
+
+/// Until all that has come was shown.
+void settle(test::NullUi& window) {
+  window.frame();
+  window.until([&] { return !window.input.unshown; }, "everything to be shown");
+  window.frames(4);
+}
+
+void open_field(test::NullUi& window) {
+  window.double_click(window.middle("constants.k_s.value"));
+  REQUIRE(window.typing());
+}
+
+TEST_CASE("a click chooses what it met, though press, release and the way on come within one frame") {
+  test::NullUi window;
+  window.pause();
+  window.click("top.engine");
+  const glm::vec2 away(5, 400);
+  click_and_leave(window, window.middle("menu.cpu_double"), away);
+  settle(window);
+  CHECK(window.preset().precision == Precision::double_);
+  // The same from the closed menu on: it opens, and the next click chooses.
+  window.frames(60);
+  click_and_leave(window, window.middle("top.engine"), away);
+  settle(window);
+  window.frames(60);
+  click_and_leave(window, window.middle("menu.cpu_float"), away);
+  settle(window);
+  CHECK(window.preset().precision == Precision::float_);
+}
+
+TEST_CASE("three clicks within a frame are three, and what the pointer passes over on its way is left alone") {
+  test::NullUi window;
+  window.pause();
+  const glm::vec2 step = window.middle("top.step"), play = window.middle("top.play");
+  const std::int64_t steps = window.steps();
+  click_and_leave(window, step, play, 3);
+  settle(window);
+  CHECK(window.steps() == steps + 3);
+  CHECK(window.paused());
+}
+
+TEST_CASE("a whole drag within one frame turns a slider to where it ends, and the slider lets go") {
+  test::NullUi window;
+  window.pause();
+  const double before = window.preset().k_s;
+  const glm::vec2 from = window.along("constants.k_s.slider", 0.3f), to = window.along("constants.k_s.slider", 0.9f);
+  go(window, from);
+  button(window, GLFW_PRESS);
+  go(window, (from + to) / 2.f);
+  go(window, to);
+  button(window, GLFW_RELEASE);
+  go(window, {5, 400});
+  settle(window);
+  const double value = window.preset().k_s;
+  CHECK(value > 1.5 * before);
+  window.move({400, 400});
+  window.move({300, 400});
+  CHECK(window.preset().k_s == value);
+  CHECK(window.ui.slider.dragged == 0);
+  // As far as a drag that takes its time.
+  test::NullUi slow;
+  slow.pause();
+  slow.drag({from, (from + to) / 2.f, to});
+  CHECK(slow.preset().k_s == value);
+}
+
+TEST_CASE("a body stays where the button was released, however far the pointer goes within that frame") {
+  test::NullUi window({.preset = "sphere"});
+  window.pause();
+  window.key(GLFW_KEY_BACKSPACE);
+  window.frames(4);
+  const auto seen = [&] {
+    return *window.scene.camera.project(window.preset().bodies[0].c, window.ui.viewport.size()) +
+           window.ui.viewport.box.lo;
+  };
+  const glm::vec2 from = seen(), to = from + glm::vec2(30, 0);
+  window.move(from);
+  window.press();
+  window.move(to);
+  button(window, GLFW_RELEASE);
+  go(window, to + glm::vec2(0, -200));
+  settle(window);
+  CHECK(glm::distance(seen(), to) < 3);
+}
+
+TEST_CASE("keys that fall into one frame arrive all and in order: select all, digits, a backspace, Enter") {
+  test::NullUi window;
+  window.pause();
+  const auto type = [&](std::string_view digits) { window.add_typed(digits); };
+  open_field(window);
+  press(window, GLFW_KEY_A, ctrl);
+  type("51");
+  press(window, GLFW_KEY_ENTER);
+  settle(window);
+  CHECK_FALSE(window.typing());
+  CHECK(window.preset().k_s == 51);
+  open_field(window);
+  press(window, GLFW_KEY_BACKSPACE);  // all of it is selected at first
+  type("62");
+  press(window, GLFW_KEY_ENTER);
+  settle(window);
+  CHECK(window.preset().k_s == 62);
+  open_field(window);
+  press(window, GLFW_KEY_A, ctrl);
+  type("78");
+  press(window, GLFW_KEY_BACKSPACE);
+  type("45");
+  for (int n = 0; n < 2; ++n) press(window, GLFW_KEY_BACKSPACE);  // the same key twice is twice
+  type("3");
+  press(window, GLFW_KEY_ENTER);
+  settle(window);
+  CHECK(window.preset().k_s == 73);
+}
+
+TEST_CASE("characters typed just before a shortcut are no part of it, and the shortcut none of theirs") {
+  test::NullUi window;
+  window.pause();
+  open_field(window);
+  window.add_typed("12");
+  press(window, GLFW_KEY_A, ctrl);
+  window.input.mods = ctrl;  // Ctrl is still down at the end of the frame
+  settle(window);
+  window.input.mods = 0;
+  window.add_typed("9");
+  press(window, GLFW_KEY_ENTER);
+  settle(window);
+  CHECK(window.preset().k_s == 9);
+}
+
+TEST_CASE("a key still down at the end of a long frame acts in its turn, and once") {
+  test::NullUi window;
+  window.pause();
+  open_field(window);
+  press(window, GLFW_KEY_A, ctrl);
+  window.add_typed("8");
+  window.input.on_key(GLFW_KEY_BACKSPACE, GLFW_PRESS, 0);
+  window.frames(5);
+  window.input.on_key(GLFW_KEY_BACKSPACE, GLFW_RELEASE, 0);
+  window.add_typed("51");
+  press(window, GLFW_KEY_ENTER);
+  settle(window);
+  CHECK(window.preset().k_s == 51);
+}
+
+TEST_CASE("Ctrl counts for the click that it was held for, though it is up before the frame ends") {
+  test::NullUi window;
+  window.pause();
+  const glm::vec2 at = window.middle("constants.k_s.value");
+  window.frames(60);
+  window.input.mods = ctrl;
+  click_and_leave(window, at, at);
+  window.input.mods = 0;
+  settle(window);
+  CHECK(window.typing());
+  window.key(test::NullUi::escape);
+  window.frames(60);
+  click_and_leave(window, at, at);
+  window.input.mods = ctrl;  // and not for one before it
+  window.frame();
+  window.input.mods = 0;
+  settle(window);
+  CHECK_FALSE(window.typing());
+}
+
+TEST_CASE("a release that is lost, as while the window is iconified, leaves nothing held") {
+  test::NullUi window;
+  window.pause();
+  window.move(window.along("constants.k_s.slider", 0.5f));
+  window.press();
+  CHECK(window.ui.slider.dragged != 0);
+  button(window, GLFW_RELEASE);
+  window.input.clear();
+  window.frames(3);
+  CHECK(window.ui.slider.dragged == 0);
+  CHECK_FALSE(ImGui::IsMouseDown(left));
+}
+
+TEST_CASE("what the pointer points at counts while it is over the window, or the window has the keyboard") {
+  test::NullUi window;
+  window.move(window.middle("constants.k_s.slider"));
+  const auto points = [&] { return ImGui::IsMousePosValid(); };
+  CHECK(points());
+  window.input.inside = false;
+  window.frame();
+  CHECK(points());
+  window.input.focused = false;
+  window.frame();
+  CHECK_FALSE(points());
+  window.input.inside = true;
+  window.frame();
+  CHECK(points());
+}
+
+}  // namespace tyglab::input_test
