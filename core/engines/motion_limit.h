@@ -30,7 +30,7 @@ class MotionLimit {
   /// Takes constants, wind and hand as they are from now on. `hand`: velocity of the held particle, m/s, 0 if there is
   /// none.
   void set_scene(const Preset& preset, const Lattice& lattice, bool held, const glm::dvec3& hand);
-  /// Begins anew from a motion that has been measured.
+  /// Starts again from a motion that has been measured.
   void begin(const Motion& motion);
   /// Bodies are about to push particles out.
   void push(double distance);

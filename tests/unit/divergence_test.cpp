@@ -134,7 +134,7 @@ TEST_CASE("particles without a whole spring still diverge when they are no longe
   CHECK(test::all_finite(simulation.read()));
 }
 
-/// Stretched so much that the first step tears every spring, and far above what dt allows.
+/// Stretched far enough that the first step tears every spring, and far above what dt allows.
 Preset torn_at_once(const std::string& integrator, Precision precision) {
   Preset preset = test::cloth(32, 32, integrator);
   preset.precision = precision;
