@@ -83,7 +83,7 @@ TEST_CASE("130: an interrupt replaces no older file, and keeps what is complete 
     put_older(folder.path());
     const auto outcome =
         test::tyglab_interrupted(folder.path(), run_of({"--seconds", "100000", "--json", "r.json", "--obj", "frames"}),
-                                 0.1, signal, folder / "frames/hanging_0004.obj");
+                                 1.0, signal, folder / "t.csv.incomplete");
     CHECK(outcome.code == 130);
     CHECK(outcome.err.find("no older file was replaced") != std::string::npos);
     for (const char* name : moments_and_histories) CHECK(is_older(folder.path(), name));
