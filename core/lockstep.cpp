@@ -7,6 +7,7 @@
 
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -14,9 +15,7 @@ namespace {
 constexpr double whole_step = 1e-6;  // of a step: rounding of times
 
 std::string listed(std::span<const Difference> differences) {
-  std::string text;
-  for (const Difference& difference : differences) text += (text.empty() ? "" : ", ") + difference.text();
-  return text.empty() ? "no difference" : text;
+  return differences.empty() ? "no difference" : joined(differences, ", ", &Difference::text);
 }
 
 /// Whole steps of a cloth that end by `t`.
@@ -161,17 +160,19 @@ std::size_t Lockstep::bytes() const {
 double rms_distance(Simulation& cloth, Simulation& from) {
   if (cloth.lattice() != from.lattice() || cloth.divergence() || from.divergence())
     return std::numeric_limits<double>::quiet_NaN();
-  const State &a = cloth.read(), &b = from.read();
-  const double ahead = from.time() - cloth.time();
+  return rms_distance(cloth.read(), from.read(), from.time() - cloth.time());
+}
+
+double rms_distance(const State& cloth, const State& from, double ahead) {
   double sum = 0;
   for (const auto component : {&VectorField<double>::x, &VectorField<double>::y, &VectorField<double>::z}) {
-    const auto &x = a.x.*component, &v = a.v.*component, &other = b.x.*component;
+    const auto &x = cloth.x.*component, &v = cloth.v.*component, &other = from.x.*component;
     for (std::size_t p = 0; p < x.size(); ++p) {
       const double apart = x[p] + ahead * v[p] - other[p];
       sum += apart * apart;
     }
   }
-  return std::sqrt(sum / double(a.x.x.size()));
+  return std::sqrt(sum / double(from.x.x.size()));
 }
 
 }  // namespace tyglab

@@ -74,6 +74,8 @@ class Lockstep {
 /// by less than a dt, the first is carried to the second's time with its velocities: exact to ½ a Δt². Not a number
 /// where a cloth has diverged or lattices differ.
 double rms_distance(Simulation& cloth, Simulation& from);
+/// The same of two states of one lattice, the first carried on by `ahead` seconds.
+double rms_distance(const State& cloth, const State& from, double ahead = 0);
 
 /// The constants of a copy: the original's with the differences. Throws PresetError.
 Preset copied_preset(const Preset& original, std::span<const Difference> differences);

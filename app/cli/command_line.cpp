@@ -25,6 +25,7 @@
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -52,12 +53,6 @@ std::string range_problem(double value, double lowest, double highest, const std
          shortest_number(highest) + (unit.empty() ? "" : " " + unit);
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 /// What is wrong with the first word that should be a command and is none, or with the lack of one; empty if nothing
 /// is.
 std::string command_problem(const CLI::App& program, std::span<const char* const> words) {
@@ -75,13 +70,13 @@ std::string command_problem(const CLI::App& program, std::span<const char* const
     const std::vector<std::string_view> known(names.begin(), names.end());
     const auto near = nearest(word, known);
     const std::string meant = near ? " Did you mean '" + std::string(*near) + "'?" : "";
-    if (at != &program) return typed + ": '" + word + "' is not one of its commands: " + listed(names) + "." + meant;
+    if (at != &program) return typed + ": '" + word + "' is not one of its commands: " + joined(names) + "." + meant;
     // Beside commands, the program itself takes presets.
     if (!near || is_preset(word)) return {};
     return "'" + word + "' is neither a command nor a preset." + meant;
   }
   if (at->get_require_subcommand_min() == 0) return {};
-  return typed + ": one of its commands must follow: " + listed(command_names(*at)) + ".";
+  return typed + ": one of its commands must follow: " + joined(command_names(*at)) + ".";
 }
 
 /// What CLI11 lists from the last to the first, in the order in which it was typed.

@@ -17,6 +17,7 @@
 #include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
@@ -32,12 +33,6 @@ void warn_of_missing_texture(const Preset& preset) {
 namespace {
 
 constexpr std::string_view automatic = "auto";
-
-std::string known_integrators() {
-  std::string list;
-  for (const std::string_view name : integrator_names()) list += (list.empty() ? "" : ", ") + std::string(name);
-  return list;
-}
 
 /// N of opencl:N; none where the text is not that.
 std::optional<int> device_number(std::string_view engine) {
@@ -81,7 +76,7 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
       ->expected(1)
       ->allow_extra_args(false)
       ->take_all();
-  command.add_option("--integrator", integrator, "Numerical method: " + known_integrators())
+  command.add_option("--integrator", integrator, "Numerical method: " + joined(integrator_names()))
       ->type_name("NAME")
       ->check(not_empty());
   command
@@ -146,10 +141,9 @@ void PresetArgument::check_engine() const {
     throw UsageError("--engine " + engine + ": this command runs only on the CPU engine; omit --engine");
   }
   if (std::find(known.begin(), known.end(), engine) != known.end() || device_number(engine)) return;
-  const auto meant = nearest(std::string_view(engine).substr(0, engine.find(':')), known);
   throw UsageError("--engine " + engine +
                    ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` lists each device's N" +
-                   (meant ? "; did you mean " + std::string(*meant) + "?" : ""));
+                   did_you_mean(std::string_view(engine).substr(0, engine.find(':')), known, ""));
 }
 
 void PresetArgument::keep_to_cpu(Preset& scene) const {

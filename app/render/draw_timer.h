@@ -5,15 +5,6 @@
 
 namespace tyglab {
 
-struct QueryTraits {
-  static GLuint make() {
-    GLuint id = 0;
-    glGenQueries(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteQueries(1, &id); }
-};
-
 class DrawTimer {
  public:
   /// What is drawn between these two is measured, unless an earlier drawing still is.
@@ -23,7 +14,7 @@ class DrawTimer {
   double ms();
 
  private:
-  gl::Object<QueryTraits> query_;
+  gl::Query query_;
   bool running_ = false, asked_ = false;
   double ms_ = 0;
 };

@@ -36,55 +36,27 @@ class Object {
   GLuint id_;
 };
 
-struct BufferTraits {
+/// Of what OpenGL names in lists: glGenX and glDeleteX by their addresses.
+template <auto generate, auto destroy_listed>
+struct ListTraits {
   static GLuint make() {
     GLuint id = 0;
-    glGenBuffers(1, &id);
+    (*generate)(1, &id);
     return id;
   }
-  static void destroy(GLuint id) { glDeleteBuffers(1, &id); }
-};
-struct VertexArrayTraits {
-  static GLuint make() {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteVertexArrays(1, &id); }
-};
-struct TextureTraits {
-  static GLuint make() {
-    GLuint id = 0;
-    glGenTextures(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteTextures(1, &id); }
-};
-struct RenderbufferTraits {
-  static GLuint make() {
-    GLuint id = 0;
-    glGenRenderbuffers(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteRenderbuffers(1, &id); }
-};
-struct FramebufferTraits {
-  static GLuint make() {
-    GLuint id = 0;
-    glGenFramebuffers(1, &id);
-    return id;
-  }
-  static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
+  static void destroy(GLuint id) { (*destroy_listed)(1, &id); }
 };
 struct ProgramTraits {
   static GLuint make() { return glCreateProgram(); }
   static void destroy(GLuint id) { glDeleteProgram(id); }
 };
 
-using VertexArray = Object<VertexArrayTraits>;
-using Texture = Object<TextureTraits>;
-using Renderbuffer = Object<RenderbufferTraits>;
-using Framebuffer = Object<FramebufferTraits>;
+using BufferName = Object<ListTraits<&glGenBuffers, &glDeleteBuffers>>;
+using VertexArray = Object<ListTraits<&glGenVertexArrays, &glDeleteVertexArrays>>;
+using Texture = Object<ListTraits<&glGenTextures, &glDeleteTextures>>;
+using Renderbuffer = Object<ListTraits<&glGenRenderbuffers, &glDeleteRenderbuffers>>;
+using Framebuffer = Object<ListTraits<&glGenFramebuffers, &glDeleteFramebuffers>>;
+using Query = Object<ListTraits<&glGenQueries, &glDeleteQueries>>;
 
 /// A buffer that is written whole, and keeps its storage while the size stays.
 class Buffer {
@@ -99,7 +71,7 @@ class Buffer {
   }
 
  private:
-  Object<BufferTraits> object_;
+  BufferName object_;
   GLsizeiptr bytes_ = 0;
 };
 

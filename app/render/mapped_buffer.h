@@ -35,7 +35,7 @@ class MappedBuffer {
   void wait(int slot);
 
  private:
-  Object<BufferTraits> object_;
+  BufferName object_;
   std::byte *mapped_ = nullptr, *first_ = nullptr;
   std::size_t slot_bytes_, whole_;
   std::array<GLsync, most_slots> fences_{};

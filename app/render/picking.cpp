@@ -110,7 +110,7 @@ std::optional<Hit> nearest_particle(const PositionView& positions, const Camera&
       [&](int i, int j, glm::vec2 at) { return glm::distance(at, pixel) <= reach_px && !(skip && skip(i, j)); });
   const Picture* hit = nearest(candidates, pixel, reach_px);
   if (hit == nullptr) return std::nullopt;
-  return Hit{hit->site.i, hit->site.j, glm::distance(hit->pixel, pixel)};
+  return Hit{hit->site.i, hit->site.j};
 }
 
 std::vector<Pins::Site> particles_near_path(const PositionView& positions, const Camera& camera, glm::vec2 from,

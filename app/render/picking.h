@@ -14,7 +14,6 @@ namespace tyglab {
 
 struct Hit {
   int i, j;
-  float distance_px;
 };
 
 /// The particle whose picture is nearest to the pixel, within `reach_px`. Of those that are equally near (to half a

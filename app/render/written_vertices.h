@@ -45,7 +45,7 @@ class WrittenVertices {
 
  private:
   struct Buffers {
-    gl::Object<gl::BufferTraits> positions, normals;
+    gl::BufferName positions, normals;
   };
   VertexBox write_new(VertexSharing& device, const VertexRequest& request, std::size_t bytes);
   void look_at(const VertexBox& box, const DrawnSites& sites) const;

@@ -65,10 +65,9 @@ std::optional<std::size_t> seat_of_cloth(const Session& session, int n) {
 
 std::string name_of_cloth(const Session& session, int n) {
   if (n == Copies::original) return name_of_original(session);
-  std::string name;
-  for (const Difference& difference : session.copies.lockstep[std::size_t(n)].differences)
-    name += (name.empty() ? "" : ", ") + spoken(difference);
-  return name.empty() ? "equal copy" : name;
+  const auto& differences = session.copies.lockstep[std::size_t(n)].differences;
+  if (differences.empty()) return "equal copy";
+  return joined(differences, ", ", [](const Difference& difference) { return spoken(difference); });
 }
 
 std::vector<CopyChoice> copy_choices(const Preset& preset) {

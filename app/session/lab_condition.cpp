@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "app/session/lab_text.h"
 #include "app/session/observables.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -25,22 +27,16 @@ constexpr std::array<RelationSign, 6> relation_signs{{{"<", Relation::less, "<"}
 
 std::string known_name(const std::string& name) {
   if (is_observable(name)) return name;
-  const auto known = observable_names();
-  const auto meant = nearest(name, known);
   throw LabError("\"" + name + "\" is not a quantity or state that a check can use" +
-                 (meant ? "; did you mean " + std::string(*meant) + "?" : "; docs/labs/README.md lists them"));
+                 did_you_mean(name, observable_names(), "; docs/labs/README.md lists them"));
 }
 
 Operand word_operand(const std::string& name, const std::vector<std::string>& words) {
   if (words.size() != 3) throw LabError(name + " is compared with one word, such as check: integrator = euler");
   const auto known = find_observable(name)->words();
-  if (std::find(known.begin(), known.end(), words[2]) == known.end()) {
-    std::string all;
-    for (const std::string_view word : known) all += (all.empty() ? "" : ", ") + std::string(word);
-    const auto meant = nearest(words[2], known);
-    throw LabError(name + " is never \"" + words[2] + "\"" +
-                   (meant ? "; did you mean " + std::string(*meant) + "?" : ".") + " Known: " + all);
-  }
+  if (std::find(known.begin(), known.end(), words[2]) == known.end())
+    throw LabError(name + " is never \"" + words[2] + "\"" + did_you_mean(words[2], known, ".") +
+                   " Known: " + joined(known));
   Operand given;
   given.word = words[2];
   return given;
@@ -53,7 +49,7 @@ Operand operand(const std::vector<std::string>& words, std::size_t from, std::st
   const auto number = plain_number(words[from]);
   if (number) {
     given.factor = *number, ++from;
-    const std::string after = joined(words, from);
+    const std::string after = joined(std::span(words).subspan(from), " ");
     if (after.empty() || after == unit) return given;
     if (words[from] != "*")
       throw LabError("the unit is " + (unit.empty() ? "none" : std::string(unit)) + ", not " + after +
@@ -108,7 +104,7 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
   words.erase(within, words.end());
   // A number's unit is for people: any words.
   if (plain_number(words[0]) && (words.size() == 1 || words[1] != "*")) {
-    given.unit = joined(words, 1);
+    given.unit = joined(std::span(words).subspan(1), " ");
     words.resize(1);
   }
   given.answer = operand(words, 0, "", first_step);

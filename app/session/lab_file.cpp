@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include "app/base/data_files.h"
@@ -12,12 +13,14 @@
 #include "core/io/input_file.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
 
 constexpr std::uintmax_t most_bytes = 1 << 20;
 
+/// The last stands on the line of another.
 constexpr std::array<std::string_view, 11> lab_keys{"open", "set",  "predict", "answer", "choice", "right",
                                                     "do",   "stop", "check",   "needs",  "within"};
 
@@ -226,12 +229,9 @@ void LabReader::take_key(std::string_view line) {
   if (colon == std::string_view::npos)
     fail("a line of a block is KEY: VALUE, such as check: k_s >= 180; \"" + std::string(line) + "\" has no colon");
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
-  if (std::find(lab_keys.begin(), lab_keys.end(), key) == lab_keys.end()) {
-    const auto meant = nearest(key, lab_keys);
+  if (std::find(lab_keys.begin(), lab_keys.end(), key) == lab_keys.end())
     fail("\"" + std::string(key) + "\" is not a key of a lab" +
-         (meant ? "; did you mean " + std::string(*meant) + "?"
-                : "; known: open, set, predict, answer, choice, right, do, stop, check, needs"));
-  }
+         did_you_mean(key, lab_keys, "; known: " + joined(std::span(lab_keys).first<10>())));
   if (value.empty()) fail(std::string(key) + ": has no value; write it after the colon, or remove the line");
   take_value(key, value);
 }

@@ -49,12 +49,6 @@ std::optional<double> plain_number(std::string_view text) {
   return value;
 }
 
-std::string joined(const std::vector<std::string>& words, std::size_t from) {
-  std::string text;
-  for (std::size_t k = from; k < words.size(); ++k) text += (k > from ? " " : "") + words[k];
-  return text;
-}
-
 void Gathered::add(std::string_view line) {
   if (line.empty()) {
     open_ = false;

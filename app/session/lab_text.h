@@ -19,9 +19,6 @@ std::string card_text(std::string_view text);
 
 std::vector<std::string> words_in(std::string_view text);
 
-/// The words from that one on, as a unit such as "N s/m" is written.
-std::string joined(const std::vector<std::string>& words, std::size_t from);
-
 /// None where it is no number, or none that is finite ("nan").
 std::optional<double> plain_number(std::string_view text);
 

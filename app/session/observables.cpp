@@ -98,11 +98,7 @@ Known position_of(Session& session) {
 }
 
 Known fastest_particle(Session& session) {
-  const VectorField<double>& v = session.simulation->read().v;
-  double most = 0;
-  for (std::size_t p = 0; p < v.x.size(); ++p)
-    most = std::max(most, v.x[p] * v.x[p] + v.y[p] * v.y[p] + v.z[p] * v.z[p]);
-  return std::sqrt(most);
+  return largest_speed(*session.simulation);
 }
 Known mean_height(Session& session) {
   const Array<double>& y = session.simulation->read().x.y;
@@ -120,14 +116,9 @@ Known distance_to_before(Session& session) {
   const auto& run = session.labs.run;
   if (!run || run->step == 0) return std::nullopt;
   const auto& then = run->records[run->step - 1].outcome.state;
-  const VectorField<double>& x = session.simulation->read().x;
-  if (!then || then->x.x.size() != x.x.size()) return std::nullopt;
-  double sum = 0;
-  for (std::size_t p = 0; p < x.x.size(); ++p) {
-    const glm::dvec3 way(x.x[p] - then->x.x[p], x.y[p] - then->x.y[p], x.z[p] - then->x.z[p]);
-    sum += glm::dot(way, way);
-  }
-  return std::sqrt(sum / double(x.x.size()));
+  const State& now = session.simulation->read();
+  if (!then || then->x.x.size() != now.x.x.size()) return std::nullopt;
+  return rms_distance(now, *then);
 }
 
 Known pinned_particles(Session& session) {

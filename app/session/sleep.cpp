@@ -90,7 +90,7 @@ bool Sleep::near_anchor(const Simulation& simulation, double radius) const {
   return true;
 }
 
-double Sleep::largest_speed(Simulation& simulation) {
+double largest_speed(Simulation& simulation) {
   const VectorField<double>& v = simulation.read().v;
   double largest = 0;
   for (std::size_t p = 0; p < v.x.size(); ++p)

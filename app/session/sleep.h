@@ -26,6 +26,8 @@ struct RestTolerance {
   double error;   ///< m; how far from its place the cloth may be that sleeps, as measured in the tests
 };
 RestTolerance rest_tolerance(const Preset& preset);
+/// Of all particles, m/s.
+double largest_speed(Simulation& simulation);
 
 class Sleep {
  public:
@@ -44,7 +46,6 @@ class Sleep {
   bool scouts_stay(const Simulation& simulation) const;
   void take_anchor(const Simulation& simulation);
   bool near_anchor(const Simulation& simulation, double radius) const;
-  static double largest_speed(Simulation& simulation);
 
   bool asleep_ = false;
   std::uint64_t seen_ = 0;

@@ -60,7 +60,7 @@ class Sandbox {
   void present();
   void save_picture();
   int write_outputs();
-  Settings present_settings() const;
+  Settings present_settings();
   void remember();
   bool idle() const;
 
@@ -324,17 +324,10 @@ int Sandbox::write_outputs() {
 }
 
 /// What the next session is to find, however this one ends.
-Settings Sandbox::present_settings() const {
-  Settings settings = settings_;
-  settings.labs = session_.labs.progress;
-  window_.remember(settings);
-  settings.plot_log = ui_.plots.log;
-  // Who quit with unsaved changes has said that they may go; a session that was interrupted brings them back.
-  Preset last = session_.quit ? session_.document.saved : session_.preset();
-  last.mode = session_.preset().mode;
-  settings.session =
-      LastSession{std::move(last), session_.document.saved, session_.document.label, session_.document.file};
-  return settings;
+Settings Sandbox::present_settings() {
+  remember_session(ui_);
+  window_.remember(settings_);
+  return settings_;
 }
 
 void Sandbox::remember() {

@@ -43,6 +43,18 @@ void take_options(const SandboxOptions& options, Ui& ui) {
       session.messages.note("The cloth is not colored yet. " + why);
 }
 
+void remember_session(Ui& ui) {
+  const Session& session = ui.session;
+  Settings& settings = ui.settings;
+  settings.labs = session.labs.progress;
+  settings.plot_log = ui.plots.log;
+  // Who quit with unsaved changes has said that they may go; a session that was interrupted brings them back.
+  Preset last = session.quit ? session.document.saved : session.preset();
+  last.mode = session.preset().mode;
+  const Document& document = session.document;
+  settings.session = LastSession{std::move(last), document.saved, document.label, document.file};
+}
+
 FoundPicture find_picture(const std::string& texture) {
   try {
     return read_picture(texture_file(texture));

@@ -1,4 +1,4 @@
-// What a window begins with: settings, options, the first cloth and its picture.
+// What a window begins with: settings, options, the first cloth and its picture; and what it leaves to the next.
 #pragma once
 
 #include <memory>
@@ -17,6 +17,9 @@ namespace tyglab {
 Settings settings_for(const SandboxOptions& options, Messages& messages);
 /// Puts what the options and settings say into session, scene and panels.
 void take_options(const SandboxOptions& options, Ui& ui);
+
+/// Puts into the settings what the next session begins with.
+void remember_session(Ui& ui);
 
 /// The picture that a preset's cloth shows, or a sentence about what is wrong with it.
 using FoundPicture = std::variant<ClothPicture, std::string>;

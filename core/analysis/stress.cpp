@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/analysis/stress_preset.h"
 #include "core/integrators/scheme.h"
@@ -131,7 +132,7 @@ class StressRun {
           if (!simulation_->lattice().has_spring(d, i, j) || !simulation_->tears().whole(d, i, j)) continue;
           const Direction& to = directions[std::size_t(d)];
           const glm::dvec3 apart = x.at(i + to.di, j + to.dj) - x.at(i, j);
-          most = std::max(most, std::sqrt(apart.x * apart.x + apart.y * apart.y + apart.z * apart.z) / (to.rest * p.L));
+          most = std::max(most, glm::length(apart) / (to.rest * p.L));
         }
     return most;
   }

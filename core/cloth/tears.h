@@ -29,7 +29,6 @@ class Tears {
   bool triangle_whole(int i, int j, int which) const;
   int torn_count() const { return torn_; }
   std::size_t bytes() const { return masks_.capacity(); }
-  void mend() { masks_.clear(), torn_ = 0; }
 
  private:
   std::size_t index(int i, int j) const {

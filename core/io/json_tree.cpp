@@ -93,7 +93,7 @@ class JsonReader {
   JsonNode value() {
     if (++values_ > max_values_) refuse("too many values (" + std::to_string(max_values_) + " at most)");
     JsonNode node;
-    node.line = line_;
+    node.line = lines_ == Lines::told ? line_ : 0;
     const char c = now();
     if (c == '{') {
       node.type = JsonNode::Type::object;

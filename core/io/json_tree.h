@@ -14,7 +14,7 @@ struct JsonNode {
   struct Member;
   enum class Type { null, boolean, integer, number, text, list, object };
   Type type = Type::null;
-  int line = 0;       ///< of the value; 0 if it came from no file
+  int line = 0;       ///< of the value; 0 if lines are not told
   double number = 0;  ///< integer, number; boolean: 0 or 1
   std::string text;
   std::vector<JsonNode> items;

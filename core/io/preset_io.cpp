@@ -13,19 +13,13 @@
 #include "core/integrators/names.h"
 #include "core/io/json_tree.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
 namespace {
 
 using Type = JsonNode::Type;
-
-template <class Names>
-std::string listed(const Names& names) {
-  std::string all;
-  for (std::string_view name : names) all += (all.empty() ? "" : ", ") + std::string(name);
-  return all;
-}
 
 /// Why `v` is not allowed, or empty. The one place where ranges are checked.
 template <class T>
@@ -47,12 +41,9 @@ std::string value_problem(const Row<T>& row, const T& object) {
             if (auto problem = range_problem(row, value[c]); !problem.empty()) return problem;
           return {};
         } else if constexpr (std::is_same_v<Value, std::string>) {
-          if (row.key == "integrator" && !is_integrator(value)) {
-            const auto meant = nearest(value, integrator_names());
-            return "\"" + value + "\" is not an integrator" +
-                   (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
-                   " Known: " + listed(integrator_names());
-          }
+          if (row.key == "integrator" && !is_integrator(value))
+            return "\"" + value + "\" is not an integrator" + did_you_mean(value, integrator_names(), ".") +
+                   " Known: " + joined(integrator_names());
           return {};
         } else {
           return range_problem(row, double(value));
@@ -94,14 +85,11 @@ class Reader {
   template <class Enum, std::size_t N>
   void choice(const JsonNode& node, const std::string& path, const std::array<std::string_view, N>& names,
               Enum& out) const {
-    if (node.type != Type::text) wrong_type(node, path, "a string, one of " + listed(names));
+    if (node.type != Type::text) wrong_type(node, path, "a string, one of " + joined(names));
     const auto it = std::find(names.begin(), names.end(), node.text);
-    if (it == names.end()) {
-      const auto meant = nearest(node.text, names);
+    if (it == names.end())
       fail(node.line, path,
-           "\"" + node.text + "\" is not known" + (meant ? "; did you mean " + std::string(*meant) + "?" : ".") +
-               " Allowed: " + listed(names));
-    }
+           "\"" + node.text + "\" is not known" + did_you_mean(node.text, names, ".") + " Allowed: " + joined(names));
     out = Enum(it - names.begin());
   }
 
@@ -202,9 +190,7 @@ class Reader {
 
   [[noreturn]] void unknown(int line, const std::string& path, const std::string& key,
                             const std::vector<std::string_view>& known) const {
-    const auto meant = nearest(key, known);
-    fail(line, path,
-         "unknown key" + (meant ? "; did you mean " + std::string(*meant) + "?" : "; known: " + listed(known)));
+    fail(line, path, "unknown key" + did_you_mean(key, known, "; known: " + joined(known)));
   }
 
  private:
@@ -245,13 +231,6 @@ JsonNode setting_number(const std::string& key, const std::string& text, const R
   return node;
 }
 
-/// What comes from no file has no lines.
-void forget_lines(JsonNode& node) {
-  node.line = 0;
-  for (JsonNode& item : node.items) forget_lines(item);
-  for (JsonNode::Member& member : node.members) forget_lines(member.value);
-}
-
 /// Value of a setting: a bare word (integrator=euler, name=3 sheets), otherwise JSON. `key` without its block's name.
 JsonNode setting_value(const Setting& setting, const std::string& key, const Reader& reader) {
   const std::string& text = setting.value;
@@ -270,9 +249,7 @@ JsonNode setting_value(const Setting& setting, const std::string& key, const Rea
   }
   if (text.empty() || std::string_view("[{\"").find(text[0]) == std::string_view::npos)
     return setting_number(setting.key, text, reader);
-  JsonNode node = parse_json(text, setting.typed, Lines::one);
-  forget_lines(node);
-  return node;
+  return parse_json(text, setting.typed, Lines::one);
 }
 
 /// "bodies[2].r" -> index 2, key "r".

@@ -8,6 +8,7 @@
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -39,10 +40,10 @@ std::string field_text(const Row<T>& row, const T& object) {
 
 std::string pins_text(const Pins& pins) {
   if (pins.mode != Pins::Mode::list) return json_text(name_of(pins.mode));
-  std::string text;
-  for (const auto [i, j] : pins.list)
-    text += (text.empty() ? "[" : ", [") + std::to_string(i) + ", " + std::to_string(j) + "]";
-  return "[" + text + "]";
+  const auto site = [](const Pins::Site& pin) {
+    return "[" + std::to_string(pin.i) + ", " + std::to_string(pin.j) + "]";
+  };
+  return "[" + joined(pins.list, ", ", site) + "]";
 }
 
 std::string body_text(const Body& body) {
@@ -57,9 +58,7 @@ std::string body_text(const Body& body) {
 }
 
 std::string bodies_text(const std::vector<Body>& bodies) {
-  std::string text;
-  for (const Body& body : bodies) text += (text.empty() ? "\n    " : ",\n    ") + body_text(body);
-  return "[" + text + (bodies.empty() ? "]" : "\n  ]");
+  return bodies.empty() ? "[]" : "[\n    " + joined(bodies, ",\n    ", body_text) + "\n  ]";
 }
 
 std::string section_text(std::string_view section, const Preset& p) {

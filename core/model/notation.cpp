@@ -192,6 +192,11 @@ std::optional<std::string_view> nearest(std::string_view word, std::span<const s
   return best;
 }
 
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> known, const std::string& otherwise) {
+  const auto meant = nearest(word, known);
+  return meant ? "; did you mean " + std::string(*meant) + "?" : otherwise;
+}
+
 SliderRange slider_range(const PresetRow& row, double preset_value) {
   const double v = std::abs(preset_value);
   if (row.scale == Scale::logarithmic) {

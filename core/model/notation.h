@@ -65,6 +65,8 @@ std::span<const Variable> variables();
 
 /// The nearest of `known` to `word` by edit distance, if any is near enough to be meant.
 std::optional<std::string_view> nearest(std::string_view word, std::span<const std::string_view> known);
+/// "; did you mean rows?" where one is; otherwise that text.
+std::string did_you_mean(std::string_view word, std::span<const std::string_view> known, const std::string& otherwise);
 
 /// Slider range about three decades round `value` (logarithmic) or round the value (linear), inside the allowed range;
 /// starts at 0 where 0 is allowed.

@@ -1,7 +1,9 @@
 // Numbers and sentences as people read them: panels, messages, reports.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <string_view>
 
 namespace tyglab {
 
@@ -14,5 +16,17 @@ std::string short_exponent(std::string text);
 double rounded(double value, int digits);
 /// With a capital at its beginning and a full stop at its end, unless it has one: "it fell" as "It fell.".
 std::string sentence(std::string text);
+/// The texts of a range's elements, one after the other: "cpu, opencl".
+template <class Range, class Text = std::identity>
+std::string joined(Range&& elements, std::string_view between = ", ", const Text& text_of = {}) {
+  std::string all;
+  bool first = true;
+  for (const auto& element : elements) {
+    if (!first) all += between;
+    all += std::invoke(text_of, element);
+    first = false;
+  }
+  return all;
+}
 
 }  // namespace tyglab

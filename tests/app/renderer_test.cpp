@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <span>
 
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_topology.h"
@@ -25,11 +26,11 @@ class Stage {
     camera_.target = {0, 0.9f, 0};
     camera_.distance = 0.6f;
   }
-  Image draw(Simulation& simulation, int mode, bool bending = false) {
+  Image draw(Simulation& simulation, int mode, bool bending = false, std::span<const Ghost> ghosts = {}) {
     options_.mode = mode;
     options_.bending = bending;
     renderer_.update(simulation, options_);
-    renderer_.draw(camera_, options_, width, height);
+    renderer_.draw(camera_, options_, width, height, ghosts);
     return renderer_.pixels();
   }
   ClothRenderer& renderer() { return renderer_; }
@@ -67,6 +68,32 @@ Preset away() {
   Preset preset = hanging();
   preset.x_0 = {0, 0, 500};
   return preset;
+}
+
+TEST_CASE("another cloth is drawn over the first as lines of its own color") {
+  Stage stage;
+  Preset apart = hanging();
+  apart.x_0.x += 0.05;
+  Simulation simulation(hanging()), copy(apart);
+  const Image alone = stage.draw(simulation, 1);
+  for (const glm::vec3 color : {glm::vec3(1, 0, 0), glm::vec3(0, 0, 1)}) {
+    ClothRenderer its(stage.renderer());
+    ViewOptions lines = stage.options();
+    lines.mode = 4;
+    its.update(copy, lines);
+    const Ghost ghost{&its, color};
+    const Image both = stage.draw(simulation, 1, false, {&ghost, 1});
+    const int changed = difference(alone, both);
+    CHECK(changed > 500);
+    CHECK(changed < width * height / 4);  // lines, not faces
+    int of_that_color = 0;
+    for (std::size_t p = 0; p < both.rgb.size(); p += 3) {
+      const glm::ivec3 now(both.rgb[p], both.rgb[p + 1], both.rgb[p + 2]);
+      const int wanted = color.x > 0 ? now.x : now.z, other = color.x > 0 ? now.z : now.x;
+      of_that_color += wanted > 180 && other < 90 && now.y < 90 ? 1 : 0;
+    }
+    CHECK(of_that_color > changed / 2);
+  }
 }
 
 TEST_CASE("views 1 to 5 show what they should") {

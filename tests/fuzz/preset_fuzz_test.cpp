@@ -7,6 +7,7 @@
 
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::preset_fuzz_test {
@@ -15,91 +16,26 @@ using test::Random;
 
 constexpr int inputs_of_each_kind = 6000;
 
-template <std::size_t N>
-const std::string& pick(Random& random, const std::string (&from)[N]) {
-  return from[random.below(int(N))];
+const std::string& pick(Random& random, const std::vector<std::string>& from) {
+  return from[std::size_t(random.below(int(from.size())))];
 }
 
-const std::string scalars[] = {"0",
-                               "-0",
-                               "1",
-                               "-1",
-                               "3.5",
-                               "1e-9",
-                               "1e9",
-                               "1e308",
-                               "1e309",
-                               "-1e999",
-                               "4096",
-                               "4097",
-                               "2147483648",
-                               "-9223372036854775808",
-                               "18446744073709551616",
-                               "5e-324",
-                               "0.1e",
-                               "NaN",
-                               "Infinity",
-                               "-Infinity",
-                               "null",
-                               "true",
-                               "false",
-                               "\"\"",
-                               "\"verlet\"",
-                               "\"top_row\"",
-                               "\"plane\"",
-                               "\"sphere\"",
-                               "\"cpu\"",
-                               "\"double\"",
-                               "\"one_weight\"",
-                               "\"\\u0000\"",
-                               "\"\\ud83e\\uddf5\"",
-                               "\"\\ud800\"",
-                               "\"\xff\xfe\"",
-                               "\"\xc3\xa5\"",
-                               "\"a\nb\"",
-                               "[]",
-                               "{}",
-                               "[0,0,0]",
-                               "[1e3,-1e3,0]",
-                               "[0,0]",
-                               "[[0,0]]",
-                               "[[0,0],[31,31]]",
-                               "[[9999999999,0]]",
-                               "[null]",
-                               "[[[[]]]]",
-                               "{\"a\":{}}"};
+const std::vector<std::string> scalars = test::split(
+    "0 -0 1 -1 3.5 1e-9 1e9 1e308 1e309 -1e999 4096 4097 2147483648 -9223372036854775808 "
+    "18446744073709551616 5e-324 0.1e NaN Infinity -Infinity null true false \"\" \"verlet\" \"top_row\" "
+    "\"plane\" \"sphere\" \"cpu\" \"double\" \"one_weight\" \"\\u0000\" \"\\ud83e\\uddf5\" \"\\ud800\" "
+    "\"\xff\xfe\" \"\xc3\xa5\" \"a\nb\" [] {} [0,0,0] [1e3,-1e3,0] [0,0] [[0,0]] [[0,0],[31,31]] "
+    "[[9999999999,0]] [null] [[[[]]]] {\"a\":{}}",
+    ' ');
 
-const std::string tokens[] = {"{",
-                              "}",
-                              "[",
-                              "]",
-                              ":",
-                              ",",
-                              "\"",
-                              "\\",
-                              "null",
-                              "tru",
-                              "1e",
-                              "-",
-                              "\n",
-                              "\t",
-                              " ",
-                              "\xEF\xBB\xBF",
-                              "//",
-                              "/*",
-                              std::string("\x00\x01", 2),
-                              "\xf0\x9f",
-                              "\"k_s\"",
-                              "\"cloth\"",
-                              "\"bodies\"",
-                              "\"tyglab_preset\"",
-                              "e999",
-                              "0x",
-                              "'",
-                              "\"x_0\":[1,2,3]",
-                              ",\"rows\":2",
-                              ",,",
-                              "]]"};
+const std::vector<std::string> tokens = [] {
+  std::vector<std::string> all = test::split(
+      "{ } [ ] : , \" \\ null tru 1e - \n \t \xEF\xBB\xBF // /* \xf0\x9f \"k_s\" \"cloth\" \"bodies\" "
+      "\"tyglab_preset\" e999 0x ' \"x_0\":[1,2,3] ,\"rows\":2 ,, ]]",
+      ' ');
+  all.insert(all.end(), {" ", std::string("\x00\x01", 2)});
+  return all;
+}();
 
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys = {"tyglab_preset", "kind",    "name",      "description", "cloth",
@@ -182,7 +118,7 @@ void random_value(Random& random, const std::vector<std::string>& keys, int dept
 std::string random_json(Random& random, const std::vector<std::string>& keys) {
   std::string text = "{";
   for (int n = random.below(6); n > 0; --n) {
-    static const std::string sections[] = {"cloth", "forces", "tearing", "solver", "view", "bodies"};
+    static const std::vector<std::string> sections{"cloth", "forces", "tearing", "solver", "view", "bodies"};
     text += "\"" + pick(random, sections) + "\":";
     if (random.below(8) == 0) {
       random_value(random, keys, 3, text);
@@ -263,7 +199,7 @@ TEST_CASE("random bytes, and nesting without end") {
       text += random.below(3) == 0 ? pick(random, tokens) : std::string(1, char(random.below(256)));
     }
     judge(parse, text, count);
-    static const std::string openers[] = {"[", "{\"cloth\":", "{\"bodies\":[", "[[[{\"a\":", "{\"k\":[{\"k\":"};
+    static const std::vector<std::string> openers{"[", "{\"cloth\":", "{\"bodies\":[", "[[[{\"a\":", "{\"k\":[{\"k\":"};
     std::string nested;
     const std::string& opener = pick(random, openers);
     for (int depth = random.below(200); depth > 0; --depth) nested += opener;
@@ -276,10 +212,10 @@ TEST_CASE("random settings") {
   Random random(5);
   Count count;
   const auto keys = all_keys();
-  static const std::string places[] = {
+  static const std::vector<std::string> places{
       "",        "",       "",        "bodies[0].", "bodies[1].", "bodies[999999999999].",
       "bodies[", "cloth.", "forces.", "solver.",    ".",          "bodies[-1]."};
-  static const std::string between[] = {"=", "=", "=", "=", "=", "", "==", " = ", ":"};
+  static const std::vector<std::string> between{"=", "=", "=", "=", "=", "", "==", " = ", ":"};
   for (int n = 0; n < inputs_of_each_kind; ++n) {
     const Preset base = sample(random);
     std::vector<std::string> settings;

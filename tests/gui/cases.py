@@ -50,9 +50,10 @@ class Stage:
         return sandbox
 
     def keep(self, what, still=False):
-        """Keeps a screenshot of the window, if need be once it has stopped changing; returns it."""
-        picture = self.screen.still_picture() if still else self.screen.picture()
-        width, height = self.sandboxes[-1].report()["window"]
+        """Keeps a screenshot of the window, if need be once it (True) or a box of it stands still; returns it."""
+        sandbox = self.sandboxes[-1]
+        picture = sandbox.still_picture(None if still is True else still) if still else self.screen.picture()
+        width, height = sandbox.report()["window"]
         picture = picture.crop((0, 0, width, height))
         picture.save(os.path.join(self.shots, f"{self.name}-{what}.png"))
         return picture

@@ -46,7 +46,8 @@ class Sandbox:
                                         env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
         if reported:
             self.wait(lambda r: r["frames"] >= 3, "the window's first frames")
-        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", "--name", "Tyglab").split()[0])
+        own = ("--all", "--pid", self.process.pid, "--name", "Tyglab")
+        self.window = int(self.xdotool("search", "--sync", "--onlyvisible", *own).split()[0])
         self.xdotool("windowfocus", self.window)
 
     def xdotool(self, *arguments):
@@ -83,6 +84,24 @@ class Sandbox:
         """A report at least so many frames after what stands in the present one."""
         begun = self.report()["frames"]
         return self.wait(lambda r: r["frames"] >= begun + frames, f"{frames} more frames")
+
+    def still_picture(self, part=None):
+        """What the screen shows once it, or a part of it, has stopped changing: some frames and a while apart it is the
+        same."""
+        def seen():
+            picture = self.screen.picture()
+            return picture, picture.crop(part) if part else picture
+
+        end = time.monotonic() + PATIENCE
+        last = seen()
+        while time.monotonic() < end:
+            time.sleep(0.3)
+            self.later(3)
+            now = seen()
+            if now[1] == last[1]:
+                return now[0]
+            last = now
+        raise AssertionError(f"the picture goes on changing\n{digest(self.report())}")
 
     def control(self, name):
         """Place of a control, once it stands still: a dialog follows its text some frames later."""

@@ -8,7 +8,6 @@ import signal
 import struct
 import subprocess
 import tempfile
-import time
 import zlib
 
 
@@ -49,8 +48,10 @@ class Picture:
         if self.rgb == other.rgb:
             return 0.0
         count = 0
+        length = 3 * self.width
         for y in range(self.height):
-            count += sum(distance(a, b) > threshold for a, b in zip(self.row(y), other.row(y)))
+            if self.rgb[length * y:length * (y + 1)] != other.rgb[length * y:length * (y + 1)]:
+                count += sum(a != b and distance(a, b) > threshold for a, b in zip(self.row(y), other.row(y)))
         return count / (self.width * self.height)
 
     @classmethod
@@ -144,18 +145,6 @@ class Screen:
             rgb[channel::3] = plane if stride == 4 * width else b"".join(
                 plane[y * stride // 4:y * stride // 4 + width] for y in range(height))
         return Picture(width, height, rgb)
-
-    def still_picture(self, seconds=60):
-        """What the screen shows once it has stopped changing, or when the time is over."""
-        end = time.monotonic() + seconds
-        last = self.picture()
-        while time.monotonic() < end:
-            time.sleep(0.4)
-            now = self.picture()
-            if now == last:
-                return now
-            last = now
-        return last
 
     def close(self):
         self.server.kill()

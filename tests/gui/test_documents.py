@@ -49,7 +49,7 @@ def close_unsaved(stage):
 
 @case
 def session(stage):
-    """the last session comes back with its window: what was discarded does not, what Ctrl-C caught unsaved does"""
+    """the last session comes back with its window; what was discarded does not, what Ctrl-C caught unsaved does"""
     sandbox = stage.start("curtain", size=(1100, 700))
     k_s_saved = k_s(sandbox.report())
     sandbox.type_value("k_s", "44")
@@ -62,10 +62,18 @@ def session(stage):
     check(k_s(report) == k_s_saved and not report["unsaved"], "what was discarded is gone")
     again.type_value("k_s", "45")
     again.process.send_signal(signal.SIGINT)
-    check(again.ended() == 130, "it ends")
+    check(again.ended() == 130, f"Ctrl-C in the terminal ends it: the exit code is {again.process.returncode}")
+    check(again.report()["ended"], "the last report says that it ended")
     third = stage.start(config=sandbox.config)
     report = third.report()
     check(k_s(report) == 45 and report["unsaved"], "what was not saved is back, and counts as unsaved")
+    third.process.send_signal(signal.SIGTERM)
+    check(third.ended() == 130, f"so does SIGTERM: the exit code is {third.process.returncode}")
+    with open(third.settings_file, "w") as file:
+        file.write("[]")
+    fourth = stage.start("hanging", config=sandbox.config)
+    report = fourth.wait(lambda r: r["messages"], "a message on settings that cannot be read")
+    check("settings.json.broken" in report["messages"][0], f"it says where the file is: {report['messages']}")
 
 
 def until(condition, what):
@@ -93,49 +101,6 @@ def killed(stage):
     again = stage.start(config=sandbox.config)
     report = again.report()
     check(report["label"] == "curtain" and k_s(report) == 71 and report["unsaved"], "it is back, and counts as unsaved")
-
-
-@case
-def settings_that_hold_up(stage):
-    """settings that are a pipe or 3 GB large are kept aside with a sentence, and the window opens with the defaults"""
-    sandbox = stage.start("hanging")
-    sandbox.key("ctrl+q")
-    sandbox.ended()
-    for make, said in ((lambda: os.mkfifo(sandbox.settings_file), "is not a file"),
-                       (lambda: os.truncate(os.open(sandbox.settings_file, os.O_CREAT | os.O_WRONLY), 3 << 30),
-                        "too large")):
-        if os.path.exists(sandbox.settings_file):
-            os.remove(sandbox.settings_file)
-        make()
-        again = stage.start("hanging", config=sandbox.config)
-        report = again.wait(lambda r: r["messages"], "a message")
-        check(said in report["messages"][0] and "settings.json.broken" in report["messages"][0],
-              f"it says so: {report['messages']}")
-        again.close()
-
-
-@case
-def broken_settings(stage):
-    """settings of no use are kept beside, and said in plain words; a folder that cannot be written is said at once"""
-    sandbox = stage.start("hanging")
-    sandbox.key("ctrl+q")
-    sandbox.ended()
-    with open(sandbox.settings_file, "w") as file:
-        file.write("[]")
-    again = stage.start("hanging", config=sandbox.config)
-    report = again.wait(lambda r: r["messages"], "a message")
-    check("settings.json.broken" in report["messages"][0] and "exception" not in report["messages"][0],
-          f"it says where the file is: {report['messages']}")
-    with open(again.settings_file + ".broken") as file:
-        check(file.read() == "[]", "the file is kept")
-    again.close()
-    # A file where the folder should be stops even an administrator.
-    blocked = os.path.join(sandbox.own.name, "file", "config")
-    with open(os.path.dirname(blocked), "w") as file:
-        file.write("in the way")
-    third = stage.start("hanging", config=blocked, with_settings=False)
-    report = third.wait(lambda r: r["messages"], "a message")
-    check("will not be remembered" in report["messages"][0], f"it says so: {report['messages']}")
 
 
 if __name__ == "__main__":

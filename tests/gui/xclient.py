@@ -1,4 +1,4 @@
-"""As much of the X protocol as it takes to be a window manager's close button, a file manager and a monitor's settings."""
+"""As much of the X protocol as a close button, a file manager and a monitor's settings take."""
 
 import socket
 import struct
@@ -58,8 +58,8 @@ class XClient:
 
     def set_property(self, window, name, kind, data):
         """ChangeProperty."""
-        self.socket.sendall(struct.pack("<BBHIIIBxxxI", 18, 0, 6 + len(padded(data)) // 4, window, name, kind, 8, len(data)) +
-                            padded(data))
+        head = struct.pack("<BBHIIIBxxxI", 18, 0, 6 + len(padded(data)) // 4, window, name, kind, 8, len(data))
+        self.socket.sendall(head + padded(data))
 
     def close_window(self, window):
         """What a window manager sends when the close button is pressed."""
@@ -75,7 +75,7 @@ class XClient:
         """What a file manager sends when a file is dropped on a window (XDND version 5)."""
         selection, uris = self.atom("XdndSelection"), self.atom("text/uri-list")
         own = self.id
-        self.socket.sendall(struct.pack("<BBHIIhhHHHHII", 1, 0, 8, own, self.root, 0, 0, 1, 1, 0, 1, 0, 0))  # CreateWindow
+        self.socket.sendall(struct.pack("<BBHIIhhHHHHII", 1, 0, 8, own, self.root, 0, 0, 1, 1, 0, 1, 0, 0))  # a window
         self.socket.sendall(struct.pack("<BBHIII", 22, 0, 4, own, selection, 0))  # SetSelectionOwner
         self.send_message(window, self.atom("XdndEnter"), own, 5 << 24, uris)
         self.send_message(window, self.atom("XdndPosition"), own, 0, x << 16 | y, 0, self.atom("XdndActionCopy"))

@@ -5,6 +5,7 @@
 
 #include "app/base/glfw_keys.h"
 #include "app/base/numbers.h"
+#include "app/ui/kit/curves.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::copies_ui_test {
@@ -59,6 +60,21 @@ TEST_CASE("equal copies stay equal under the hand; another method parts from the
   window.click("plots.remove0");
   CHECK(session.copies.lockstep.empty());
   CHECK(pictures(window) == glm::ivec2(1, 1));
+}
+
+TEST_CASE("an overlaid copy has the color of its curve, in every theme") {
+  test::NullUi window;
+  for (int theme = 0; theme < 3; ++theme) {
+    CAPTURE(window.settings.theme);
+    const auto& colors = window.scene.ghost_colors;
+    for (std::size_t seat = 0; seat < colors.size(); ++seat) {
+      const ImVec4 curve = ImGui::ColorConvertU32ToFloat4(copy_style(window.ui.theme.colors, seat).color);
+      CHECK(colors[seat] == glm::vec3(curve.x, curve.y, curve.z));
+      for (std::size_t other = 0; other < seat; ++other) CHECK(colors[seat] != colors[other]);
+    }
+    window.key(GLFW_KEY_T, GLFW_MOD_CONTROL);
+    window.frames(2);
+  }
 }
 
 TEST_CASE("a constant's own menu adds a copy that keeps its value; the original's other constants reach it") {

@@ -154,10 +154,6 @@ TEST_CASE("a torn stretch spring takes the bending springs over it along, and it
   CHECK(tears.tear(2, 3, 3));  // a diagonal has no bending springs over it
   for (int i = 0; i < 5; ++i) CHECK(tears.whole(4, i, 0));
   CHECK(tears.torn_count() == 3);
-  tears.mend();
-  CHECK(tears.untorn());
-  CHECK(tears.torn_count() == 0);
-  CHECK(tears.whole(0, 2, 2));
 }
 
 TEST_CASE("a triangle is whole while its three edge springs are") {

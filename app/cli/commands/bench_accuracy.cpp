@@ -16,6 +16,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/names.h"
 #include "core/io/destination.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -33,12 +34,9 @@ struct AccuracyOptions : BenchOptions {
 std::vector<AccuracyScene> chosen_scenes(const std::string& name) {
   std::vector<AccuracyScene> all = accuracy_scenes();
   if (name.empty()) return all;
-  std::string names;
-  for (AccuracyScene& scene : all) {
-    if (scene.name == name) return {std::move(scene)};
-    names += (names.empty() ? "" : ", ") + scene.name;
-  }
-  throw UsageError("--scene " + name + ": there is no such scene; known: " + names);
+  for (const AccuracyScene& scene : all)
+    if (scene.name == name) return {scene};
+  throw UsageError("--scene " + name + ": there is no such scene; known: " + joined(all, ", ", &AccuracyScene::name));
 }
 
 /// Methods that are measured on OpenCL too: one of each kind.
@@ -138,8 +136,7 @@ void add_bench_accuracy(CLI::App& bench, Action& action) {
       "Error against run time: every integrator, in float and double, some on OpenCL, and those of Boost.Odeint");
   const auto options = std::make_shared<AccuracyOptions>();
   add_quick(*command, *options, "Fewer dt, shorter runs, coarser references, OpenCL only in the first scene");
-  std::string names;
-  for (const AccuracyScene& scene : accuracy_scenes()) names += (names.empty() ? "" : ", ") + scene.name;
+  const std::string names = joined(accuracy_scenes(), ", ", &AccuracyScene::name);
   command->add_option("--scene", options->scene, "Only one scene: " + names)->type_name("NAME")->transform(not_empty());
   add_json(*command, *options);
   add_png(*command, *options, "Draw error over run time, one chart per scene");

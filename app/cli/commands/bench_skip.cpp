@@ -18,6 +18,7 @@
 #include "core/analysis/machine.h"
 #include "core/analysis/skip.h"
 #include "core/io/destination.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -153,15 +154,15 @@ std::pair<SkipFeature, SkipState> only_of(const SkipOptions& options) {
   const auto colon = options.only.find(':');
   const std::string name = options.only.substr(0, colon);
   const std::string state = colon == std::string::npos ? "" : options.only.substr(colon + 1);
-  std::string names;
-  for (SkipFeature& feature : skip_features(options.side)) {
-    names += (names.empty() ? "" : ", ") + feature.name;
+  std::vector<SkipFeature> features = skip_features(options.side);
+  for (SkipFeature& feature : features) {
     if (feature.name != name) continue;
     for (const SkipState which : all_states)
       if (name_of(which) == state) return {std::move(feature), which};
     throw UsageError("--only " + options.only + ": write on, off or absent after the colon, such as " + name + ":off");
   }
-  throw UsageError("--only " + options.only + ": there is no such feature; known: " + names);
+  throw UsageError("--only " + options.only +
+                   ": there is no such feature; known: " + joined(features, ", ", &SkipFeature::name));
 }
 
 int only(const SkipOptions& options) {

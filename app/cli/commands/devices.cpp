@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <iostream>
+#include <ranges>
 
 #include "app/process/child.h"
 #include "app/render/graphics_error.h"
@@ -14,6 +15,7 @@
 #include "core/integrators/scheme.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 #include "core/simulation.h"
 
@@ -90,10 +92,8 @@ void print_device(const OpenClDevice& device, int number) {
 }
 
 std::string names_of_methods(bool that_run) {
-  std::string names;
-  for (const Scheme& method : schemes())
-    if (runs_on_opencl(method) == that_run) names += (names.empty() ? "" : ", ") + std::string(method.name);
-  return names;
+  const auto runs = [&](const Scheme& method) { return runs_on_opencl(method) == that_run; };
+  return joined(schemes() | std::views::filter(runs), ", ", &Scheme::name);
 }
 
 void print_opencl() {

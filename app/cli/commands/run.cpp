@@ -16,6 +16,7 @@
 #include "core/analysis/tolerance.h"
 #include "core/io/destination.h"
 #include "core/io/preset_io.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 #include "core/output/obj.h"
 #include "core/output/point_cache.h"
@@ -263,14 +264,12 @@ std::string closing(const Json& summary, const std::string& hint) {
                      " s, computed in " + number(summary["seconds"], 3) + " s";
   if (summary["steps"] > 0) text += " (" + number(summary["ns_per_particle_step"], 3) + " ns per particle and step)";
   text += ".";
-  std::string files;
-  for (const Json& file : summary["files"]) {
-    if (!files.empty()) files += ", ";
-    const std::string path = file["path"];
-    files += output_name(path);
-    if (file.contains("frames")) files += " (" + counted(file["frames"], "frame") + ")";
-  }
-  return text + (files.empty() ? hint : " Wrote " + files + ".");
+  const auto named = [](const Json& file) {
+    const std::string name = output_name(file["path"].get<std::string>());
+    return file.contains("frames") ? name + " (" + counted(file["frames"], "frame") + ")" : name;
+  };
+  const Json& files = summary["files"];
+  return text + (files.empty() ? hint : " Wrote " + joined(files, ", ", named) + ".");
 }
 
 int run(const RunOptions& options) {

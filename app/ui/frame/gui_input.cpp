@@ -60,8 +60,8 @@ bool is_pointers(const InputEvent& event) {
   return std::holds_alternative<PointerEvent>(event);
 }
 
-/// Whether Dear ImGui is shown it at all. It repeats keys itself.
-bool is_shown(const InputEvent& event) {
+/// Whether Dear ImGui is to be shown it at all. It repeats keys itself.
+bool concerns_gui(const InputEvent& event) {
   if (const auto* press = std::get_if<KeyEvent>(&event))
     return press->key >= 0 && press->key < InputQueue::most_keys && !press->repeat && !is_modifier(press->key) &&
            !only_types(*press);
@@ -72,7 +72,7 @@ bool is_shown(const InputEvent& event) {
 }  // namespace
 
 void GuiInput::take(const InputQueue& input) {
-  std::copy_if(input.all.begin(), input.all.end(), std::back_inserter(waiting_), is_shown);
+  std::copy_if(input.all.begin(), input.all.end(), std::back_inserter(waiting_), concerns_gui);
 }
 
 /// Those that were shown and are up by now.

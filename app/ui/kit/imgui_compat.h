@@ -25,8 +25,8 @@ inline ImGuiID item_id() {
   return ImGui::GetItemID();
 }
 
-/// Whether a text field that was drawn in the last frame takes keys. io.WantTextInput says so two frames late, of fields
-/// that are gone too.
+/// Whether a text field that was drawn in the last frame takes keys. io.WantTextInput says so two frames late, of
+/// fields that are gone too.
 inline bool typing_text() {
   const ImGuiContext& g = *ImGui::GetCurrentContext();
   return g.ActiveId != 0 && g.ActiveIdIsAlive == g.ActiveId && g.InputTextState.ID == g.ActiveId;
