@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/io/files.h"
+#include "core/io/input_file.h"
+#include "core/io/json_tree.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 
 namespace tyglab {
@@ -16,56 +17,82 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int settings_version = 1;
+constexpr std::uintmax_t most_bytes = 16u << 20;
 
 fs::path settings_file() {
   const fs::path folder = config_folder();
   return folder.empty() ? fs::path() : folder / "settings.json";
 }
 
-/// A sentence about what is wrong with the file, in plain words.
-class Fault : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// An object of the file, which knows how it is called there.
 class Section {
  public:
-  Section(const Json& json, std::string name) : json_(json), name_(std::move(name)) {
-    if (!json_.is_object()) throw Fault((name_.empty() ? "the file" : "“" + name_ + "”") + " is not an object { … }");
+  Section(const JsonNode& node, std::string name) : node_(node), name_(std::move(name)) {
+    if (node_.type != JsonNode::Type::object) wrong(node_, name_, "an object {…}");
   }
-  bool has(const char* key) const { return json_.contains(key); }
-  const Json& at(const char* key) const {
-    if (!has(key)) throw Fault("“" + path(key) + "” is missing");
-    return json_.at(key);
+  /// Throws PresetError unless that key is there.
+  void need(const char* key) const {
+    if (node_.find(key) == nullptr)
+      throw PresetError(":" + std::to_string(node_.line) + ": " + path(key) + " is missing");
   }
-  Section section(const char* key) const { return {at(key), path(key)}; }
+  /// Calls read(node, path) for that key, if it is there.
+  template <class Read>
+  void read(const char* key, const Read& read) const {
+    if (const JsonNode* node = node_.find(key)) read(*node, path(key));
+  }
   /// Replaces the value by what stands there, if anything does.
   template <class T>
   void take(const char* key, T& value) const {
-    if (!has(key)) return;
-    try {
-      value = json_.at(key).get<T>();
-    } catch (const Json::exception&) {
-      throw Fault("“" + path(key) + "” has a value of the wrong type");
-    }
+    read(key, [&](const JsonNode& node, const std::string& path) { convert(node, path, value); });
   }
 
  private:
+  [[noreturn]] static void wrong(const JsonNode& node, const std::string& path, const std::string& expected) {
+    throw PresetError(":" + std::to_string(node.line) + ": " + (path.empty() ? "the file" : path) + " must be " +
+                      expected + ", not " + std::string(type_name(node.type)));
+  }
+  static void convert(const JsonNode& node, const std::string& path, bool& value) {
+    if (node.type != JsonNode::Type::boolean) wrong(node, path, "true or false");
+    value = node.number != 0;
+  }
+  static void convert(const JsonNode& node, const std::string& path, double& value) {
+    if (!node.is_number()) wrong(node, path, "a number");
+    value = node.number;
+  }
+  static void convert(const JsonNode& node, const std::string& path, float& value) {
+    double number = 0;
+    convert(node, path, number);
+    value = float(number);
+  }
+  static void convert(const JsonNode& node, const std::string& path, int& value) {
+    constexpr double most = 1e9;
+    double number = 0;
+    convert(node, path, number);
+    value = int(std::clamp(number, -most, most));
+  }
+  static void convert(const JsonNode& node, const std::string& path, std::string& value) {
+    if (node.type != JsonNode::Type::text) wrong(node, path, "a string");
+    value = node.text;
+  }
+  static void convert(const JsonNode& node, const std::string& path, std::set<std::string>& value) {
+    if (node.type != JsonNode::Type::list) wrong(node, path, "a list of strings");
+    value.clear();
+    for (const JsonNode& item : node.items) {
+      std::string text;
+      convert(item, path, text);
+      value.insert(text);
+    }
+  }
+  static void convert(const JsonNode& node, const std::string& path, std::map<std::string, int>& value) {
+    if (node.type != JsonNode::Type::object) wrong(node, path, "an object {…}");
+    value.clear();
+    for (const auto& [key, child] : node.members) convert(child, path + "." + key, value[key]);
+  }
   std::string path(const char* key) const { return name_.empty() ? key : name_ + "." + key; }
-  const Json& json_;
+
+  const JsonNode& node_;
   std::string name_;
 };
-
-Json parsed(const std::string& text) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    const std::size_t end = std::min(error.byte, text.size());
-    const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '\n');
-    throw Fault("it is not JSON at line " + std::to_string(line));
-  }
-}
 
 Layout layout_from(const Section& from) {
   Layout layout;
@@ -92,9 +119,12 @@ ToolSettings handling_from(const Section& from) {
 
 LastSession session_from(const Section& from) {
   LastSession session;
-  session.preset = parse_preset(from.at("preset").dump(), "the last session's preset");
+  const auto take = [&](const char* key, Preset& preset) {
+    from.read(key, [&](const JsonNode& node, const std::string& path) { preset = preset_from(node, "", {}, path); });
+  };
+  take("preset", session.preset);
   session.saved = session.preset;
-  if (from.has("saved")) session.saved = parse_preset(from.at("saved").dump(), "the last session's saved preset");
+  take("saved", session.saved);
   from.take("label", session.label);
   std::string file;
   from.take("file", file);
@@ -102,17 +132,19 @@ LastSession session_from(const Section& from) {
   return session;
 }
 
-Settings settings_from(const Json& json) {
-  const Section all(json, "");
+Settings settings_from(const JsonNode& root) {
+  const Section all(root, "");
   Settings settings;
-  if (all.has("window")) {
-    const Section window = all.section("window");
+  const auto section = [&](const char* key, const auto& take) {
+    all.read(key, [&](const JsonNode& node, const std::string& path) { take(Section(node, path)); });
+  };
+  section("window", [&](const Section& window) {
     window.take("x", settings.x), window.take("y", settings.y);
     window.take("width", settings.width), window.take("height", settings.height);
     window.take("maximised", settings.maximised);
     settings.width = std::clamp(settings.width, 480, 16384);
     settings.height = std::clamp(settings.height, 320, 16384);
-  }
+  });
   all.take("ui_scale", settings.ui_scale);
   settings.ui_scale = settings.ui_scale > 0 ? std::clamp(settings.ui_scale, 0.5, 3.0) : 1;
   all.take("theme", settings.theme);
@@ -121,20 +153,45 @@ Settings settings_from(const Json& json) {
   all.take("all_effects", settings.all_effects);
   all.take("tour_seen", settings.tour_seen);
   all.take("labs", settings.labs);
-  if (all.has("layout")) settings.layout = layout_from(all.section("layout"));
-  if (all.has("handling")) settings.handling = handling_from(all.section("handling"));
-  if (all.has("session")) settings.session = session_from(all.section("session"));
+  section("layout", [&](const Section& layout) { settings.layout = layout_from(layout); });
+  section("handling", [&](const Section& handling) { settings.handling = handling_from(handling); });
+  section("session", [&](const Section& session) {
+    session.need("preset");
+    settings.session = session_from(session);
+  });
   return settings;
 }
 
-/// Moves a file that is unusable out of the way; says where to, or what became of it.
-std::string put_aside(const fs::path& file) {
-  fs::path aside = file;
-  aside += ".broken";
+/// The file as JSON; it may hold two presets. Throws InputError, PresetError.
+JsonNode read_tree(const fs::path& file) {
+  return parse_json(read_input(file, "settings file", most_bytes), "", Lines::told, 2 * max_json_values);
+}
+
+/// Of which version a file is; one that tells none is of the first.
+int version_of(const JsonNode& root) {
+  const JsonNode* version = root.find("tyglab_settings");
+  return version != nullptr && version->is_number() ? int(std::clamp(version->number, 0.0, 1e9)) : 1;
+}
+
+/// Moves a file out of the way, under a name that no file has. Returns that; empty where it cannot be moved.
+fs::path put_aside(const fs::path& file, const std::string& extension) {
+  constexpr int most = 1000;
   std::error_code error;
-  fs::rename(file, aside, error);
-  if (error) return "It will be overwritten when the window closes; copy it if you need it.";
-  return "The old file is kept as " + aside.string() + ".";
+  for (int n = 1; n <= most; ++n) {
+    fs::path aside = file;
+    aside += extension + (n == 1 ? "" : "-" + std::to_string(n));
+    if (fs::exists(fs::symlink_status(aside, error))) continue;
+    fs::rename(file, aside, error);
+    return error ? fs::path() : aside;
+  }
+  return {};
+}
+
+/// The same, with what is said of it.
+std::string kept_aside(const fs::path& file, const std::string& extension) {
+  const fs::path aside = put_aside(file, extension);
+  return aside.empty() ? "The file stays as it is, and the settings of this session will not be remembered."
+                       : "The old file is kept as " + aside.string() + ".";
 }
 
 Json to_json(const Settings& settings) {
@@ -172,6 +229,48 @@ Json to_json(const Settings& settings) {
   return json;
 }
 
+/// Puts what differs between `known` and `now` into what stands in the file: who changed a value last has it. A session
+/// is one value, since its parts belong together.
+void put_changes(Json& file, const Json& known, const Json& now) {
+  for (const auto& [key, value] : known.items())
+    if (!now.contains(key)) file.erase(key);
+  for (const auto& [key, value] : now.items()) {
+    const bool both = known.contains(key) && file.contains(key);
+    if (both && value == known[key]) continue;
+    if (both && key != "session" && value.is_object() && known[key].is_object() && file[key].is_object())
+      put_changes(file[key], known[key], value);
+    else
+      file[key] = value;
+  }
+}
+
+/// What stands in the file now; empty where nothing does. What cannot be read is kept aside, as another program may
+/// have left it meanwhile. Throws OutputError where a newer Tyglab wrote it.
+Json settings_in(const fs::path& file) {
+  std::error_code error;
+  if (fs::status(file, error).type() == fs::file_type::not_found) return {};
+  try {
+    const std::string text = read_input(file, "settings file", most_bytes);
+    if (version_of(parse_json(text, "", Lines::told, 2 * max_json_values)) > settings_version)
+      throw OutputError(file.string() + ": a newer Tyglab wrote it meanwhile");
+    Json json = Json::parse(text);
+    if (json.is_object()) return json;
+  } catch (const InputError&) {
+  } catch (const PresetError&) {
+  }
+  if (put_aside(file, ".broken").empty())
+    throw OutputError(file.string() + ": cannot be read, nor moved out of the way");
+  return {};
+}
+
+/// A problem of a file, where the sentence has named the file already.
+std::string without_name(std::string problem, const fs::path& file) {
+  const std::string name = file.string() + ": ";
+  if (problem.starts_with(name)) problem.erase(0, name.size());
+  if (problem.starts_with(":")) problem = "line " + problem.substr(1);
+  return problem;
+}
+
 }  // namespace
 
 fs::path config_folder() {
@@ -193,27 +292,40 @@ fs::path user_preset_folder() {
 Settings load_settings(std::string& problem) {
   const fs::path file = settings_file();
   std::error_code ignored;
-  if (file.empty() || !fs::exists(file, ignored)) return {};
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
+  if (file.empty() || fs::status(file, ignored).type() == fs::file_type::not_found) return {};
   try {
-    if (!in) throw Fault("it cannot be opened");
-    return settings_from(parsed(text.str()));
+    const JsonNode root = read_tree(file);
+    if (const int version = version_of(root); version > settings_version) {
+      problem = "The settings in " + file.string() + " are those of a newer Tyglab (version " +
+                std::to_string(version) + "; this one reads " + std::to_string(settings_version) +
+                "). The defaults are used. " + kept_aside(file, ".version-" + std::to_string(version));
+      return {};
+    }
+    return settings_from(root);
   } catch (const std::exception& error) {
-    problem = "The settings in " + file.string() + " cannot be used: " + error.what() + ". The defaults are used. " +
-              put_aside(file);
+    problem = "The settings in " + file.string() + " cannot be used: " + without_name(error.what(), file) +
+              ". The defaults are used. " + kept_aside(file, ".broken");
     return {};
   }
 }
 
-void save_settings(const Settings& settings) {
+void save_settings(const Settings& settings, const Settings& known) {
   const fs::path file = settings_file();
   if (file.empty()) return;
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) throw OutputError(file.parent_path().string() + ": the folder cannot be created: " + error.message());
-  write_atomically(file, to_json(settings).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (fs::exists(file, error) && !fs::is_regular_file(file, error))
+    throw OutputError(file.string() + ": is not a file, so the settings cannot be written there");
+  OutputFile out(file);  // from here on nobody else writes it
+  Json all = settings_in(file);
+  const Json now = to_json(settings);
+  if (all.empty())
+    all = now;
+  else
+    put_changes(all, to_json(known), now);
+  out.write(all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  out.end();
 }
 
 }  // namespace tyglab

@@ -26,6 +26,7 @@ struct ToolSettings {
   bool cut_along_path = false;  ///< a cut takes what the pointer's path crosses; otherwise springs upward (2.3.4)
   bool slow_hand = false;       ///< slow motion while the hand is in the cloth
   std::set<std::string> arrows{"F_s", "F_b", "F_d", "F_g"};  ///< variables drawn at the picked particle
+  bool operator==(const ToolSettings&) const = default;
 };
 
 /// The preset of the last session, with what was not saved.
@@ -34,6 +35,7 @@ struct LastSession {
   Preset saved;  ///< as it was opened or saved; a user's file is read again
   std::string label;
   std::filesystem::path file;  ///< the user's file, empty for a shipped preset
+  bool operator==(const LastSession&) const = default;
 };
 
 struct Settings {
@@ -49,6 +51,7 @@ struct Settings {
   bool tour_seen = false;
   std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<LastSession> session;
+  bool operator==(const Settings&) const = default;
 };
 
 /// Folder of settings and the user's presets: $TYGLAB_CONFIG_DIR, $XDG_CONFIG_HOME/tyglab or ~/.config/tyglab; empty
@@ -56,10 +59,12 @@ struct Settings {
 std::filesystem::path config_folder();
 std::filesystem::path user_preset_folder();
 
-/// The settings, or the defaults and in `problem` a few sentences when the file is there but unusable; it is then
-/// renamed to settings.json.broken, so that nothing of it is lost.
+/// The settings, or the defaults and in `problem` a few sentences when the file is there but unusable. It is then
+/// renamed to settings.json.broken, or settings.json.version-2 where a newer program wrote it, so that nothing of it is
+/// lost.
 Settings load_settings(std::string& problem);
-/// Writes them atomically. Throws OutputError.
-void save_settings(const Settings& settings);
+/// Writes what differs from `known`, which is what this program read or wrote last, so that several windows keep each
+/// other's changes: the last one to change a value has it. Throws OutputError.
+void save_settings(const Settings& settings, const Settings& known);
 
 }  // namespace tyglab

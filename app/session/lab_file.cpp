@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <functional>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "app/base/data_files.h"
@@ -12,6 +10,7 @@
 #include "app/session/lab.h"
 #include "app/session/lab_condition.h"
 #include "app/session/lab_text.h"
+#include "core/io/input_file.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
 #include "core/model/readable.h"
@@ -81,6 +80,8 @@ class LabReader {
 };
 
 Lab LabReader::read() {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // which some editors put first
+  if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
   try {
     for (std::size_t at = 0; at <= text_.size();) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
@@ -301,16 +302,13 @@ Lab parse_lab(std::string_view text, std::string_view source, const std::filesys
 }
 
 Lab load_lab(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    throw LabError(file.string() + ": is not a file, so it cannot be read as a lab");
-  if (const auto size = std::filesystem::file_size(file, error); !error && size > most_bytes)
-    throw LabError(file.string() + ": too large for a lab (1 MiB at most)");
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw LabError(file.string() + ": cannot be read; check that it exists and its permissions");
-  Lab lab = parse_lab(text.str(), file.string(), file.parent_path());
+  std::string text;
+  try {
+    text = read_input(file, "lab", most_bytes);
+  } catch (const InputError& problem) {
+    throw LabError(problem.what());
+  }
+  Lab lab = parse_lab(text, file.string(), file.parent_path());
   lab.label = file.stem().string();
   return lab;
 }

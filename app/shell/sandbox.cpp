@@ -10,6 +10,7 @@
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
 #include "app/session/document.h"
+#include "app/shell/settings_writer.h"
 #include "app/shell/start.h"
 #include "app/shell/window.h"
 #include "app/ui/frame/frame.h"
@@ -59,12 +60,14 @@ class Sandbox {
   void present();
   void save_picture();
   int write_outputs();
+  Settings present_settings();
   void remember();
   bool idle() const;
 
   SandboxOptions options_;
   Session session_;  // first: it takes the messages of what is read
   Settings settings_;
+  SettingsWriter writer_{settings_};
   InputQueue input_;
   Scene scene_{session_};
   Tools tools_{session_, scene_, input_, settings_.handling};
@@ -288,6 +291,8 @@ int Sandbox::run() {
   while (!session_.quit && !InterruptGuard::interrupted() && (options_.frames == 0 || frames_ < options_.frames)) {
     const double start = glfwGetTime();
     wait_for_events();
+    const auto present = [this] { return present_settings(); };
+    if (!session_.scripted && writer_.update(start, present, session_.messages)) ui_.draw_by = start;
     if (!due()) {
       input_.clear();
       continue;
@@ -318,12 +323,17 @@ int Sandbox::write_outputs() {
   return done;
 }
 
-void Sandbox::remember() {
-  if (session_.scripted) return;
+/// What the next session is to find, however this one ends.
+Settings Sandbox::present_settings() {
   remember_session(ui_);
   window_.remember(settings_);
+  return settings_;
+}
+
+void Sandbox::remember() {
+  if (session_.scripted) return;
   try {
-    save_settings(settings_);
+    writer_.finish(present_settings());
   } catch (const OutputError& error) {
     std::cerr << "tyglab: " << error.what() << ". The settings of this session are not saved.\n";
   }

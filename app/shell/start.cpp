@@ -17,7 +17,7 @@ Settings settings_for(const SandboxOptions& options, Messages& messages) {
     return settings;
   }
   try {
-    save_settings(settings);  // now, while there is somebody to read that it does not work
+    save_settings(settings, settings);  // now, while there is somebody to read that it does not work
   } catch (const OutputError& error) {
     messages.warning(std::string(error.what()) +
                      ". The settings of this session will not be remembered. Make the folder writable, or name another "

@@ -9,9 +9,8 @@
 namespace tyglab {
 namespace {
 
-constexpr int max_depth = 16;               // a preset needs 4; a bound keeps recursion safe
-constexpr std::size_t max_keys = 1000;      // in one object; each is compared with all before it
-constexpr std::size_t max_values = 200000;  // a list of every pin of a large cloth's border fits well
+constexpr int max_depth = 16;           // a preset needs 4; a bound keeps recursion safe
+constexpr std::size_t max_keys = 1000;  // in one object; each is compared with all before it
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
@@ -38,13 +37,13 @@ std::size_t utf8_length(std::string_view text) {
 /// wrote it: what was expected, and the fix.
 class JsonReader {
  public:
-  JsonReader(std::string_view text, std::string_view source, Lines lines)
-      : text_(text), source_(source), lines_(lines) {}
+  JsonReader(std::string_view text, std::string_view source, Lines lines, std::size_t max_values)
+      : text_(text), source_(source), lines_(lines), max_values_(max_values) {}
 
   JsonNode read() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;
     skip_space();
-    if (ended()) fail_end("it is empty; a preset is at least {}");
+    if (ended()) fail_end("it is empty; it must be at least {}");
     JsonNode root = value();
     skip_space();
     if (!ended()) fail("the preset ends before this; remove what follows its closing }");
@@ -76,8 +75,10 @@ class JsonReader {
     throw PresetError(printable(where + ": " + why));
   }
   [[noreturn]] void fail(const std::string& why) const { fail_at(at_, why); }
-  /// It is JSON, but no preset.
-  [[noreturn]] void refuse(const std::string& why) const { fail_at(at_, why, Columns::none); }
+  /// With the key that it is about.
+  std::string named(const std::string& why) const { return path_.empty() ? why : path_ + ": " + why; }
+  /// It is JSON, but not what is wanted.
+  [[noreturn]] void refuse(const std::string& why) const { fail_at(at_, named(why), Columns::none); }
   /// The text ends where more must come.
   [[noreturn]] void fail_end(const std::string& why) const {
     const std::size_t last = text_.find_last_not_of(" \t\r\n");
@@ -90,7 +91,7 @@ class JsonReader {
   }
 
   JsonNode value() {
-    if (++values_ > max_values) refuse("too many values for a preset");
+    if (++values_ > max_values_) refuse("too many values (" + std::to_string(max_values_) + " at most)");
     JsonNode node;
     node.line = lines_ == Lines::told ? line_ : 0;
     const char c = now();
@@ -99,7 +100,7 @@ class JsonReader {
       items('}', [&] { member(node); });
     } else if (c == '[') {
       node.type = JsonNode::Type::list;
-      items(']', [&] { node.items.push_back(value()); });
+      items(']', [&] { node.items.push_back(value_of("[" + std::to_string(node.items.size()) + "]")); });
     } else if (c == '"') {
       node.type = JsonNode::Type::text;
       node.text = string();
@@ -110,10 +111,18 @@ class JsonReader {
     }
     return node;
   }
+  /// The value that belongs to a part of the present one: "[2]" or ".k_s".
+  JsonNode value_of(const std::string& part) {
+    const std::size_t length = path_.size();
+    path_ += path_.empty() && part[0] == '.' ? part.substr(1) : part;
+    JsonNode node = value();
+    path_.resize(length);
+    return node;
+  }
   void literal(JsonNode& node) {
     const std::string name = word();
     if (name == "true" || name == "false")
-      node.type = JsonNode::Type::boolean;
+      node.type = JsonNode::Type::boolean, node.number = name == "true" ? 1 : 0;
     else if (name != "null")
       no_value(name);
     at_ += name.size();
@@ -145,7 +154,7 @@ class JsonReader {
   /// Items between commas up to `close`.
   template <class Item>
   void items(char close, const Item& item) {
-    if (++depth_ > max_depth) refuse("nested too deeply for a preset");
+    if (++depth_ > max_depth) refuse("nested too deeply (" + std::to_string(max_depth) + " levels at most)");
     const std::size_t open = at_++;
     skip_space();
     for (std::size_t comma = open; !sees(close) || comma != open; skip_space()) {
@@ -176,7 +185,8 @@ class JsonReader {
     if (!sees('"')) no_key();
     const std::size_t begin = at_;
     const std::string key = string();
-    if (object.members.size() >= max_keys) refuse("too many keys in one object for a preset");
+    if (object.members.size() >= max_keys)
+      refuse("too many keys in one object (" + std::to_string(max_keys) + " at most)");
     if (object.find(key)) refuse("the key \"" + key + "\" appears twice; keep one of them");
     const std::string quoted(text_.substr(begin, std::min<std::size_t>(at_ - begin, 60)));
     skip_space();
@@ -185,7 +195,7 @@ class JsonReader {
     if (!sees(':')) fail("a colon is missing after the key " + quoted);
     ++at_;
     skip_space();
-    object.members.push_back({key, value()});
+    object.members.push_back({key, value_of("." + key)});
   }
   [[noreturn]] void no_key() const {
     refuse_comment();
@@ -252,7 +262,9 @@ class JsonReader {
     }
     if (is_letter(now()) || sees('.')) fail_at(begin, "this is not a JSON number; write one such as 1000, 1.5 or 2e-3");
     const auto value = nlohmann::json::parse(text_.substr(begin, at_ - begin), nullptr, false);
-    if (!value.is_number()) fail_at(begin, "this number is too large; write a smaller one");
+    if (!value.is_number())
+      fail_at(begin, named(std::string(text_.substr(begin, std::min<std::size_t>(at_ - begin, 40))) +
+                           " is too large for a number; write a smaller one"));
     node.type = value.is_number_integer() ? JsonNode::Type::integer : JsonNode::Type::number;
     node.number = value.get<double>();
   }
@@ -260,7 +272,9 @@ class JsonReader {
   std::string_view text_;
   std::string source_;
   Lines lines_;
+  std::size_t max_values_;
   std::size_t at_ = 0, values_ = 0;
+  std::string path_;  ///< of the value that is read, like "bodies[0].c[1]"
   int line_ = 1;
   int depth_ = 0;
 };
@@ -298,8 +312,8 @@ std::string printable(std::string text) {
   return text;
 }
 
-JsonNode parse_json(std::string_view text, std::string_view source, Lines lines) {
-  return JsonReader(text, source, lines).read();
+JsonNode parse_json(std::string_view text, std::string_view source, Lines lines, std::size_t max_values) {
+  return JsonReader(text, source, lines, max_values).read();
 }
 
 }  // namespace tyglab

@@ -15,7 +15,7 @@ struct JsonNode {
   enum class Type { null, boolean, integer, number, text, list, object };
   Type type = Type::null;
   int line = 0;       ///< of the value; 0 if lines are not told
-  double number = 0;  ///< integer, number
+  double number = 0;  ///< integer, number; boolean: 0 or 1
   std::string text;
   std::vector<JsonNode> items;
   std::vector<Member> members;
@@ -39,7 +39,10 @@ std::string printable(std::string text);
 /// Whether errors tell lines, or the text is one (a --set).
 enum class Lines { told, one };
 
-/// Throws PresetError naming `source`, line and column.
-JsonNode parse_json(std::string_view text, std::string_view source, Lines lines);
+constexpr std::size_t max_json_values = 200000;  // a list of every pin of a large cloth's border fits well
+
+/// Throws PresetError naming `source`, line and column, and the key where it is about a value.
+JsonNode parse_json(std::string_view text, std::string_view source, Lines lines,
+                    std::size_t max_values = max_json_values);
 
 }  // namespace tyglab

@@ -42,7 +42,7 @@ class OutputFile {
   void write(std::string_view bytes);
   /// Writes over earlier bytes (Order::any). Throws OutputError.
   void write_at(std::uint64_t offset, std::string_view bytes);
-  /// What was written so far is complete in itself, and is kept if it goes no further.
+  /// What was written so far is useful by itself, and is kept if it goes no further.
   void keep() { kept_ = size_; }
   /// No more is written. Throws OutputError; FILE.incomplete stays then, as far as keep() covers it.
   void end(Reach reach = Reach::whole);

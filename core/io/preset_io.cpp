@@ -64,11 +64,13 @@ std::string pins_problem(const Preset& p) {
 /// Reads values of one source (a file, a --set) into a preset; knows how to complain.
 class Reader {
  public:
-  explicit Reader(std::string_view source) : source_(source) {}
+  /// `at`: what stands before the keys' names where the preset is a part of something else.
+  explicit Reader(std::string_view source, std::string_view at = {}) : source_(source), at_(at) {}
 
   [[noreturn]] void fail(int line, const std::string& path, const std::string& why) const {
-    throw PresetError(printable(source_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + path +
-                                (path.empty() ? "" : ": ") + why));
+    const std::string key = at_ + (at_.empty() || path.empty() ? "" : ".") + path;
+    throw PresetError(printable(source_ + (line > 0 ? ":" + std::to_string(line) : "") + ": " + key +
+                                (key.empty() ? "" : ": ") + why));
   }
   [[noreturn]] void wrong_type(const JsonNode& node, const std::string& path, std::string_view expected) const {
     fail(node.line, path, "must be " + std::string(expected) + ", not " + std::string(type_name(node.type)));
@@ -192,10 +194,13 @@ class Reader {
   }
 
  private:
-  std::string source_;
+  std::string source_, at_;
 };
 
 void check_version(const Reader& reader, const JsonNode& node) {
+  if (node.type == Type::number)
+    reader.fail(node.line, "tyglab_preset",
+                "must be written as a whole number, like " + std::to_string(preset_version));
   if (node.type != Type::integer) reader.wrong_type(node, "tyglab_preset", "a whole number");
   if (node.number > preset_version)
     reader.fail(node.line, "tyglab_preset",
@@ -218,6 +223,8 @@ JsonNode setting_number(const std::string& key, const std::string& text, const R
   JsonNode node;
   const char* end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, node.number);
+  if (error == std::errc::result_out_of_range && stop == end)
+    reader.fail(0, key, "'" + text + "' is too large or too small for a number");
   if (text.empty() || error != std::errc{} || stop != end)
     reader.fail(0, key, "'" + text + "' is not a number; write it like 1.5 or 2e-3");
   node.type = text.find_first_of(".eE") == std::string::npos ? Type::integer : Type::number;
@@ -314,8 +321,12 @@ std::string texture_problem(const std::string& texture, const std::filesystem::p
 }
 
 Preset parse_preset(std::string_view text, std::string_view source, const std::filesystem::path& folder) {
-  const JsonNode root = parse_json(text, source, Lines::told);
-  const Reader reader(source);
+  return preset_from(parse_json(text, source, Lines::told), source, folder);
+}
+
+Preset preset_from(const JsonNode& root, std::string_view source, const std::filesystem::path& folder,
+                   std::string_view at) {
+  const Reader reader(source, at);
   if (root.type != Type::object) reader.wrong_type(root, "", "an object {…}");
   if (const JsonNode* version = root.find("tyglab_preset")) check_version(reader, *version);
   Preset preset;

@@ -11,6 +11,8 @@
 
 namespace tyglab {
 
+struct JsonNode;
+
 /// A preset (or a --set) is wrong. `what()` names file, line, key and what is allowed.
 class PresetError : public std::runtime_error {
  public:
@@ -22,6 +24,9 @@ inline constexpr int preset_version = 1;
 /// Parses and checks a whole preset. `source` names it in errors. `folder`: that of the preset's file, which then may
 /// name no texture outside it (texture_problem()). Throws PresetError; never returns half a preset.
 Preset parse_preset(std::string_view text, std::string_view source, const std::filesystem::path& folder = {});
+/// The same of a part of a larger JSON file; `at` is the path of its keys there ("session.preset").
+Preset preset_from(const JsonNode& root, std::string_view source, const std::filesystem::path& folder = {},
+                   std::string_view at = {});
 /// Reads a file. Throws PresetError (missing, unreadable, wrong).
 Preset load_preset(const std::filesystem::path& file);
 /// Why a preset in that folder may not name this texture, so that who opens a stranger's preset opens no other file; or

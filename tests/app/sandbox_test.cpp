@@ -1,14 +1,12 @@
-// The parts of the sandbox that need no window: pacing, undo, sampled series, settings, typed numbers, plot ranges.
+// The parts of the sandbox that need no window: pacing, undo, sampled series, typed numbers, plot ranges.
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "app/base/messages.h"
 #include "app/base/numbers.h"
-#include "app/base/settings.h"
 #include "app/session/history.h"
 #include "app/session/pacing.h"
 #include "app/session/series.h"
@@ -90,54 +88,6 @@ TEST_CASE("a series keeps its order, forgets its oldest samples, and writes a ta
   CHECK(rows[0] == "# a comment");
   CHECK(rows[1] == "t,F_s [N],F [N]");
   CHECK(rows[2] == "0.5,1,2");
-}
-
-TEST_CASE("settings come back, and a broken file gives a sentence and the defaults") {
-  const test::TemporaryFolder folder;
-  REQUIRE(setenv("TYGLAB_CONFIG_DIR", folder.path().c_str(), 1) == 0);
-  std::string problem;
-  CHECK(load_settings(problem).width == Settings{}.width);
-  CHECK(problem.empty());
-  Settings settings;
-  settings.width = 1000;
-  settings.ui_scale = 1.5;
-  settings.layout.right = false;
-  settings.handling.cut_along_path = settings.handling.slow_hand = true;
-  settings.handling.arrows = {"F", "v"};
-  settings.session = LastSession{with_k_s(77), with_k_s(76), "denim", "/a/b.json"};
-  save_settings(settings);
-  const Settings again = load_settings(problem);
-  CHECK(problem.empty());
-  CHECK(again.width == 1000);
-  CHECK(again.ui_scale == 1.5);
-  CHECK(again.layout == settings.layout);
-  CHECK(again.handling.cut_along_path);
-  CHECK(again.handling.slow_hand);
-  CHECK(again.handling.arrows == settings.handling.arrows);
-  REQUIRE(again.session.has_value());
-  CHECK(again.session->preset == settings.session->preset);
-  CHECK(again.session->saved == settings.session->saved);
-  CHECK(again.session->label == "denim");
-  for (const char* text : {"", "{", "{\"window\": {\"width\": \"wide\"}}", "{\"session\": {}}",
-                           "{\"session\": {\"preset\": {\"forces\": {\"k_s\": -1}}}}", "{\"layout\": {\"folded\": 3}}",
-                           "{\"ui_scale\": []}", "[]", "5", "{\"window\": 5}"}) {
-    CAPTURE(std::string(text));
-    test::write_file(folder / "settings.json", text);
-    problem.clear();
-    CHECK(load_settings(problem).width == Settings{}.width);
-    CHECK(problem.find("settings.json") != std::string::npos);
-    CHECK(problem.find("exception") == std::string::npos);
-    // It is kept beside, whole.
-    CHECK_FALSE(std::filesystem::exists(folder / "settings.json"));
-    CHECK(test::read_file(folder / "settings.json.broken") == text);
-  }
-  test::write_file(folder / "settings.json", "{\"window\": {\"width\": -5, \"height\": 1e9}, \"ui_scale\": -3}");
-  problem.clear();
-  const Settings odd = load_settings(problem);
-  CHECK(odd.width >= 100);
-  CHECK(odd.height <= 20000);
-  CHECK(odd.ui_scale > 0);
-  unsetenv("TYGLAB_CONFIG_DIR");
 }
 
 TEST_CASE("numbers are read as people type them and shown short") {

@@ -52,7 +52,7 @@ TEST_CASE("with --frames nothing of earlier sessions counts, and no settings are
   Folder folder(own.path());
   Settings light;
   light.theme = "light";
-  save_settings(light);
+  save_settings(light, Settings());
   CHECK(folder.start().theme == "light");
   CHECK(folder.start(3).theme == Settings().theme);
   CHECK(folder.messages.list().empty());

@@ -3,9 +3,10 @@
 import json
 import os
 import signal
+import time
 
 from cases import case, check, main
-from sandbox import k_s
+from sandbox import PATIENCE, k_s
 
 
 def fill(sandbox, field, text):
@@ -73,6 +74,33 @@ def session(stage):
     fourth = stage.start("hanging", config=sandbox.config)
     report = fourth.wait(lambda r: r["messages"], "a message on settings that cannot be read")
     check("settings.json.broken" in report["messages"][0], f"it says where the file is: {report['messages']}")
+
+
+def until(condition, what):
+    """Waits for what no report tells."""
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        check(time.monotonic() < end, "in time: " + what)
+        time.sleep(0.05)
+
+
+@case
+def killed(stage):
+    """kill -9 loses nothing: what was changed comes back, unsaved as it was"""
+    sandbox = stage.start("curtain")
+    sandbox.type_value("k_s", "71")
+
+    def written():
+        with open(sandbox.settings_file) as file:
+            session = json.load(file).get("session")
+        return session is not None and session["preset"]["forces"]["k_s"] == 71
+
+    until(written, "the change is on disk while the window is open")
+    sandbox.process.kill()
+    sandbox.process.wait()
+    again = stage.start(config=sandbox.config)
+    report = again.report()
+    check(report["label"] == "curtain" and k_s(report) == 71 and report["unsaved"], "it is back, and counts as unsaved")
 
 
 if __name__ == "__main__":

@@ -106,6 +106,22 @@ TEST_CASE("a wrong setting is refused by its name and leaves the preset as it wa
   }
 }
 
+TEST_CASE("numbers that are too large or too small are told so, with their key") {
+  for (const auto& [setting, says] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"k_s=1e999", "--set k_s=1e999: k_s: '1e999' is too large or too small for a number"},
+           {"forces.k_s=-1e999", "forces.k_s: '-1e999' is too large or too small"},
+           {"bodies[0].r=1e999", "bodies[0].r: '1e999' is too large or too small"},
+           {"W=[0,1e999,0]", "--set W=[0,1e999,0]: column 4: [1]: 1e999 is too large for a number"}}) {
+    CAPTURE(std::string(setting));
+    try {
+      with_settings(with_bodies(), {setting});
+      FAIL_CHECK("accepted");
+    } catch (const PresetError& error) {
+      CHECK_MESSAGE(std::string(error.what()).find(says) != std::string::npos, error.what());
+    }
+  }
+}
+
 TEST_CASE("a misspelt key of --set gets the nearest known one") {
   const auto error_of = [](const char* setting) -> std::string {
     try {

@@ -186,7 +186,8 @@ TEST_CASE("text that is not JSON is told in plain words, with its place and the 
            {"{ // all\n}", "JSON has no comments"},
            {"{\"forces\": {\"k_s\": 5 # stiff\n}}", "JSON has no comments"},
            {"{\"forces\": {\"k_s\": NaN}}", "must be finite"},
-           {"{\"forces\": {\"k_s\": 1e999}}", "too large"},
+           {"{\"forces\": {\"k_s\": 1e999}}", ":1: column 20: forces.k_s: 1e999 is too large for a number"},
+           {"{\"bodies\": [{}, {\n\"c\": [0, -1e999, 0]}]}", ":2: column 10: bodies[1].c[1]: -1e999 is too large"},
            {"{\"forces\": {\"k_s\": +1}}", "no + sign"},
            {"{\"forces\": {\"k_s\": .5}}", "begins with a digit"},
            {"{\"forces\": {\"k_s\": 1.}}", "after the point"},
@@ -212,6 +213,21 @@ TEST_CASE("text that is not JSON is told in plain words, with its place and the 
   }
   // The end of the file lies further down than what is unfinished, so its column says nothing.
   CHECK(error_of("{\n\"cloth\": {\n\n\n").find("column") == std::string::npos);
+}
+
+TEST_CASE("a preset that is too large for a person's file is refused with the key that makes it so") {
+  const auto filled = [](const std::string& before, const std::string& part, int count, const std::string& after) {
+    std::string text = before;
+    for (int n = 0; n < count; ++n) text += (n == 0 ? "" : ",") + part;
+    return text + after;
+  };
+  check_contains(error_of(filled("{\"cloth\": {\n\"pins\": [\n", "[0,0]\n", 100000, "]}}")),
+                 {"cloth.pins[66665]", "too many values (200000 at most)"});
+  check_contains(error_of("{\"forces\": {\n\"W\": " + std::string(20, '[') + std::string(20, ']') + "}}"),
+                 {":2", "forces.W[0][0]", "nested too deeply"});
+  std::string keys = "{\"forces\": {\n";
+  for (int n = 0; n < 1100; ++n) keys += (n == 0 ? "\"" : ",\"") + std::to_string(n) + "\": 1";
+  check_contains(error_of(keys + "}}"), {":2", "forces: too many keys in one object (1000 at most)"});
 }
 
 TEST_CASE("what is JSON and what is not is judged as another reader of JSON does") {
@@ -264,7 +280,9 @@ TEST_CASE("a newer version is refused with a sentence, an impossible one too") {
   check_contains(error_of("{\"tyglab_preset\": 1000000}"), {"newer"});
   error_of("{\"tyglab_preset\": 0}");
   error_of("{\"tyglab_preset\": -1}");
-  error_of("{\"tyglab_preset\": 1.5}");
+  for (const char* number : {"1.0", "1.5", "1e0", "2.0"})
+    check_contains(error_of("{\n\"tyglab_preset\": " + std::string(number) + "}"),
+                   {":2", "tyglab_preset: must be written as a whole number, like 1"});
   error_of("{\"tyglab_preset\": \"1\"}");
   // Whatever else such a file holds: its version is the first thing to say.
   check_contains(error_of("{\"from the future\": 5, \"tyglab_preset\": 2}"), {"newer"});

@@ -78,13 +78,16 @@ namespace {
 }
 
 Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& command, double interrupt_after,
-                       int signal) {
+                       int signal, const fs::path& file) {
   const TemporaryFolder capture;
   const fs::path out = capture / "out", err = capture / "err";
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) become(folder, command, out, err);
   if (interrupt_after > 0) {
+    constexpr int most_looks = 6000;  // a minute
+    for (int n = 0; n < most_looks && !file.empty() && !fs::exists(file); ++n)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
     kill(child, signal);
   }
@@ -97,18 +100,18 @@ Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& c
 }  // namespace
 
 Outcome run(const fs::path& folder, const std::vector<std::string>& command) {
-  return run_and_signal(folder, command, 0, 0);
+  return run_and_signal(folder, command, 0, 0, {});
 }
 
 Outcome tyglab(const fs::path& folder, std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), TYGLAB_BINARY);
-  return run_and_signal(folder, arguments, 0, 0);
+  return run_and_signal(folder, arguments, 0, 0, {});
 }
 
-Outcome tyglab_interrupted(const fs::path& folder, std::vector<std::string> arguments, double after_seconds,
-                           int signal) {
+Outcome tyglab_interrupted(const fs::path& folder, std::vector<std::string> arguments, double after_seconds, int signal,
+                           const fs::path& file) {
   arguments.insert(arguments.begin(), TYGLAB_BINARY);
-  return run_and_signal(folder, arguments, after_seconds, signal);
+  return run_and_signal(folder, arguments, after_seconds, signal, file);
 }
 
 }  // namespace tyglab::test

@@ -38,8 +38,8 @@ struct Outcome {
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& command);
 /// Runs the built `tyglab` with these arguments.
 Outcome tyglab(const std::filesystem::path& folder, std::vector<std::string> arguments);
-/// Starts `tyglab`, sends it a signal after that time, and waits.
+/// Starts `tyglab`, waits for that file if one is named, sends it a signal after that time, and waits for its end.
 Outcome tyglab_interrupted(const std::filesystem::path& folder, std::vector<std::string> arguments,
-                           double after_seconds, int signal = SIGINT);
+                           double after_seconds, int signal = SIGINT, const std::filesystem::path& file = {});
 
 }  // namespace tyglab::test

@@ -362,6 +362,7 @@ void add_run_command(CLI::App& program, Action& action) {
   command->footer(
       "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"
       "- in place of F is standard output; messages then go to stderr.\n"
+      "An older file is replaced only by a whole one: what Ctrl-C or a full disk cuts short is called F.incomplete.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 wrong preset, 4 diverged, 5 no such engine, 6 not writable, "
       "130 interrupted.");
   command->callback([options, &action] { action = [options] { return run(*options); }; });
