@@ -50,188 +50,189 @@ TEST_CASE("a lab opens no image but a shipped one") {
   CHECK(says(problem_in("open: hanging\nset: texture=/etc/passwd"), "texture=/etc/passwd is not a shipped texture"));
   CHECK(says(problem_in("open: hanging\nset: texture=../a.png"), "is not a shipped texture"));
   CHECK(problem_in("open: hanging\nset: texture=linen.png") == "none");
+}
 
-  TEST_CASE("a lab is read with a byte order mark and with the line ends of any system") {
-    const std::string plain = head + "open: hanging\nset: k_s=70\nstop: 2 s\n```\n\nWhy.\n";
-    std::string windows;
-    for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
-    const Lab wanted = parse_lab(plain, "my.md");
-    for (const std::string& text : {"\xEF\xBB\xBF" + plain, windows, "\xEF\xBB\xBF" + windows}) {
-      const Lab lab = parse_lab(text, "my.md");
-      CHECK(lab.title == wanted.title);
-      REQUIRE(lab.steps.size() == 1);
-      CHECK(lab.steps[0].title == wanted.steps[0].title);
-      CHECK(lab.steps[0].text == wanted.steps[0].text);
-      CHECK(lab.steps[0].explanation == wanted.steps[0].explanation);
-      REQUIRE(lab.steps[0].open.has_value());
-      CHECK(lab.steps[0].open->settings == std::vector<std::string>{"k_s=70"});
-      CHECK(lab.steps[0].stop == 2);
-    }
-    CHECK(says(problem_of("\xEF\xBB\xBF" + head + "check: k_z > 3\n```\n"), "my.md:8: "));
+TEST_CASE("a lab is read with a byte order mark and with the line ends of any system") {
+  const std::string plain = head + "open: hanging\nset: k_s=70\nstop: 2 s\n```\n\nWhy.\n";
+  std::string windows;
+  for (const char c : plain) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+  const Lab wanted = parse_lab(plain, "my.md");
+  for (const std::string& text : {"\xEF\xBB\xBF" + plain, windows, "\xEF\xBB\xBF" + windows}) {
+    const Lab lab = parse_lab(text, "my.md");
+    CHECK(lab.title == wanted.title);
+    REQUIRE(lab.steps.size() == 1);
+    CHECK(lab.steps[0].title == wanted.steps[0].title);
+    CHECK(lab.steps[0].text == wanted.steps[0].text);
+    CHECK(lab.steps[0].explanation == wanted.steps[0].explanation);
+    REQUIRE(lab.steps[0].open.has_value());
+    CHECK(lab.steps[0].open->settings == std::vector<std::string>{"k_s=70"});
+    CHECK(lab.steps[0].stop == 2);
   }
+  CHECK(says(problem_of("\xEF\xBB\xBF" + head + "check: k_z > 3\n```\n"), "my.md:8: "));
+}
 
-  TEST_CASE("formulas and quantities are one piece, also where the file's lines end within them") {
-    const Lab lab = parse_lab(
-        "# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m), so Δ\n= m·g/k < 0.1\nm.\n",
-        "my.md");
-    CHECK(without_bonds(lab.steps[0].text[0]) ==
-          "With k~=~2~·~3~/~4~×~5 it weighs 0.115~N, in 2~s (of 5~m), so Δ~=~m·g/k~<~0.1~m.");
-  }
+TEST_CASE("formulas and quantities are one piece, also where the file's lines end within them") {
+  const Lab lab = parse_lab(
+      "# A lab\n\n## A step\n\nWith k = 2 · 3 / 4 × 5 it weighs 0.115 N, in 2 s (of 5 m), so Δ\n= m·g/k < 0.1\nm.\n",
+      "my.md");
+  CHECK(without_bonds(lab.steps[0].text[0]) ==
+        "With k~=~2~·~3~/~4~×~5 it weighs 0.115~N, in 2~s (of 5~m), so Δ~=~m·g/k~<~0.1~m.");
+}
 
-  TEST_CASE("a lab is read whole") {
-    const Lab lab = parse_lab(
-        "# A **short** lab\nWhat it\nis about.\n\n## First\n\nRead `k_s`.\n\n- one\n- two\n  goes on\n\n```lab\n"
-        "open: hanging\nset: k_s=70\nset: rows=8\npredict: How far?\nanswer: 0.1 N s/m within 5 %\ndo: Do this.\n"
-        "stop: 2 s\ncheck: k_s >= 70 N/m\ncheck: integrator = verlet\n```\n\nBecause.\n\n## Second\n\nMore.\n\n```lab\n"
-        "predict: Which?\nchoice: one\nright: two\ncheck: F < 0.5 * F_g\ncheck: energy > 2 * before.energy\n"
-        "check: apart > 0 m\n```\n",
-        "my.md");
-    CHECK(lab.title == "A short lab");
-    CHECK(lab.summary == Paragraphs{"What it is about."});
-    REQUIRE(lab.steps.size() == 2);
-    const LabStep& first = lab.steps[0];
-    CHECK(first.text == Paragraphs{"Read k_s.", "• one", "• two goes on"});
-    CHECK(first.open->preset == "hanging");
-    CHECK(first.open->settings == std::vector<std::string>{"k_s=70", "rows=8"});
-    CHECK(first.prediction->answer.factor == 0.1);
-    CHECK(first.prediction->relative);
-    CHECK(first.prediction->unit == "N s/m");
-    CHECK(first.stop == 2.0);
-    CHECK(first.explanation == Paragraphs{"Because."});
-    CHECK(words_of(first.checks[0]) == "k_s ≥ 70 N/m");
-    CHECK(words_of(first.checks[1]) == "integrator is verlet");
-    const LabStep& second = lab.steps[1];
-    CHECK(second.prediction->right == 1);
-    CHECK(words_of(second.checks[0]) == "F < 0.5 × F_g");
-    CHECK(words_of(second.checks[1]) == "energy > 2 × energy before");
-    CHECK(second.explanation.empty());
-  }
+TEST_CASE("a lab is read whole") {
+  const Lab lab = parse_lab(
+      "# A **short** lab\nWhat it\nis about.\n\n## First\n\nRead `k_s`.\n\n- one\n- two\n  goes on\n\n```lab\n"
+      "open: hanging\nset: k_s=70\nset: rows=8\npredict: How far?\nanswer: 0.1 N s/m within 5 %\ndo: Do this.\n"
+      "stop: 2 s\ncheck: k_s >= 70 N/m\ncheck: integrator = verlet\n```\n\nBecause.\n\n## Second\n\nMore.\n\n```lab\n"
+      "predict: Which?\nchoice: one\nright: two\ncheck: F < 0.5 * F_g\ncheck: energy > 2 * before.energy\n"
+      "check: apart > 0 m\n```\n",
+      "my.md");
+  CHECK(lab.title == "A short lab");
+  CHECK(lab.summary == Paragraphs{"What it is about."});
+  REQUIRE(lab.steps.size() == 2);
+  const LabStep& first = lab.steps[0];
+  CHECK(first.text == Paragraphs{"Read k_s.", "• one", "• two goes on"});
+  CHECK(first.open->preset == "hanging");
+  CHECK(first.open->settings == std::vector<std::string>{"k_s=70", "rows=8"});
+  CHECK(first.prediction->answer.factor == 0.1);
+  CHECK(first.prediction->relative);
+  CHECK(first.prediction->unit == "N s/m");
+  CHECK(first.stop == 2.0);
+  CHECK(first.explanation == Paragraphs{"Because."});
+  CHECK(words_of(first.checks[0]) == "k_s ≥ 70 N/m");
+  CHECK(words_of(first.checks[1]) == "integrator is verlet");
+  const LabStep& second = lab.steps[1];
+  CHECK(second.prediction->right == 1);
+  CHECK(words_of(second.checks[0]) == "F < 0.5 × F_g");
+  CHECK(words_of(second.checks[1]) == "energy > 2 × energy before");
+  CHECK(second.explanation.empty());
+}
 
-  TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
-    CHECK(says(problem_of("Text\n"), "my.md:1: a lab begins with its title"));
-    CHECK(says(problem_of("# A lab\n"), "at least one step"));
-    CHECK(says(problem_of("# A lab\n## \n"), "my.md:2"));
-    CHECK(says(problem_of("# A lab\n\n## A step\n"), "my.md:3: this step has no text"));
-    CHECK(says(problem_of("# A lab\n\n## A step\nText\n```python\n"), "my.md:5: the only block"));
-    CHECK(says(problem_of(head + "do: it\n"), "my.md:7: this block is never closed"));
-    CHECK(says(problem_of(head + "```\n\n```lab\n"), "my.md:10: this step has a ```lab block already"));
-    CHECK(says(problem_of("# A lab\n```lab\n```\n"), "belongs to a step"));
-    CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is not a key of a lab; did you mean check?"));
-    CHECK(says(problem_in("just words"), "has no colon"));
-    CHECK(says(problem_in("check:"), "has no value"));
-    CHECK(says(problem_in("check: enregy > 1 J"), "did you mean energy?"));
-    CHECK(says(problem_in("check: t => 1 s"), "write one of"));
-    CHECK(says(problem_in("check: t > 1 m"), "the unit is s, not m"));
-    CHECK(says(problem_in("check: t > soon"), "\"soon\" is not a quantity"));
-    CHECK(says(problem_in("check: integrator > euler"), "is a word"));
-    CHECK(says(problem_in("check: integrator = eulr"), "did you mean euler?"));
-    CHECK(says(problem_in("check: energy > before.energy"), "no step before the first"));
-    CHECK(says(problem_in("check: apart > 0 m"), "none before the first"));
-    CHECK(says(problem_in("predict: How?"), "my.md:8: this prediction has no answer"));
-    CHECK(says(problem_in("predict: How?\nanswer: 3 m"), "my.md:9: an answer needs a tolerance"));
-    CHECK(says(problem_in("predict: How?\nchoice: a\nchoice: b"), "exactly one"));
-    CHECK(says(problem_in("answer: 3 m within 1 %"), "needs a question"));
-    CHECK(says(problem_in("set: k_s=3"), "write a line open:"));
-    CHECK(says(problem_in("open: hangin"), "my.md:8: "));
-    CHECK(says(problem_in("open: hangin"), "Did you mean 'hanging'?"));
-    CHECK(says(problem_in("open: hanging\nset: k_ss=3"), "did you mean k_s?"));
-    CHECK(says(problem_in("open: hanging\nset: k_s=-3"), "allowed: 0 to"));
-    const std::string settings = problem_in("open: hanging\nset: k_s=-4\nset: rows=8\nset: m=heavy");
-    CHECK(says(settings, "my.md:9: set: k_s: -4 is not allowed; allowed: 0 to"));
-    CHECK(says(settings, "my.md:11: set: m: "));
-    CHECK_FALSE(says(settings, "my.md:8: "));
-    CHECK_FALSE(says(settings, "--set"));
-    const std::string both = problem_in("open: hanging\nset: k_s=-4\npredict: How?\nanswer: 0 m within 5 %");
-    CHECK(says(both, "my.md:9: set: "));
-    CHECK(says(both, "my.md:11: a percentage of 0"));
-    CHECK_FALSE(says(both, "no answer"));
-    CHECK(problem_in("open: hanging\nset: pins=[[39, 39]]\nset: rows=40\nset: columns=40") == "none");
-    for (const char* wrong : {"nan within 5 %", "inf m within 1 m", "3 m within nan %", "3 m within inf"})
-      CHECK(says(problem_in("predict: How?\nanswer: " + std::string(wrong)), "my.md:9: "));
-    CHECK(says(problem_in("check: t < inf"), "my.md:8: "));
-    CHECK(says(problem_in("predict: How?\nanswer: 0 m within 5 %"), "answer: 0 m within 0.01"));
-    CHECK(problem_in("predict: How?\nanswer: 0 m within 0.01") == "none");
-    CHECK(says(problem_in("check: integrator = foo"), "integrator is never \"foo\". Known: euler"));
-    CHECK(says(problem_in("stop: -1 s"), "above 0"));
-    CHECK(says(problem_in("needs: luck"), "opencl"));
-  }
+TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
+  CHECK(says(problem_of("Text\n"), "my.md:1: a lab begins with its title"));
+  CHECK(says(problem_of("# A lab\n"), "at least one step"));
+  CHECK(says(problem_of("# A lab\n## \n"), "my.md:2"));
+  CHECK(says(problem_of("# A lab\n\n## A step\n"), "my.md:3: this step has no text"));
+  CHECK(says(problem_of("# A lab\n\n## A step\nText\n```python\n"), "my.md:5: the only block"));
+  CHECK(says(problem_of(head + "do: it\n"), "my.md:7: this block is never closed"));
+  CHECK(says(problem_of(head + "```\n\n```lab\n"), "my.md:10: this step has a ```lab block already"));
+  CHECK(says(problem_of("# A lab\n```lab\n```\n"), "belongs to a step"));
+  CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is not a key of a lab; did you mean check?"));
+  CHECK(says(problem_in("just words"), "has no colon"));
+  CHECK(says(problem_in("check:"), "has no value"));
+  CHECK(says(problem_in("check: enregy > 1 J"), "did you mean energy?"));
+  CHECK(says(problem_in("check: t => 1 s"), "write one of"));
+  CHECK(says(problem_in("check: t > 1 m"), "the unit is s, not m"));
+  CHECK(says(problem_in("check: t > soon"), "\"soon\" is not a quantity"));
+  CHECK(says(problem_in("check: integrator > euler"), "is a word"));
+  CHECK(says(problem_in("check: integrator = eulr"), "did you mean euler?"));
+  CHECK(says(problem_in("check: energy > before.energy"), "no step before the first"));
+  CHECK(says(problem_in("check: apart > 0 m"), "none before the first"));
+  CHECK(says(problem_in("predict: How?"), "my.md:8: this prediction has no answer"));
+  CHECK(says(problem_in("predict: How?\nanswer: 3 m"), "my.md:9: an answer needs a tolerance"));
+  CHECK(says(problem_in("predict: How?\nchoice: a\nchoice: b"), "exactly one"));
+  CHECK(says(problem_in("answer: 3 m within 1 %"), "needs a question"));
+  CHECK(says(problem_in("set: k_s=3"), "write a line open:"));
+  CHECK(says(problem_in("open: hangin"), "my.md:8: "));
+  CHECK(says(problem_in("open: hangin"), "Did you mean 'hanging'?"));
+  CHECK(says(problem_in("open: hanging\nset: k_ss=3"), "did you mean k_s?"));
+  CHECK(says(problem_in("open: hanging\nset: k_s=-3"), "allowed: 0 to"));
+  const std::string settings = problem_in("open: hanging\nset: k_s=-4\nset: rows=8\nset: m=heavy");
+  CHECK(says(settings, "my.md:9: set: k_s: -4 is not allowed; allowed: 0 to"));
+  CHECK(says(settings, "my.md:11: set: m: "));
+  CHECK_FALSE(says(settings, "my.md:8: "));
+  CHECK_FALSE(says(settings, "--set"));
+  const std::string both = problem_in("open: hanging\nset: k_s=-4\npredict: How?\nanswer: 0 m within 5 %");
+  CHECK(says(both, "my.md:9: set: "));
+  CHECK(says(both, "my.md:11: a percentage of 0"));
+  CHECK_FALSE(says(both, "no answer"));
+  CHECK(problem_in("open: hanging\nset: pins=[[39, 39]]\nset: rows=40\nset: columns=40") == "none");
+  for (const char* wrong : {"nan within 5 %", "inf m within 1 m", "3 m within nan %", "3 m within inf"})
+    CHECK(says(problem_in("predict: How?\nanswer: " + std::string(wrong)), "my.md:9: "));
+  CHECK(says(problem_in("check: t < inf"), "my.md:8: "));
+  CHECK(says(problem_in("predict: How?\nanswer: 0 m within 5 %"), "answer: 0 m within 0.01"));
+  CHECK(problem_in("predict: How?\nanswer: 0 m within 0.01") == "none");
+  CHECK(says(problem_in("check: integrator = foo"), "integrator is never \"foo\". Known: euler"));
+  CHECK(says(problem_in("stop: -1 s"), "above 0"));
+  CHECK(says(problem_in("needs: luck"), "opencl"));
+}
 
-  TEST_CASE("a lab is found by its name or its file") {
-    CHECK(find_lab_file("01_hooke").filename() == "01_hooke.md");
-    const test::TemporaryFolder folder;
-    test::write_file(folder / "mine.md", head + "```\n");
-    CHECK(find_lab_file((folder / "mine.md").string()) == folder / "mine.md");
-    const auto unknown = [] { find_lab_file("01_hoke"); };
-    CHECK_THROWS_WITH_AS(unknown(), doctest::Contains("Did you mean '01_hooke'?"), LabError);
-  }
+TEST_CASE("a lab is found by its name or its file") {
+  CHECK(find_lab_file("01_hooke").filename() == "01_hooke.md");
+  const test::TemporaryFolder folder;
+  test::write_file(folder / "mine.md", head + "```\n");
+  CHECK(find_lab_file((folder / "mine.md").string()) == folder / "mine.md");
+  const auto unknown = [] { find_lab_file("01_hoke"); };
+  CHECK_THROWS_WITH_AS(unknown(), doctest::Contains("Did you mean '01_hooke'?"), LabError);
+}
 
-  TEST_CASE("labs are found in the user's folder too, beside their own presets, and a wrong one is told") {
-    const test::TemporaryFolder folder;
-    REQUIRE(setenv("TYGLAB_CONFIG_DIR", folder.path().c_str(), 1) == 0);
-    std::filesystem::create_directories(folder / "labs");
-    test::write_file(folder / "labs/mine.json", "{\"cloth\": {\"rows\": 5}}");
-    test::write_file(folder / "labs/mine.md", head + "open: mine.json\n```\n");
-    test::write_file(folder / "labs/wrong.md", "# A lab\n");
-    test::write_file(folder / "labs/README.md", "No lab at all.\n");
-    Session session;
-    const std::vector<Lab>& labs = find_labs(session);
-    CHECK(labs.back().label == "mine");
-    CHECK(labs.back().steps[0].open->preset == (folder / "labs/mine.json").string());
-    REQUIRE(session.labs.problems.size() == 1);
-    CHECK(says(session.labs.problems[0], "wrong.md:2: a lab has at least one step"));
-    CHECK(session.messages.list().size() == 1);
-    unsetenv("TYGLAB_CONFIG_DIR");
-  }
+TEST_CASE("labs are found in the user's folder too, beside their own presets, and a wrong one is told") {
+  const test::TemporaryFolder folder;
+  REQUIRE(setenv("TYGLAB_CONFIG_DIR", folder.path().c_str(), 1) == 0);
+  std::filesystem::create_directories(folder / "labs");
+  test::write_file(folder / "labs/mine.json", "{\"cloth\": {\"rows\": 5}}");
+  test::write_file(folder / "labs/mine.md", head + "open: mine.json\n```\n");
+  test::write_file(folder / "labs/wrong.md", "# A lab\n");
+  test::write_file(folder / "labs/README.md", "No lab at all.\n");
+  Session session;
+  const std::vector<Lab>& labs = find_labs(session);
+  CHECK(labs.back().label == "mine");
+  CHECK(labs.back().steps[0].open->preset == (folder / "labs/mine.json").string());
+  REQUIRE(session.labs.problems.size() == 1);
+  CHECK(says(session.labs.problems[0], "wrong.md:2: a lab has at least one step"));
+  CHECK(session.messages.list().size() == 1);
+  unsetenv("TYGLAB_CONFIG_DIR");
+}
 
-  TEST_CASE("every observable has a name of its own, and can be asked of any scene") {
-    Session session;
-    for (const Kind kind : {Kind::cloth, Kind::one_weight}) {
-      Preset preset;
-      preset.kind = kind;
-      session.simulation = std::make_shared<Simulation>(preset);
-      session.picked = Pins::Site{0, 0};
-      for (const std::string_view name : observable_names()) {
-        CAPTURE(std::string(name));
-        if (is_word(name)) {
-          CHECK_FALSE(observe_word(session, name).empty());
-        } else if (const auto value = observe(session, name)) {
-          CHECK(std::isfinite(*value));
-        } else if (const Observable* row = find_observable(name)) {
-          CHECK_FALSE(row->hint.empty());
-        }
+TEST_CASE("every observable has a name of its own, and can be asked of any scene") {
+  Session session;
+  for (const Kind kind : {Kind::cloth, Kind::one_weight}) {
+    Preset preset;
+    preset.kind = kind;
+    session.simulation = std::make_shared<Simulation>(preset);
+    session.picked = Pins::Site{0, 0};
+    for (const std::string_view name : observable_names()) {
+      CAPTURE(std::string(name));
+      if (is_word(name)) {
+        CHECK_FALSE(observe_word(session, name).empty());
+      } else if (const auto value = observe(session, name)) {
+        CHECK(std::isfinite(*value));
+      } else if (const Observable* row = find_observable(name)) {
+        CHECK_FALSE(row->hint.empty());
       }
     }
-    CHECK(observe(session, "W.x") == 0.0);
-    CHECK_FALSE(is_observable("W"));
-    CHECK_FALSE(is_observable("texture"));
   }
+  CHECK(observe(session, "W.x") == 0.0);
+  CHECK_FALSE(is_observable("W"));
+  CHECK_FALSE(is_observable("texture"));
+}
 
-  TEST_CASE("the list of observables in docs/labs/README.md is current") {
-    const std::string file = std::string(TYGLAB_SOURCE_DIR) + "/docs/labs/README.md";
-    const std::string text = test::read_file(file), begin = "<!-- observables -->\n", end = "<!-- end -->\n";
-    const std::size_t from = text.find(begin), to = text.find(end);
-    REQUIRE(from != std::string::npos);
-    REQUIRE(to != std::string::npos);
-    const std::string now = text.substr(0, from + begin.size()) + observables_markdown() + text.substr(to);
-    if (std::getenv("TYGLAB_WRITE_DOCS") != nullptr) std::ofstream(file) << now;
-    CHECK_MESSAGE(test::read_file(file) == now, "write it anew: TYGLAB_WRITE_DOCS=1 build/release/bin/app_tests");
-  }
+TEST_CASE("the list of observables in docs/labs/README.md is current") {
+  const std::string file = std::string(TYGLAB_SOURCE_DIR) + "/docs/labs/README.md";
+  const std::string text = test::read_file(file), begin = "<!-- observables -->\n", end = "<!-- end -->\n";
+  const std::size_t from = text.find(begin), to = text.find(end);
+  REQUIRE(from != std::string::npos);
+  REQUIRE(to != std::string::npos);
+  const std::string now = text.substr(0, from + begin.size()) + observables_markdown() + text.substr(to);
+  if (std::getenv("TYGLAB_WRITE_DOCS") != nullptr) std::ofstream(file) << now;
+  CHECK_MESSAGE(test::read_file(file) == now, "write it anew: TYGLAB_WRITE_DOCS=1 build/release/bin/app_tests");
+}
 
-  TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset") {
-    Session session;
-    session.simulation = std::make_shared<Simulation>(Preset{});
-    session.labs.progress["01_hooke"] = 1;
-    begin_lab(session, "01_hooke");
-    CHECK(session.labs.run->step == 0);  // the second step goes on with the first one's weight
-    session.labs.progress["01_hooke"] = 2;
-    begin_lab(session, "01_hooke");
-    CHECK(session.labs.run->step == 2);
-    CHECK(steps_done(session, session.labs.run->lab) == 2);
-    session.labs.progress["01_hooke"] = 3;
-    begin_lab(session, "01_hooke");
-    CHECK(session.labs.run->step == 0);
-    begin_lab(session, "99_none");
-    CHECK(session.messages.list().size() == 1);
-  }
+TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset") {
+  Session session;
+  session.simulation = std::make_shared<Simulation>(Preset{});
+  session.labs.progress["01_hooke"] = 1;
+  begin_lab(session, "01_hooke");
+  CHECK(session.labs.run->step == 0);  // the second step goes on with the first one's weight
+  session.labs.progress["01_hooke"] = 2;
+  begin_lab(session, "01_hooke");
+  CHECK(session.labs.run->step == 2);
+  CHECK(steps_done(session, session.labs.run->lab) == 2);
+  session.labs.progress["01_hooke"] = 3;
+  begin_lab(session, "01_hooke");
+  CHECK(session.labs.run->step == 0);
+  begin_lab(session, "99_none");
+  CHECK(session.messages.list().size() == 1);
+}
 
 }  // namespace tyglab::lab_file_test
