@@ -9,6 +9,16 @@
 
 namespace tyglab {
 
+bool lets_go(std::span<const int> pinned, int held, std::span<const int> next_pinned, int next_held) {
+  assert(std::is_sorted(next_pinned.begin(), next_pinned.end()));
+  const auto stays = [&](int p) {
+    return p == next_held || std::binary_search(next_pinned.begin(), next_pinned.end(), p);
+  };
+  if (held >= 0 && !stays(held)) return true;
+  return !std::equal(pinned.begin(), pinned.end(), next_pinned.begin(), next_pinned.end()) &&
+         !std::all_of(pinned.begin(), pinned.end(), stays);
+}
+
 void StepGuard::spend_budgets() {
   divergence_budget_ = tear_budget_ = 0;
   elongation_ = std::numeric_limits<double>::infinity();

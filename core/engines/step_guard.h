@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "core/cloth/tears.h"
 #include "core/engines/engine.h"
@@ -71,6 +72,9 @@ class GuardedSteps {
  protected:
   ~GuardedSteps() = default;
 };
+
+/// Whether a particle that is pinned or held (-1: none) will move freely when others are. Pinned ones in rising order.
+bool lets_go(std::span<const int> pinned, int held, std::span<const int> next_pinned, int next_held);
 
 class StepGuard {
  public:

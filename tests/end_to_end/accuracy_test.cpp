@@ -89,7 +89,7 @@ TEST_CASE("bench accuracy that is interrupted keeps the rows it has") {
   const auto outcome =
       test::tyglab_interrupted(folder.path(), {"bench", "accuracy", "--scene", "one_weight", "--json", "a.json"}, 1.5);
   CHECK(outcome.code == 130);
-  const Json json = Json::parse(test::read_file(folder / "a.json"));
+  const Json json = Json::parse(test::read_file(folder / "a.json.incomplete"));
   CHECK(!json["runs"].empty());
 }
 

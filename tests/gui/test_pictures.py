@@ -96,38 +96,6 @@ def paused(stage, *arguments):
     return sandbox
 
 
-def middle(report):
-    """A box in the middle of the cloth's picture."""
-    at = [report["particles"][k]["at"] for k in (6, 18)]
-    return at[0][0], at[0][1], at[1][0] - at[0][0], at[1][1] - at[0][1]
-
-
-@case
-def colors(stage):
-    """K goes through what can color the cloth and back to its own look, which is as it was"""
-    sandbox = paused(stage)
-    report = sandbox.report()
-    box = middle(report)
-    plain = stage.keep("own", still=True)
-    check(report["colors"] is None, "nothing colors the cloth at first")
-    last = plain
-    for name in ("tension", "strain", "speed", "kinetic"):
-        sandbox.key("k")
-        report = sandbox.wait(lambda r: r["colors"] and r["colors"]["field"] == name, f"K to color by {name}")
-        check(report["colors"]["top"] > 0, "a scale")
-        picture = stage.keep(name, still=True)
-        check(picture.crop(box).differs_from(last.crop(box), 10) > 0.3, f"{name} looks other than what was before")
-        last = picture
-    sandbox.key("k")
-    sandbox.wait(lambda r: r["colors"] is None, "K to come back to the cloth's own look")
-    again = stage.keep("own-again", still=True)
-    x, y, width, height = report["viewport"]
-    part = (x + 8, y + 80, width - 16, height - 90)
-    # The arrows' length follows slowly, by less than a step of color; the cloth's own pixels are held to the byte by
-    # tests/app/color_test.cpp.
-    check(again.crop(part).differs_from(plain.crop(part), 3) == 0, "not a pixel of it has changed")
-
-
 def write(sandbox, dialog, name):
     """In a dialog that asks for a file: has the picture written into the own folder, and returns it."""
     sandbox.wait(lambda r: r["dialog"] == dialog and r["typing"], "the dialog to take keys")

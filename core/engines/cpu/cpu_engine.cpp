@@ -234,9 +234,8 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
-  if (held.particle != cloth_.held.particle ||
-      !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end()))
-    guard_.expect_pushes();  // who is let go may be inside a body
+  // Who is let go may be inside a body.
+  if (lets_go(pinned_, cloth_.held.particle, pinned, held.particle)) guard_.expect_pushes();
   pinned_.assign(pinned.begin(), pinned.end());
   cloth_.held = held;
   guard_.set_scene(cloth_.preset, cloth_.lattice, held);

@@ -317,12 +317,13 @@ template <class R>
 void OpenClEngine<R>::set_fixed(std::span<const int> pinned, Held held) {
   const bool same =
       held.particle == held_.particle && std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
+  // Who is let go may be inside a body.
+  if (lets_go(pinned_, held_.particle, pinned, held.particle)) guard_.expect_pushes();
   pinned_.assign(pinned.begin(), pinned.end());
   held_ = held;
   guard_.set_scene(preset_, lattice_, held_);
   if (!same) {
     masks_stale_ = true;
-    guard_.expect_pushes();  // who is let go may be inside a body
     fixed_list_ = device_->zeros(std::max<std::size_t>(pinned_.size(), 1) * sizeof(int));
     if (!pinned_.empty())
       check(clEnqueueWriteBuffer(device_->queue(), fixed_list_.get(), CL_TRUE, 0, pinned_.size() * sizeof(int),
