@@ -309,8 +309,10 @@ TEST_CASE("130: a single step that would take minutes is interrupted, and what w
                                                                   "--json",  "j.json"},
                                                   1.5);
     CHECK(outcome.code == 130);
-    CHECK_MESSAGE(outcome.err.find("Interrupted; what was written so far is complete, and no older file was replaced") != std::string::npos,
-                  outcome.err);
+    CHECK_MESSAGE(
+        outcome.err.find("Interrupted; what was written so far is complete, and no older file was replaced") !=
+            std::string::npos,
+        outcome.err);
     const std::string state = test::read_file(folder / "s.csv");
     CHECK(test::lines(state).size() > 90'000);
     CHECK(test::read_file(folder / "j.json").find("\"interrupted\"") != std::string::npos);

@@ -57,8 +57,7 @@ void start_typing(SliderState& state, unsigned id, double value) {
 
 /// Whether the last item, a number, was pressed so that it can be typed.
 bool wants_typing(const UiContext& ui) {
-  return (ImGui::IsItemActive() && ui.input.double_click) ||
-         (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl);
+  return (ImGui::IsItemActive() && ui.input.double_click) || (ImGui::IsItemActivated() && ImGui::GetIO().KeyCtrl);
 }
 
 /// Keys of the focused slider, as one result.
