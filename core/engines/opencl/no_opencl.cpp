@@ -10,6 +10,12 @@ constexpr const char* no_opencl = "this tyglab was built without OpenCL";
 
 }  // namespace
 
+void set_driver_probe(DriverProbe) {}
+
+void set_program_trial(ProgramTrial) {}
+
+void try_program(const Preset&, bool) {}
+
 OpenClInventory opencl_devices() {
   return {{}, no_opencl};
 }
