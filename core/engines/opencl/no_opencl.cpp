@@ -12,10 +12,6 @@ constexpr const char* no_opencl = "this tyglab was built without OpenCL";
 
 void set_driver_probe(DriverProbe) {}
 
-void set_program_trial(ProgramTrial) {}
-
-void try_program(const Preset&, bool) {}
-
 OpenClInventory opencl_devices() {
   return {{}, no_opencl};
 }
