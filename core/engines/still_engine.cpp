@@ -10,7 +10,6 @@ StillEngine::StillEngine(Engine& of, const Preset& preset, const Lattice& lattic
     : lattice_(lattice),
       lag_(scheme(preset.integrator).keeps_displacement ? preset.dt / 2 : 0),
       stride_(simd::row_stride<double>(lattice.columns)),
-      contacts_(of.contacts()),
       bytes_(of.bytes()),
       threads_(of.threads()),
       threads_at_work_(of.threads_at_work()),
