@@ -7,12 +7,14 @@
 #include <thread>
 
 #include "app/session/edits.h"
+#include "app/studies/job.h"
 #include "core/io/preset_io.h"
+#include "tests/support/sanitized.h"
 
 namespace tyglab::test {
 namespace {
 
-constexpr double patience = 120;  // s
+constexpr double patience = test::sanitized ? 1200 : 120;  // s
 
 }  // namespace
 
@@ -20,6 +22,7 @@ LabPlayer::LabPlayer(const std::string& label) {
   session_.simulation = std::make_shared<Simulation>(Preset{});
   session_.threads = 2;
   session_.pacing.patient = true;
+  let_work_yield(false);  // or it would wait for whatever else runs
   begin_lab(session_, label);
   REQUIRE(session_.labs.run.has_value());
   update();

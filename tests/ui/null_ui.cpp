@@ -17,13 +17,14 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "core/fields/particle_field.h"
 #include "core/io/preset_io.h"
+#include "tests/support/sanitized.h"
 
 namespace tyglab::test {
 namespace {
 
-constexpr double ui_frame_time = 1.0 / 60;         // s
-constexpr std::chrono::seconds longest_wait{100};  // far above what a loaded machine takes
-constexpr int settled = 3;                         // frames after which a layout stands still
+constexpr double ui_frame_time = 1.0 / 60;                                  // s
+constexpr std::chrono::seconds longest_wait{test::sanitized ? 1000 : 100};  // far above what a loaded machine takes
+constexpr int settled = 3;                                                  // frames after which a layout stands still
 
 /// Fonts of one scale, which all tests share: to build them takes longer than most tests.
 struct BuiltFonts {

@@ -163,9 +163,10 @@ std::string step_under_way(const Session& session) {
   if (!session.background_steps.busy()) return {};
   const double seconds = session.now - session.background_steps.begun();
   if (seconds < unnoticed) return {};
-  char text[64];
-  std::snprintf(text, sizeof text, "%.0f %%, %.1f s", 100 * session.background_steps.progress(), seconds);
-  return text;
+  const int percent = int(100 * session.background_steps.progress());
+  char took[32];
+  std::snprintf(took, sizeof took, ", %.1f s", seconds);
+  return (percent < 1 ? "< 1" : std::to_string(percent)) + " %" + took;
 }
 
 void readings(Ui& ui, float x, float end) {
