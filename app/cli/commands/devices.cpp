@@ -2,7 +2,9 @@
 
 #include <cstring>
 #include <iostream>
-#include <ranges>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/process/child.h"
 #include "app/process/program_trial.h"
@@ -93,8 +95,10 @@ void print_device(const OpenClDevice& device, int number) {
 }
 
 std::string names_of_methods(bool that_run) {
-  const auto runs = [&](const Scheme& method) { return runs_on_opencl(method) == that_run; };
-  return joined(schemes() | std::views::filter(runs), ", ", &Scheme::name);
+  std::vector<std::string_view> names;
+  for (const Scheme& method : schemes())
+    if (runs_on_opencl(method) == that_run) names.push_back(method.name);
+  return joined(names);
 }
 
 void print_opencl() {
