@@ -1,6 +1,7 @@
 // A cut of a list of springs: which go, what is left of the model's laws, copies.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "core/lockstep.h"
