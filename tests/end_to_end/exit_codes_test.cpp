@@ -316,6 +316,7 @@ TEST_CASE("130: a single step that would take minutes is interrupted, and what w
     const std::string state = test::read_file(folder / "s.csv");
     CHECK(test::lines(state).size() > 90'000);
     CHECK(test::read_file(folder / "j.json").find("\"interrupted\"") != std::string::npos);
+    CHECK_MESSAGE(outcome.out.find("Wrote s.csv, j.json.") != std::string::npos, outcome.out);
   }
 }
 

@@ -257,8 +257,8 @@ std::string number(double value, int digits) {
   return text.data();
 }
 
-/// The closing sentence.
-std::string closing(const Json& summary, const std::string& hint) {
+/// The closing sentence. `also`: the name of the summary itself, where it was written.
+std::string closing(const Json& summary, const std::string& also) {
   const std::string label = summary["preset"];
   std::string text = label + ": " + counted(summary["steps"], "step") + " to t = " + number(summary["t"], 6) +
                      " s, computed in " + number(summary["seconds"], 3) + " s";
@@ -268,8 +268,12 @@ std::string closing(const Json& summary, const std::string& hint) {
     const std::string name = output_name(file["path"].get<std::string>());
     return file.contains("frames") ? name + " (" + counted(file["frames"], "frame") + ")" : name;
   };
-  const Json& files = summary["files"];
-  return text + (files.empty() ? hint : " Wrote " + joined(files, ", ", named) + ".");
+  std::vector<std::string> names;
+  for (const Json& file : summary["files"]) names.push_back(named(file));
+  if (!also.empty()) names.push_back(also);
+  if (names.empty())
+    return text + " No files were written; --state, --values, --series, --ledger, --obj and --pc2 write them.";
+  return text + " Wrote " + joined(names) + ".";
 }
 
 int run(const RunOptions& options) {
@@ -303,15 +307,12 @@ int run(const RunOptions& options) {
                                                       : "done",
                               wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
                               outputs.finish(simulation, stepper.interrupted()));
+  std::string summary_name;
   if (!options.json.empty())
-    write_output(options.json, report.dump(2) + "\n", stepper.interrupted() ? Reach::stopped : Reach::whole);
+    summary_name = output_name(
+        write_output(options.json, report.dump(2) + "\n", stepper.interrupted() ? Reach::stopped : Reach::whole));
 
-  people(options.outputs())
-      << closing(report,
-                 options.json.empty()
-                     ? " No files were written; --state, --values, --series, --ledger, --obj and --pc2 write them."
-                     : "")
-      << std::endl;
+  people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
   if (const SolveCounts solves = simulation.engine().solves(); solves.unconverged > 0)
