@@ -148,7 +148,7 @@ int run_action(const Action& action) {
   } catch (const GraphicsError& error) {
     return say(error.what() + memory_limit_words(), exit_engine);
   } catch (const OutputError& error) {
-    return say(error.what(), exit_output);
+    return say(error.what(), InterruptGuard::interrupted() ? exit_interrupted : exit_output);
   } catch (const std::bad_alloc&) {
     return say(
         "There is not enough memory for a cloth of this size; ask for fewer rows or columns." + memory_limit_words(),

@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+#include "core/io/output_file.h"
+
 namespace tyglab {
 namespace {
 
@@ -50,6 +52,7 @@ InterruptExit::InterruptExit() : handler_(exit_on_interrupt) {}
 
 InterruptGuard::InterruptGuard() : handler_(note_interrupt) {
   was_interrupted = 0;
+  stop_waiting_outputs_when(interrupted);
 }
 
 bool InterruptGuard::interrupted() {

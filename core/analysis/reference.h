@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/analysis/accuracy_scene.h"
-#include "core/engines/stop.h"
+#include "core/model/stop.h"
 #include "core/simulation.h"
 
 namespace tyglab {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/engines/stop.h"
+#include "core/model/stop.h"
 
 namespace tyglab {
 

@@ -15,9 +15,9 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
-#include "core/engines/stop.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
+#include "core/model/stop.h"
 
 namespace tyglab {
 

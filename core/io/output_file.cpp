@@ -1,6 +1,8 @@
 #include "core/io/output_file.h"
 
 #include <fcntl.h>
+#include <limits.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -45,6 +47,20 @@ bool is_stream(const fs::path& file) {
   return !error && folder.string().starts_with("/proc/");
 }
 
+Stop stop_waiting;
+
+/// Waits until the descriptor takes bytes (-1: for no descriptor, a moment). Throws OutputError where somebody stops
+/// it.
+void wait_for_reader(const fs::path& file, int descriptor) {
+  constexpr int moment = 50;  // ms
+  pollfd wanted{descriptor, POLLOUT, 0};
+  while (::poll(&wanted, 1, moment) <= 0) {
+    if (stop_waiting && stop_waiting())
+      throw OutputError(output_name(file) + ": nobody reads it, so what was to be written there is lost");
+    if (descriptor < 0) return;
+  }
+}
+
 std::optional<struct stat> status_of(const fs::path& file) {
   struct stat status = {};
   return ::stat(file.c_str(), &status) == 0 ? std::optional(status) : std::nullopt;
@@ -87,6 +103,10 @@ bool locked(int descriptor) {
 
 }  // namespace
 
+void stop_waiting_outputs_when(Stop stop) {
+  stop_waiting = std::move(stop);
+}
+
 void check_output(const fs::path& file) {
   if (is_standard_output(file)) return;
   const auto refuse = [&](const std::string& why) { throw OutputError(file.string() + ": " + why); };
@@ -128,8 +148,11 @@ OutputFile::OutputFile(const fs::path& file, Order order) : file_(file) {
 
 void OutputFile::open_stream(Order order) {
   kind_ = Kind::stream;
-  descriptor_ = ::open(file_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (descriptor_ < 0) fail(errno);
+  // A pipe without a reader is no error: one may come.
+  while ((descriptor_ = ::open(file_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK)) < 0) {
+    if (errno != ENXIO) fail(errno);
+    wait_for_reader(file_, -1);
+  }
   if (order == Order::front_to_back || ::lseek(descriptor_, 0, SEEK_CUR) >= 0) return;
   ::close(descriptor_);
   throw OutputError(file_.string() +
@@ -189,6 +212,10 @@ void OutputFile::put(std::uint64_t offset, std::string_view bytes) {
                           ? ::write(descriptor_, bytes.data(), bytes.size())
                           : ::pwrite(descriptor_, bytes.data(), bytes.size(), off_t(offset));
     if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) {
+      wait_for_reader(file_, descriptor_);
+      continue;
+    }
     if (n <= 0) {
       size_ = std::max(size_, offset);
       fail(n < 0 ? errno : ENOSPC);
@@ -201,8 +228,7 @@ void OutputFile::put(std::uint64_t offset, std::string_view bytes) {
 
 void OutputFile::write(std::string_view bytes) {
   if (kind_ != Kind::standard_output) return put(size_, bytes);
-  file_output().write(bytes.data(), std::streamsize(bytes.size()));
-  flush_standard_output();
+  send(bytes);
 }
 
 void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
@@ -221,16 +247,25 @@ void OutputFile::end(Reach reach) {
   keep();
 }
 
+void OutputFile::send(std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const std::string_view part = bytes.substr(0, PIPE_BUF);  // a pipe that takes bytes takes as many
+    wait_for_reader(file_, STDOUT_FILENO);
+    file_output().write(part.data(), std::streamsize(part.size()));
+    flush_standard_output();
+    bytes.remove_prefix(part.size());
+  }
+}
+
 void OutputFile::send_gathered() {
   std::string part(std::size_t{1} << 20, '\0');
   for (std::uint64_t at = 0; at < size_;) {
     const ssize_t n = ::pread(descriptor_, part.data(), part.size(), off_t(at));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail(errno);
-    file_output().write(part.data(), n);
+    send({part.data(), std::size_t(n)});
     at += std::uint64_t(n);
   }
-  flush_standard_output();
 }
 
 void OutputFile::take_place() {

@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/model/stop.h"
+
 namespace tyglab {
 
 /// How far an output came, which decides whether it takes its name.
@@ -14,6 +16,10 @@ enum class Reach {
   stopped,    ///< whole in itself, but of work that was interrupted: takes its name unless an older file stands there
   cut_short,  ///< the first part of what was asked for: does not take its name
 };
+
+/// Asked now and then while a pipe without a reader, or with a slow one, keeps an output waiting: a yes ends that with
+/// an OutputError. Nobody else waits for it.
+void stop_waiting_outputs_when(Stop stop);
 
 /// Throws OutputError, with a sentence that says what to do, unless an output of that name can be written: where it
 /// names a folder, its folder is missing or closed, or a read-only file stands there. Nothing is touched.
@@ -57,6 +63,8 @@ class OutputFile {
   void open_stream(Order order);
   void open_beside();
   void put(std::uint64_t offset, std::string_view bytes);
+  /// To standard output.
+  void send(std::string_view bytes) const;
   void send_gathered();
   void take_place();
 

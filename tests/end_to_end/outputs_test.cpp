@@ -160,4 +160,20 @@ TEST_CASE("6: a read-only file stops a command before its work, whoever runs it"
   }
 }
 
+TEST_CASE("130: one signal ends a run whose output nobody reads") {
+  const test::TemporaryFolder folder;
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  for (const char* option : {"--state", "--series", "--pc2"}) {
+    CAPTURE(std::string(option));
+    const auto outcome =
+        test::tyglab_interrupted(folder.path(), {"run", "hanging", "--steps", "5", option, "pipe"}, 0.7);
+    CHECK(outcome.code == 130);
+  }
+  const auto stalled = test::run(folder.path(), {"/bin/sh", "-c",
+                                                 std::string("{ timeout --preserve-status -s TERM 1 ") + TYGLAB_BINARY +
+                                                     " run flag --seconds 1000 --series - 2>said; echo $? >code; } | "
+                                                     "while [ ! -s code ]; do sleep 0.1; done"});
+  CHECK(test::read_file(folder / "code") == "130\n");
+}
+
 }  // namespace tyglab::outputs_test

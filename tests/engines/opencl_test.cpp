@@ -278,7 +278,7 @@ TEST_CASE("drivers that do not survive the probe count as none, and it is said w
   CHECK(probed == 1);
   set_driver_probe([&](const std::function<void()>& ask) { return ask(), true; });
   CHECK(opencl_devices().devices.size() == trusted);
-  set_driver_probe({});
+  test::probe_drivers_in_child();
 }
 
 }  // namespace tyglab::opencl_test
