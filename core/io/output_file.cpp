@@ -56,7 +56,7 @@ void wait_for_reader(const fs::path& file, int descriptor) {
   pollfd wanted{descriptor, POLLOUT, 0};
   while (::poll(&wanted, 1, moment) <= 0) {
     if (stop_waiting && stop_waiting())
-      throw OutputError(output_name(file) + ": nobody reads it, so what was to be written there is lost");
+      throw OutputError(output_name(file) + ": it has no reader, so what was to be written there is lost");
     if (descriptor < 0) return;
   }
 }

@@ -160,7 +160,7 @@ TEST_CASE("6: a read-only file stops a command before its work, whoever runs it"
   }
 }
 
-TEST_CASE("130: one signal ends a run whose output nobody reads") {
+TEST_CASE("130: one signal ends a run whose output has no reader") {
   const test::TemporaryFolder folder;
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
   for (const char* option : {"--state", "--series", "--pc2"}) {
