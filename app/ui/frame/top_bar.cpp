@@ -182,7 +182,7 @@ void readings(Ui& ui, float x, float end) {
     const std::string label = "step " + std::to_string(ui.session.simulation->steps() + 1);
     reading(ui, x, end, label.c_str(), step, "100 %, 00.0 s", c.warning,
             "This step takes longer than a frame: how much of it is done, as far as the method can tell, and the time "
-            "that it has taken. Any change stops it and starts it again.");
+            "that it has taken. A change to the cloth stops it and starts it again; a change of view does not.");
     return;
   }
   x = reading(ui, x, end, "real time", running ? text : "–", "100 %",
