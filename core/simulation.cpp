@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "core/cloth/start.h"
 #include "core/engines/still_engine.h"
+#include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
 #include "core/model/readable.h"
@@ -80,26 +82,21 @@ Simulation::Simulation(const Simulation& from)
       watch_(from.watch_) {}
 
 void Simulation::build(const Preset& next) {
-  const Lattice lattice = lattice_of(next);
-  Tears whole(lattice);
-  std::vector<std::uint8_t> pinned_mask = pinned_particles(next);
-  const Fixed fixed{particles_in(pinned_mask), {}};
-  engine_ = made_engine(next, lattice, fixed, start_rows(next), whole, 0);
+  lattice_ = lattice_of(next);
+  tears_ = Tears(lattice_);
+  pinned_mask_ = pinned_particles(next);
+  pinned_ = particles_in(pinned_mask_);
+  engine_ = made_engine(next, lattice_, {pinned_, {}}, start_rows(next), tears_, 0);
   preset_ = next, effective_preset_ = in_gusts(next, 0);
-  pinned_ = fixed.pinned;
-  lattice_ = lattice;
-  tears_ = std::move(whole);
-  pinned_mask_ = std::move(pinned_mask);
-  held_ = {};
-  hand_steps_left_ = 0;
-  hand_force_ = {};
-  left_inside_ = 0;
-  steps_ = steps_at_dt_ = 0;
-  time_at_dt_ = 0;
   initial_velocity_ = starting_velocity(next);
-  divergence_.reset();
   ++revision_, ++tear_revision_;
-  if (watch_) enable_ledger(true);
+}
+
+/// Becomes the other one, which has been made beside it.
+void Simulation::take(Simulation& other) noexcept {
+  const std::uint64_t revision = revision_, tear_revision = tear_revision_;
+  *this = std::move(other);
+  revision_ = revision + 2, tear_revision_ = tear_revision + 1, state_revision_ = ~0ull;
 }
 
 /// An engine for these constants with that state, at time t, s. Throws EngineError; the present engine goes on then.
@@ -127,13 +124,20 @@ void Simulation::rebase_time() {
   steps_at_dt_ = steps_;
 }
 
-void Simulation::update_fixed() {
-  pinned_ = particles_in(pinned_mask_);
-  engine_->set_fixed(pinned_, held_);
+/// Another particle in the hand, or another velocity of it.
+void Simulation::hold(const Held& held) {
+  engine_->set_fixed(pinned_, held);
+  held_ = held;
 }
 
 void Simulation::apply(const Edit& edit) {
-  std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [&](const edit::Restart&) { build(preset_); },
+  if (rebuilds(edit)) {
+    const std::unique_ptr<Simulation> other = rebuilt(edit);
+    other->stop_when(stop_);
+    return take(*other);
+  }
+  if (watch_) energy();  // whose memory is there then once the edit has been made
+  std::visit(Overloaded{[&](const edit::Change& e) { change(e.preset); }, [](const edit::Restart&) {},
                         [&](const edit::Grab& e) { grab(e); }, [&](const edit::MoveHand& e) { move_hand(e); },
                         [&](const edit::Release&) { release(); }, [&](const edit::Cut& e) { cut(e); },
                         [&](const edit::CutSprings& e) { cut_springs(e); }, [&](const edit::Pin& e) { pin(e); },
@@ -143,22 +147,25 @@ void Simulation::apply(const Edit& edit) {
   watch_edit(source_of(edit));
 }
 
+/// What the present arrays take. All that needs memory comes first.
 void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   const EffectSet changed = changes(preset_, next);
-  if (changed.touches(Effect::rebuild)) return build(next);
-  if (restarts(changed)) {
-    restart_untouched(next);
-  } else if (changed.touches(conversion)) {
-    take_engine(next, read());
-  } else if (changed.within(motionless)) {
-    effective_preset_ = merge(preset_, next, std::move(effective_preset_));
-    preset_ = next;
-  } else {
+  const bool moves = !changed.within(motionless), pins = changed.touches(Effect::pins);
+  Preset own = next, acts = moves ? in_gusts(next, time()) : merge(preset_, next, effective_preset_);
+  std::vector<std::uint8_t> pinned_mask = pins ? pinned_particles(next) : std::vector<std::uint8_t>();
+  std::vector<int> pinned = particles_in(pinned_mask);
+  if (pins) engine_->prepare(pinned.size());
+  if (moves) {
+    engine_->set_preset(acts, tears_);
     rebase_time();
-    take_constants(next);
   }
-  if (changed.touches(Effect::pins)) take_pins();
+  if (pins) {
+    if (held_.particle >= 0 && pinned_mask[held_.particle]) held_ = {};
+    pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
+    engine_->set_fixed(pinned_, held_);
+  }
+  preset_ = std::move(own), effective_preset_ = std::move(acts);
 }
 
 /// Whether a change is a fresh start: before the first step, where what differs has a part in it. Who asks for the same
@@ -175,9 +182,9 @@ void Simulation::take_engine(const Preset& next, const State& state) {
 
 /// Constants that the engine takes as it goes.
 void Simulation::take_constants(const Preset& next) {
-  Preset gusty = in_gusts(next, time());
+  Preset own = next, gusty = in_gusts(next, time());
   engine_->set_preset(gusty, tears_);
-  preset_ = next, effective_preset_ = std::move(gusty);
+  preset_ = std::move(own), effective_preset_ = std::move(gusty);
 }
 
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
@@ -185,8 +192,14 @@ int Simulation::update_gust() {
   const GustSpan span = gust_span(preset_, time());
   const glm::dvec3 W = span.factor * preset_.W;
   if (W != effective_preset_.W) {
-    effective_preset_.W = W;
-    engine_->set_preset(effective_preset_, tears_);
+    if (watch_) energy();
+    const glm::dvec3 before = std::exchange(effective_preset_.W, W);
+    try {
+      engine_->set_preset(effective_preset_, tears_);
+    } catch (...) {
+      effective_preset_.W = before;
+      throw;
+    }
     watch_edit(Ledger::Source::edits);
   }
   return span.steps;
@@ -194,8 +207,8 @@ int Simulation::update_gust() {
 
 void Simulation::take_pins() {
   pinned_mask_ = pinned_particles(preset_);
-  if (held_.particle >= 0 && pinned_mask_[held_.particle]) held_ = {};
-  update_fixed();
+  pinned_ = particles_in(pinned_mask_);
+  hold(held_.particle >= 0 && pinned_mask_[held_.particle] ? Held{} : held_);
 }
 
 bool Simulation::rebuilds(const Edit& edit) const {
@@ -253,26 +266,23 @@ void Simulation::restart_untouched(const Preset& next) {
 
 void Simulation::grab(const edit::Grab& e) {
   if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j) || pinned(e.i, e.j)) return;
-  held_ = {e.i * lattice_.columns + e.j, {0, 0, 0}};
+  hold({e.i * lattice_.columns + e.j, {0, 0, 0}});
   hand_steps_left_ = 0;
   hand_force_ = {};
-  update_fixed();
 }
 
 void Simulation::move_hand(const edit::MoveHand& e) {
   if (held_.particle < 0 || e.steps <= 0) return;
   const auto site = *held();
-  held_.velocity = (e.to - position(site.i, site.j)) / (e.steps * preset_.dt);
+  hold({held_.particle, (e.to - position(site.i, site.j)) / (e.steps * preset_.dt)});
   hand_steps_left_ = e.steps;
   initial_velocity_.reset();  // what the hand lets go keeps its velocity
-  update_fixed();
 }
 
 void Simulation::release() {
   if (held_.particle < 0) return;
-  held_ = {};
+  hold({});
   hand_force_ = {};
-  update_fixed();
 }
 
 void Simulation::cut(const edit::Cut& e) {
@@ -294,15 +304,19 @@ void Simulation::cut_springs(const edit::CutSprings& e) {
 void Simulation::pin(const edit::Pin& e) {
   if (preset_.kind != Kind::cloth || !lattice_.contains(e.i, e.j)) return;
   const int p = e.i * lattice_.columns + e.j;
-  if (held_.particle == p) release();
-  if (initial_velocity_ != glm::dvec3(0)) initial_velocity_.reset();  // what is let go begins at rest
-  pinned_mask_[p] = e.pinned;
+  std::vector<std::uint8_t> pinned_mask = pinned_mask_;
+  pinned_mask[p] = e.pinned;
+  std::vector<int> pinned = particles_in(pinned_mask);
   // The preset says what is pinned, so that it can be saved: by a list from now on.
-  preset_.pins.mode = Pins::Mode::list;
-  preset_.pins.list.clear();
-  for (int n = 0; n < lattice_.size(); ++n)
-    if (pinned_mask_[n]) preset_.pins.list.push_back({n / lattice_.columns, n % lattice_.columns});
-  update_fixed();
+  std::vector<Pins::Site> list;
+  list.reserve(pinned.size());
+  for (const int n : pinned) list.push_back({n / lattice_.columns, n % lattice_.columns});
+  const bool lets_go = held_.particle == p;
+  engine_->set_fixed(pinned, lets_go ? Held{} : held_);
+  if (lets_go) held_ = {}, hand_force_ = {};
+  if (initial_velocity_ != glm::dvec3(0)) initial_velocity_.reset();  // what is let go begins at rest
+  pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
+  preset_.pins.mode = Pins::Mode::list, preset_.pins.list = std::move(list);
 }
 
 void Simulation::move_body(const edit::MoveBody& e) {
@@ -331,7 +345,6 @@ Advance Simulation::advance(int steps) {
     total = part;
     total.steps += before, total.torn += torn, total.released |= released;
   }
-  if (total.steps > 0) ++revision_;
   return total;
 }
 
@@ -342,7 +355,7 @@ Advance Simulation::advance_part(int steps) {
   if (watch_) watch_->before_step(preset_, tears_);
   Advance part = engine_->advance(steps, tears_);
   steps_ += part.steps;
-  if (part.steps > 0) initial_velocity_.reset();
+  if (part.steps > 0) initial_velocity_.reset(), ++revision_;
   left_inside_ = part.left_inside;
   if (part.torn > 0) ++tear_revision_;
   if (held_.particle >= 0) hand_force_ = part.hand_force;
@@ -351,8 +364,7 @@ Advance Simulation::advance_part(int steps) {
   part.diverged = divergence_.has_value();
   if (part.released) release(), watch_edit(Ledger::Source::hand);
   if (held_.particle >= 0 && hand_steps_left_ > 0 && (hand_steps_left_ -= part.steps) <= 0) {
-    held_.velocity = {0, 0, 0};
-    update_fixed();
+    hold({held_.particle, {0, 0, 0}});
     watch_edit(Ledger::Source::hand);
   }
   return part;
@@ -367,22 +379,23 @@ void Simulation::diverge(const Advance& part) {
   d.value = part.value;
   const bool runaway = part.excess > 0;
   d.cause = runaway                            ? cause_of_runaway(part, preset_)
-            : part.quantity == "spring length" ? "a spring is longer than 1000 times its rest length"
+            : part.quantity == "spring length" ? "a spring is more than 1000 times its rest length"
             : part.quantity == "distance from x_0"
-                ? "the mass is farther from x_0 than 1000 times L (or its offset, if that is more)"
+                ? "the mass is farther from x_0 than 1000 times L (or than its offset, if that is larger)"
                 : "a " + part.quantity + " is no longer a finite number";
+  const std::string title(scheme(preset_.integrator).title);
   const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
   if (!runaway && springs_too_weak(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight and wind; "
                                            : ": the spring is too weak for m·g; ";
-    d.cause += preset_.integrator + " is stable here " + dt;
+    d.cause += title + " is stable here " + dt;
     d.advice = advice_for_weak_springs(preset_);
   } else {
-    d.cause += ": " + preset_.integrator + " is unstable here " + dt;
+    d.cause += ": " + title + " is unstable here " + dt;
     d.advice = advice(preset_);
   }
-  divergence_ = d;
   diverged_preset_ = preset_;
+  divergence_ = std::move(d);
 }
 
 Snapshot Simulation::snapshot() {
@@ -391,17 +404,21 @@ Snapshot Simulation::snapshot() {
 
 void Simulation::restore(const Snapshot& then) {
   assert(fits(then));
-  tears_ = then.tears;
-  held_ = {};
+  // All that takes memory comes first.
+  Tears tears = then.tears;
+  Preset gusty = in_gusts(preset_, then.t);
+  engine_->prepare(pinned_.size());
+  if (watch_) energy();
+  if (gusts(preset_)) engine_->set_preset(gusty, tears_);
+  hold({});
+  tears_ = std::move(tears), effective_preset_ = std::move(gusty);
   hand_steps_left_ = 0;
   hand_force_ = {};
   left_inside_ = 0;
   divergence_.reset();
-  update_fixed();
   steps_ = steps_at_dt_ = then.steps;
   time_at_dt_ = then.t;
   initial_velocity_ = then.begun_with;
-  if (gusts(preset_)) take_constants(preset_);
   engine_->load(then.state, tears_);
   ++revision_, ++tear_revision_;
   if (watch_) enable_ledger(true);

@@ -93,16 +93,19 @@ class Simulation {
   /// What this one shows now, with an engine that stands still: to be looked at while another thread moves this one.
   /// Changes of what is only seen may be applied to it, nothing else.
   std::unique_ptr<Simulation> stand_in() const;
-  /// Applies an edit. Throws PresetError or EngineError and leaves everything as it was if it cannot be done.
+  /// Applies an edit. Throws PresetError, EngineError or std::bad_alloc and leaves everything as it was if it cannot be
+  /// done; but an engine whose device is lost.
   void apply(const Edit& edit);
-  /// Makes up to `steps` steps; fewer when the run diverges or is stopped. Does nothing once diverged.
+  /// Makes up to `steps` steps; fewer when the run diverges or is stopped. Does nothing once diverged. Throws
+  /// EngineError; std::bad_alloc, with the last whole step then being the present state, so that it can be called
+  /// again.
   Advance advance(int steps);
   /// From now on advance() ends with the last whole step as soon as this says so (Engine::stop_when).
   void stop_when(Stop stop);
 
   EnergyReading energy();
   /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
-  /// itself; and a run in which the integrator has made more than Ledger::diverges_at counts as diverged.
+  /// itself and changes nothing about it, nor when the run diverges.
   void enable_ledger(bool on);
   /// What the ledger says; none where none is kept.
   std::optional<LedgerReading> ledger() const;
@@ -133,7 +136,9 @@ class Simulation {
  private:
   /// A copy of all but the engine and what is read of it.
   Simulation(const Simulation& from);
+  Simulation& operator=(Simulation&& from) noexcept = default;
   void build(const Preset& next);
+  void take(Simulation& other) noexcept;
   /// Particles that do not move freely.
   struct Fixed {
     std::vector<int> pinned;
@@ -160,7 +165,7 @@ class Simulation {
   void pin(const edit::Pin& edit);
   void move_body(const edit::MoveBody& edit);
   void rebase_time();
-  void update_fixed();
+  void hold(const Held& held);
   void diverge(const Advance& part);
   Advance advance_part(int steps);
   void watch_step();

@@ -1,4 +1,6 @@
 // The simulation's energy ledger: kept only where somebody asks for it.
+#include <utility>
+
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -8,9 +10,10 @@ EnergyReading Simulation::energy() {
 }
 
 void Simulation::enable_ledger(bool on) {
-  if (on) watch_.emplace().begin(preset_, energy());
-  if (!on) watch_.reset();
+  std::optional<EnergyWatch> watch;
+  if (on) watch.emplace().begin(preset_, energy(), time());
   engine_->note_contacts(on);
+  watch_ = std::move(watch);
 }
 
 std::optional<LedgerReading> Simulation::ledger() const {
@@ -27,11 +30,6 @@ void Simulation::watch_edit(Ledger::Source source) {
 void Simulation::watch_step() {
   ++revision_;
   watch_->after_step(acting(), tears_, read(), held_, engine_->contacts());
-  if (divergence_) return;
-  divergence_ = watch_->divergence(preset_, state_, lattice_.columns);
-  if (!divergence_) return;
-  divergence_->step = steps_, divergence_->t = time();
-  diverged_preset_ = preset_;
 }
 
 }  // namespace tyglab

@@ -9,6 +9,7 @@
 /// As DeviceBody in device_constants.h.
 typedef struct {
   BODY_REAL c[3], r, y, friction, restitution;
+  BODY_REAL rest_speed;
   BODY_REAL touch;  // square of the distance from c (a plane: the height) under which a particle may touch it
   int plane, unused;
 } Body;
@@ -46,17 +47,17 @@ INLINE BODY_REAL3 way_out(global const Body* body, BODY_REAL3 x, BODY_REAL3 n) {
 INLINE BODY_REAL3 corrected_velocity(global const Body* body, BODY_REAL3 v, BODY_REAL3 n) {
   const BODY_REAL inward = dot(v, n);
   if (inward >= 0) return v;
-  const BODY_REAL change = (1 + body->restitution) * -inward;
+  const BODY_REAL e = -inward < body->rest_speed ? (BODY_REAL)(0) : body->restitution;
+  const BODY_REAL change = (1 + e) * -inward;
   const BODY_REAL3 tangential = v - inward * n;
   const BODY_REAL speed = sqrt(dot(tangential, tangential));
   const BODY_REAL left = speed > 0 ? fmax((BODY_REAL)(0), 1 - body->friction * change / speed) : (BODY_REAL)(0);
-  return left * tangential - body->restitution * inward * n;
+  return left * tangential - e * inward * n;
 }
 
-INLINE void collide_one(global const Body* body, BODY_REAL dt, BODY_REAL epsilon, BODY_REAL3 old, BODY_REAL3* x,
-                        BODY_REAL3* v) {
+INLINE void collide_one(global const Body* body, BODY_REAL dt, BODY_REAL3 old, BODY_REAL3* x, BODY_REAL3* v) {
   const BODY_REAL3 n = normal_of(body, old);
-  if (depth_in(body, old) > tolerance_at(body, old, epsilon)) {
+  if (depth_in(body, old) > tolerance_at(body, old, EPSILON)) {
     *x = way_out(body, *x, n);
     *v -= fmin((BODY_REAL)(0), dot(*v, n)) * n;
     return;
@@ -70,20 +71,19 @@ INLINE void collide_one(global const Body* body, BODY_REAL dt, BODY_REAL epsilon
 }
 
 /// Corrects x and v for all bodies; returns whether x is still inside one.
-INLINE int collide(global const Body* bodies, int count, BODY_REAL dt, BODY_REAL epsilon, BODY_REAL3 old, BODY_REAL3* x,
-                   BODY_REAL3* v) {
+INLINE int collide(global const Body* bodies, int count, BODY_REAL dt, BODY_REAL3 old, BODY_REAL3* x, BODY_REAL3* v) {
   for (int pass = 0; pass < passes; ++pass) {
     int touched = 0;
     for (int n = 0; n < count; ++n) {
       const BODY_REAL depth = depth_in(bodies + n, *x);
-      if (!(depth > 0) || (pass > 0 && depth <= tolerance_at(bodies + n, *x, epsilon))) continue;
-      collide_one(bodies + n, dt, epsilon, old, x, v);
+      if (!(depth > 0) || (pass > 0 && depth <= tolerance_at(bodies + n, *x, EPSILON))) continue;
+      collide_one(bodies + n, dt, old, x, v);
       touched = 1;
     }
     if (!touched) return 0;
   }
   int inside = 0;
-  for (int n = 0; n < count; ++n) inside |= depth_in(bodies + n, *x) > tolerance_at(bodies + n, *x, epsilon);
+  for (int n = 0; n < count; ++n) inside |= depth_in(bodies + n, *x) > tolerance_at(bodies + n, *x, EPSILON);
   return inside;
 }
 
@@ -131,7 +131,7 @@ INLINE void collide_block(global const Body* bodies, int count, const Constants*
     BODY_REAL3 velocity = (BODY_REAL3)(w[0][lane], w[1][lane], w[2][lane]) * to_velocity;
     const BODY_REAL3 freely = at, free_velocity = velocity;
     const BODY_REAL3 from = (BODY_REAL3)(o[0][lane], o[1][lane], o[2][lane]);
-    if (collide(bodies, count, k->dt, EPSILON, from, &at, &velocity) && own) atomic_inc(report + report_inside);
+    if (collide(bodies, count, k->dt, from, &at, &velocity) && own) atomic_inc(report + report_inside);
     p[0][lane] = (REAL)at.x, p[1][lane] = (REAL)at.y, p[2][lane] = (REAL)at.z;
     velocity /= to_velocity;
     w[0][lane] = s[0][lane] = (REAL)velocity.x;

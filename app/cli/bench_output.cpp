@@ -7,6 +7,8 @@
 #include "app/cli/command_line.h"
 #include "app/process/interrupt.h"
 #include "core/analysis/machine.h"
+#include "core/io/destination.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -56,10 +58,14 @@ Reach bench_reach() {
   return InterruptGuard::interrupted() ? Reach::cut_short : Reach::whole;
 }
 
-int bench_exit() {
+int bench_exit(const std::vector<Output>& outputs) {
   if (!InterruptGuard::interrupted()) return exit_done;
-  std::cerr
-      << "tyglab: Interrupted; the results measured so far are complete. A file of them is called F.incomplete.\n";
+  std::vector<std::string> kept;
+  for (const Output& output : outputs)
+    if (const std::filesystem::path file = incomplete_file(output.file); !file.empty())
+      kept.push_back(output_name(file));
+  std::cerr << "tyglab: Interrupted; the results measured so far are complete"
+            << (kept.empty() ? "" : ", in " + joined(kept)) << ".\n";
   return exit_interrupted;
 }
 

@@ -31,7 +31,7 @@ nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordere
 
 /// How far the results of a benchmark under an InterruptGuard came: to their end, or to Ctrl-C.
 Reach bench_reach();
-/// Its exit code; says so if Ctrl-C ended it.
-int bench_exit();
+/// Its exit code; if Ctrl-C ended it, says so and where the results so far are.
+int bench_exit(const std::vector<Output>& outputs);
 
 }  // namespace tyglab

@@ -13,7 +13,7 @@ void add_color_option(CLI::App& command, std::string& name, bool copies) {
   }
   command.add_option("--color", name, "Colors the cloth by a value of each particle, with a legend")
       ->type_name(joined(names, "|"))
-      ->check(CLI::IsMember(names));
+      ->check(CLI::IsMember(names).description(""));
 }
 
 }  // namespace tyglab

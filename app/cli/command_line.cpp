@@ -84,8 +84,10 @@ std::string unexpected(const CLI::ExtrasError& error) {
   const std::string text = error.what();
   std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
   std::string list;
-  for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
-  return "Not expected here: " + list + ". Options come after their command, as in `tyglab run denim --steps 4`.";
+  int count = 0;
+  for (std::string word; words >> word; ++count) list = word + (list.empty() ? "" : " ") + list;
+  return list + (count == 1 ? " is" : " are") +
+         " not expected here. Options come after their command, as in `tyglab run denim --steps 4`.";
 }
 
 }  // namespace
@@ -111,18 +113,19 @@ std::vector<std::string> command_names(const CLI::App& command) {
 }
 
 int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words) {
-  if (error.get_exit_code() != 0) {
-    if (const std::string problem = command_problem(program, words); !problem.empty()) {
-      complain(problem);
+  return run_action([&]() -> int {
+    if (error.get_exit_code() != 0) {
+      if (const std::string problem = command_problem(program, words); !problem.empty()) {
+        complain(problem);
+        return exit_command_line;
+      }
+    }
+    if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
+      complain(unexpected(*extras));
       return exit_command_line;
     }
-  }
-  if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
-    complain(unexpected(*extras));
-    return exit_command_line;
-  }
-  if (program.exit(error) != 0) return exit_command_line;
-  return run_action([] { return int(exit_done); });  // which sees that the help has arrived
+    return program.exit(error) == 0 ? exit_done : exit_command_line;
+  });
 }
 
 int run_action(const Action& action) {

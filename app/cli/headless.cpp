@@ -9,6 +9,7 @@
 #include "app/process/interrupt.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/io/terminal.h"
 #include "core/output/obj.h"
 #include "core/output/state_csv.h"
 
@@ -42,7 +43,7 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   Simulation simulation(options.preset, options.threads);
   const fs::path folder = new_folder();
   std::cerr << "There is no display here, so Tyglab runs without a window: it simulates and draws '"
-            << options.preset_label << "' into the new folder " << folder.string() << ".\n";
+            << in_one_line(options.preset_label) << "' into the new folder " << folder.string() << ".\n";
   if (options.frames > 0)
     std::cerr << "--frames " << options.frames << " is interpreted as " << seconds << " s of simulated time, at "
               << frames_a_second << " frames per second.\n";
@@ -64,11 +65,11 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
     const FrameCosts::Timer draw(costs, Part::draw_cloth);
     const fs::path file = folder / frame_name(options.preset_label, k, pictures, "png");
     film.shoot(simulation, file);
-    out << "Wrote " << file.string() << " (t = " << simulation.time() << " s)." << std::endl;
+    out << "Wrote " << output_name(file) << " (t = " << simulation.time() << " s)." << std::endl;
   }
   const fs::path state = folder / (options.preset_label + ".csv");
   write_output(state, state_csv(simulation));
-  out << "Wrote " << state.string() << ", the last state." << std::endl;
+  out << "Wrote " << output_name(state) << ", the last state." << std::endl;
   if (!options.screenshot.empty()) {
     film.shoot(simulation, options.screenshot);
     out << "Wrote " << output_name(options.screenshot) << '.' << std::endl;
@@ -79,7 +80,8 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
     out << "Wrote " << output_name(options.time_report) << '.' << std::endl;
   }
   if (simulation.divergence())
-    std::cerr << "tyglab: " << options.preset_label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+    std::cerr << "tyglab: " << in_one_line(options.preset_label) << ' ' << divergence_text(*simulation.divergence())
+              << '\n';
   if (!stepper.interrupted()) return exit_done;
   std::cerr << "tyglab: Interrupted; the files named above are complete.\n";
   return exit_interrupted;

@@ -9,25 +9,36 @@
 #include "app/base/data_files.h"
 #include "app/base/numbers.h"
 #include "app/cli/command_line.h"
+#include "app/cli/progress.h"
+#include "app/render/image.h"
 #include "core/analysis/engine_choice.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/tolerance.h"
 #include "core/energy/auto_step.h"
 #include "core/integrators/names.h"
-#include "core/io/json_tree.h"
+#include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/model/notation.h"
 #include "core/model/readable.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
 
-void warn_of_missing_texture(const Preset& preset) {
+void warn_of_texture(const Preset& preset) {
   const fs::path picture = texture_file(preset.texture);
+  const auto warn = [](const std::string& what) { std::cerr << "tyglab: view.texture: " << in_one_line(what) << '\n'; };
   std::error_code error;
   if (!fs::is_regular_file(picture, error))
-    std::cerr << "tyglab: view.texture: there is no image '" << printable(preset.texture)
-              << "', so the cloth would be drawn without one; check the name and the folder.\n";
+    return warn("there is no image '" + preset.texture +
+                "', so the cloth would be drawn without one; check the name and the folder.");
+  if (is_shipped_texture(preset.texture)) return;
+  try {
+    read_image(picture);
+  } catch (const std::runtime_error& problem) {
+    warn("the cloth would be drawn without its image: " + std::string(problem.what()));
+  }
 }
 
 namespace {
@@ -43,6 +54,15 @@ std::optional<int> device_number(std::string_view engine) {
   const auto [end, error] = std::from_chars(first, last, number);
   if (error != std::errc() || end != last || number < 0) return {};
   return number;
+}
+
+/// A word as it is typed in a shell: in quotes where it holds what a shell would not take as it is.
+std::string in_shell(const std::string& word) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=+-,:";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char letter : word) quoted += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  return quoted + "'";
 }
 
 }  // namespace
@@ -65,6 +85,8 @@ void PresetArgument::add_engine(CLI::App& command) {
 
 void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_there) {
   engines = engines_there;
+  for (const CLI::App* each = &command; each->get_parent() != nullptr; each = each->get_parent())
+    command_name = each->get_name() + (command_name.empty() ? "" : " ") + command_name;
   command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
       ->required(required)
       ->check(not_empty());
@@ -81,16 +103,17 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
       ->check(not_empty());
   command
       .add_option("--dt", dt,
-                  "Time step, s; or auto: the largest that linear theory allows for these constants, with a margin,\n"
-                  "halved while the energy ledger finds that the integrator adds energy")
+                  "Time step, s; or auto: 0.8 of the worst-case limit, where linear theory finds any shape of the\n"
+                  "cloth stable, halved while the energy ledger finds that the integrator adds energy")
       ->type_name("S|auto")
       ->check(not_empty());
   command
       .add_option(
           "--tolerance", tolerance,
           "Choose --integrator and --dt, and --precision if float is too coarse, so that the error of positions is at\n"
-          "most this (m, root mean square) in the first second: by short trial runs of the same scene.\n"
-          "A method or a precision given as an option is kept")
+          "most this (m, root mean square) in the first second: by trial runs of the same scene, for a few seconds,\n"
+          "at most half a minute; Ctrl-C ends it. Where that accuracy cannot be promised, as with contact it often\n"
+          "cannot, the tightest tolerance that can be is said. A method or a precision given as an option is kept")
       ->type_name("M")
       ->transform(number_between(1e-12, 1, "m"));
   add_engine(command);
@@ -154,14 +177,23 @@ void PresetArgument::keep_to_cpu(Preset& scene) const {
   scene.engine = EngineKind::cpu;
 }
 
+/// Where a method has no stable dt.
+std::string stable_alternative(Preset preset) {
+  const bool verlet = preset.integrator != "verlet" && (preset.integrator = "verlet", AutoStep::choose(preset));
+  return verlet
+             ? "another --integrator (verlet is stable), or more damping with --set k_d=…"
+             : "--integrator implicit_euler, which is stable at every dt, softer springs, less damping or a larger m";
+}
+
 void PresetArgument::choose_dt(ResolvedPreset& resolved) const {
   const auto chosen = AutoStep::choose(resolved.preset);
   if (!chosen)
     throw UsageError("--dt auto: " + resolved.preset.integrator +
-                     " has no stable dt with these constants; use another --integrator (verlet is stable), or more "
-                     "damping with --set k_d=…");
+                     " has no stable dt with these constants that is allowed (1e-7 s or more); use " +
+                     stable_alternative(resolved.preset) + ".");
   resolved.preset.dt = *chosen;
-  std::cerr << "tyglab: --dt auto chose " << short_number(*chosen) << " s for " << resolved.preset.integrator << ".\n";
+  std::cerr << "tyglab: --dt auto chose " << short_number(*chosen) << " s for "
+            << scheme(resolved.preset.integrator).title << ".\n";
 }
 
 void PresetArgument::choose_engine(ResolvedPreset& resolved) const {
@@ -171,16 +203,39 @@ void PresetArgument::choose_engine(ResolvedPreset& resolved) const {
   std::cerr << "tyglab: --engine auto chose " << resolved.engine_choice->why << ".\n";
 }
 
+std::string PresetArgument::with_tolerance(double other, std::optional<double> seconds) const {
+  std::string line = "tyglab";
+  for (const std::string& word : {command_name, preset.empty() ? preset : in_shell(preset)})
+    if (!word.empty()) line += " " + word;
+  for (const std::string& text : settings) line += " --set " + in_shell(text);
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) line += std::string(" ") + option + " " + value;
+  };
+  add("--integrator", integrator), add("--engine", engine), add("--precision", precision);
+  if (seconds) add("--seconds", shortest_number(*seconds));
+  return line + " --tolerance " + short_number(other, 2);
+}
+
 void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const {
   if (!dt.empty() || sets("dt")) throw UsageError("--tolerance: chooses dt itself; omit --dt and --set dt");
-  const ToleranceKeeps keeps{!integrator.empty() || sets("integrator"), !precision.empty() || sets("precision")};
+  constexpr double longest = 1;  // s of motion
   const double shown = seconds.value_or(0);
+  SettingsGoal goal{.tolerance = *tolerance, .seconds = shown > 0 ? std::min(shown, longest) : longest};
+  goal.keeps = {!integrator.empty() || sets("integrator"), !precision.empty() || sets("precision")};
+  Progress progress("trying methods and dt");
   try {
-    resolved.choice = std::make_shared<ToleranceChoice>(
-        choose_for_tolerance(resolved.preset, *tolerance, shown > 0 ? shown : 1, keeps, [] { return false; }));
+    resolved.choice = std::make_shared<ToleranceChoice>(choose_for_tolerance(
+        resolved.preset, goal, [] { return false; },
+        [&](const SettingsSearch& search) {
+          if (search.methods > 0) progress.update(double(search.methods_done) / search.methods);
+        }));
+  } catch (const ToleranceError& error) {
+    throw UsageError(std::string("--tolerance: ") + error.what() +
+                     (error.tightest ? ": " + with_tolerance(*error.tightest, seconds) : "") + ".");
   } catch (const std::runtime_error& error) {
     throw UsageError(std::string("--tolerance: ") + error.what());
   }
+  progress.clear();
   resolved.preset = resolved.choice->preset;
   std::cerr << "tyglab: --tolerance chose " << resolved.choice->words(*tolerance) << '\n';
 }

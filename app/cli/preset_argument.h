@@ -30,8 +30,9 @@ struct ResolvedPreset {
   std::shared_ptr<const EngineChoice> engine_choice = {};  ///< --engine auto, likewise
 };
 
-/// Says in a line on stderr if the picture that the preset names is not there: who does not draw it would not notice.
-void warn_of_missing_texture(const Preset& preset);
+/// Says in a line on stderr if the picture that the preset names is not there or cannot be read: who does not draw it
+/// would not notice.
+void warn_of_texture(const Preset& preset);
 
 /// PRESET, --set, --integrator, --dt, --tolerance, --engine, --precision and --threads as typed.
 struct PresetArgument {
@@ -41,6 +42,7 @@ struct PresetArgument {
   std::optional<double> tolerance;  ///< m
   int threads = 0;                  ///< 0: as many as there are processors
   Engines engines = Engines::all;   ///< of the command
+  std::string command_name;         ///< "run", "bench convergence"; empty: the program itself
 
   /// Adds the argument and its options to a command. It must outlive the parsing. `engines_there`: where only the CPU
   /// engine is used, another that is typed is refused, and a preset that names one runs on the CPU engine, which is
@@ -63,6 +65,8 @@ struct PresetArgument {
   void add_engine(CLI::App& command);
   void choose_dt(ResolvedPreset& resolved) const;
   void choose_engine(ResolvedPreset& resolved) const;
+  /// The command line with another tolerance, to type.
+  std::string with_tolerance(double other, std::optional<double> seconds) const;
   void choose_by_tolerance(ResolvedPreset& resolved, std::optional<double> seconds) const;
 };
 

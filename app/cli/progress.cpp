@@ -8,7 +8,7 @@
 
 namespace tyglab {
 
-Progress::Progress(const std::string& what) : what_(visible(what)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(const std::string& what) : what_(in_one_line(what)), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void Progress::clear() {
   if (shown_) cursor_output() << '\r' << std::string(what_.size() + 40, ' ') << '\r' << std::flush;

@@ -8,6 +8,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/process/interrupt.h"
+#include "core/integrators/scheme.h"
 #include "core/io/text.h"
 #include "core/model/readable.h"
 
@@ -112,7 +113,7 @@ void Stepper::look_at_ledger() {
   progress_.clear();
   std::string text = "tyglab: at t = ";
   append_number(text, timeline_.t, 4);
-  text += " s " + next.integrator + " was adding energy; dt is ";
+  text += " s " + std::string(scheme(next.integrator).title) + " was adding energy; dt is ";
   append_number(text, *dt, 3);
   std::cerr << text << " s from here on.\n";
 }

@@ -1,12 +1,15 @@
 #include "app/render/image.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <glm/common.hpp>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "app/render/jpeg.h"
 #include "core/io/destination.h"
@@ -28,6 +31,35 @@ void* decoder_memory(std::size_t bytes) {
 void* more_decoder_memory(void* block, std::size_t bytes) {
   return bytes <= largest_block ? std::realloc(block, bytes) : nullptr;
 }
+
+/// What the encoder of PNG takes, which never looks whether it was given it: std::bad_alloc is thrown past it, and all
+/// is given back then too.
+class EncoderMemory {
+ public:
+  EncoderMemory() { present_ = this; }
+  ~EncoderMemory() { present_ = nullptr; }
+  EncoderMemory(const EncoderMemory&) = delete;
+  EncoderMemory& operator=(const EncoderMemory&) = delete;
+
+  static void* take(std::size_t bytes) {
+    auto block = std::make_unique<std::byte[]>(bytes);
+    return present_->blocks_.emplace_back(std::move(block)).get();
+  }
+  static void* more(void* block, std::size_t old_bytes, std::size_t bytes) {
+    void* const larger = take(bytes);
+    if (block != nullptr) std::memcpy(larger, block, std::min(old_bytes, bytes));
+    give_back(block);
+    return larger;
+  }
+  static void give_back(void* block) {
+    std::erase_if(present_->blocks_, [&](const std::unique_ptr<std::byte[]>& each) { return each.get() == block; });
+  }
+
+ private:
+  static thread_local EncoderMemory* present_;
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+};
+thread_local EncoderMemory* EncoderMemory::present_ = nullptr;
 
 }  // namespace
 }  // namespace tyglab
@@ -52,6 +84,9 @@ void* more_decoder_memory(void* block, std::size_t bytes) {
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
+#define STBIW_MALLOC(size) tyglab::EncoderMemory::take(size)
+#define STBIW_REALLOC_SIZED(block, old_size, size) tyglab::EncoderMemory::more(block, old_size, size)
+#define STBIW_FREE(block) tyglab::EncoderMemory::give_back(block)
 #include <stb_image_write.h>
 #pragma GCC diagnostic pop
 
@@ -101,18 +136,26 @@ bool holds_its_pixels(std::span<const unsigned char> bytes, double pixels) {
   return pixels <= double(bytes.size()) * (png ? 8 * 1032 : 64);
 }
 
+/// What stb_image means by its abbreviations ("outofdata"), as far as it matters to who has the file.
+const char* why_not_decoded() {
+  const std::string_view reason = stbi_failure_reason();
+  if (reason == "unknown image type") return "it is neither PNG, JPEG, BMP nor TGA";
+  if (reason == "outofmem") return "it unpacks to more than its size in pixels";
+  return "it is damaged or cut short";
+}
+
 /// PNG, BMP and TGA.
 Image decode_others(std::span<const unsigned char> bytes) {
   const int length = int(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_info_from_memory(bytes.data(), length, &width, &height, &channels) == 0)
-    throw DecodeError(stbi_failure_reason());
+    throw DecodeError(why_not_decoded());
   if (width < 1 || height < 1) throw DecodeError("it has no pixels");
   if (width > largest_side || height > largest_side) throw ImageTooLarge(width, height, largest_side);
   if (!holds_its_pixels(bytes, double(width) * height)) throw DecodeError("it is cut short");
   using Pixels = std::unique_ptr<unsigned char, decltype(&stbi_image_free)>;
   const Pixels pixels(stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 4), &stbi_image_free);
-  if (pixels == nullptr) throw DecodeError(stbi_failure_reason());
+  if (pixels == nullptr) throw DecodeError(why_not_decoded());
   return {width, height, without_alpha(pixels.get(), std::size_t(width) * height)};
 }
 
@@ -126,6 +169,7 @@ std::filesystem::path write_png(const std::filesystem::path& file, const Image& 
   const auto append = [](void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
   };
+  const EncoderMemory memory;
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3) == 0) {
     throw OutputError("The image " + file.string() + " could not be encoded. Is there enough memory?");
   }

@@ -7,6 +7,11 @@ void Scene::follow() {
   if (now.documents != seen_.documents) wants_framing = true;
   if (now.copies != seen_.copies) views.forget_copies();
   if (now.labs_begun != seen_.labs_begun) colors.choose(std::nullopt);  // the next session has the user's choice again
+  if (now.lab_steps != seen_.lab_steps && session.labs.run) {
+    const std::string& field = session.labs.run->now().color;
+    if (!field.empty() || lab_colors_) colors.choose(field_called(field));
+    lab_colors_ = !field.empty();
+  }
   if (now.cloths != seen_.cloths) redraw = true;
   seen_ = now;
 }

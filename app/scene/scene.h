@@ -39,6 +39,7 @@ struct Scene {
 
  private:
   SessionCounts seen_;
+  bool lab_colors_ = false;  ///< a step of a lab has colored the cloth
 };
 
 /// The cloth whose picture stands there: the original's is 0.

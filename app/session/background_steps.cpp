@@ -1,6 +1,7 @@
 #include "app/session/background_steps.h"
 
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "app/session/engine_fallback.h"
@@ -33,11 +34,12 @@ bool BackgroundSteps::wanted(const Session& session) {
 
 void BackgroundSteps::start(Session& session, int steps) {
   Lockstep still = session.copies.lockstep.stand_in();
-  cloth_ = std::exchange(session.simulation, session.simulation->stand_in());
+  std::shared_ptr<Simulation> shown = session.simulation->stand_in();
+  cloth_ = std::exchange(session.simulation, std::move(shown));
   copies_ = std::exchange(session.copies.lockstep, std::move(still));
   begun_ = session.now;
   const double alone_until = session.copies.t + steps * session.preset().dt;
-  work_.start(Priority::normal, [cloth = cloth_, &copies = copies_, steps, alone_until](const JobControl& control) {
+  const auto work = [cloth = cloth_, &copies = copies_, steps, alone_until](const JobControl& control) {
     const Stop stop = [&control] { return control.cancelled(); };
     const auto begun = std::chrono::steady_clock::now();
     const bool diverged = cloth->divergence().has_value();
@@ -50,17 +52,28 @@ void BackgroundSteps::start(Session& session, int steps) {
     cloth->stop_when({}), copies.stop_when({});
     made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     return made;
-  });
+  };
+  try {
+    work_.start(Priority::normal, work);
+  } catch (const std::bad_alloc&) {
+    session.simulation = std::exchange(cloth_, nullptr);
+    session.copies.lockstep = std::exchange(copies_, {});
+    throw;
+  }
 }
 
 StepsMadeBeside BackgroundSteps::take(Session& session) {
   auto outcome = work_.take();
+  cloth_->stop_when({}), copies_.stop_when({});  // work that has failed has not come to that
   take_appearance(*cloth_, *session.simulation);
   for (std::size_t n = 0; n < copies_.size(); ++n)
     take_appearance(*copies_[n].simulation, *session.copies.lockstep[n].simulation);
   session.simulation = std::exchange(cloth_, nullptr);
   session.copies.lockstep = std::exchange(copies_, {});
-  if (const auto* error = std::get_if<JobError>(&outcome)) throw EngineError(error->what);
+  if (const auto* error = std::get_if<JobError>(&outcome)) {
+    if (error->out_of_memory) throw std::bad_alloc();
+    throw EngineError(error->what);
+  }
   return std::get<StepsMadeBeside>(outcome);
 }
 
@@ -71,6 +84,8 @@ void settle(Session& session) {
     session.take_steps();
   } catch (const EngineError& error) {
     fall_back(session, error.what());
+  } catch (const std::bad_alloc&) {
+    // The cloth is that of the last whole step; whoever asked for the next one asks again.
   }
 }
 

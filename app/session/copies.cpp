@@ -10,6 +10,8 @@
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
+#include "core/io/preset_io.h"
+#include "core/model/changes.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 
@@ -50,6 +52,41 @@ bool needs_cpu(std::span<const Difference> differences) {
     const std::string* method = difference.value_of(&Preset::integrator);
     return method != nullptr && !runs_on_opencl(scheme(*method));
   });
+}
+
+/// Whether a copy would make its OpenCL device build programs; they are built beside the frames from then on.
+bool awaits_programs(Session& session, const std::vector<Difference>& differences, bool as_reference) {
+  const auto& prepare = session.rebuild.prepare_programs;
+  if (!prepare || session.scripted) return false;
+  Preset preset = session.preset();
+  for (const Difference& difference : differences)
+    if (!difference.apply(preset)) return false;  // who adds it says what is wrong
+  if (preset.engine != EngineKind::opencl || !check_preset(preset).empty()) return false;
+  Copies& copies = session.copies;
+  if (copies.awaited && changes(copies.awaited->built_for, preset).within(motionless)) return false;
+  const bool same_device = !changes(session.preset(), preset).touches({Effect::engine, Effect::device});
+  if (same_device && session.simulation->engine().ready_for(preset)) return false;
+  copies.awaited = Copies::Awaited{differences, as_reference, preset};
+  copies.programs.start(Priority::normal, [prepare, preset](const JobControl&) {
+    prepare(preset, false);
+    return std::monostate();
+  });
+  return true;
+}
+
+void add_now(Session& session, const std::vector<Difference>& differences, bool as_reference) {
+  Copies& copies = session.copies;
+  settle(session);
+  try {
+    copies.lockstep.add(*session.simulation, differences, session.threads);
+  } catch (const std::exception& error) {
+    return session.messages.error(error.what());
+  }
+  if (as_reference) copies.reference = int(copies.lockstep.size()) - 1;
+  copies.t = session.simulation->time();
+  copies.forget();
+  // All have been loaded again, and the hand has let go.
+  ++session.counts.hands, ++session.counts.cloths, ++session.counts.copies_added;
 }
 
 }  // namespace
@@ -98,20 +135,27 @@ std::vector<CopyChoice> copy_choices(const Preset& preset) {
 }
 
 void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference) {
-  Copies& copies = session.copies;
   if (session.rebuild.busy())
     return session.messages.note("Another cloth is being built; add a copy when it is ready.");
-  settle(session);
-  try {
-    copies.lockstep.add(*session.simulation, differences, session.threads);
-  } catch (const std::exception& error) {
-    return session.messages.error(error.what());
-  }
-  if (as_reference) copies.reference = int(copies.lockstep.size()) - 1;
-  copies.t = session.simulation->time();
-  copies.forget();
-  // All have been loaded again, and the hand has let go.
-  ++session.counts.hands, ++session.counts.cloths, ++session.counts.copies_added;
+  if (session.copies.awaited)
+    return session.messages.note("Programs for another copy are being built; add this one when it is there.");
+  if (awaits_programs(session, differences, as_reference))
+    return session.messages.note("OpenCL builds its programs; then the copy is there.");
+  add_now(session, differences, as_reference);
+}
+
+void poll_copies(Session& session) {
+  Copies& copies = session.copies;
+  if (!copies.programs.ready() || session.rebuild.busy()) return;
+  const auto outcome = copies.programs.take();
+  if (!copies.awaited) return;
+  const auto* error = std::get_if<JobError>(&outcome);
+  const Copies::Awaited made = *copies.awaited;
+  // The constants may have changed meanwhile.
+  if (error == nullptr && awaits_programs(session, made.differences, made.as_reference)) return;
+  copies.awaited.reset();
+  if (error != nullptr) return session.messages.error(error->what);
+  add_now(session, made.differences, made.as_reference);
 }
 
 void remove_copy(Session& session, std::size_t n) {
@@ -128,6 +172,7 @@ void remove_copy(Session& session, std::size_t n) {
 
 bool put_away_copies(Session& session) {
   Copies& copies = session.copies;
+  copies.awaited.reset();
   if (copies.lockstep.empty()) return false;
   settle(session);
   copies.lockstep.clear();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/session/series.h"
+#include "app/studies/job.h"
 #include "core/lockstep.h"
 
 namespace tyglab {
@@ -25,6 +26,15 @@ struct Copies {
   Series distance{1 + Lockstep::most};    ///< m, of the original and the copies
   Series energy{1 + Lockstep::most};      ///< J, of all the cloth
   double t = 0;                           ///< s, of all; the copies go on when the original has diverged
+
+  /// A copy that comes when the programs of its OpenCL device have been built, beside the frames.
+  struct Awaited {
+    std::vector<Difference> differences;
+    bool as_reference = false;
+    Preset built_for;
+  };
+  std::optional<Awaited> awaited;
+  Job<std::monostate> programs;
 
   bool side_by_side() const { return !overlaid && !lockstep.empty(); }
   /// How many pictures the viewport shows.
@@ -48,8 +58,10 @@ struct CopyChoice {
 };
 std::vector<CopyChoice> copy_choices(const Preset& preset);
 
-/// Adds a copy that differs in these constants, or says why not.
+/// Adds a copy that differs in these constants, at once or when its programs are there, or says why not.
 void add_copy(Session& session, const std::vector<Difference>& differences, bool as_reference);
+/// Called in every frame: adds the copy whose programs have been built, if one is awaited.
+void poll_copies(Session& session);
 void remove_copy(Session& session, std::size_t n);
 /// Removes all of them; returns whether there were any.
 bool put_away_copies(Session& session);

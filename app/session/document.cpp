@@ -31,6 +31,7 @@ void begin_document(Session& session, const Document& document) {
   session.history.clear(), session.rewind.clear(), session.curves.clear(), session.auto_dt.reset();
   session.picked = first_pick(session);
   session.recorded.clear();
+  session.labs.left_behind.reset();
   session.pacing.forget_cost(), session.pacing.restart_measure();
   ++session.counts.documents;
 }
@@ -56,18 +57,21 @@ void take_built(Session& session, std::unique_ptr<Simulation> simulation, const 
   session.pacing.restart_measure();
 }
 
+void reopen_document(Session& session, const Preset& preset, const Document& document) {
+  if (takes_long(session, preset) && preset.engine == EngineKind::cpu)
+    return session.rebuild.order(session, {preset, true, false, document}, session.history);
+  std::string fallback;
+  auto simulation = make_simulation(preset, session.threads, fallback);
+  if (!fallback.empty()) session.messages.warning(fallback);
+  session.rebuild.drop();
+  take_built(session, std::move(simulation), {preset, true, false, document});
+}
+
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,
                    const std::vector<std::string>& settings) {
   try {
     const Preset preset = with_settings(read_preset(file), settings);
-    const Document document{preset, file.stem().string(), shipped ? std::filesystem::path() : file};
-    if (takes_long(session, preset) && preset.engine == EngineKind::cpu)
-      return session.rebuild.order(session, {preset, true, false, document}, session.history);
-    std::string fallback;
-    auto simulation = make_simulation(preset, session.threads, fallback);
-    if (!fallback.empty()) session.messages.warning(fallback);
-    session.rebuild.drop();
-    take_built(session, std::move(simulation), {preset, true, false, document});
+    reopen_document(session, preset, {preset, file.stem().string(), shipped ? std::filesystem::path() : file});
   } catch (const std::bad_alloc&) {
     session.messages.error("There is not enough memory for " + file.string() + ". The present cloth is kept.");
   } catch (const std::exception& error) {
@@ -76,10 +80,9 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
 }
 
 bool save_document_as(Session& session, const std::filesystem::path& file, const std::string& name) {
-  Preset preset = session.preset();
-  preset.name = name;
-  std::string copied;
   try {
+    Preset preset = session.preset();
+    preset.name = name;
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
     // The program's own folder is made where it is missing; nobody else's.
     std::error_code ignored;
@@ -89,19 +92,24 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
       throw OutputError("The folder " + folder.string() + " does not exist; create it first, or choose another.");
     const std::string texture = preset.texture;
     preset = write_preset(preset, file);
+    std::string copied;
     if (preset.texture != texture)
       copied = " and its texture " + std::filesystem::path(preset.texture).filename().string();
+    Document saved{preset, file.stem().string(), file};
+    std::string said = "Saved " + file.string() + copied, opened = saved.label;
+    session.rebuild.rename(name);
+    if (!session.rebuild.holds_present()) apply_to_all(session, edit::Change{preset});
+    if (session.labs.opened == session.document.label)
+      session.labs.opened = std::move(opened);  // still the lab's cloth
+    session.document = std::move(saved);
+    session.messages.note(std::move(said));
+    return true;
+  } catch (const std::bad_alloc&) {
+    session.not_saved = SaveProblem{file, name, "There is not enough memory to save it; end other programs."};
   } catch (const std::exception& error) {
     session.not_saved = SaveProblem{file, name, error.what()};
-    return false;
   }
-  session.rebuild.rename(name);
-  if (!session.rebuild.holds_present()) apply_to_all(session, edit::Change{preset});
-  if (session.labs.opened == session.document.label)
-    session.labs.opened = file.stem().string();  // it is the lab's cloth still
-  session.document = {preset, file.stem().string(), file};
-  session.messages.note("Saved " + file.string() + copied);
-  return true;
+  return false;
 }
 
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 
 #include <new>
 #include <optional>
+#include <utility>
 
 #include "app/session/document.h"
 #include "app/session/session.h"
@@ -17,10 +18,14 @@ namespace {
 /// by a list in another order, it is put as the document puts it.
 void spell_pins_as_saved(Session& session) {
   const Preset& saved = session.document.saved;
-  if (session.preset().pins == saved.pins || !same_pins(session.preset(), saved)) return;
-  Preset next = session.preset();
-  next.pins = saved.pins;
-  apply_to_all(session, edit::Change{next});
+  try {
+    if (session.preset().pins == saved.pins || !same_pins(session.preset(), saved)) return;
+    Preset next = session.preset();
+    next.pins = saved.pins;
+    apply_to_all(session, edit::Change{next});
+  } catch (const std::bad_alloc&) {
+    // The same pins by another name: the list says it too.
+  }
 }
 
 /// A new texture for the cloth, if the edit brings one. False if it is unusable.
@@ -39,8 +44,49 @@ bool only_seen(const Session& session, const Edit& edit) {
   return change != nullptr && changes(session.requested_preset(), change->preset).within(motionless);
 }
 
-void record(Session& session, const Preset& before, const Preset& now, unsigned gesture) {
-  if (!changes(before, now).within(Effect::view)) session.history.record(before, gesture);
+/// How an edit is called where the constants do not say it.
+std::string name_of(const Session& session, const Edit& edit) {
+  const auto at = [](int i, int j) { return " at (" + std::to_string(i) + ", " + std::to_string(j) + ")"; };
+  if (std::holds_alternative<edit::Restart>(edit)) return "restart";
+  if (std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit)) return "cut";
+  if (const auto* grab = std::get_if<edit::Grab>(&edit)) return "pull" + at(grab->i, grab->j);
+  if (const auto* pin = std::get_if<edit::Pin>(&edit)) return (pin->pinned ? "pin" : "unpinning") + at(pin->i, pin->j);
+  if (const auto* body = std::get_if<edit::MoveBody>(&edit)) {
+    const bool round = session.preset().bodies[std::size_t(body->index)].shape == Body::Shape::sphere;
+    return round ? "move of a sphere" : "move of a plane";
+  }
+  return "";
+}
+
+void record(Session& session, const Preset& before, const Preset& now, const std::string& what, unsigned gesture) {
+  if (changes(before, now).within(Effect::view)) return;
+  session.history.record({before, session.simulation->time(), what}, gesture);
+}
+
+bool changes_constants(const Edit& edit) {
+  return std::holds_alternative<edit::Change>(edit) || std::holds_alternative<edit::Pin>(edit) ||
+         std::holds_alternative<edit::MoveBody>(edit);
+}
+
+/// Whether an edit may change the motion itself, so that undoing it brings the cloth of that moment back.
+bool changes_motion(const Session& session, const Edit& edit) {
+  if (session.simulation->divergence()) return false;  // nobody wants that back
+  if (std::holds_alternative<edit::Restart>(edit)) return session.simulation->steps() > 0;
+  return std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit) ||
+         std::holds_alternative<edit::Grab>(edit);
+}
+
+/// Whether it is a hand or a knife in the cloth.
+bool touches(const Edit& edit) {
+  return std::holds_alternative<edit::Grab>(edit) || std::holds_alternative<edit::Cut>(edit) ||
+         std::holds_alternative<edit::CutSprings>(edit);
+}
+
+/// What stands before an edit that changes the motion; none of others, and where the gesture has its entry already.
+std::optional<HistoryEntry> before_motion(Session& session, const Edit& edit, unsigned gesture) {
+  if (!changes_motion(session, edit) || !session.history.begins(gesture) || session.rebuild.holds_present())
+    return std::nullopt;
+  return motion_entry(session, name_of(session, edit));
 }
 
 /// What changes while another cloth is being built is felt at once where that is quick.
@@ -87,7 +133,7 @@ std::optional<bool> build_beside(Session& session, const Edit& edit, unsigned ge
   }
   const Preset before = session.requested_preset(), next = change != nullptr ? change->preset : before;
   const History history = session.history;
-  record(session, before, next, gesture);
+  record(session, before, next, name_of(session, edit), gesture);
   if (rebuild.requested_preset() != nullptr) change_present(session, before, next);
   BuildOrder order;
   order.target = next;
@@ -99,6 +145,13 @@ std::optional<bool> build_beside(Session& session, const Edit& edit, unsigned ge
 }
 
 }  // namespace
+
+HistoryEntry motion_entry(Session& session, std::string what) {
+  HistoryEntry entry{session.requested_preset(), session.simulation->time(), std::move(what)};
+  entry.too_large = Snapshot::bytes(session.simulation->lattice()) > History::most_bytes;
+  if (!entry.too_large) entry.state = std::make_shared<const Snapshot>(session.simulation->snapshot());
+  return entry;
+}
 
 void follow_up(Session& session, const Preset& before) {
   const Preset& now = session.preset();
@@ -124,12 +177,31 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
       if (const std::string wrong = check_preset(change->preset); !wrong.empty()) throw PresetError(wrong);
     if (!take_texture(session, edit)) return false;
     if (!only_seen(session, edit)) settle(session);
-    if (const auto taken = build_beside(session, edit, gesture)) return *taken;
+    std::optional<HistoryEntry> motion = before_motion(session, edit, gesture);
+    const auto torn = session.simulation->tears().torn_count();
+    if (const auto taken = build_beside(session, edit, gesture)) {
+      if (*taken && motion && std::holds_alternative<edit::Restart>(edit))
+        session.history.record(*std::move(motion), gesture);
+      return *taken;
+    }
     const Preset before = session.preset();
+    // The entry takes its memory before the edit is made.
+    const bool moves = motion.has_value();
+    History recorded;
+    if (moves || changes_constants(edit)) {
+      recorded = session.history;
+      recorded.record(
+          moves ? *std::move(motion) : HistoryEntry{before, session.simulation->time(), name_of(session, edit)},
+          gesture);
+    }
     apply_to_all(session, edit);
     if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(session);
+    session.counts.touches += touches(edit);
+    // A knife may have gone through nothing.
+    const bool cuts = std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit);
+    const bool moved = moves && !(cuts && session.simulation->tears().torn_count() == torn);
+    if (moved || !changes(before, session.preset()).within(Effect::view)) session.history = std::move(recorded);
     if (before == session.preset()) return true;
-    record(session, before, session.preset(), gesture);
     follow_up(session, before);
     return true;
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,9 @@
 // window.
 #pragma once
 
+#include <string>
+
+#include "app/session/history.h"
 #include "core/edit.h"
 
 namespace tyglab {
@@ -14,6 +17,8 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture = 0);
 /// Gives an edit to the cloth and its copies, with no more checks or traces than they make themselves. Throws as
 /// Simulation::apply.
 void apply_to_all(Session& session, const Edit& edit);
+/// What stands now, to be brought back when an action is undone that changes the motion itself.
+HistoryEntry motion_entry(Session& session, std::string what);
 /// What follows where the cloth of these constants has given way to the present one.
 void follow_up(Session& session, const Preset& before);
 

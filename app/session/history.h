@@ -1,54 +1,65 @@
-// Undo and redo of constants: whole presets, one for each gesture.
+// Undo and redo: what stood before each action, one entry a gesture.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/model/preset.h"
+#include "core/simulation.h"
 
 namespace tyglab {
 
+/// What is brought back when an action is undone, or done again.
+struct HistoryEntry {
+  Preset constants;
+  double t = 0;           ///< s, when the action was taken
+  std::string what = {};  ///< "cut"; empty: the constants that differ say it
+  /// Of an action that changed the motion itself: the cloth at `t`. Null: the motion goes on as it is.
+  std::shared_ptr<const Snapshot> state = nullptr;
+  bool too_large = false;  ///< the state should be here, but is larger than all that may be kept
+};
+
 class History {
  public:
-  /// Remembers what stood before a change. Changes of the same gesture (not 0) that follow each other count as one.
-  void record(const Preset& before, unsigned gesture) {
-    redo_.clear();
-    if (gesture != 0 && gesture == gesture_) return;
-    gesture_ = gesture;
-    undo_.push_back(before);
-    if (undo_.size() > most) undo_.erase(undo_.begin());
-  }
+  static constexpr std::size_t most = 200;
+  static constexpr std::size_t most_bytes = 96 << 20;  ///< of all states together
+
+  /// Whether a change of this gesture is an entry of its own: changes of one gesture (not 0) that follow each other
+  /// count as one.
+  bool begins(unsigned gesture) const { return gesture == 0 || gesture != gesture_; }
+  /// Remembers what stands before an action.
+  void record(HistoryEntry before, unsigned gesture);
   /// The next change is a gesture of its own.
   void end_gesture() { gesture_ = 0; }
   bool can_undo() const { return !undo_.empty(); }
-  /// What an undo would bring back; null: nothing.
-  const Preset* last() const { return undo_.empty() ? nullptr : &undo_.back(); }
   bool can_redo() const { return !redo_.empty(); }
-  std::optional<Preset> undo(const Preset& present) { return move(undo_, redo_, present); }
-  std::optional<Preset> redo(const Preset& present) { return move(redo_, undo_, present); }
-  /// Of all presets that it keeps.
-  std::size_t bytes() const {
-    std::size_t total = 0;
-    for (const auto* list : {&undo_, &redo_})
-      for (const Preset& p : *list)
-        total += sizeof p + p.name.size() + p.description.size() + p.bodies.size() * sizeof(Body) +
-                 p.pins.list.size() * sizeof(Pins::Site);
-    return total;
+  /// What an undo or a redo would bring back; null: there is none.
+  const HistoryEntry* next(bool backwards) const {
+    const auto& from = backwards ? undo_ : redo_;
+    return from.empty() ? nullptr : &from.back();
   }
+  /// How the action is called that an undo or a redo is about, while these are the constants; there must be one.
+  std::string what(bool backwards, const Preset& present) const;
+  /// Takes the newest entry out, and puts what stands now in its place on the other side; there must be one. Where
+  /// `now` is none, what is taken cannot be brought back again.
+  HistoryEntry take(bool backwards, std::optional<HistoryEntry> now);
+  /// The motion has gone back to `t`, s: actions since then that changed it have been undone with it.
+  void go_back(double t);
+  /// The constants before the first action since `t`, s; null: there was none.
+  const Preset* before(double t) const;
+  /// Of all that it keeps.
+  std::size_t bytes() const;
   void clear() { undo_.clear(), redo_.clear(), gesture_ = 0; }
 
  private:
-  static constexpr std::size_t most = 200;
-  std::optional<Preset> move(std::vector<Preset>& from, std::vector<Preset>& to, const Preset& present) {
-    gesture_ = 0;
-    if (from.empty()) return std::nullopt;
-    to.push_back(present);
-    Preset preset = std::move(from.back());
-    from.pop_back();
-    return preset;
-  }
-  std::vector<Preset> undo_, redo_;
+  std::vector<HistoryEntry> undo_, redo_;
   unsigned gesture_ = 0;
 };
+
+/// What the user has done to the constants, to be read: "k_s 50 → 100 N/m", "dt and 3 more constants".
+std::string change_in_words(const Preset& before, const Preset& after);
 
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 // (docs/labs/README.md says how a file looks).
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -27,11 +28,23 @@ struct Operand {
 
 enum class Relation { less, at_most, equal, unlike, at_least, greater };
 
+/// Over which part of the motion a condition is judged; the motion begins with the last restart, or with the step.
+enum class Span {
+  now,         ///< at the moment at which the step is completed
+  throughout,  ///< at every moment of the motion
+  once,        ///< at some moment of it
+  lasting,     ///< for the last `seconds` of it
+  when         ///< at the first moment at which another condition holds
+};
+
 /// What must hold: the observable `name`, related to the operand.
 struct Condition {
   std::string name;
   Relation relation = Relation::equal;
   Operand right;
+  Span span = Span::now;
+  double seconds = 0;           ///< simulated, of Span::lasting
+  std::vector<Condition> when;  ///< of Span::when: the one that decides the moment
 };
 
 /// What the student says before doing anything: a number, or one of several sentences.
@@ -63,13 +76,22 @@ struct LabStep {
   std::optional<double> stop;  ///< s: simulated time at which the motion pauses by itself
   std::vector<Condition> checks;
   bool needs_opencl = false;
-  Paragraphs explanation;  ///< shown afterwards
+  std::string show;             ///< a card or plot that comes into sight, by its name in lab_cards; empty: none
+  std::optional<double> speed;  ///< simulated seconds per second; none: as the student has set it
+  std::optional<int> view;      ///< 1 to 5
+  std::string color;            ///< name of the field that colors the cloth; empty: its own look
+  Paragraphs explanation;       ///< shown afterwards
 };
+
+/// What `show` can name.
+inline constexpr std::array<std::string_view, 9> lab_cards{"forces",      "height", "stability", "accuracy", "energy",
+                                                           "performance", "copies", "map",       "step"};
 
 struct Lab {
   std::string label;  ///< the file's name without .md
   std::string title;
-  Paragraphs summary;
+  Paragraphs summary;  ///< the first of them says what it is for
+  int minutes = 0;     ///< that it takes, about; 0: the file does not say
   std::vector<LabStep> steps;
 };
 
@@ -79,7 +101,7 @@ Lab parse_lab(std::string_view text, std::string_view source, const std::filesys
 /// Reads a file. Throws LabError.
 Lab load_lab(const std::filesystem::path& file);
 
-/// The check in words: "k_s ≥ 180 N/m".
+/// The check in words: "k_s ≥ 180 N/m throughout", "Integrator: Verlet".
 std::string words_of(const Condition& condition);
 
 }  // namespace tyglab

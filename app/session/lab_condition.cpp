@@ -6,6 +6,7 @@
 
 #include "app/session/lab_text.h"
 #include "app/session/observables.h"
+#include "core/integrators/scheme.h"
 #include "core/model/notation.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
@@ -69,12 +70,111 @@ Operand operand(const std::vector<std::string>& words, std::size_t from, std::st
   return given;
 }
 
+constexpr std::array<std::string_view, 2> span_words{"throughout", "once"};
+
+bool is_span_word(const std::string& word) {
+  return word == "throughout" || word == "once" || word == "for" || word == "when";
+}
+
+/// Takes "throughout", "once", "for 0.5 s" or "when torn > 0" from the end of a check's words.
+void take_span(std::vector<std::string>& words, bool first_step, Condition& given) {
+  const auto first = std::find_if(words.begin(), words.end(), is_span_word);
+  if (first == words.end()) return;
+  const std::vector<std::string> suffix(first, words.end());
+  words.erase(first, words.end());
+  if (suffix[0] == "when") {
+    given.span = Span::when;
+    if (std::any_of(suffix.begin() + 1, suffix.end(), is_span_word))
+      throw LabError("after when stands a plain check, without throughout, once, for or another when");
+    if (suffix.size() == 1) throw LabError("when needs a check after it, such as: F_max < 0.1 N when torn > 0");
+    given.when.push_back(parse_condition(joined(std::span(suffix).subspan(1), " "), first_step));
+    return;
+  }
+  if (std::any_of(suffix.begin() + 1, suffix.end(), is_span_word))
+    throw LabError("a check has one of throughout, once, for and when; write another check: line for the other");
+  if (suffix[0] == "for") {
+    const auto seconds = suffix.size() > 1 ? plain_number(suffix[1]) : std::nullopt;
+    if (!seconds || *seconds <= 0 || suffix.size() > 3 || (suffix.size() == 3 && suffix[2] != "s"))
+      throw LabError("for is followed by a simulated time above 0, such as: fastest < 0.1 m/s for 0.5 s");
+    given.span = Span::lasting, given.seconds = *seconds;
+    return;
+  }
+  if (suffix.size() > 1) throw LabError(suffix[0] + " ends a check; remove what stands behind it");
+  given.span = suffix[0] == "once" ? Span::once : Span::throughout;
+}
+
+/// Whether that quantity can be judged so.
+void check_span(const Condition& given, const std::vector<std::string>& words) {
+  if (words.size() > 3 && given.span == Span::now)
+    for (const std::string_view known : span_words)
+      if (words.back().size() > 2 && nearest(words.back(), std::span(&known, 1)))
+        throw LabError("\"" + words.back() + "\" ends no check; did you mean " + std::string(known) + "?");
+  if (given.span == Span::now) return;
+  const bool measured = is_measured(given.name) || (!given.when.empty() && is_measured(given.when[0].name));
+  if (measured)
+    throw LabError(given.name +
+                   " or what it depends on is measured beside the motion, not in every step; write the "
+                   "check without throughout, once, for and when");
+  if (given.span != Span::when && (given.name == "t" || given.name == "steps"))
+    throw LabError(given.name + " only grows: write the check without throughout, once and for");
+}
+
+std::string_view sign_of(Relation relation) {
+  return std::find_if(relation_signs.begin(), relation_signs.end(),
+                      [&](const RelationSign& s) { return s.relation == relation; })
+      ->shown;
+}
+
+std::string words_of_span(const Condition& condition) {
+  switch (condition.span) {
+    case Span::now:
+      return "";
+    case Span::throughout:
+      return " throughout";
+    case Span::once:
+      return " once";
+    case Span::lasting:
+      return " for " + shortest_number(condition.seconds) + " s";
+    case Span::when:
+      return " when " + words_of(condition.when[0]);
+  }
+  return "";
+}
+
+/// "Nothing else changed", "Integrator: Verlet", "Precision: not float".
+std::string words_of_word(const Condition& condition) {
+  const std::string label(find_observable(condition.name)->label);
+  const bool same = condition.relation == Relation::equal;
+  if (condition.name == "untouched" && same == (condition.right.word == "yes")) return label;
+  return label + (same ? ": " : ": not ") + shown_word(condition.name, condition.right.word);
+}
+
+std::string words_of_number(const Condition& condition) {
+  const Operand& right = condition.right;
+  std::string text = condition.name + " " + std::string(sign_of(condition.relation)) + " ";
+  if (right.name.empty()) {
+    const std::string_view unit = unit_of(condition.name);
+    return text + shortest_number(right.factor) + (unit.empty() ? "" : " " + std::string(unit));
+  }
+  if (right.factor != 1) text += shortest_number(right.factor) + " × ";
+  return text + right.name + (right.before ? " before" : "");
+}
+
 }  // namespace
 
+std::string shown_word(std::string_view name, std::string_view word) {
+  if (name == "integrator") return std::string(scheme(word).title);
+  if (word == engine_names[0]) return "CPU";
+  return word == engine_names[1] ? "OpenCL" : std::string(word);
+}
+
 Condition parse_condition(std::string_view value, bool first_step) {
-  const std::vector<std::string> words = words_in(value);
+  std::vector<std::string> words = words_in(value);
   Condition given;
+  take_span(words, first_step, given);
+  if (words.empty()) throw LabError("a check begins with a quantity, such as check: k_s >= 180 N/m throughout");
   given.name = known_name(words[0]);
+  check_span(given, words);
   if (given.name == "apart" && first_step)
     throw LabError("apart is measured from the step before, and there is none before the first");
   const auto sign = std::find_if(relation_signs.begin(), relation_signs.end(),
@@ -116,18 +216,7 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
 }
 
 std::string words_of(const Condition& condition) {
-  const auto sign = std::find_if(relation_signs.begin(), relation_signs.end(),
-                                 [&](const RelationSign& s) { return s.relation == condition.relation; });
-  const Operand& right = condition.right;
-  if (!right.word.empty())
-    return condition.name + (condition.relation == Relation::equal ? " is " : " is not ") + right.word;
-  std::string text = condition.name + " " + std::string(sign->shown) + " ";
-  if (right.name.empty()) {
-    const std::string_view unit = unit_of(condition.name);
-    return text + shortest_number(right.factor) + (unit.empty() ? "" : " " + std::string(unit));
-  }
-  if (right.factor != 1) text += shortest_number(right.factor) + " × ";
-  return text + right.name + (right.before ? " before" : "");
+  return (is_word(condition.name) ? words_of_word(condition) : words_of_number(condition)) + words_of_span(condition);
 }
 
 }  // namespace tyglab

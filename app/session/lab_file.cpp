@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -10,6 +11,7 @@
 #include "app/session/lab.h"
 #include "app/session/lab_condition.h"
 #include "app/session/lab_text.h"
+#include "core/fields/particle_field.h"
 #include "core/io/input_file.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
@@ -20,9 +22,10 @@ namespace {
 
 constexpr std::uintmax_t most_bytes = 1 << 20;
 
-/// The last stands on the line of another.
-constexpr std::array<std::string_view, 11> lab_keys{"open", "set",  "predict", "answer", "choice", "right",
-                                                    "do",   "stop", "check",   "needs",  "within"};
+/// The last stands on the line of another, and the one before it in the head's block.
+constexpr std::array<std::string_view, 16> lab_keys{"open", "set",   "predict", "answer", "choice", "right",
+                                                    "do",   "stop",  "check",   "needs",  "show",   "speed",
+                                                    "view", "color", "minutes", "within"};
 
 class LabReader {
  public:
@@ -65,6 +68,11 @@ class LabReader {
   void take_answer(std::string_view value);
   void take_seconds(std::string_view value);
   void take_needs(std::string_view value);
+  void take_minutes(std::string_view key, std::string_view value);
+  void take_show(std::string_view value);
+  void take_speed(std::string_view value);
+  void take_view(std::string_view value);
+  void take_color(std::string_view value);
 
   std::string_view text_;
   std::string source_;
@@ -152,9 +160,10 @@ void LabReader::begin_step(std::string_view title) {
 }
 
 void LabReader::begin_block() {
-  if (lab_.steps.empty()) fail("a ```lab block belongs to a step; begin one with a line such as ## Look first");
-  if (had_block_) fail("this step has a ```lab block already; put both in one, or begin another step with ##");
-  step().text = prose_.take();
+  if (had_block_)
+    fail(lab_.steps.empty() ? "the lab has a ```lab block under its title already; put both in one"
+                            : "this step has a ```lab block already; put both in one, or begin another step with ##");
+  if (!lab_.steps.empty()) step().text = prose_.take();
   in_block_ = had_block_ = true;
   block_line_ = line_;
   predict_line_ = open_line_ = rights_ = 0;
@@ -188,6 +197,7 @@ void LabReader::end_prediction() {
 
 void LabReader::end_block() {
   in_block_ = false;
+  if (lab_.steps.empty()) return;
   if (step().prediction) noted([&] { end_prediction(); });
   if (step().open) noted([&] { end_opening(); });
 }
@@ -231,8 +241,9 @@ void LabReader::take_key(std::string_view line) {
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
   if (std::find(lab_keys.begin(), lab_keys.end(), key) == lab_keys.end())
     fail("\"" + std::string(key) + "\" is not a key of a lab" +
-         did_you_mean(key, lab_keys, "; known: " + joined(std::span(lab_keys).first<10>())));
+         did_you_mean(key, lab_keys, "; known: " + joined(std::span(lab_keys).first<15>())));
   if (value.empty()) fail(std::string(key) + ": has no value; write it after the colon, or remove the line");
+  if (lab_.steps.empty()) return take_minutes(key, value);
   take_value(key, value);
 }
 
@@ -271,9 +282,60 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
     step().checks.push_back(placed([&] { return parse_condition(value, first_step()); }));
   } else if (key == "needs") {
     take_needs(value);
+  } else if (key == "show") {
+    take_show(value);
+  } else if (key == "speed") {
+    take_speed(value);
+  } else if (key == "view") {
+    take_view(value);
+  } else if (key == "color") {
+    take_color(value);
+  } else if (key == "minutes") {
+    fail("minutes: is of the whole lab; put it in a ```lab block under the title, before the first ##");
   } else {
     fail("within belongs on the line of the answer: answer: 0.098 m within 10 %");
   }
+}
+
+/// The block under the title, which says of the lab as a whole how long it takes.
+void LabReader::take_minutes(std::string_view key, std::string_view value) {
+  if (key != "minutes")
+    fail(std::string(key) + ": belongs to a step; the block under the title has minutes: alone. Begin a step with a " +
+         "line such as ## Look first");
+  const auto minutes = plain_number(value);
+  if (!minutes || *minutes < 1 || *minutes > 600 || *minutes != std::floor(*minutes))
+    fail("minutes: is a whole number from 1 to 600, such as minutes: 15");
+  lab_.minutes = int(*minutes);
+}
+
+void LabReader::take_show(std::string_view value) {
+  if (std::find(lab_cards.begin(), lab_cards.end(), value) == lab_cards.end())
+    fail("show: there is no card \"" + std::string(value) + "\"" +
+         did_you_mean(value, lab_cards, "; known: " + joined(lab_cards)));
+  step().show = value;
+}
+
+void LabReader::take_speed(std::string_view value) {
+  const auto speed = plain_number(value);
+  if (!speed || *speed < 0.001 || *speed > 10)
+    fail("speed: is simulated time over real time, from 0.001 to 10, such as speed: 0.1");
+  step().speed = speed;
+}
+
+void LabReader::take_view(std::string_view value) {
+  const auto view = plain_number(value);
+  if (!view || *view < 1 || *view > 5 || *view != std::floor(*view))
+    fail("view: is 1 (triangles), 2 (connections), 3 (both), 4 (outlines) or 5 (points)");
+  step().view = int(*view);
+}
+
+void LabReader::take_color(std::string_view value) {
+  std::vector<std::string_view> names;
+  for (const FieldInfo& field : particle_fields()) names.push_back(field.name);
+  if (std::find(names.begin(), names.end(), value) == names.end())
+    fail("color: no field is called \"" + std::string(value) + "\"" +
+         did_you_mean(value, names, "; known: " + joined(names)));
+  step().color = value;
 }
 
 void LabReader::take_needs(std::string_view value) {

@@ -8,17 +8,19 @@
 #include "app/base/numbers.h"
 #include "app/base/preset_files.h"
 #include "app/base/settings.h"
+#include "app/session/document.h"
+#include "app/session/edits.h"
 #include "app/session/observables.h"
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/io/preset_io.h"
+#include "core/model/changes.h"
 #include "core/model/notation.h"
 
 namespace tyglab {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double equal_within = 1e-4;  // of a value: what "=" counts as equal; sliders give three digits
 
 std::vector<fs::path> lab_files(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -39,7 +41,8 @@ std::vector<fs::path> all_lab_files() {
 
 /// Whether a step asks for something of the one before.
 bool looks_back(const LabStep& step) {
-  const auto back = [](const Condition& c) { return c.right.before || c.name == "apart"; };
+  const auto asks = [](const Condition& c) { return c.right.before || c.name == "apart"; };
+  const auto back = [&](const Condition& c) { return asks(c) || std::any_of(c.when.begin(), c.when.end(), asks); };
   return std::any_of(step.checks.begin(), step.checks.end(), back) ||
          (step.prediction && step.prediction->answer.before);
 }
@@ -49,49 +52,6 @@ std::size_t resumed_at(const Lab& lab, int done) {
   std::size_t at = std::size_t(done) < lab.steps.size() ? std::size_t(done) : 0;
   while (at > 0 && (!lab.steps[at].open || looks_back(lab.steps[at]))) --at;
   return at;
-}
-
-/// The value of an operand; none while it is not known.
-std::optional<double> value_of(Session& session, const Operand& operand) {
-  if (operand.name.empty()) return operand.factor;
-  if (!operand.before) {
-    const auto value = observe(session, operand.name);
-    return value ? std::optional(operand.factor * *value) : std::nullopt;
-  }
-  const LabRun& run = *session.labs.run;
-  if (run.step == 0) return std::nullopt;
-  const auto& values = run.records[run.step - 1].outcome.values;
-  const auto then = values.find(operand.name);
-  return then != values.end() ? std::optional(operand.factor * then->second) : std::nullopt;
-}
-
-bool related(double left, Relation relation, double right) {
-  const bool equal = std::abs(left - right) <= equal_within * std::max(std::abs(left), std::abs(right));
-  switch (relation) {
-    case Relation::less:
-      return left < right;
-    case Relation::at_most:
-      return left <= right || equal;
-    case Relation::equal:
-      return equal;
-    case Relation::unlike:
-      return !equal;
-    case Relation::at_least:
-      return left >= right || equal;
-    case Relation::greater:
-      return left > right;
-  }
-  return false;
-}
-
-CheckState check_now(Session& session, const Condition& condition) {
-  if (is_word(condition.name)) {
-    const bool same = observe_word(session, condition.name) == condition.right.word;
-    return same == (condition.relation == Relation::equal) ? CheckState::holds : CheckState::open;
-  }
-  const auto left = observe(session, condition.name), right = value_of(session, condition.right);
-  if (!left || !right) return CheckState::unknown;
-  return related(*left, condition.relation, *right) ? CheckState::holds : CheckState::open;
 }
 
 /// What the step that follows wants to know of this moment.
@@ -105,9 +65,13 @@ void keep_outcome(Session& session, LabRun& run) {
     if (const auto value = observe(session, operand.name)) outcome.values[operand.name] = *value;
   };
   if (next.prediction) keep(next.prediction->answer);
-  for (const Condition& check : next.checks) {
+  const auto keep_for = [&](const Condition& check) {
     keep(check.right);
     if (check.name == "apart") outcome.state = session.simulation->read();
+  };
+  for (const Condition& check : next.checks) {
+    keep_for(check);
+    std::for_each(check.when.begin(), check.when.end(), keep_for);
   }
 }
 
@@ -127,12 +91,44 @@ void judge_prediction(Session& session, LabRun& run) {
   record.right = std::abs(*said - *answer) <= asked.within * (asked.relative ? std::abs(*answer) : 1);
 }
 
+/// The constants that a step opens with; none where they cannot be read.
+std::optional<Preset> opening_preset(const LabStep& step) {
+  try {
+    return with_settings(load_preset(find_preset(step.open->preset).file), step.open->settings);
+  } catch (const std::exception&) {
+    return std::nullopt;  // who opens it says why
+  }
+}
+
+/// The present step is watched from here on, and nothing is remembered of what was before.
+void begin_watching(Session& session, LabRun& run) {
+  StepRecord& record = run.record();
+  record.checks.assign(run.now().checks.size(), CheckState::open);
+  record.seen.assign(run.now().checks.size(), {});
+  run.watch = {session.simulation->steps(), session.counts.touches};
+  run.begun = session.requested_preset();
+  if (run.now().open) run.begun = opening_preset(run.now()).value_or(run.begun);
+}
+
 void complete(Session& session, LabRun& run) {
   run.record().done = run.show_explanation = true;
   judge_prediction(session, run);
   keep_outcome(session, run);
   int& done = session.labs.progress[run.lab.label];
   done = std::max(done, int(run.step) + 1);
+}
+
+/// What the step wants to be seen, and at which speed.
+void set_out(Session& session) {
+  const LabStep& step = session.labs.run->now();
+  session.pacing.speed = step.speed.value_or(session.labs.own_speed);
+  session.pacing.restart_measure();
+  if (step.view && !step.open) {
+    Preset next = session.requested_preset();
+    next.mode = *step.view;
+    session.propose(std::move(next));
+  }
+  ++session.counts.lab_steps;
 }
 
 }  // namespace
@@ -180,7 +176,10 @@ void begin_lab(Session& session, std::string_view label) {
   const std::vector<Lab>& list = find_labs(session);
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return session.messages.error("There is no lab " + std::string(label) + ".");
+  keep_experiment(session);
+  session.labs.begun_with = session.counts.documents;
   if (put_away_copies(session)) session.messages.note("The copies were removed: a lab begins with one cloth.");
+  if (!session.labs.run) session.labs.own_speed = session.pacing.speed;
   ++session.counts.labs_begun;
   LabRun& run = session.labs.run.emplace();
   run.lab = *lab;
@@ -194,28 +193,33 @@ void enter_step(Session& session, std::size_t step) {
   run.step = std::min(step, run.lab.steps.size() - 1);
   run.show_explanation = false;
   if (!run.record().done) run.record() = {};
-  run.record().checks.assign(run.now().checks.size(), CheckState::open);
+  begin_watching(session, run);
   if (run.now().needs_opencl && !session.labs.opencl) session.labs.opencl = !opencl_devices().devices.empty();
   // What can only be read opens nothing that cannot run.
-  if (!run.record().done && !cannot_be_done(session)) set_up_step(session);
+  if (run.record().done || cannot_be_done(session)) return;
+  set_up_step(session);
+  set_out(session);
 }
 
 void back_step(Session& session) {
   LabRun& run = *session.labs.run;
   if (run.step > 0) --run.step;
   run.show_explanation = false;
+  if (!run.record().done) begin_watching(session, run);
 }
 
 void set_up_step(Session& session) {
-  const auto& opening = session.labs.run->now().open;
-  if (!opening) return;
+  const LabStep& step = session.labs.run->now();
+  if (!step.open) return;
   session.pacing.playing = false;
   try {
-    const PresetSource source = find_preset(opening->preset);
-    // What a step before left behind is no work that could be lost.
-    const bool own = !session.labs.opened.empty() && session.labs.opened == session.document.label;
+    const PresetSource source = find_preset(step.open->preset);
     const bool shipped = source.file.parent_path() == data_folder() / "presets";
-    session.request(request::Open{source.file, shipped, own, opening->settings});
+    std::vector<std::string> settings = step.open->settings;
+    if (step.view) settings.push_back("mode=" + std::to_string(*step.view));
+    // What a step before left behind is no work that could be lost; what is, is kept.
+    if (session.counts.documents != session.labs.begun_with) keep_experiment(session);
+    session.request(request::Open{source.file, shipped, true, std::move(settings)});
     session.labs.opened = source.file.stem().string();
   } catch (const std::exception& error) {
     session.messages.error(error.what());
@@ -223,7 +227,48 @@ void set_up_step(Session& session) {
 }
 
 void leave_lab(Session& session) {
-  session.labs.run.reset();
+  LabState& labs = session.labs;
+  if (!labs.run) return;
+  if (!lab_is_away(session)) labs.left_behind = session.requested_preset();
+  labs.run.reset();
+  session.pacing.speed = labs.own_speed;
+  session.pacing.restart_measure();
+  if (!labs.kept.empty())
+    session.messages.note("“" + labs.kept.back().constants.name +
+                          "” is kept as it was before the lab: Back to your experiment, in Ctrl+P, opens it.");
+}
+
+bool no_work(const Session& session) {
+  const LabState& labs = session.labs;
+  if (labs.run) return !labs.opened.empty() && !lab_is_away(session);
+  return labs.left_behind && changes(*labs.left_behind, session.requested_preset()).within(Effect::view);
+}
+
+void keep_experiment(Session& session) {
+  if (!unsaved(session)) return;
+  constexpr std::size_t most = 4;
+  settle(session);
+  KeptExperiment kept{session.document, session.requested_preset(), nullptr, session.history};
+  if (!session.simulation->divergence() && !session.rebuild.holds_present())
+    kept.state = motion_entry(session, "").state;
+  std::vector<KeptExperiment>& list = session.labs.kept;
+  list.push_back(std::move(kept));
+  if (list.size() > most) list.erase(list.begin());
+}
+
+void back_to_experiment(Session& session) {
+  LabState& labs = session.labs;
+  if (labs.kept.empty()) return;
+  keep_experiment(session);  // what was done since the lab
+  if (labs.kept.size() > 1 && unsaved(session)) std::rotate(labs.kept.end() - 2, labs.kept.end() - 1, labs.kept.end());
+  const KeptExperiment kept = std::move(labs.kept.back());
+  labs.kept.pop_back();
+  if (labs.run) labs.run.reset(), session.pacing.speed = labs.own_speed;
+  session.pacing.playing = false;
+  reopen_document(session, kept.constants, kept.document);
+  if (kept.state && session.simulation->fits(*kept.state) && !session.rebuild.busy())
+    session.simulation->restore(*kept.state);
+  session.history = kept.history;
 }
 
 bool predict(Session& session) {
@@ -239,9 +284,13 @@ bool cannot_be_done(Session& session) {
   return session.labs.run->now().needs_opencl && session.labs.opencl == false;
 }
 
-bool lab_waits(const Session& session) {
+bool lab_is_away(const Session& session) {
   const LabState& labs = session.labs;
-  return labs.run && !labs.run->record().done && !labs.opened.empty() && labs.opened != session.document.label;
+  return labs.run && !labs.opened.empty() && labs.opened != session.document.label;
+}
+
+bool lab_waits(const Session& session) {
+  return lab_is_away(session) && !session.labs.run->record().done;
 }
 
 void resume_lab(Session& session) {
@@ -258,10 +307,11 @@ void watch_lab(Session& session) {
   const LabStep& step = run.now();
   const bool predicted = !step.prediction || record.predicted;
   if (cannot_be_done(session)) return predicted ? complete(session, run) : void();
-  record.checks.resize(step.checks.size());
+  record.checks.resize(step.checks.size()), record.seen.resize(step.checks.size());
+  const MotionChange change = follow_motion(session, run.watch);
   bool all = predicted;
   for (std::size_t k = 0; k < step.checks.size(); ++k) {
-    record.checks[k] = check_now(session, step.checks[k]);
+    record.checks[k] = judge(session, step.checks[k], change, record.seen[k]);
     all &= record.checks[k] == CheckState::holds;
   }
   if (all) complete(session, run);
@@ -276,7 +326,10 @@ Wants lab_wants(const Session& session) {
     if (row != nullptr && row->needs != nullptr) wants.*row->needs = true;
   };
   if (step.prediction) need(step.prediction->answer.name);
-  for (const Condition& check : step.checks) need(check.name), need(check.right.name);
+  for (const Condition& check : step.checks) {
+    need(check.name), need(check.right.name);
+    for (const Condition& moment : check.when) need(moment.name), need(moment.right.name);
+  }
   return wants;
 }
 

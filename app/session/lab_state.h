@@ -2,20 +2,24 @@
 //
 // A lab's file is read line by line and refused whole, with its line (lab_file.cpp). Presets, settings and words of
 // checks are looked up there and then, so a lab that is read can be played. watch_lab asks the checks of the present
-// step in every frame, and keeps at the moment of its completion what the next step compares with. Where a step says
-// `stop`, up_to_stop shortens the frame's steps, so that the motion pauses at exactly that simulated time and two runs
-// can be compared particle by particle. While another preset than the step's is open, the lab waits (lab_waits). None
-// of it knows the window: tests/app/lab_play_test.cpp plays every lab without one.
+// step in every frame (lab_check.h), and keeps at the moment of its completion what the next step compares with. Where
+// a step says `stop`, up_to_stop shortens the frame's steps, so that the motion pauses at exactly that simulated time
+// and two runs can be compared particle by particle. While another preset than the step's is open, the lab waits
+// (lab_waits). None of it knows the window: tests/app/lab_play_test.cpp plays every lab without one.
 #pragma once
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/session/history.h"
 #include "app/session/lab.h"
+#include "app/session/lab_check.h"
+#include "app/session/rebuild.h"
 #include "app/studies/studies.h"
 #include "core/cloth/state.h"
 
@@ -29,13 +33,12 @@ struct StepOutcome {
   std::optional<State> state;  ///< where a later step asks how far apart the cloth is from it
 };
 
-enum class CheckState { unknown, open, holds };
-
 struct StepRecord {
   char typed[32] = "";  ///< of a prediction that is a number
   int chosen = -1;
   bool predicted = false;
   std::vector<CheckState> checks;  ///< as they are now
+  std::vector<CheckMemory> seen;   ///< what each remembers of the motion
   bool done = false;               ///< all held at once, at least once
   bool right = false;              ///< the prediction, once it is done
   double answer = 0;               ///< the right number then
@@ -47,9 +50,19 @@ struct LabRun {
   std::size_t step = 0;
   std::vector<StepRecord> records;
   bool show_explanation = false;  ///< it has just come: the card scrolls to it
+  Preset begun;                   ///< the constants with which the present step began
+  MotionWatch watch;
   const LabStep& now() const { return lab.steps[step]; }
   StepRecord& record() { return records[step]; }
   const StepRecord& record() const { return records[step]; }
+};
+
+/// The user's own experiment, as it stood when a lab took its place with changes that no file has.
+struct KeptExperiment {
+  Document document;
+  Preset constants;
+  std::shared_ptr<const Snapshot> state;  ///< null: it begins at its start
+  History history;
 };
 
 struct LabState {
@@ -59,6 +72,10 @@ struct LabState {
   std::optional<LabRun> run;
   std::optional<bool> opencl;           ///< whether there is a device; none: nobody has asked yet
   std::string opened;                   ///< label of the preset that a step opened last
+  double own_speed = 1;                 ///< Pacing::speed, outside labs
+  std::vector<KeptExperiment> kept;     ///< the last is gone back to first
+  std::uint64_t begun_with = 0;         ///< SessionCounts::documents of the cloth that was there when the lab began
+  std::optional<Preset> left_behind;    ///< constants of the lab's cloth, which is open still after the lab
   std::map<std::string, int> progress;  ///< by its name: how many of a lab's steps are done
 };
 
@@ -82,13 +99,21 @@ void back_step(Session& session);
 /// Opens the step's preset once more, where it has one.
 void set_up_step(Session& session);
 void leave_lab(Session& session);
+/// Keeps the present experiment where it has unsaved changes, to be gone back to after the lab.
+void keep_experiment(Session& session);
+/// Opens the experiment that was kept last, paused at its moment, and leaves the lab.
+void back_to_experiment(Session& session);
+/// Whether the present cloth is a lab's: what is done there is no work that could be lost.
+bool no_work(const Session& session);
 
 /// Takes what was typed or chosen as the prediction. False where there is nothing yet, or no number.
 bool predict(Session& session);
 /// Whether the machine lacks what the step needs, so that it can only be read.
 bool cannot_be_done(Session& session);
 
-/// Whether another preset has been opened than the step's: the lab then waits, and looks at nothing.
+/// Whether another preset is open than the lab's.
+bool lab_is_away(const Session& session);
+/// Whether that keeps the present step from being done: the lab then waits, and looks at nothing.
 bool lab_waits(const Session& session);
 /// Puts the lab's cloth back: at the current step, or the last one before it that opens one.
 void resume_lab(Session& session);

@@ -8,6 +8,21 @@ namespace {
 
 constexpr double rewinds_s = 1;
 
+/// The cloth is at another moment than it has come to by itself.
+void go_on_from_here(Session& session) {
+  copies_resume(session);
+  ++session.counts.hands;
+  session.recorded.clear();
+  session.pacing.restart_measure();
+}
+
+/// Brings a state back that an undo or a redo is about.
+void bring_back(Session& session, const Snapshot& then) {
+  then.t <= session.simulation->time() ? session.rewind.forget_after(then.t) : session.rewind.clear();
+  session.simulation->restore(then);
+  go_on_from_here(session);
+}
+
 }  // namespace
 
 void restart(Session& session) {
@@ -16,18 +31,32 @@ void restart(Session& session) {
   session.pacing.restart_measure();
 }
 
+void go_back(Session& session, double seconds) {
+  settle(session);
+  session.rewind.go_back(*session.simulation, session.simulation->time(), seconds);
+  session.history.go_back(session.simulation->time());
+  go_on_from_here(session);
+}
+
 bool rewind(Session& session) {
   const double t = session.simulation->time();
   if (session.rebuild.holds_present() || session.rewind.before(*session.simulation, t, rewinds_s) == nullptr)
     return false;
-  settle(session);
-  session.rewind.go_back(*session.simulation, t, rewinds_s);
-  copies_resume(session);
+  go_back(session, rewinds_s);
   if (!session.copies.lockstep.empty())
     session.messages.note("Copies are not rewound separately: they also continue from this state.");
-  ++session.counts.hands;
-  session.recorded.clear();
-  session.pacing.restart_measure();
+  return true;
+}
+
+bool rewind_and_say_what_stays(Session& session) {
+  if (!rewind(session)) return false;
+  const Preset* then = session.history.before(session.simulation->time());
+  if (then == nullptr) return true;
+  Preset now = session.requested_preset();
+  now.mode = then->mode;
+  if (now != *then)
+    session.messages.note("Rewound the motion, not the constants: " + change_in_words(*then, now) +
+                          " stays. Ctrl+Z undoes it.");
   return true;
 }
 
@@ -37,17 +66,33 @@ bool take_back(Session& session, const Preset& preset) {
 }
 
 void take_from_history(Session& session, bool backwards) {
-  const auto preset =
-      backwards ? session.history.undo(session.requested_preset()) : session.history.redo(session.requested_preset());
-  if (!preset) {
-    session.messages.note(backwards ? "There is nothing to undo." : "There is nothing to redo.");
-    return;
+  const HistoryEntry* entry = session.history.next(backwards);
+  if (entry == nullptr)
+    return session.messages.note(backwards ? "There is nothing to undo." : "There is nothing to redo.");
+  settle(session);
+  const Preset present = session.requested_preset();
+  const std::string what = session.history.what(backwards, present);
+  if (entry->too_large)
+    return session.messages.note("The " + what + " cannot be undone: of so large a cloth no earlier state is kept.");
+  if (entry->state && session.rebuild.holds_present())
+    return session.messages.note("Wait until the cloth has been built, then undo the " + what + ".");
+  History history = session.history;
+  std::optional<HistoryEntry> now = HistoryEntry{present, session.simulation->time(), entry->what};
+  if (entry->state) {
+    now.reset();
+    if (!session.simulation->divergence()) now = motion_entry(session, entry->what);
   }
-  History kept = session.history;
-  Preset next = *preset;
-  next.mode = session.requested_preset().mode;  // the view is not a change to undo
-  take_back(session, next);
-  session.history = std::move(kept);
+  const HistoryEntry then = history.take(backwards, std::move(now));
+  Preset next = then.constants;
+  next.mode = present.mode;  // the view is not a change to undo
+  if (next != present && !take_back(session, next)) return;
+  session.history = std::move(history);
+  std::string said = (backwards ? "Undone: " : "Redone: ") + what;
+  if (then.state && session.simulation->fits(*then.state)) {
+    bring_back(session, *then.state);
+    said += ". The cloth is at t = " + time_number(then.t, next.dt) + " s again";
+  }
+  session.messages.note(said + ".");
 }
 
 void reset_everything(Session& session) {

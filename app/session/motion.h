@@ -9,11 +9,16 @@ namespace tyglab {
 
 /// Back to the start with the present constants.
 void restart(Session& session);
-/// A second back; the plots forget what has not happened. False where there is nothing to go back to.
+/// A second back; the plots forget what has not happened, and so does the history of the actions since then that
+/// changed the motion. False where there is nothing to go back to.
 bool rewind(Session& session);
+/// Back by that much simulated time, s, or as far as states are kept; there must be one (Rewind::before).
+void go_back(Session& session, double seconds);
+/// The same, and says which constants stay though they were changed later than the moment that is back.
+bool rewind_and_say_what_stays(Session& session);
 /// Takes constants that stood before. An automatic dt stays so only if it is the one that would be chosen for them.
 bool take_back(Session& session, const Preset& preset);
-/// Undoes or redoes the last change of constants.
+/// Undoes or redoes the last action, whatever it was, and says which.
 void take_from_history(Session& session, bool backwards);
 /// The preset as it was opened: its constants, its start.
 void reset_everything(Session& session);

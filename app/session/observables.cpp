@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "app/session/lab_check.h"
 #include "app/session/session.h"
 #include "core/cloth/lattice.h"
 #include "core/integrators/names.h"
@@ -50,21 +51,22 @@ Known fastest_omega(Session& session) {
   const StabilityLimits* limits = present_limits(session);
   return limits != nullptr && limits->now ? Known(limits->omega) : std::nullopt;
 }
-/// Where the last stable or near zone of a constant ends.
+/// Where the zone of a constant begins in which not every shape of the cloth is stable any more.
 Known zone_end(Session& session, std::string_view key) {
   const StabilityLimits* limits = present_limits(session);
   if (limits == nullptr) return std::nullopt;
   const auto zones = limits->zones.find(key);
   if (zones == limits->zones.end()) return std::nullopt;
   for (const ZoneSpan& span : zones->second)
-    if (span.zone == Zone::unstable) return span.from;
+    if (span.zone != Zone::stable) return span.from;
   return std::nullopt;
 }
 
-/// The study of the accuracy card, once it has checked the present settings.
+/// The study of the accuracy card, once it has checked the present settings from the present moment on.
 std::optional<AccuracyStudy> present_study(const Session& session) {
   auto study = session.studies.accuracy.study();
   if (!study || !study->present || moved_on(study->of, session)) return std::nullopt;
+  if (study->at != session.study_moment().mark()) return std::nullopt;
   return study;
 }
 Known present_error(Session& session) {
@@ -137,70 +139,222 @@ Known time_of_divergence(Session& session) {
   return divergence ? Known(divergence->t) : std::nullopt;
 }
 
-constexpr std::string_view limits_hint = "Show the constants; it is computed in a moment.",
-                           study_hint = "Open the card Accuracy; it measures for a few seconds.",
-                           pick_hint = "Right-click a particle to pick it.";
+constexpr std::string_view
+    limits_hint = "It is computed in a moment.",
+    study_hint = "Pause, and open the card Accuracy: it measures for a few seconds from the present moment on.",
+    pick_hint = "Right-click a particle to pick it.", readings = "below the constants";
 
 const std::array rows{
-    Observable{"t", "s", "Simulated time.", "", [](Session& session) -> Known { return session.simulation->time(); }},
-    Observable{"steps", "", "Steps of dt since the start.", "",
-               [](Session& session) -> Known { return double(session.simulation->steps()); }},
-    Observable{"playing", "", "Whether the motion runs.", "", nullptr, nullptr,
-               [](const Session& session) { return said(session.pacing.playing); }, no_or_yes},
-    Observable{"diverged", "", "Whether the simulation has diverged.", "", nullptr, nullptr,
-               [](const Session& session) { return said(session.simulation->divergence().has_value()); }, no_or_yes},
-    Observable{"diverged_at", "s", "Simulated time at which it diverged.", "It has not diverged.", time_of_divergence},
-    Observable{"integrator", "", "The method, by its name in presets.", "", nullptr, nullptr,
-               [](const Session& session) -> std::string_view { return session.preset().integrator; },
-               integrator_names},
-    Observable{"engine", "", "What computes the steps.", "", nullptr, nullptr,
-               [](const Session& session) { return engine_names[std::size_t(session.preset().engine)]; },
-               []() -> std::span<const std::string_view> { return engine_names; }},
-    Observable{"precision", "", "The numbers' precision.", "", nullptr, nullptr,
-               [](const Session& session) { return precision_names[std::size_t(session.preset().precision)]; },
-               []() -> std::span<const std::string_view> { return precision_names; }},
-    Observable{"dt_crit", "s", "Largest stable dt of the method in any configuration of the springs, by linear theory.",
-               limits_hint, crit, &Wants::stability},
-    Observable{"dt_crit_now", "s", "The same of the cloth as it hangs now.", limits_hint, crit_now, &Wants::stability},
-    Observable{"k_s_crit", "N/m", "k_s at which the method breaks at this dt, in any configuration.", limits_hint,
-               [](Session& session) { return zone_end(session, "k_s"); }, &Wants::stability},
-    Observable{"k_d_crit", "N s/m", "k_d at which the method breaks at this dt, in any configuration.", limits_hint,
-               [](Session& session) { return zone_end(session, "k_d"); }, &Wants::stability},
-    Observable{"omega", "1/s", "The cloth's fastest angular frequency as it hangs now.", limits_hint, fastest_omega,
-               &Wants::stability},
-    Observable{"energy", "J", "Kinetic energy plus that of springs and height (zero at y = 0).", "",
-               [](Session& session) -> Known { return session.simulation->energy().energy.total(); }},
-    Observable{"kinetic", "J", "Kinetic energy.", "",
-               [](Session& session) -> Known { return session.simulation->energy().energy.kinetic; }},
-    Observable{"made", "",
-               "Energy that no force explains, as a fraction of the scene's: above 0 the integrator added it.",
-               "Open the card Energy.", ledger_share},
-    Observable{"error", "m", "Error (rms) of the present settings over the time shown on the card Accuracy.",
-               study_hint, present_error},
-    Observable{"agreement", "m", "How far two references of that card differ.", study_hint, references_agreement},
-    Observable{"cost", "", "CPU seconds per simulated second with the present settings.", study_hint, present_cost},
-    Observable{"apart", "m",
-               "Distance (rms over the particles) from their positions when the step before was completed.",
-               "Complete the step before with the same cloth.", distance_to_before},
-    Observable{"picked", "", "Whether a particle is picked.", "", nullptr, nullptr,
-               [](const Session& session) { return said(session.picked.has_value()); }, no_or_yes},
-    Observable{"x", "m", "Position of the picked particle (or of the mass on a spring), to the right.", pick_hint,
-               position_of<0>},
-    Observable{"y", "m", "Its height.", pick_hint, position_of<1>},
-    Observable{"z", "m", "Toward the viewer.", pick_hint, position_of<2>},
-    Observable{"v", "m/s", "Its speed.", pick_hint, length_of<&ParticleReadout::v>},
-    Observable{"a", "m/s²", "Magnitude of its acceleration.", pick_hint, length_of<&ParticleReadout::a>},
-    Observable{"F", "N", "Magnitude of the total force on it.", pick_hint, length_of<&ParticleReadout::F>},
-    Observable{"F_s", "N", "Magnitude of its stretching force.", pick_hint, length_of<&ParticleReadout::F_s>},
-    Observable{"F_b", "N", "Magnitude of its bending force.", pick_hint, length_of<&ParticleReadout::F_b>},
-    Observable{"F_d", "N", "Magnitude of its damping force.", pick_hint, length_of<&ParticleReadout::F_d>},
-    Observable{"F_g", "N", "Its weight.", pick_hint, length_of<&ParticleReadout::F_g>},
-    Observable{"fastest", "m/s", "Speed of the fastest particle.", "", fastest_particle},
-    Observable{"mean_y", "m", "Mean height of the particles.", "", mean_height},
-    Observable{"lowest_y", "m", "Height of the lowest particle.", "", lowest_height},
-    Observable{"torn", "", "Stretch springs that are torn or cut.", "",
-               [](Session& session) -> Known { return double(session.simulation->tears().torn_count()); }},
-    Observable{"pinned", "", "Pinned particles.", "", pinned_particles},
+    Observable{.name = "t",
+               .unit = "s",
+               .meaning = "Simulated time.",
+               .place = "top bar",
+               .number = [](Session& session) -> Known { return session.simulation->time(); }},
+    Observable{.name = "steps",
+               .meaning = "Steps of dt since the start.",
+               .place = "top bar",
+               .number = [](Session& session) -> Known { return double(session.simulation->steps()); }},
+    Observable{.name = "playing",
+               .meaning = "Whether the motion runs.",
+               .place = "top bar",
+               .word = [](const Session& session) { return said(session.pacing.playing); },
+               .words = no_or_yes,
+               .label = "Motion runs"},
+    Observable{.name = "diverged",
+               .meaning = "Whether the simulation has diverged.",
+               .place = "banner over the cloth",
+               .word = [](const Session& session) { return said(session.simulation->divergence().has_value()); },
+               .words = no_or_yes,
+               .label = "Diverged"},
+    Observable{.name = "diverged_at",
+               .unit = "s",
+               .meaning = "Simulated time at which it diverged.",
+               .hint = "It has not diverged.",
+               .place = "banner over the cloth",
+               .number = time_of_divergence},
+    Observable{.name = "integrator",
+               .meaning = "The method, by its name in presets.",
+               .place = "constants, Integrator",
+               .word = [](const Session& session) -> std::string_view { return session.preset().integrator; },
+               .words = integrator_names,
+               .label = "Integrator"},
+    Observable{.name = "engine",
+               .meaning = "What computes the steps.",
+               .place = "top bar",
+               .word = [](const Session& session) { return engine_names[std::size_t(session.preset().engine)]; },
+               .words = []() -> std::span<const std::string_view> { return engine_names; },
+               .label = "Engine"},
+    Observable{.name = "precision",
+               .meaning = "The numbers' precision.",
+               .place = "top bar",
+               .word = [](const Session& session) { return precision_names[std::size_t(session.preset().precision)]; },
+               .words = []() -> std::span<const std::string_view> { return precision_names; },
+               .label = "Precision"},
+    Observable{.name = "untouched",
+               .meaning = "Whether the constants are those with which the step began, apart from those that its checks "
+                          "name, and nobody has pulled or cut the cloth since the motion began.",
+               .word = [](const Session& session) { return said(touched_by(session).empty()); },
+               .words = no_or_yes,
+               .label = "Nothing else changed"},
+    Observable{.name = "dt_crit",
+               .unit = "s",
+               .meaning = "Largest stable dt of the method in any configuration of the springs, by linear theory.",
+               .hint = limits_hint,
+               .place = "gauge under dt",
+               .number = crit,
+               .needs = &Wants::stability,
+               .measured = true},
+    Observable{.name = "dt_crit_now",
+               .unit = "s",
+               .meaning = "The same of the cloth as it hangs now.",
+               .hint = limits_hint,
+               .place = "gauge under dt",
+               .number = crit_now,
+               .needs = &Wants::stability,
+               .measured = true},
+    Observable{.name = "k_s_crit",
+               .unit = "N/m",
+               .meaning = "k_s at which the method breaks at this dt, in any configuration.",
+               .hint = limits_hint,
+               .place = "strip under k_s",
+               .number = [](Session& session) { return zone_end(session, "k_s"); },
+               .needs = &Wants::stability,
+               .measured = true},
+    Observable{.name = "k_d_crit",
+               .unit = "N s/m",
+               .meaning = "k_d at which the method breaks at this dt, in any configuration.",
+               .hint = limits_hint,
+               .place = "strip under k_d",
+               .number = [](Session& session) { return zone_end(session, "k_d"); },
+               .needs = &Wants::stability,
+               .measured = true},
+    Observable{.name = "omega",
+               .unit = "1/s",
+               .meaning = "The cloth's fastest angular frequency as it hangs now.",
+               .hint = limits_hint,
+               .place = "card Stability",
+               .number = fastest_omega,
+               .needs = &Wants::stability,
+               .measured = true},
+    Observable{.name = "energy",
+               .unit = "J",
+               .meaning = "Kinetic energy plus that of springs and height (zero at y = 0).",
+               .place = "card Energy",
+               .number = [](Session& session) -> Known { return session.simulation->energy().energy.total(); }},
+    Observable{.name = "kinetic",
+               .unit = "J",
+               .meaning = "Kinetic energy.",
+               .place = "card Energy",
+               .number = [](Session& session) -> Known { return session.simulation->energy().energy.kinetic; }},
+    Observable{
+        .name = "made",
+        .meaning = "Energy that no force explains, as a fraction of the scene's: above 0 the integrator added it.",
+        .hint = "Restart with R; the ledger is kept from the beginning of the motion.",
+        .place = "card Energy",
+        .number = ledger_share,
+        .needs = &Wants::ledger},
+    Observable{
+        .name = "error",
+        .unit = "m",
+        .meaning =
+            "Error (rms) of the present settings over the time shown on the card Accuracy, from the present moment on.",
+        .hint = study_hint,
+        .place = "card Accuracy",
+        .number = present_error,
+        .measured = true},
+    Observable{.name = "agreement",
+               .unit = "m",
+               .meaning = "How far two references of that card differ.",
+               .hint = study_hint,
+               .place = "card Accuracy",
+               .number = references_agreement,
+               .measured = true},
+    Observable{.name = "cost",
+               .meaning = "CPU seconds per simulated second with the present settings.",
+               .hint = study_hint,
+               .place = "card Accuracy",
+               .number = present_cost,
+               .measured = true},
+    Observable{.name = "apart",
+               .unit = "m",
+               .meaning = "Distance (rms over the particles) from their positions when the step before was completed.",
+               .hint = "Complete the step before with the same cloth.",
+               .number = distance_to_before},
+    Observable{.name = "picked",
+               .meaning = "Whether a particle is picked.",
+               .place = "below the constants",
+               .word = [](const Session& session) { return said(session.picked.has_value()); },
+               .words = no_or_yes,
+               .label = "A particle is picked"},
+    Observable{.name = "x",
+               .unit = "m",
+               .meaning = "Position of the picked particle (or of the mass on a spring), to the right.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = position_of<0>},
+    Observable{.name = "y",
+               .unit = "m",
+               .meaning = "Its height.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = position_of<1>},
+    Observable{.name = "z",
+               .unit = "m",
+               .meaning = "Toward the viewer.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = position_of<2>},
+    Observable{.name = "v",
+               .unit = "m/s",
+               .meaning = "Its speed.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::v>},
+    Observable{.name = "a",
+               .unit = "m/s²",
+               .meaning = "Magnitude of its acceleration.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::a>},
+    Observable{.name = "F",
+               .unit = "N",
+               .meaning = "Magnitude of the total force on it.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::F>},
+    Observable{.name = "F_s",
+               .unit = "N",
+               .meaning = "Magnitude of its stretching force.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::F_s>},
+    Observable{.name = "F_b",
+               .unit = "N",
+               .meaning = "Magnitude of its bending force.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::F_b>},
+    Observable{.name = "F_d",
+               .unit = "N",
+               .meaning = "Magnitude of its damping force.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::F_d>},
+    Observable{.name = "F_g",
+               .unit = "N",
+               .meaning = "Its weight.",
+               .hint = pick_hint,
+               .place = readings,
+               .number = length_of<&ParticleReadout::F_g>},
+    Observable{
+        .name = "fastest", .unit = "m/s", .meaning = "Speed of the fastest particle.", .number = fastest_particle},
+    Observable{.name = "mean_y", .unit = "m", .meaning = "Mean height of the particles.", .number = mean_height},
+    Observable{.name = "lowest_y", .unit = "m", .meaning = "Height of the lowest particle.", .number = lowest_height},
+    Observable{.name = "torn",
+               .meaning = "Stretch springs that are torn or cut.",
+               .place = "bottom bar",
+               .number = [](Session& session) -> Known { return double(session.simulation->tears().torn_count()); }},
+    Observable{.name = "pinned", .meaning = "Pinned particles.", .number = pinned_particles},
 };
 
 /// A number of the notation table: "k_s", "W.x".
@@ -223,6 +377,20 @@ double constant_value(const ConstantPlace& place, const Preset& preset) {
   return (preset.*std::get<glm::dvec3 Preset::*>(place.row->field))[place.component];
 }
 
+/// Headings under which the panel of constants shows them.
+struct PanelSection {
+  std::string_view name;
+  std::array<std::string_view, 5> keys;
+};
+constexpr std::array panel_sections{
+    PanelSection{"Integrator", {"dt", "tolerance", "iterations"}},
+    PanelSection{"Springs", {"k_s", "k_b", "k_d", "k"}},
+    PanelSection{"Outer forces", {"g", "W", "gust", "gust_period"}},
+    PanelSection{"Tearing", {"F_max", "F_release"}},
+    PanelSection{"Cloth", {"rows", "columns", "L", "m"}},
+    PanelSection{"Start", {"x_0", "v_0", "tilt_deg", "initial_stretch", "offset"}},
+};
+
 }  // namespace
 
 std::span<const Observable> observables() {
@@ -241,6 +409,21 @@ bool is_observable(std::string_view name) {
 bool is_word(std::string_view name) {
   const Observable* row = find_observable(name);
   return row != nullptr && row->word != nullptr;
+}
+
+bool is_measured(std::string_view name) {
+  const Observable* row = find_observable(name);
+  return row != nullptr && row->measured;
+}
+
+std::string place_of(std::string_view name) {
+  if (const Observable* row = find_observable(name)) return std::string(row->place);
+  const PresetRow* row = constant_place(name).row;
+  if (row == nullptr) return {};
+  const auto block = std::find_if(panel_sections.begin(), panel_sections.end(), [&](const PanelSection& s) {
+    return std::find(s.keys.begin(), s.keys.end(), row->key) != s.keys.end();
+  });
+  return block == panel_sections.end() ? "constants" : "constants, " + std::string(block->name);
 }
 
 std::string_view unit_of(std::string_view name) {

@@ -14,15 +14,19 @@ namespace tyglab {
 struct Session;
 
 struct Observable {
-  std::string_view name;
-  std::string_view unit;     ///< SI, empty if it has none
-  std::string_view meaning;  ///< a sentence
-  std::string_view hint;     ///< what to do where it is not known, empty where it always is
+  std::string_view name = {};
+  std::string_view unit = {};     ///< SI, empty if it has none
+  std::string_view meaning = {};  ///< a sentence
+  std::string_view hint = {};     ///< what to do where it is not known, empty where it always is
+  std::string_view place = {};    ///< where the window shows it, empty where it does not
   /// Its value, none while it is not known; null for words.
   std::optional<double> (*number)(Session&) = nullptr;
   bool Wants::*needs = nullptr;  ///< the study that works it out, if one does; not those that somebody opens on purpose
+  /// It is worked out beside the motion, for one moment or for the constants: it is not there in every step.
+  bool measured = false;
   std::string_view (*word)(const Session&) = nullptr;
   std::span<const std::string_view> (*words)() = nullptr;  ///< those it can be
+  std::string_view label = {};                             ///< of a word: what it is called on the card
 };
 
 std::span<const Observable> observables();
@@ -32,6 +36,10 @@ const Observable* find_observable(std::string_view name);
 /// Whether a check may name it: a row, or a number of the notation table.
 bool is_observable(std::string_view name);
 bool is_word(std::string_view name);
+/// Whether it is worked out beside the motion, so that no check can ask what it was in every step.
+bool is_measured(std::string_view name);
+/// Where the window shows it: "constants, Springs"; empty where it does not.
+std::string place_of(std::string_view name);
 std::string_view unit_of(std::string_view name);
 /// Every name a check may use, for "did you mean".
 std::vector<std::string_view> observable_names();

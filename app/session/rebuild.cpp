@@ -13,6 +13,25 @@ namespace {
 
 constexpr double many_particles = 1e5;  // built in about a frame's time
 
+/// Whose programs an OpenCL device must build before the cloth and its copies have the preset's constants: presets, the
+/// cloth's own first.
+std::vector<Preset> without_programs(const Session& session, const Preset& preset) {
+  std::vector<Preset> found;
+  if (session.scripted) return found;
+  const bool prepares = bool(session.rebuild.prepare_programs);
+  const bool same_device = !changes(session.preset(), preset).touches({Effect::engine, Effect::device});
+  const bool ready = same_device && (!prepares || session.simulation->engine().ready_for(preset));
+  if (preset.engine == EngineKind::opencl && !ready) found.push_back(preset);
+  const Lockstep& copies = session.copies.lockstep;
+  for (std::size_t n = 0; prepares && n < copies.size(); ++n) {
+    Preset copied = preset;
+    for (const Difference& difference : copies[n].differences) difference.apply(copied);
+    const bool built = copies[n].simulation->engine().ready_for(copied);
+    if (copied.engine == EngineKind::opencl && !built) found.push_back(std::move(copied));
+  }
+  return found;
+}
+
 }  // namespace
 
 double particles(const Preset& preset) {
@@ -20,9 +39,7 @@ double particles(const Preset& preset) {
 }
 
 bool needs_programs(const Session& session, const Preset& preset) {
-  if (preset.engine != EngineKind::opencl || session.scripted) return false;
-  const bool same_device = !changes(session.preset(), preset).touches({Effect::engine, Effect::device});
-  return !same_device || (session.rebuild.prepare_programs && !session.simulation->engine().ready_for(preset));
+  return !without_programs(session, preset).empty();
 }
 
 bool takes_long(const Session& session, const Preset& preset) {
@@ -55,19 +72,21 @@ void BackgroundRebuild::start(const Session& session) {
   making_ = std::move(*next_);
   next_.reset();
   dropped_ = false;
-  const auto prepare = needs_programs(session, making_->target) ? prepare_programs : nullptr;
+  std::vector<Preset> unbuilt;
+  if (prepare_programs) unbuilt = without_programs(session, making_->target);
   const bool ledger = session.simulation->ledger().has_value();
   // It owns the present cloth as long as it reads it, whatever the session shows by then.
   std::shared_ptr<const Simulation> present = making_->fresh ? nullptr : session.simulation;
-  work_.start(Priority::normal,
-              [prepare, ledger, order = *making_, present = std::move(present), before = before_reading,
-               threads = session.threads](const JobControl&) -> std::unique_ptr<Simulation> {
-                if (prepare) prepare(order.target, ledger);
-                if (order.programs) return nullptr;
-                if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
-                if (before) before();
-                return present->rebuilt(edit::Change{order.target});
-              });
+  work_.start(
+      Priority::normal,
+      [prepare = prepare_programs, unbuilt = std::move(unbuilt), ledger, order = *making_, present = std::move(present),
+       before = before_reading, threads = session.threads](const JobControl&) -> std::unique_ptr<Simulation> {
+        for (const Preset& preset : unbuilt) prepare(preset, ledger);
+        if (order.programs) return nullptr;
+        if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
+        if (before) before();
+        return present->rebuilt(edit::Change{order.target});
+      });
 }
 
 void BackgroundRebuild::rename(const std::string& name) {

@@ -22,8 +22,9 @@ std::array<double, Recorded::forces_count> force_values(const ForceSummary& s) {
 void sample_forces(Session& session) {
   Recorded& to = session.recorded;
   const double t = session.simulation->time();
-  if (to.source != Source::particle) {
-    const auto reduction = to.source == Source::sum ? Reduction::sum : Reduction::maximum;
+  const Source source = force_source(session);
+  if (source != Source::particle) {
+    const auto reduction = source == Source::sum ? Reduction::sum : Reduction::maximum;
     to.forces.add(t, force_values(session.simulation->forces(reduction)));
   } else if (session.picked) {
     to.forces.add(t, force_values(session.simulation->particle(session.picked->i, session.picked->j)));
@@ -74,6 +75,10 @@ std::vector<std::string> force_column_names() {
   std::vector<std::string> names;
   for (std::string_view key : force_keys) names.push_back(std::string(key) + " [N]");
   return names;
+}
+
+Source force_source(const Session& session) {
+  return session.preset().kind == Kind::one_weight ? Source::particle : session.recorded.chosen;
 }
 
 void sample(Session& session) {

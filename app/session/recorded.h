@@ -18,7 +18,7 @@ enum class Source { particle, sum, maximum };
 
 struct Recorded {
   static constexpr int forces_count = 7;
-  Source source = Source::particle;
+  Source chosen = Source::particle;  ///< force_source() is what it follows
   bool paused = false;
   Series forces{forces_count};                                 ///< N, by force_keys
   Series height{5};                                            ///< m, of the weight, then by ReferenceCurves::curves
@@ -39,6 +39,8 @@ std::vector<std::string> force_column_names();
 std::vector<std::string> height_column_names();
 
 struct Session;
+/// What the force plot follows: of a weight the weight, whatever was chosen for cloths.
+Source force_source(const Session& session);
 /// Takes the samples that are wanted of the steps just made.
 void sample(Session& session);
 

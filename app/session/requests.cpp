@@ -74,6 +74,10 @@ void apply(Session& session, const request::Retry& what) {
   if (take_back(session, what.preset) && !back) restart(session);
 }
 
+void apply(Session& session, const request::Replay&) {
+  begin_replay(session);
+}
+
 void apply(Session& session, const request::Open& what) {
   if (!what.confirmed && unsaved(session)) {
     request::Open agreed = what;
@@ -110,6 +114,7 @@ void apply(Session& session, const request::Quit& what) {
 }  // namespace
 
 bool unsaved(const Session& session) {
+  if (no_work(session)) return false;
   // What is still being built would be lost as well.
   return !changes(session.document.saved, session.requested_preset()).within(Effect::view);
 }

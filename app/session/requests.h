@@ -24,6 +24,8 @@ struct Apply {
 struct Retry {
   Preset preset;
 };
+/// The last steps before the divergence once more, slowly.
+struct Replay {};
 /// Takes a preset from a file, with these settings ("k_s=500") made in it. Asks first where changes would be lost,
 /// unless confirmed.
 struct Open {
@@ -52,8 +54,8 @@ struct Quit {
 };
 }  // namespace request
 
-using Request = std::variant<request::Apply, request::Retry, request::Open, request::SavePreset, request::LoadTexture,
-                             request::AddCopy, request::RemoveCopy, request::Quit>;
+using Request = std::variant<request::Apply, request::Retry, request::Replay, request::Open, request::SavePreset,
+                             request::LoadTexture, request::AddCopy, request::RemoveCopy, request::Quit>;
 
 /// A question that the user must answer before the session goes on with a request.
 struct Question {
@@ -66,7 +68,7 @@ struct Question {
 struct Session;
 /// Applies all requests since the last update, in order. Errors become messages and leave everything as it was.
 void apply_requests(Session& session);
-/// Whether the present constants differ from those of the file (the view apart).
+/// Whether the present constants differ from those of the file (the view apart); never those of a lab's cloth.
 bool unsaved(const Session& session);
 /// Whether the motion has diverged, and constants of its model have been changed since.
 bool changed_since_divergence(const Session& session);

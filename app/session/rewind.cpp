@@ -28,7 +28,11 @@ void Rewind::go_back(Simulation& simulation, double t, double seconds) {
   const Snapshot* then = before(simulation, t, seconds);
   if (then == nullptr) return;
   simulation.restore(*then);
-  while (!kept_.empty() && &kept_.back() != then) {
+  forget_after(then->t);
+}
+
+void Rewind::forget_after(double t) {
+  while (!kept_.empty() && kept_.back().t > t) {
     bytes_ -= kept_.back().bytes();
     kept_.pop_back();
   }

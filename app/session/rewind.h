@@ -24,6 +24,8 @@ class Rewind {
   const Snapshot* before(const Simulation& simulation, double t, double seconds) const;
   /// Goes back to a snapshot: what came after it is forgotten.
   void go_back(Simulation& simulation, double t, double seconds);
+  /// What came after that time (s) is forgotten.
+  void forget_after(double t);
   void clear() { kept_.clear(), bytes_ = 0; }
   std::size_t bytes() const { return bytes_; }
 

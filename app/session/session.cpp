@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 
 #include "app/session/edits.h"
 #include "app/session/engine_fallback.h"
@@ -41,12 +42,32 @@ double step_budget(const FrameCosts& costs, double frame_time) {
 bool Session::idle() const {
   const bool over = simulation->divergence().has_value() && !copies.lockstep.alive();
   return (!pacing.playing || over || asleep()) && !rebuild.busy() && !background_steps.busy() &&
-         !studies.engine.busy() && requests.empty();
+         !studies.engine.busy() && !copies.awaited && requests.empty();
+}
+
+StudyMoment Session::study_moment() const {
+  StudyMoment moment{*simulation, now, last_change, !rebuild.holds_present()};
+  moment.moving = pacing.playing && !simulation->divergence() && !sleep.asleep(*simulation);
+  moment.document = counts.documents;
+  return moment;
 }
 
 void Session::update(double real_seconds, const SessionInput& input) {
   now += real_seconds;
+  try {
+    go_on(real_seconds, input);
+  } catch (const std::bad_alloc&) {
+    pacing.playing = false;
+    messages.error(
+        "There is not enough memory to go on, so the motion is paused; the cloth is as it was. Use fewer rows and "
+        "columns, or end other programs.");
+  }
+  steps_made = 0;
+}
+
+void Session::go_on(double real_seconds, const SessionInput& input) {
   rebuild.poll(*this);
+  poll_copies(*this);
   take_engine_choice(*this);
   apply_requests(*this);
   try {
@@ -54,15 +75,16 @@ void Session::update(double real_seconds, const SessionInput& input) {
   } catch (const EngineError& error) {
     fall_back(*this, error.what());
   }
+  watch_replay(*this);
   costs.add_steps(steps_made);
   sample(*this);
   watch_lab(*this);
   wants |= lab_wants(*this);
-  StudyMoment moment{*simulation, now, last_change, !rebuild.holds_present(), input.dragging};
+  StudyMoment moment = study_moment();
+  moment.dragging = input.dragging;
   studies.update(wants, moment);
   wants.step ? inspector.update(*this) : inspector.drop();
   again_at = moment.again_at;
-  steps_made = 0;
 }
 
 void Session::step(double real_seconds, const SessionInput& input) {
@@ -144,14 +166,9 @@ void Session::warn_of(const Advance& advance) {
     messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
     warned_left_inside = true;
   }
-  if (simulation->engine().solves().unconverged > 0 && !warned_unconverged) {
-    messages.warning(
-        "Newton's method does not reach its tolerance, so this is not quite the method's motion. Use a smaller dt or "
-        "k_s.");
-    warned_unconverged = true;
-  }
-  if (const std::string missed = tolerance_missed(simulation->preset(), simulation->engine().inner_steps());
-      !missed.empty() && !warned_unconverged) {
+  std::string missed = solves_missed(simulation->engine().solves());
+  if (missed.empty()) missed = tolerance_missed(simulation->preset(), simulation->engine().inner_steps());
+  if (!missed.empty() && !warned_unconverged) {
     messages.warning(missed);
     warned_unconverged = true;
   }

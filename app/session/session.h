@@ -20,6 +20,7 @@
 #include "app/session/pacing.h"
 #include "app/session/recorded.h"
 #include "app/session/reference_curves.h"
+#include "app/session/replay.h"
 #include "app/session/requests.h"
 #include "app/session/rewind.h"
 #include "app/session/sleep.h"
@@ -48,7 +49,9 @@ struct SessionCounts {
   std::uint64_t copies_added = 0;
   std::uint64_t lattices = 0;  ///< the cloth has another shape
   std::uint64_t labs_begun = 0;
-  std::uint64_t hands = 0;  ///< the hand lets go, and every tool with it
+  std::uint64_t lab_steps = 0;  ///< a step of a lab is set out: what it shows comes into sight
+  std::uint64_t hands = 0;      ///< the hand lets go, and every tool with it
+  std::uint64_t touches = 0;    ///< the cloth was grabbed or cut
 };
 
 struct Session {
@@ -70,6 +73,7 @@ struct Session {
   LabState labs;
   Messages messages;
   FrameCosts costs;
+  std::optional<Replay> replay;     ///< of the last steps before a divergence, while it goes on
   std::optional<AutoStep> auto_dt;  ///< dt follows the constants and the ledger; none: it is the user's
   std::optional<Pins::Site> picked;
   std::vector<Request> requests;
@@ -89,9 +93,12 @@ struct Session {
   bool quit = false;
 
   /// Goes on by that much real time (s): applies what was requested, steps, samples, checks the lab's checks, goes on
-  /// with the studies that are wanted. Throws EngineError only where the CPU engine itself fails.
+  /// with the studies that are wanted. Where memory fails, it says so and pauses. Throws EngineError only where the CPU
+  /// engine itself fails.
   void update(double real_seconds, const SessionInput& input);
 
+  /// The present moment, as studies are asked about it.
+  StudyMoment study_moment() const;
   bool asleep() const { return pacing.playing && sleep.asleep(*simulation); }
   /// Whether nothing moves, and nothing is being worked out that will change the cloth.
   bool idle() const;
@@ -107,6 +114,7 @@ struct Session {
   void propose(Preset next, unsigned gesture = 0) { request(request::Apply{edit::Change{std::move(next)}, gesture}); }
 
  private:
+  void go_on(double real_seconds, const SessionInput& input);
   void step(double real_seconds, const SessionInput& input);
   void make_steps(int due, const SessionInput& input);
   void made_steps(int steps, double seconds, double dt);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/base/preset_files.h"
+#include "app/process/heap.h"
 #include "app/process/interrupt.h"
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
@@ -342,6 +343,7 @@ void Sandbox::remember() {
 }  // namespace
 
 int run_sandbox(const SandboxOptions& options) {
+  return_large_blocks();
   try {
     return Sandbox(options).run();
   } catch (const GraphicsError& error) {

@@ -48,6 +48,12 @@ void remember_session(Ui& ui) {
   Settings& settings = ui.settings;
   settings.labs = session.labs.progress;
   settings.plot_log = ui.plots.log;
+  // Of a lab nothing is kept but the progress; the experiment before it is.
+  if (session.labs.run && !session.labs.kept.empty()) {
+    const KeptExperiment& kept = session.labs.kept.back();
+    settings.session = LastSession{kept.constants, kept.document.saved, kept.document.label, kept.document.file};
+    return;
+  }
   // Who quit with unsaved changes has said that they may go; a session that was interrupted brings them back.
   Preset last = session.quit ? session.document.saved : session.preset();
   last.mode = session.preset().mode;

@@ -261,6 +261,7 @@ void Gui::draw() {
 void Gui::fonts_changed() {
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
+  ImGui::GetIO().Fonts->ClearTexData();  // OpenGL has it
 }
 
 }  // namespace tyglab

@@ -57,7 +57,7 @@ void AccuracyWatch::begin(StudyMoment& moment) {
   begun_ = moment.now;
   if (const auto& last = work_.shared(); last && last->findings().present) shown_ = last;
   AccuracyStudy first;
-  first.of = moment.preset(), first.t = moment.simulation.time();
+  first.of = moment.preset(), first.at = moment.mark();
   StudyStart start{moment.preset(), moment.simulation.snapshot()};
   work_.begin(std::move(first), [start = std::move(start)](Work::Shared& shared, const JobControl& control) {
     work(shared, start, control);
@@ -66,10 +66,15 @@ void AccuracyWatch::begin(StudyMoment& moment) {
 
 void AccuracyWatch::poll(StudyMoment& moment) {
   const std::optional<AccuracyStudy> newest = work_.findings();
-  const bool changed = newest && !changes(newest->of, moment.preset()).within(motionless);
+  const bool moved = newest && newest->at != moment.mark();
+  // A cloth that moves is somewhere else when a study ends: it says of a moment gone by how accurate the motion was.
+  const bool changed =
+      newest && (!changes(newest->of, moment.preset()).within(motionless) || (moved && !moment.moving));
   if (changed) {
     work_.cancel();
     if (changed_ < 0) changed_ = moment.now;
+  } else {
+    changed_ = -1;
   }
   if (work_.working()) return moment.ask_again_in(0.1);
   const Simulation& simulation = moment.simulation;
@@ -77,7 +82,7 @@ void AccuracyWatch::poll(StudyMoment& moment) {
   if (simulation.lattice().size() > largest) return;
   if (changed) {
     if (!moment.settled(changed_)) return moment.ask_again_in(0.1);
-  } else if (newest && (newest->t == simulation.time() || moment.now < begun_ + again)) {
+  } else if (newest && (!moved || moment.now < begun_ + again)) {
     return;
   }
   changed_ = -1;

@@ -15,8 +15,8 @@ namespace tyglab {
 
 /// What is known so far of the motion from one moment on.
 struct AccuracyStudy {
-  Preset of;     ///< the constants
-  double t = 0;  ///< s, the moment
+  Preset of;      ///< the constants
+  MotionMark at;  ///< the moment
   StudyReference reference;
   std::optional<ErrorPoint> present;  ///< the settings as they are
   std::vector<ErrorPoint> points;     ///< those of other methods, a method's one after the other
@@ -29,8 +29,8 @@ class AccuracyWatch {
   static constexpr int largest = 256 * 256;  ///< particles that are checked beside the window
   static constexpr double window = 0.25;     ///< s of motion, where it does not take too long
 
-  /// Called in every frame in which it is wanted: begins a study where constants have changed, or the cloth has moved
-  /// on since the last.
+  /// Called in every frame in which it is wanted: begins a study where constants have changed, where the cloth stands
+  /// at another moment than that of the last, and every few seconds while it moves.
   void poll(StudyMoment& moment);
   /// Nobody wants it any more: what is running is stopped and forgotten.
   void drop();
@@ -45,7 +45,7 @@ class AccuracyWatch {
   Work work_;
   std::shared_ptr<Work::Shared> shown_;  ///< the last that has something to show
   double begun_ = -1;                    ///< s on the session's clock
-  double changed_ = -1;                  ///< when the constants last differed from those of the study
+  double changed_ = -1;                  ///< when constants or the moment last differed from the study's
 };
 
 }  // namespace tyglab

@@ -6,19 +6,22 @@
 #include <cassert>
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <variant>
 
 namespace tyglab {
 
-/// Who comes first where processors are short: the frames, or (normal) both alike.
+/// Who comes first where processors are short: the frames, or (normal) both alike. Where the system gives no thread,
+/// normal work is done at once, since somebody waits for it, and the other is refused, since it takes long.
 enum class Priority { normal, below_frames };
 
 /// What the work sees of its job. Safe to use from both threads.
@@ -27,13 +30,9 @@ class JobControl {
   /// Whether the result is no longer wanted. The work looks often, and ends soon.
   bool cancelled() const { return cancelled_; }
   void cancel() { cancelled_ = true; }
-  /// The part that is done, 0 to 1.
-  double progress() const { return progress_; }
-  void set_progress(double part) { progress_ = part; }
 
  private:
   std::atomic<bool> cancelled_ = false;
-  std::atomic<double> progress_ = 0;
 };
 
 /// Why there is no result.
@@ -41,6 +40,20 @@ struct JobError {
   std::string what;
   bool out_of_memory = false;
 };
+/// What has just been caught, as an error. Takes no memory where that is what failed.
+inline JobError caught_error() noexcept {
+  JobError no_memory{"Out of memory", true};
+  try {
+    throw;
+  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& error) {
+    try {
+      return {error.what()};
+    } catch (const std::bad_alloc&) {
+    }
+  }
+  return no_memory;
+}
 
 /// Lowers the priority of the calling thread, where the system can.
 void run_below_frames();
@@ -64,16 +77,19 @@ class Job {
   }
   ~Job() { stop(); }
 
-  /// Begins `work(JobControl&) -> Result`. What was being done is cancelled and joined first. Throws std::system_error
-  /// where no thread can be started.
+  /// Begins `work(JobControl&) -> Result`. What was being done is cancelled and joined first. Throws std::bad_alloc.
   template <class Work>
   void start(Priority priority, Work work) {
     stop();
     auto state = std::make_unique<Running<Work>>(std::move(work));
-    state->thread = std::thread([&state = *state, priority] {
-      if (priority == Priority::below_frames) run_below_frames();
-      state.run();
-    });
+    try {
+      state->thread = std::thread([&state = *state, priority] {
+        if (priority == Priority::below_frames) run_below_frames();
+        state.run();
+      });
+    } catch (const std::system_error&) {
+      priority == Priority::normal ? state->run() : state->refuse();
+    }
     state_ = std::move(state);
   }
   /// Whether work was begun whose outcome has not been taken.
@@ -90,19 +106,18 @@ class Job {
   void cancel() {
     if (state_) state_->control.cancel();
   }
-  double progress() const { return state_ ? state_->control.progress() : 0; }
   /// Waits for the end and gives the outcome; busy() must hold.
   Outcome take() {
     assert(busy());
     const std::unique_ptr<State> state = std::move(state_);
-    state->thread.join();
+    if (state->thread.joinable()) state->thread.join();
     return std::move(*state->outcome);
   }
   /// Cancels, and waits for the end; the outcome is forgotten.
   void stop() {
     if (!state_) return;
     state_->control.cancel();
-    state_->thread.join();
+    if (state_->thread.joinable()) state_->thread.join();
     state_.reset();
   }
 
@@ -122,11 +137,18 @@ class Job {
     void run() {
       try {
         this->outcome.emplace(work(this->control));
-      } catch (const std::bad_alloc&) {
-        this->outcome.emplace(JobError{"There is not enough memory.", true});
-      } catch (const std::exception& error) {
-        this->outcome.emplace(JobError{error.what()});
+      } catch (...) {
+        this->outcome.emplace(caught_error());
       }
+      finish();
+    }
+    void refuse() {
+      this->outcome.emplace(JobError{
+          "The system can start no further thread, so this cannot be worked out; end other programs, or raise the "
+          "limit (ulimit -u)."});
+      finish();
+    }
+    void finish() {
       const std::lock_guard lock(this->mutex);
       this->ended = true;
       this->end.notify_all();
@@ -143,24 +165,33 @@ class Study {
   /// What the frames and the work share.
   class Shared {
    public:
-    explicit Shared(Findings first) : findings_(std::move(first)) {}
-    /// Changes what is known.
+    explicit Shared(Findings first) : findings_(first), seen_(std::move(first)) {}
+    /// Changes what is known; for the work alone.
     template <class Change>
     void update(const Change& change) {
       const std::lock_guard lock(mutex_);
       change(findings_);
+      ++changes_;
     }
-    Findings findings() const {
-      const std::lock_guard lock(mutex_);
-      return findings_;
+    /// What is known; for the frames alone. While the work is changing it, what was known before: the work may lose its
+    /// processor in the middle of that, and frames wait for nothing.
+    const Findings& findings() const {
+      if (changes_ == seen_changes_) return seen_;
+      const std::unique_lock lock(mutex_, std::try_to_lock);
+      if (lock) seen_ = findings_, seen_changes_ = changes_;
+      return seen_;
     }
 
    private:
     mutable std::mutex mutex_;
     Findings findings_;
+    std::atomic<std::uint64_t> changes_ = 0;
+    mutable Findings seen_;  ///< as the frames saw it last
+    mutable std::uint64_t seen_changes_ = 0;
   };
 
-  /// Begins work(Shared&, const JobControl&). What was being done is cancelled and joined first.
+  /// Begins work(Shared&, const JobControl&). What was being done is cancelled and joined first, which takes no time
+  /// where working() does not hold.
   template <class Work>
   void begin(Findings first, Work work) {
     shared_ = std::make_shared<Shared>(std::move(first));
@@ -171,10 +202,13 @@ class Study {
   }
   /// Asks the work to stop; what it has found stays.
   void cancel() { job_.cancel(); }
+  /// Whether the worker is still at it, wanted or not.
   bool working() const { return job_.working(); }
-  /// Stops the work, waits for its end and forgets what it found.
+  /// Forgets what it found, and asks the work to stop. That is not waited for, since work below the frames may get no
+  /// processor for seconds where others need them all; until it ends, working() holds.
   void drop() {
-    job_.stop();
+    job_.cancel();
+    if (job_.ready()) job_.stop();
     shared_.reset();
   }
   /// What the newest work shares; null before the first.

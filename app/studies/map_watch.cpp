@@ -9,14 +9,13 @@ bool holds(const MapGrid& grid, const Preset& preset) {
          preset.dt <= grid.most_dt;
 }
 
-void fill(Study<MapFindings>::Shared& shared, const JobControl& control) {
-  const MapFindings begun = shared.findings();
+void fill(Study<MapFindings>::Shared& shared, const Preset& of, const MapGrid& grid, const JobControl& control) {
   try {
-    MapBoundary boundary = map_boundary(begun.of, begun.grid);
+    MapBoundary boundary = map_boundary(of, grid);
     shared.update([&](MapFindings& map) { map.boundary = std::move(boundary); });
-    for (const int n : coarse_first(begun.grid)) {
-      const MapCell cell = measure_cell(begun.of, begun.grid, n % begun.grid.columns, n / begun.grid.columns,
-                                        [&] { return control.cancelled(); });
+    for (const int n : coarse_first(grid)) {
+      const MapCell cell =
+          measure_cell(of, grid, n % grid.columns, n / grid.columns, [&] { return control.cancelled(); });
       shared.update([&](MapFindings& map) { map.cells.push_back(cell); });
     }
   } catch (const Stopped&) {
@@ -38,7 +37,10 @@ std::optional<MapFindings> MapWatch::findings() const {
 
 void MapWatch::begin(const StudyMoment& moment) {
   changed_ = -1;
-  work_.begin({moment.preset(), map_grid(moment.preset(), columns, rows), {}, {}, {}}, fill);
+  const Preset& of = moment.preset();
+  const MapGrid grid = map_grid(of, columns, rows);
+  work_.begin({of, grid, {}, {}, {}},
+              [of, grid](Work::Shared& shared, const JobControl& control) { fill(shared, of, grid, control); });
 }
 
 void MapWatch::poll(StudyMoment& moment) {

@@ -28,9 +28,8 @@ void add_curves(StabilityLimits& limits, const Scheme& method) {
 StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
   const Scheme& method = scheme(preset.integrator);
   StabilityLimits limits{.of = preset, .now = {}, .damped = {}, .undamped = {}, .zones = {}};
-  const std::array any{any_configuration(preset)};
-  limits.any = dt_crit(method, any), limits.fastest = any[0];
-  limits.stiffness = stiffness_margin(method, any, preset.dt);
+  limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
+  limits.fastest = any_configuration(preset);
   const auto add_zones = [&](const ZonedConstant& constant) {
     const double value = preset.*constant.field > 0 ? preset.*constant.field : Preset{}.*constant.field;
     limits.zones.emplace(constant.key, stability_zones(preset, constant.field, value / reaches, value * reaches));
@@ -40,9 +39,9 @@ StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation
   else
     std::for_each(zoned_weight.begin(), zoned_weight.end(), add_zones);
   if (cloth) {
-    const std::array fastest{fastest_mode(*cloth, live_tolerance)};
-    limits.now = dt_crit(method, fastest), limits.omega = fastest[0].omega();
-    limits.fastest = fastest[0];
+    limits.fastest = fastest_mode(*cloth, live_tolerance), limits.omega = limits.fastest.omega();
+    // The most damped mode may have any part of the stiffness.
+    limits.now = dt_crit(method, std::array{limits.fastest, Mode{0, limits.fastest.damping}});
   }
   if (has_step_limit(method)) add_curves(limits, method);
   return limits;

@@ -29,12 +29,12 @@ GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h
 /// where none is too large.
 struct StabilityLimits {
   Preset of;       ///< the constants they belong to
-  double any = 0;  ///< dt_crit in any configuration of the springs
+  double any = 0;  ///< worst-case limit: dt_crit in any configuration of the springs
   std::optional<double>
-      now;               ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
-  double omega = 0;      ///< 1/s, of the fastest mode now, where `now` is there
-  Mode fastest{};        ///< that mode; where `now` is not there, what no mode in any configuration exceeds
-  double stiffness = 0;  ///< by how much k_s and k_b can grow until dt reaches `any`
+      now;           ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
+  double every = 0;  ///< dt above which every shape is unstable
+  double omega = 0;  ///< 1/s, of the fastest mode now, where `now` is there
+  Mode fastest{};    ///< that mode; where `now` is not there, what no mode in any configuration exceeds
   GrowthCurve damped, undamped;  ///< the method's growth, for modes damped as the fastest is, and without damping
   std::map<std::string, std::vector<ZoneSpan>, std::less<>> zones;  ///< by the constant's key
 };

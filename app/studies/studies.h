@@ -6,6 +6,7 @@
 #include "app/studies/device_search.h"
 #include "app/studies/engine_search.h"
 #include "app/studies/map_watch.h"
+#include "app/studies/settings_watch.h"
 #include "app/studies/stability_watch.h"
 
 namespace tyglab {
@@ -15,6 +16,7 @@ struct Wants {
   bool stability = false;                               ///< limits of dt, zones of constants
   bool accuracy = false;                                ///< errors of the present settings and of other methods
   bool convergence = false;                             ///< the order of convergence
+  bool settings = false;                                ///< settings for an error
   bool map = false;                                     ///< stiffness against dt
   bool ledger = false;                                  ///< where energy comes from and goes
   bool step = false;                                    ///< the picked particle's next step, written out
@@ -27,6 +29,7 @@ struct Studies {
   StabilityWatch stability;
   AccuracyWatch accuracy;
   ConvergenceWatch convergence;
+  SettingsWatch settings;
   MapWatch map;
   EngineSearch engine;
   DeviceSearch devices;

@@ -24,7 +24,7 @@ void cut_along_path(Tools& tools) {
   if (strokes.empty()) return;
   edit::CutSprings cut{springs_across(cloth.positions(), cloth.tears(), tools.scene.camera,
                                       tools.session.preset().bodies, strokes, tools.scene.viewport.size())};
-  if (!cut.springs.empty()) apply_edit(tools.session, std::move(cut));
+  if (!cut.springs.empty()) apply_edit(tools.session, std::move(cut), tool.knife_gesture);
 }
 
 /// The report's cut: the particles near the pointer's path lose their springs upward.
@@ -38,7 +38,7 @@ void cut_upwards(Tools& tools) {
                              tool.path[k], tools.scene.viewport.size(), pointer_reach(tools)))
       if (std::find(sites.begin(), sites.end(), site) == sites.end()) sites.push_back(site);
   tool.path = {tool.at};
-  if (!sites.empty()) apply_edit(tools.session, edit::Cut{std::move(sites)});
+  if (!sites.empty()) apply_edit(tools.session, edit::Cut{std::move(sites)}, tool.knife_gesture);
 }
 
 }  // namespace

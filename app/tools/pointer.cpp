@@ -17,8 +17,9 @@
 namespace tyglab {
 namespace {
 
-constexpr float click_slack = 4;         // pixels at scale 1
-constexpr float double_click_slack = 8;  // between the two presses of a double click
+constexpr unsigned first_knife_gesture = 0x78000000;  // apart from those of sliders, bodies and the wind
+constexpr float click_slack = 4;                      // pixels at scale 1
+constexpr float double_click_slack = 8;               // between the two presses of a double click
 
 using ToolKind = Tool::Kind;
 
@@ -79,6 +80,7 @@ void start_left(Tools& tools, glm::vec2 at) {
                        tools.scene.camera.unproject_in_camera_plane(at, tool.body_plane, tools.scene.viewport.size());
   } else {
     tool.kind = ToolKind::cut;
+    tool.knife_gesture = std::max(tool.knife_gesture + 1, first_knife_gesture);
     tool.path = {at};
     tool.stroke.push_back({at, tools.now, tool.tile, true});
   }
@@ -134,7 +136,7 @@ void pick_or_pin(Tools& tools, const PointerEvent& event) {
     tool.last_site.reset();
     return;
   }
-  if (tools.session.picked != tool.site && tools.session.recorded.source == Source::particle)
+  if (tools.session.picked != tool.site && force_source(tools.session) == Source::particle)
     tools.session.recorded.forces.clear();
   tools.session.picked = tool.site;
   tool.last_click = event.time;

@@ -185,7 +185,7 @@ BoundaryRow measure_slack(const Preset& cloth, int steps) {
   hanging.advance(int(2 / calm.dt));
   const Scheme& method = scheme(cloth.integrator);
   BoundaryRow row{cloth, dt_crit(method, extreme_modes(Linearisation(hanging), exact_tolerance))};
-  row.any_configuration = dt_crit(method, std::vector<Mode>{any_configuration(cloth)});
+  row.any_configuration = dt_crit(method, worst_modes(cloth));
   row.measured = bisect(row.predicted, chaotic_motion, [&](double dt) {
     Preset p = cloth;
     p.dt = dt;

@@ -22,6 +22,12 @@ std::string reference_method(const Preset& preset) {
   return preset.k_d > 0 ? "rk4" : "rkn4";
 }
 
+/// Dt of the coarser of two references, s: what moves slowly is followed closely anyway.
+double coarser_reference_dt(const Preset& preset, double finer) {
+  constexpr double slowest = 0.016;  // in place of the stable dt
+  return std::clamp(std::min(stable_dt(preset, "verlet"), slowest) / finer, least_dt, slowest);
+}
+
 Track follow(const StudyStart& start, const Preset& preset, int steps, const Stop& stop) {
   const auto of = begin_study(start, preset);
   Simulation& simulation = *of;
@@ -36,34 +42,83 @@ Track follow(const StudyStart& start, const Preset& preset, int steps, const Sto
 
 }  // namespace
 
-StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop) {
-  constexpr double finer = 16;       // than the coarsest stable dt of Verlet
-  constexpr double longest = 0.001;  // s: what moves slowly is followed closely anyway
+double StudyReference::error_of(const Track& other) const {
+  if (over == ErrorOver::all_times) return rms_distance(other, track);
+  double worst = 0;
+  for (std::size_t n = 0; n < track.size(); ++n) worst = std::max(worst, rms_distance({other[n]}, {track[n]}));
+  return worst;
+}
+
+double reference_effort(const Preset& preset, double seconds, double finer) {
+  Preset with = preset;
+  with.integrator = reference_method(preset);
+  return 3 * step_effort(with) * seconds /
+         coarser_reference_dt(preset, finer);  // two runs, the second of twice the steps
+}
+
+StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop) {
   Preset preset = start.preset;
   preset.precision = Precision::double_, preset.integrator = reference_method(preset);
-  const double coarse = std::clamp(stable_dt(preset, "verlet") / finer, least_dt, longest);
-  // Two runs, the second of twice the steps.
-  const double a_second = 3 * step_effort(preset) / coarse;
-  seconds = std::min(seconds, effort.reference / a_second);
-  // Comparing where the present dt ends its steps checks the settings as they are.
-  constexpr double patience = 4;  // times the effort, for a long dt
-  const double whole = accuracy_samples * start.preset.dt;
-  if (whole <= patience * seconds) {
-    seconds = whole * std::max(1.0, std::floor(seconds / whole));
-  } else {
-    seconds = std::max(seconds, accuracy_samples * coarse);
-  }
-  StudyReference reference{.seconds = seconds, .track = {}, .method = preset.integrator};
+  StudyReference reference{.seconds = seconds, .track = {}, .method = preset.integrator, .over = over};
   int steps = 0;
-  preset.dt = whole_dt(seconds, coarse, steps);
+  preset.dt = whole_dt(seconds, coarser_reference_dt(preset, finer), steps);
   const Track coarser = follow(start, preset, steps, stop);
   reference.dt = preset.dt = preset.dt / 2;
   reference.track = follow(start, preset, 2 * steps, stop);
-  reference.agreement_rms_m = rms_distance(reference.track, coarser);
+  reference.agreement_rms_m = reference.error_of(coarser);
   return reference;
 }
 
-ErrorPoint measure_point(const StudyStart& start, const StudyReference& reference, const Stop& stop) {
+void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop) {
+  Preset preset = start.preset;
+  preset.precision = Precision::double_;
+  // Runge-Kutta evaluates the forces four times in a step: with twice the dt it takes as long as both references.
+  const bool cheap = reference.method == "velocity_verlet";
+  preset.integrator = cheap ? "rk4" : "velocity_verlet";
+  int steps = 0;
+  preset.dt = whole_dt(reference.seconds, cheap ? 2 * reference.dt : reference.dt / 2, steps);
+  reference.agreement_rms_m =
+      std::max(reference.agreement_rms_m, reference.error_of(follow(start, preset, steps, stop)));
+}
+
+StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop) {
+  constexpr double finer = 16;  // than the coarsest stable dt of Verlet
+  const Preset& preset = start.preset;
+  seconds = std::min(seconds, effort.reference / reference_effort(preset, 1, finer));
+  // Comparing where the present dt ends its steps checks the settings as they are.
+  constexpr double patience = 4;  // times the effort, for a long dt
+  const double whole = accuracy_samples * preset.dt;
+  if (whole <= patience * seconds) {
+    seconds = whole * std::max(1.0, std::floor(seconds / whole));
+  } else {
+    seconds = std::max(seconds, accuracy_samples * coarser_reference_dt(preset, finer));
+  }
+  return reference_over(start, seconds, finer, ErrorOver::all_times, stop);
+}
+
+namespace {
+
+/// Asks `stop`, and now and then the clock: a step of a small cloth is quicker than a look at it.
+class TimeLimit {
+ public:
+  TimeLimit(const Stop& stop, double most) : stop_(stop), most_(most), begun_(thread_seconds()) {}
+  bool reached() {
+    if (stop_()) return true;
+    if (!over_ && ++asked_ % 32 == 0) over_ = thread_seconds() - begun_ > most_;
+    return over_;
+  }
+  bool over() const { return over_; }
+
+ private:
+  const Stop& stop_;
+  double most_, begun_;
+  int asked_ = 0;
+  bool over_ = false;
+};
+
+}  // namespace
+
+ErrorPoint measure_point(const StudyStart& start, const StudyReference& reference, const Stop& stop, double most) {
   constexpr double short_run = 0.02;  // s: repeated, and the least time taken
   Preset preset = start.preset;
   const bool chooses = chooses_steps(scheme(preset.integrator));
@@ -71,25 +126,34 @@ ErrorPoint measure_point(const StudyStart& start, const StudyReference& referenc
   preset.dt = whole_dt(reference.seconds, chooses ? reference.seconds : preset.dt, steps);
   ErrorPoint point{preset.integrator, preset.precision, preset.dt, chooses ? preset.tolerance : 0};
   double took = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < (took < short_run ? 3 : 1); ++run) {
+  for (int run = 0; run < (took < short_run ? 3 : 1) && !point.given_up; ++run) {
     const auto of = begin_study(start, preset);
     Simulation& simulation = *of;
     Track track;
     double now = 0;
-    for (int n = 0; n < accuracy_samples && !simulation.divergence(); ++n) {
+    TimeLimit limit(stop, most);
+    for (int n = 0; n < accuracy_samples && !simulation.divergence() && !point.given_up; ++n) {
       const double before = thread_seconds();
-      advance_study(simulation, steps, stop);
+      try {
+        advance_study(simulation, steps, [&] { return limit.reached(); });
+      } catch (const Stopped&) {
+        if (!limit.over()) throw;
+        point.given_up = true;
+      }
       now += thread_seconds() - before;
       track.push_back(positions_of(simulation));
     }
     took = std::min(took, now);
+    point.converged = simulation.engine().solves().unconverged == 0;
     if (chooses) {
       const auto inner = std::max<std::int64_t>(1, simulation.engine().inner_steps().accepted);
       point.dt = reference.seconds / double(inner);
     }
-    point.error_rms_m =
-        simulation.divergence() ? std::numeric_limits<double>::infinity() : rms_distance(track, reference.track);
-    if (simulation.divergence()) break;
+    const bool whole = !simulation.divergence() && !point.given_up;
+    // Between the times of comparison a blow may have left more than is seen at them.
+    point.error_rms_m = whole ? std::max(reference.error_of(track), reference.blow * point.dt)
+                              : std::numeric_limits<double>::infinity();
+    if (!whole) break;
   }
   point.cost = took / reference.seconds;
   point.resolved = point.error_rms_m >= 10 * reference.agreement_rms_m;
@@ -110,36 +174,47 @@ bool refine(Preset& preset) {
 
 /// The coarsest setting worth trying; false where the method has no stable one.
 bool coarsest(Preset& preset, double seconds) {
-  constexpr double frame = 0.03;  // s: what methods without a limit begin with
+  constexpr double unlimited = 0.1;  // s: what methods without a limit begin with
   if (chooses_steps(scheme(preset.integrator))) {
     preset.tolerance = 1e-2;
     return true;
   }
-  const double stable = has_step_limit(scheme(preset.integrator)) ? advised_dt(preset, preset.integrator) : frame;
-  preset.dt = std::min({stable, frame, seconds / accuracy_samples, longest_dt});
+  const double stable = has_step_limit(scheme(preset.integrator)) ? advised_dt(preset, preset.integrator) : unlimited;
+  preset.dt = std::min({stable, unlimited, seconds / accuracy_samples, longest_dt});
   return preset.dt >= least_dt;
 }
 
 }  // namespace
 
-std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& reference, double enough,
-                                     const StudyEffort& effort, const Stop& stop) {
+std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& reference, const StudyEffort& effort,
+                                     const Stop& stop, const std::function<bool(std::span<const ErrorPoint>)>& enough) {
   std::vector<ErrorPoint> points;
   Preset& preset = start.preset;
   if (!coarsest(preset, reference.seconds)) return points;
+  const Scheme& method = scheme(preset.integrator);
   const double a_step = step_effort(preset);
-  int no_better = 0;
+  // Half the dt costs an explicit method twice as much; an implicit one solves shorter steps in fewer iterations.
+  int patience = is_implicit(method) ? 3 : 1, no_better = 0;
   double best = std::numeric_limits<double>::infinity();
   do {
-    if (!chooses_steps(scheme(preset.integrator)) && a_step * reference.seconds / preset.dt > effort.point) break;
-    points.push_back(measure_point(start, reference, stop));
+    if (!chooses_steps(method) && a_step * reference.seconds / preset.dt > effort.point) break;
+    points.push_back(measure_point(start, reference, stop, effort.cost * reference.seconds));
     const ErrorPoint& point = points.back();
-    if (point.error_rms_m <= enough || !point.resolved) break;
+    if (enough(points)) break;
     if (std::isfinite(point.error_rms_m)) no_better = point.error_rms_m < 0.9 * best ? 0 : no_better + 1;
     best = std::min(best, point.error_rms_m);
-    if (no_better == 3 || point.cost * reference.seconds * 1e9 / 4 > effort.point || point.cost > effort.cost) break;
+    const bool dear =
+        point.given_up || point.cost > effort.cost || point.cost * reference.seconds * 1e9 / 4 > effort.point;
+    if (no_better == 3 || (dear && --patience == 0)) break;
   } while (refine(preset));
   return points;
+}
+
+std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& reference, double enough,
+                                     const StudyEffort& effort, const Stop& stop) {
+  return error_ladder(std::move(start), reference, effort, stop, [enough](std::span<const ErrorPoint> points) {
+    return points.back().error_rms_m <= enough || !points.back().resolved;
+  });
 }
 
 }  // namespace tyglab

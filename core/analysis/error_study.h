@@ -3,7 +3,10 @@
 // shows.
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,9 +28,18 @@ struct ErrorPoint {
   double dt = 0;           ///< s, as it was measured: of which whole steps lie between the times of comparison; of
                            ///< methods that choose their own steps the mean of those
   double tolerance = 0;    ///< m; of those methods
-  double error_rms_m = 0;  ///< over all particles, at the times of comparison; infinite where the run diverged
+  double error_rms_m = 0;  ///< over all particles, at the times of comparison; infinite where the run diverged or was
+                           ///< given up
   double cost = 0;         ///< processor seconds on one thread for a simulated second
   bool resolved = true;    ///< false: the error is under ten times what two references differ by
+  bool converged = true;   ///< false: an implicit method's solves missed their tolerance
+  bool given_up = false;   ///< it took longer than it may
+};
+
+/// How the distances at several times make one error.
+enum class ErrorOver {
+  all_times,  ///< their root mean square
+  worst_time  ///< the largest of them
 };
 
 /// Over which time a motion can be checked, and what it is checked by.
@@ -37,6 +49,12 @@ struct StudyReference {
   double agreement_rms_m = 0;  ///< how far two references differ, of which one has half the other's dt
   std::string method;          ///< theirs
   double dt = 0;               ///< s, the smaller
+  ErrorOver over = ErrorOver::all_times;
+  double blow =
+      0;  ///< m/s, of the hardest blow of a body: its step stops a particle up to blow · dt too early, for a while
+
+  /// How far the positions are from its own, m; infinite where one is not finite.
+  double error_of(const Track& other) const;
 };
 
 /// Effort of a study.
@@ -50,12 +68,27 @@ struct StudyEffort {
 /// take more than the effort. Throws Stopped, and std::runtime_error where the motion cannot be followed.
 StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop);
 
-/// One setting: those of the preset, with that integrator, precision, dt and tolerance.
-ErrorPoint measure_point(const StudyStart& start, const StudyReference& reference, const Stop& stop);
+/// The reference over exactly that time, with `finer` times as many steps as the coarsest stable dt of Verlet asks for.
+/// Throws as study_reference does.
+StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop);
+/// Particles times force evaluations that it takes.
+double reference_effort(const Preset& preset, double seconds, double finer);
+/// Follows the motion once more, by a method of another kind, and raises the reference's disagreement to how far that
+/// run is from it: in contact and where springs tear, runs of one method can agree and be wrong together. Takes about
+/// as long as the reference did. Throws as study_reference does.
+void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop);
 
-/// Settings of one method from the coarsest that is stable on, each half of the one before it (a tenth, where the
-/// method takes a tolerance), until the error is below `enough` (m), is not resolved, stops falling, or the next would
-/// cost more than the effort.
+/// One setting: those of the preset, with that integrator, precision, dt and tolerance. `most`: processor seconds after
+/// which it is given up; what it had taken by then is its cost.
+ErrorPoint measure_point(const StudyStart& start, const StudyReference& reference, const Stop& stop,
+                         double most = std::numeric_limits<double>::infinity());
+
+/// Settings of one method from the coarsest that is stable on (0.1 s where all are), each half of the one before it (a
+/// tenth, where the method takes a tolerance), until `enough` says so of those that were measured, the error stops
+/// falling, or the next would cost more than the effort.
+std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& reference, const StudyEffort& effort,
+                                     const Stop& stop, const std::function<bool(std::span<const ErrorPoint>)>& enough);
+/// The same until the error is below `enough` (m), or not resolved.
 std::vector<ErrorPoint> error_ladder(StudyStart start, const StudyReference& reference, double enough,
                                      const StudyEffort& effort, const Stop& stop);
 

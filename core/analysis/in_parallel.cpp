@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -33,7 +34,11 @@ void in_parallel(int count, int threads, const std::function<void(int)>& work, c
   };
   {
     std::vector<std::jthread> others;
-    for (int n = 1; n < std::min(threads, count); ++n) others.emplace_back(worker);
+    try {
+      for (int n = 1; n < std::min(threads, count); ++n) others.emplace_back(worker);
+    } catch (const std::system_error&) {
+      // The system gives no more threads: fewer do the work.
+    }
     worker();
   }
   if (fault) std::rethrow_exception(fault);

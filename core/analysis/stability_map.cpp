@@ -1,7 +1,6 @@
 #include "core/analysis/stability_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 
@@ -13,6 +12,7 @@
 #include "core/model/notation.h"
 #include "core/simulation.h"
 #include "core/theory/modes.h"
+#include "core/theory/zones.h"
 
 namespace tyglab {
 namespace {
@@ -44,8 +44,7 @@ double between(double least, double most, double part) {
 double map_limit(const Preset& preset) {
   const Scheme& method = scheme(preset.integrator);
   if (!has_step_limit(method)) return 0;
-  const std::array modes{any_configuration(preset)};
-  const double limit = dt_crit(method, modes);
+  const double limit = dt_crit(method, worst_modes(preset));
   return std::isfinite(limit) ? limit : 0;
 }
 
@@ -124,9 +123,11 @@ MapBoundary map_boundary(const Preset& preset, const MapGrid& grid) {
   MapBoundary boundary;
   for (int n = 0; n <= samples; ++n) {
     const double stiffness = grid.stiffness(grid.columns * double(n) / samples);
-    const double limit = map_limit(at_place(preset, stiffness, preset.dt));
+    const Preset there = at_place(preset, stiffness, preset.dt);
+    const double limit = map_limit(there);
     if (limit <= 0) continue;
     boundary.stiffness.push_back(stiffness), boundary.dt.push_back(limit);
+    boundary.every.push_back(every_shape_limit(there));
   }
   return boundary;
 }

@@ -1,5 +1,5 @@
 // A map of stiffness against dt: what a method tolerates in a scene, by linear theory and by short runs of that
-// very scene. Springs of a slack cloth bear more than theory's bound, some less than it hangs with: the map shows it.
+// very scene. Between theory's two borders it depends on the shape of the cloth: the runs show what comes of it.
 #pragma once
 
 #include <span>
@@ -30,7 +30,7 @@ MapGrid map_grid(const Preset& preset, int columns, int rows);
 struct MapCell {
   int column = 0, row = 0;
   double stiffness = 0, dt = 0;
-  double dt_theory = 0;  ///< s; the largest stable one at this stiffness, by theory; 0 where there is none
+  double dt_theory = 0;  ///< s; the worst-case limit at this stiffness; 0 where there is none
   bool diverged = false;
   double t = 0;      ///< s; when it diverged, or how long it ran
   double share = 0;  ///< energy that the method made (above 0) or ate, in parts of what the scene can hold
@@ -51,12 +51,13 @@ MapCell measure_cell(const Preset& preset, const MapGrid& grid, int column, int 
 /// All cells of a grid (row · columns + column), coarsely spread first, so that the map can be read before it is whole.
 std::vector<int> coarse_first(const MapGrid& grid);
 
-/// The dt that theory allows over stiffness, any configuration of the springs: places of the grid, left to right.
-/// Empty where the method has no such dt.
+/// Theory's borders over stiffness, places of the grid from left to right: up to `dt` the method is stable in any shape
+/// of the cloth, above `every` (at least `dt`; infinity where there is none) it is unstable in every shape. Empty where
+/// the method has no limit.
 struct MapBoundary {
-  std::vector<double> stiffness, dt;
+  std::vector<double> stiffness, dt, every;
 };
-/// The same of the preset's own stiffness, s; 0 where there is none.
+/// The worst-case limit with the preset's own stiffness, s; 0 where there is none.
 double map_limit(const Preset& preset);
 MapBoundary map_boundary(const Preset& preset, const MapGrid& grid);
 

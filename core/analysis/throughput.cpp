@@ -63,21 +63,14 @@ class Load {
  public:
   explicit Load(int threads) {
     for (int n = 0; n < threads; ++n)
-      threads_.emplace_back([this] {
-        while (!over_) {
+      threads_.emplace_back([](const std::stop_token& over) {
+        while (!over.stop_requested()) {
         }
       });
   }
-  ~Load() {
-    over_ = true;
-    for (std::thread& thread : threads_) thread.join();
-  }
-  Load(const Load&) = delete;
-  Load& operator=(const Load&) = delete;
 
  private:
-  std::atomic<bool> over_{false};
-  std::vector<std::thread> threads_;
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace

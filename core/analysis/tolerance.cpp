@@ -1,70 +1,47 @@
 #include "core/analysis/tolerance.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
-#include "core/energy/auto_step.h"
-#include "core/engines/opencl/opencl_devices.h"
-#include "core/integrators/scheme.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
 namespace {
 
-/// Every other method has one beside it here that is better at the same cost: Verlet is the cheapest of the first two
-/// orders, XPBD's error does not fall with dt alone.
-constexpr std::array candidates{"verlet", "velocity_verlet", "rk4", "rkn4", "dopri5", "implicit_midpoint"};
-constexpr double aim = 0.5;       // of the tolerance: the trial is short
-constexpr double longest = 1;     // s of motion in a trial
-constexpr int shorter_tries = 5;  // halvings of it, where it cannot be checked so long
-
 std::string number(double value) {
   return short_number(value, 2);
-}
-
-/// The reference over as much of the motion as can be distinguished from a tenth of the tolerance.
-StudyReference judge(const StudyStart& start, double tolerance, double seconds, const Stop& stop) {
-  seconds = std::min(seconds, longest);
-  StudyReference reference;
-  for (int n = 0; n < shorter_tries; ++n, seconds /= 2) {
-    reference = study_reference(start, seconds, {}, stop);
-    if (10 * reference.agreement_rms_m <= tolerance) return reference;
-  }
-  throw ToleranceError(
-      "this motion cannot be predicted to " + number(tolerance) + " m: over its first " + number(reference.seconds) +
-      " s two fine runs (" + reference.method + ", dt = " + number(2 * reference.dt) + " s and half of it) differ by " +
-      number(reference.agreement_rms_m) + " m. Use " + number(20 * reference.agreement_rms_m) + " or more.");
-}
-
-struct Found {
-  Preset preset;
-  ErrorPoint point;
-};
-
-/// The coarsest setting of a method that reaches the error, if any; `least` becomes the least error seen.
-std::optional<Found> find(StudyStart start, const StudyReference& reference, double enough, const StudyEffort& effort,
-                          ErrorPoint& least, const Stop& stop) {
-  for (const ErrorPoint& point : error_ladder(start, reference, enough, effort, stop)) {
-    if (point.error_rms_m < least.error_rms_m) least = point;
-    if (!(point.error_rms_m <= enough)) continue;
-    Found found{start.preset, point};
-    if (point.tolerance > 0) {
-      found.preset.tolerance = point.tolerance;
-    } else {
-      found.preset.dt = std::max(two_digits_below(point.dt), 1e-7);  // at most what was measured
-    }
-    return found;
-  }
-  return std::nullopt;
 }
 
 std::string settings_of(const ErrorPoint& point) {
   const std::string step =
       point.tolerance > 0 ? "tolerance = " + number(point.tolerance) + " m" : "dt = " + number(point.dt) + " s";
   return point.integrator + ", " + step + ", " + std::string(name_of(point.precision));
+}
+
+/// The usable setting with the least error; null where there is none.
+const ErrorPoint* most_accurate(const std::vector<ErrorPoint>& points) {
+  const ErrorPoint* least = nullptr;
+  for (const ErrorPoint& point : points)
+    if (std::isfinite(point.error_rms_m) && (least == nullptr || point.error_rms_m < least->error_rms_m))
+      least = &point;
+  return least;
+}
+
+/// Why there is nothing for the tolerance.
+std::string why_refused(const SettingsSearch& search, double tolerance) {
+  if (10 * search.agreement_rms_m > tolerance)
+    return number(tolerance) + " m cannot be promised over the first " + number(search.seconds) + " s: fine runs (" +
+           search.references + ") differ by " + number(search.agreement_rms_m) +
+           " m, and must agree to well below the tolerance";
+  const ErrorPoint* least = most_accurate(search.points);
+  return "no method reaches " + number(tolerance) + " m here with a margin of two" +
+         (least != nullptr ? "; the best was " + settings_of(*least) + " with " + number(least->error_rms_m) + " m"
+                           : "") +
+         (search.goal.keeps.integrator ? "; leave the method open for more" : "") +
+         (search.goal.keeps.precision && search.of.precision == Precision::float_
+              ? "; leave the precision open for more"
+              : "");
 }
 
 }  // namespace
@@ -82,42 +59,25 @@ std::string ToleranceChoice::words(double tolerance) const {
   return text + " Errors grow with time, so later results may be less accurate.";
 }
 
-ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, double seconds,
-                                     const ToleranceKeeps& keeps, const Stop& stop) {
-  StudyStart start{preset, std::nullopt};
-  const StudyReference reference = judge(start, tolerance, seconds, stop);
-  std::vector<std::string> methods(candidates.begin(), candidates.end());
-  if (keeps.integrator) methods = {preset.integrator};
-  if (preset.engine == EngineKind::opencl)
-    std::erase_if(methods, [](const std::string& name) { return !runs_on_opencl(scheme(name)); });
-  ErrorPoint least;
-  least.error_rms_m = std::numeric_limits<double>::infinity();
-  std::vector<Found> found;
-  const auto try_all = [&](Precision precision) {
-    for (const std::string& method : methods) {
-      start.preset = preset;
-      start.preset.integrator = method, start.preset.precision = precision;
-      // Who is already twice as dear as the cheapest will not be cheaper with a finer dt.
-      StudyEffort effort;
-      for (const Found& one : found) effort.cost = std::min(effort.cost, 2 * one.point.cost);
-      if (auto one = find(start, reference, aim * tolerance, effort, least, stop)) found.push_back(std::move(*one));
-    }
-  };
-  try_all(preset.precision);
-  if (found.empty() && !keeps.precision && preset.precision == Precision::float_) try_all(Precision::double_);
-  if (found.empty())
-    throw ToleranceError(
-        "no method reaches " + number(tolerance) + " m here with a margin of two" +
-        (std::isfinite(least.error_rms_m)
-             ? "; the best was " + settings_of(least) + " with " + number(least.error_rms_m) + " m"
-             : "") +
-        ". Use a larger tolerance" + (keeps.integrator ? " or leave the method open" : "") +
-        (keeps.precision && preset.precision == Precision::float_ ? " or leave the precision open" : "") + ".");
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& a, const Found& b) { return a.point.cost < b.point.cost; });
-  ToleranceChoice choice{found.front().preset, found.front().point, {}, reference.seconds, reference.agreement_rms_m};
-  for (const Found& one : found) choice.reached.push_back(one.point);
-  return choice;
+std::vector<ErrorPoint> reached_or_refused(const SettingsSearch& search, double tolerance) {
+  if (!search.problem.empty()) throw ToleranceError(search.problem, std::nullopt);
+  std::vector<ErrorPoint> reached = settings_for(search, tolerance);
+  if (!reached.empty()) return reached;
+  constexpr double largest = 1;  // m; more says nothing
+  const double tightest = tightest_tolerance(search);
+  const bool told = tightest <= largest;
+  throw ToleranceError(why_refused(search, tolerance) +
+                           (told ? ". The tightest tolerance that can be promised is " + number(tightest) + " m"
+                                 : ". No tolerance up to 1 m can be promised here"),
+                       told ? std::optional(tightest) : std::nullopt);
+}
+
+ToleranceChoice choose_for_tolerance(const Preset& preset, const SettingsGoal& goal, const Stop& stop,
+                                     const std::function<void(const SettingsSearch&)>& found) {
+  const SettingsSearch search = search_settings({preset, std::nullopt}, goal, stop, found);
+  std::vector<ErrorPoint> reached = reached_or_refused(search, goal.tolerance);
+  const ErrorPoint best = reached.front();
+  return {with_setting(preset, best), best, std::move(reached), search.seconds, search.agreement_rms_m};
 }
 
 }  // namespace tyglab

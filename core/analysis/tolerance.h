@@ -1,38 +1,41 @@
 // `--tolerance E`: the method and the dt that reach an error soonest, by short trial runs of the very scene.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "core/analysis/error_study.h"
+#include "core/analysis/settings_search.h"
 
 namespace tyglab {
-
-/// What was typed beside the tolerance and is therefore not to be chosen.
-struct ToleranceKeeps {
-  bool integrator = false, precision = false;
-};
 
 struct ToleranceChoice {
   Preset preset;                    ///< with integrator, dt, precision and (where the method takes one) tolerance
   ErrorPoint chosen;                ///< what it reached in the trial
   std::vector<ErrorPoint> reached;  ///< the cheapest setting of each method that reaches the error, cheapest first
   double seconds = 0;               ///< of motion that was tried, from the start
-  double agreement_rms_m = 0;       ///< how far two references differ over it
+  double agreement_rms_m = 0;       ///< how far references differ over it
   /// What was chosen and why, as sentences.
   std::string words(double tolerance) const;
 };
 
-/// No setting reaches the tolerance; says why, and what to do.
+/// No setting reaches the tolerance, or whether one does is not resolved; says why.
 class ToleranceError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  ToleranceError(const std::string& what, std::optional<double> tightest_there_is)
+      : std::runtime_error(what), tightest(tightest_there_is) {}
+  std::optional<double> tightest;  ///< m; the tightest tolerance that can be promised here, where there is one
 };
 
-/// Settings with positions off by at most `tolerance` (m, root mean square over the particles) in the first `seconds`
-/// of motion, or in as much of it as can be checked; half of it is aimed at. Throws ToleranceError or Stopped.
-ToleranceChoice choose_for_tolerance(const Preset& preset, double tolerance, double seconds,
-                                     const ToleranceKeeps& keeps, const Stop& stop);
+/// What a search found for the tolerance, the cheapest first. Throws ToleranceError.
+std::vector<ErrorPoint> reached_or_refused(const SettingsSearch& search, double tolerance);
+
+/// Settings with positions off by at most the goal's tolerance (m, root mean square over the particles) at every time
+/// of comparison in the goal's seconds of motion; of less only where the cloth is so large that all of it would take
+/// too long, and nothing new happens after the end. `found` is told how far the search has come. Throws ToleranceError
+/// or Stopped.
+ToleranceChoice choose_for_tolerance(const Preset& preset, const SettingsGoal& goal, const Stop& stop,
+                                     const std::function<void(const SettingsSearch&)>& found);
 
 }  // namespace tyglab

@@ -2,9 +2,6 @@
 
 #include <cmath>
 
-#include "core/model/readable.h"
-#include "core/theory/advice.h"
-
 namespace tyglab {
 namespace {
 
@@ -16,8 +13,8 @@ double gravity_scale(const Preset& p) {
 
 }  // namespace
 
-void EnergyWatch::begin(const Preset& preset, const EnergyReading& now) {
-  ledger_.begin(now, gravity_scale(preset));
+void EnergyWatch::begin(const Preset& preset, const EnergyReading& now, double t) {
+  ledger_.begin(now, gravity_scale(preset), t);
   whole_ = {};
 }
 
@@ -45,23 +42,6 @@ void EnergyWatch::after_step(const Preset& preset, const Tears& tears, const Sta
     contact = before_tearing - read_energy(preset, broken ? whole_ : tears, freely_, held).energy.total();
   }
   ledger_.step(now, preset.dt, contact, tearing);
-}
-
-std::optional<Divergence> EnergyWatch::divergence(const Preset& preset, const State& state, int columns) const {
-  const LedgerReading reading = ledger_.reading();
-  if (!(reading.share() > Ledger::diverges_at)) return std::nullopt;
-  Divergence d;
-  double fastest = -1;
-  for (std::size_t n = 0; n < state.v.x.size(); ++n) {
-    const double speed = std::hypot(state.v.x[n], state.v.y[n], state.v.z[n]);
-    if (speed > fastest) fastest = speed, d.i = int(n) / columns, d.j = int(n) % columns;
-  }
-  d.quantity = "unexplained energy", d.value = reading.unexplained();
-  d.cause = preset.integrator + " has added " + short_number(reading.unexplained(), 3) + " J that no force explains, " +
-            short_number(reading.share(), 2) + " times the scene's energy scale, at dt = " + short_number(preset.dt) +
-            " s";
-  d.advice = advice(preset);
-  return d;
 }
 
 }  // namespace tyglab

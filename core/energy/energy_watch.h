@@ -1,7 +1,6 @@
 // Follows a simulation step by step for its energy ledger.
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "core/energy/ledger.h"
@@ -10,7 +9,7 @@ namespace tyglab {
 
 class EnergyWatch {
  public:
-  void begin(const Preset& preset, const EnergyReading& now);
+  void begin(const Preset& preset, const EnergyReading& now, double t);
   /// Records which springs are whole: the energy of those that break in the step is lost.
   void before_step(const Preset& preset, const Tears& tears);
   /// One step has led to `state`; `contacts`: what bodies stopped in it.
@@ -18,8 +17,6 @@ class EnergyWatch {
                   std::span<const Contact> contacts);
   void edited(const EnergyReading& now, Ledger::Source source) { ledger_.edited(now, source); }
   const Ledger& ledger() const { return ledger_; }
-  /// A divergence (without step and time) if the integrator has added more energy than Ledger::diverges_at allows.
-  std::optional<Divergence> divergence(const Preset& preset, const State& state, int columns) const;
 
  private:
   Ledger ledger_;

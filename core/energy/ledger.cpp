@@ -52,8 +52,9 @@ double RunningIntegral::open() const {
   }
 }
 
-void Ledger::begin(const EnergyReading& now, double gravity_scale) {
+void Ledger::begin(const EnergyReading& now, double gravity_scale, double t) {
   *this = {};
+  began_ = t;
   now_ = now.energy;
   start_ = now.energy.total();
   own_scale_ = now.energy.kinetic + now.energy.stretch + now.energy.bending + gravity_scale;
@@ -82,7 +83,7 @@ void Ledger::edited(const EnergyReading& now, Source source) {
 LedgerReading Ledger::reading() const {
   LedgerReading out;
   out.energy = now_;
-  out.start = start_;
+  out.began = began_, out.start = start_;
   out.works = {damping_.total(), contact_, tearing_, wind_.total(), hand_.total() + grabbed_, edits_};
   out.scale = own_scale_ + std::abs(out.works.wind) + std::abs(out.works.hand) + std::abs(out.works.edits);
   return out;

@@ -45,7 +45,8 @@ struct WorkTotals {
 /// The state of the ledger, J.
 struct LedgerReading {
   Energy energy;     ///< now
-  double start = 0;  ///< total when the ledger began
+  double began = 0;  ///< s, when the ledger began
+  double start = 0;  ///< total then
   WorkTotals works;
   /// The scale of unexplained(): the energy that the cloth had in motion and springs, what gravity can give it over its
   /// own length, and what wind, hand and edits have added.
@@ -61,13 +62,14 @@ struct LedgerReading {
 
 class Ledger {
  public:
-  /// Added energy, relative to the scale, above which a warning is due, or the run counts as diverged.
-  static constexpr double warns_at = 0.1, diverges_at = 10;
+  /// Added energy, relative to the scale, above which a warning is due. Whether a run has diverged is not the ledger's
+  /// to say: what is watched does not change what happens (motion_limit.h).
+  static constexpr double warns_at = 0.1;
 
   enum class Source { hand, tearing, edits };
 
-  /// `gravity_scale`: energy that gravity can give, J.
-  void begin(const EnergyReading& now, double gravity_scale);
+  /// `gravity_scale`: energy that gravity can give, J. `t`: now, s.
+  void begin(const EnergyReading& now, double gravity_scale, double t);
   /// A step of h (s) has been made. `contact`, `tearing`: energy that bodies and broken springs added in it, J.
   void step(const EnergyReading& now, double h, double contact, double tearing);
   /// Something was changed between two steps, and the energy jumped to its present value.
@@ -77,7 +79,7 @@ class Ledger {
  private:
   void restart(const Power& power);
   Energy now_;
-  double start_ = 0, own_scale_ = 0;
+  double began_ = 0, start_ = 0, own_scale_ = 0;
   double contact_ = 0, tearing_ = 0, edits_ = 0, grabbed_ = 0;
   RunningIntegral damping_, wind_, hand_;
 };

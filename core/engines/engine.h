@@ -1,5 +1,9 @@
 // Where a simulation runs. An engine owns the particles' arrays and steps them; time, edits, the bookkeeping of tears
 // and files belong to Simulation, and how a device's arrays reach OpenGL to VertexSharing.
+//
+// Where the processor's memory fails (std::bad_alloc), every function of the CPU engine leaves it as it was, and
+// advance() with its last whole step. After an EngineError, as of a device that is lost, an engine can only be
+// destroyed.
 #pragma once
 
 #include <atomic>
@@ -15,6 +19,7 @@
 
 #include "core/cloth/state.h"
 #include "core/cloth/tears.h"
+#include "core/integrators/solve_counts.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
 #include "core/model/stop.h"
@@ -78,14 +83,6 @@ struct PositionView {
   }
 };
 
-/// Work of implicit methods since the engine was created.
-struct SolveCounts {
-  std::int64_t newton = 0;  ///< Newton iterations
-  std::int64_t linear = 0;  ///< iterations of conjugate gradients within them
-  std::int64_t force_evaluations = 0;
-  std::int64_t unconverged = 0;  ///< linear or nonlinear solves that missed their tolerance
-};
-
 /// A particle as its method stores it, m and m/s.
 struct StoredParticle {
   glm::dvec3 x{0}, v{0};
@@ -110,7 +107,7 @@ class Engine {
     assert(state.x.x.size() == std::size_t(view.rows) * std::size_t(view.columns));
     load(rows_of(state, view.columns), tears);
   }
-  /// Changes constants, integrator, dt and bodies, and keeps the velocities. The lattice and the precision must be the
+  /// Changes constants, dt and bodies, and keeps the velocities. The lattice, the precision and the method must be the
   /// same as before.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
   /// Whether set_preset() would be quick. Otherwise it builds a program for the preset, which takes seconds unless an
@@ -119,8 +116,12 @@ class Engine {
   /// The same for note_contacts(true).
   virtual bool ready_for_contacts() const { return true; }
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
-  /// Makes up to `steps` steps; stops early on divergence, when the hand lets go, and when stop_when() says so. Updates
-  /// `tears` as springs break.
+  /// Takes the memory that set_fixed() with as many particles and load() need, so that these do not run out of it where
+  /// they are parts of a larger change.
+  virtual void prepare([[maybe_unused]] std::size_t fixed) {}
+  /// Makes up to `steps` steps; stops early on divergence, when the hand lets go, when stop_when() says so, and where
+  /// memory fails after some of them: it is thrown that it does where not even one is made. Updates `tears` as springs
+  /// break.
   virtual Advance advance(int steps, Tears& tears) = 0;
   /// Whether steps record what bodies stop, which only the energy ledger needs.
   virtual void note_contacts(bool on) = 0;

@@ -24,7 +24,7 @@ struct Motion {
 
 class MotionLimit {
  public:
-  /// Energy of the motion above which a run has diverged, over all that the scene can hold: as Ledger::diverges_at.
+  /// Energy of the motion above which a run has diverged, over all that the scene can hold.
   static constexpr double factor = 10;
 
   /// Takes constants, wind and hand as they are from now on. `hand`: velocity of the held particle, m/s, 0 if there is

@@ -44,13 +44,20 @@ double take_step(ImplicitStage& stage, double slope, SolveCounts& counts) {
   return now.residual;
 }
 
+/// The solution of a single linear system is taken as it is; |r| there says how good it is.
+double take_whole_step(ImplicitStage& stage, SolveCounts& counts) {
+  ++counts.force_evaluations;
+  return stage.try_part(1).residual;
+}
+
 }  // namespace
 
-void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) {
+double solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) {
   const double first = stage.evaluate();
   ++counts.force_evaluations;
   // A step that moves nothing by more than the last digits of a position cannot be bettered.
   const double last_digits = 4 * rules.epsilon * stage.start_size();
+  const double tolerance = rules.most == 1 ? single_solve_tolerance : rules.tolerance;
   bool direct = false;  // every stage tries again: a repeated step must give the same bits
   bool solved = first == 0;
   double norm = first;
@@ -58,15 +65,16 @@ void solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) 
     stage.note_progress(double(n) / rules.most);
     stage.linearize();
     const bool found = find_step(stage, direct);
-    if (stage.stops()) return;
+    if (stage.stops()) return 0;
     if (!found) ++counts.unconverged;
     ++counts.newton;
-    if (rules.most == 1) return stage.accept();
     const ImplicitStage::Step step = stage.step();
-    norm = take_step(stage, step.slope, counts);
-    solved = norm <= rules.tolerance * first || rules.h * step.size <= last_digits;
+    norm = rules.most == 1 ? take_whole_step(stage, counts) : take_step(stage, step.slope, counts);
+    solved = norm <= tolerance * first || rules.h * step.size <= last_digits;
   }
-  if (!solved) ++counts.unconverged;
+  if (solved) return 0;
+  if (rules.most > 1) ++counts.unconverged;
+  return std::isfinite(norm) ? norm / first : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tyglab

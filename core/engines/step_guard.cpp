@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 
 #include "core/model/changes.h"
 
@@ -68,6 +69,7 @@ StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault&
     if (tear) tear_budget_ = engine.tear_overloaded(tears);
     if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, StepsEnd::fault};
     if (fast && engine.find_runaway(limit_, fault)) return {n, StepsEnd::fault};
+    if (step.residual > 0) ++unconverged_steps_, worst_residual_ = std::max(worst_residual_, step.residual);
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
     if (release) return {n + 1, StepsEnd::released};
   }
@@ -75,6 +77,7 @@ StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault&
 }
 
 void StepGuard::keep_backup(GuardedSteps& engine, const Tears& tears) {
+  since_backup_ = -1;  // there is none if memory fails halfway
   engine.keep_backup();
   if (rules_.tearing) tears_backup_ = tears;
   limit_backup_ = limit_;
@@ -118,10 +121,20 @@ Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const 
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(engine, tears);
     const int most =
         rules_.costly_steps && stop ? 1 : std::min(steps - result.steps, steps_between_backups - since_backup_);
-    StepsMade made = engine.make_steps(most, tears, fault);
-    assert(made.count <= most);
-    const bool rolled_back = made.end == StepsEnd::rolled_back;
-    if (rolled_back) made = examine_last(engine, made.count, tears, fault);
+    StepsMade made;
+    bool rolled_back = false;
+    try {
+      made = engine.make_steps(most, tears, fault);
+      assert(made.count <= most);
+      rolled_back = made.end == StepsEnd::rolled_back;
+      if (rolled_back) made = examine_last(engine, made.count, tears, fault);
+    } catch (const std::bad_alloc&) {
+      // Back to the last step that counts. It has been made before, so this asks for no memory that was not there.
+      repeat(engine, since_backup_, tears, 0);
+      since_backup_ = -1, torn_ = tears.torn_count();
+      if (result.steps == 0) throw;
+      break;  // who asks for more steps is told then
+    }
     result.diverged = made.end == StepsEnd::fault;
     result.released = made.end == StepsEnd::released;
     result.stopped = made.end == StepsEnd::stopped;

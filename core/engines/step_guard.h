@@ -40,6 +40,7 @@ struct StepOutcome {
   int left_inside = 0;                   ///< free particles inside a body
   std::optional<glm::dvec3> hand_force;  ///< on the held particle, N, if there is one
   std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
+  double residual = 0;                   ///< relative, of equations that the step left unsolved; 0: none
 };
 
 /// What the guard asks of an engine.
@@ -109,6 +110,12 @@ class StepGuard {
   /// Takes these tears as known. The budgets stay valid without the springs that were cut, the backup does not.
   void accept_cuts(const Tears& tears) { torn_ = tears.torn_count(), since_backup_ = -1; }
 
+  /// Adds what is known of whole steps alone.
+  SolveCounts with_steps(SolveCounts solves) const {
+    solves.unconverged_steps = unconverged_steps_, solves.worst_residual = worst_residual_;
+    return solves;
+  }
+
   /// How many steps, 1 to `most`, can be made before one must be examined, if motion does not suddenly double.
   /// `tears_by_itself`: each step breaks overloaded springs by itself.
   int steps_ahead(int most, bool tears_by_itself = false) const;
@@ -137,6 +144,8 @@ class StepGuard {
   MotionLimit limit_, limit_backup_;
   bool energy_stale_ = false, pushes_stale_ = false;
   int left_inside_ = 0;
+  std::int64_t unconverged_steps_ = 0;
+  double worst_residual_ = 0;
   glm::dvec3 hand_force_{0};
 };
 

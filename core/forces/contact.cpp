@@ -32,27 +32,28 @@ glm::dvec3 way_out(const Body& body, const glm::dvec3& x, const glm::dvec3& n) {
 }
 
 /// Normal part removed or reversed with restitution e, tangential part shortened by at most μ times the change.
-glm::dvec3 corrected_velocity(const Body& body, const glm::dvec3& v, const glm::dvec3& n) {
+glm::dvec3 corrected_velocity(const Body& body, const ContactRule& rule, const glm::dvec3& v, const glm::dvec3& n) {
   const double inward = glm::dot(v, n);
   if (inward >= 0) return v;
-  const double change = (1 + body.restitution) * -inward;
+  const double e = -inward < rest_speed(body, rule.g, rule.dt) ? 0 : body.restitution;
+  const double change = (1 + e) * -inward;
   const glm::dvec3 tangential = v - inward * n;
   const double speed = glm::length(tangential);
   const double left = speed > 0 ? std::max(0.0, 1 - body.friction * change / speed) : 0;
-  return left * tangential - body.restitution * inward * n;
+  return left * tangential - e * inward * n;
 }
 
-void collide_one(const Body& body, double dt, double epsilon, ContactStep& p) {
+void collide_one(const Body& body, const ContactRule& rule, ContactStep& p) {
   const glm::dvec3 n = normal(body, p.old_x);
-  if (depth(body, p.old_x) > contact_tolerance(body, p.old_x, epsilon)) {
+  if (depth(body, p.old_x) > contact_tolerance(body, p.old_x, rule.epsilon)) {
     // It was inside already (the body was moved, a bad start): out along n, the nearest way from where it was. From a
     // sphere's center that is up, even if gravity has just moved it below.
     p.x = way_out(body, p.x, n);
     p.v -= std::min(0.0, glm::dot(p.v, n)) * n;
     return;
   }
-  p.v = corrected_velocity(body, p.v, n);
-  p.x = p.old_x + dt * p.v;
+  p.v = corrected_velocity(body, rule, p.v, n);
+  p.x = p.old_x + rule.dt * p.v;
   if (depth(body, p.x) > 0) p.x = nearest_surface_point(body, p.x, n);
 }
 
@@ -69,6 +70,12 @@ double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon) 
   return 8 * epsilon * largest;
 }
 
+double rest_speed(const Body& body, double g, double dt) {
+  constexpr double most_restitution = 0.9;
+  constexpr double error = 3.5;  // of g dt: Euler's 3, and some more, since some bounces are above their mean
+  return body.restitution <= most_restitution ? error * g * dt / (1 - body.restitution) : 0;
+}
+
 bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
                      const glm::dvec3& a) {
   const glm::dvec3 free_x = x + dt * (v + dt * a);
@@ -78,20 +85,20 @@ bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, co
   });
 }
 
-bool collide(std::span<const Body> bodies, double dt, double epsilon, ContactStep& p) {
+bool collide(std::span<const Body> bodies, const ContactRule& rule, ContactStep& p) {
   for (int pass = 0; pass < passes; ++pass) {
     bool touched = false;
     for (const Body& body : bodies)
       if (depth(body, p.x) > 0) {
         // From the second pass on, what rounding leaves is accepted; the first must see every contact.
-        if (pass > 0 && depth(body, p.x) <= contact_tolerance(body, p.x, epsilon)) continue;
-        collide_one(body, dt, epsilon, p);
+        if (pass > 0 && depth(body, p.x) <= contact_tolerance(body, p.x, rule.epsilon)) continue;
+        collide_one(body, rule, p);
         touched = true;
       }
     if (!touched) return true;
   }
   return std::none_of(bodies.begin(), bodies.end(),
-                      [&](const Body& body) { return depth(body, p.x) > contact_tolerance(body, p.x, epsilon); });
+                      [&](const Body& body) { return depth(body, p.x) > contact_tolerance(body, p.x, rule.epsilon); });
 }
 
 }  // namespace tyglab

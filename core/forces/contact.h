@@ -21,13 +21,26 @@ double depth(const Body& body, const glm::dvec3& x);
 /// state's precision.
 double contact_tolerance(const Body& body, const glm::dvec3& x, double epsilon);
 
+/// The speed towards the body, m/s, below which a particle rests on it rather than bounces. The step that finds a
+/// contact errs in the speed of the bounce, by g dt (Verlet) to 3 g dt (Euler), so that with a restitution e bounces of
+/// up to 3 g dt/(1 - e) regain what they lose and would never end. 0 above e = 0.9, where this would end bounces that
+/// are real.
+double rest_speed(const Body& body, double g, double dt);
+
 /// Whether a body keeps the particle from where its velocity and acceleration alone would take it within dt. Then the
 /// body exerts a force that no formula gives, since collide() corrects positions and velocities.
 bool held_by_contact(std::span<const Body> bodies, double dt, double epsilon, const glm::dvec3& x, const glm::dvec3& v,
                      const glm::dvec3& a);
 
+/// What contacts depend on beside the bodies.
+struct ContactRule {
+  double dt;       ///< s
+  double g;        ///< m/s²
+  double epsilon;  ///< of the state's precision
+};
+
 /// Corrects x and v for all bodies, in list order and repeatedly. Returns whether x is outside all of them afterwards
 /// (overlapping bodies can leave it inside one).
-bool collide(std::span<const Body> bodies, double dt, double epsilon, ContactStep& step);
+bool collide(std::span<const Body> bodies, const ContactRule& rule, ContactStep& step);
 
 }  // namespace tyglab

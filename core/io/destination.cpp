@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <utility>
 
 #include "core/io/files.h"
 #include "core/io/terminal.h"
@@ -18,7 +19,7 @@ bool is_standard_output(const std::filesystem::path& file) {
 }
 
 std::string output_name(const std::filesystem::path& file) {
-  return is_standard_output(file) ? "standard output" : file.string();
+  return is_standard_output(file) ? "standard output" : in_one_line(file.string());
 }
 
 namespace {
@@ -41,8 +42,9 @@ std::string lost_output(const std::filesystem::path& file, int error) {
 std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes, Reach reach) {
   OutputFile out(file);
   out.write(bytes);
+  std::filesystem::path named = file;  // with its memory, before an older file is replaced
   out.end(reach);
-  return out.path();
+  return reach == Reach::whole ? std::move(named) : out.path();
 }
 
 void flush_standard_output() {

@@ -78,6 +78,11 @@ bool is_regular(int descriptor) {
   return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
 }
 
+/// What a file is called while it is written.
+fs::path beside(fs::path target) {
+  return target += ".incomplete";
+}
+
 /// Gives the new file the owner and the permissions of the older one, as far as the system allows.
 void adopt(int descriptor, const struct stat& older) {
   constexpr mode_t permissions = 0777, of_group = 0070, of_others = 0007;
@@ -105,6 +110,13 @@ bool locked(int descriptor) {
 
 void stop_waiting_outputs_when(Stop stop) {
   stop_waiting = std::move(stop);
+}
+
+fs::path incomplete_file(const fs::path& file) {
+  std::error_code error;
+  if (file.empty() || is_stream(file)) return {};
+  const fs::path part = beside(followed(file));
+  return fs::is_regular_file(part, error) ? part : fs::path();
 }
 
 void check_output(const fs::path& file) {
@@ -164,7 +176,7 @@ void OutputFile::open_beside() {
   kind_ = Kind::beside;
   target_ = followed(file_);
   beside_ = target_;
-  beside_ += ".incomplete";
+  beside_ = beside(target_);
   const auto older = status_of(target_);
   while (true) {
     constexpr int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;

@@ -25,6 +25,9 @@ void stop_waiting_outputs_when(Stop stop);
 /// names a folder, its folder is missing or closed, or a read-only file stands there. Nothing is touched.
 void check_output(const std::filesystem::path& file);
 
+/// Where the part of an output stands that was written before an interrupt; empty if there is none.
+std::filesystem::path incomplete_file(const std::filesystem::path& file);
+
 /// One output while it is written. A file grows beside its name as FILE.incomplete, so that an older file stays as it
 /// is until the new one is whole, whatever ends the program. It then takes the older one's place with its permissions
 /// and, where the system allows it, its owner; a new file gets those of the process (umask). Of a symbolic link the

@@ -52,6 +52,16 @@ std::string value_problem(const Row<T>& row, const T& object) {
       row.field);
 }
 
+/// What is wrong with the number as it is written, where a whole one is meant: 1e9, 1.5, or more than an int holds.
+template <class T>
+std::string whole_number_problem(const Row<T>& row, const JsonNode& node) {
+  if (!std::holds_alternative<int T::*>(row.field) || !node.is_number()) return {};
+  if (std::string problem = range_problem(row, node.number); !problem.empty()) return problem;
+  if (node.type == Type::integer) return {};
+  return "must be written as a whole number, like 32; allowed: " + shortest_number(row.min) + " to " +
+         shortest_number(row.max);
+}
+
 std::string pins_problem(const Preset& p) {
   if (p.pins.mode != Pins::Mode::list) return {};
   for (const auto [i, j] : p.pins.list)
@@ -78,6 +88,7 @@ class Reader {
 
   template <class T>
   void field(const JsonNode& node, const std::string& path, const Row<T>& row, T& object) const {
+    if (const std::string problem = whole_number_problem(row, node); !problem.empty()) fail(node.line, path, problem);
     std::visit([&](auto member) { value(node, path, object.*member); }, row.field);
     if (const auto problem = value_problem(row, object); !problem.empty()) fail(node.line, path, problem);
   }

@@ -115,6 +115,16 @@ std::string visible(std::string_view text) {
   return seen;
 }
 
+std::string in_one_line(std::string_view text) {
+  std::string line;
+  for (const char c : visible(text))
+    if (c == '\n' || c == '\t')
+      append_code(line, "\\x%02x", static_cast<unsigned char>(c));
+    else
+      line += c;
+  return line;
+}
+
 void filter_standard_streams() {
   if (streams != nullptr) return;
   streams = new Streams;

@@ -14,6 +14,9 @@ namespace tyglab {
 /// those above ASCII and marks that turn the direction of writing as "\u202e", bytes that are not UTF-8 as "\x9b".
 std::string visible(std::string_view text);
 
+/// The same in one line: line feeds and tabs are spelled out too. For names within a sentence.
+std::string in_one_line(std::string_view text);
+
 /// From here on std::cout and std::cerr show text as visible() does, in whatever pieces it comes. Once, before anything
 /// is printed.
 void filter_standard_streams();

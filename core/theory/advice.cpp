@@ -1,8 +1,8 @@
 #include "core/theory/advice.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -13,6 +13,7 @@ namespace tyglab {
 namespace {
 
 constexpr double margin = 0.9;
+constexpr double least_dt = 1e-7;  // s, of presets
 
 std::string seconds(double dt) {
   return short_number(dt, 2) + " s";
@@ -21,8 +22,8 @@ std::string seconds(double dt) {
 }  // namespace
 
 double stable_dt(const Preset& p, const std::string& integrator) {
-  const std::array any{any_configuration(p)};
-  return any[0].stiffness == 0 ? 1 : dt_crit(scheme(integrator), any);
+  const std::vector<Mode> worst = worst_modes(p);
+  return worst.front().stiffness == 0 ? 1 : dt_crit(scheme(integrator), worst);
 }
 
 double advised_dt(const Preset& p, const std::string& integrator) {
@@ -41,33 +42,69 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
          "tolerance.";
 }
 
+std::string solves_missed(const SolveCounts& solves) {
+  if (solves.unconverged_steps == 0) return "";
+  const bool one = solves.unconverged_steps == 1;
+  const double worst = solves.worst_residual;
+  const std::string left = !std::isfinite(worst) ? "a residual that is no number"
+                           : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the initial residual"
+                                       : "up to " + short_number(worst, 2) + " times the initial residual";
+  return std::to_string(solves.unconverged_steps) + (one ? " step" : " steps") + " did not converge (" + left +
+         " was left), so the motion is not quite the method's. Use a smaller dt or more iterations.";
+}
+
+namespace {
+
+/// How to get to Verlet, whose step must be `dt` or less: nothing where no such dt is allowed.
+std::string or_verlet(const Preset& p, double dt) {
+  if (dt < least_dt) return "";
+  return "; or use the integrator verlet" + (p.dt <= dt ? "" : " with dt = " + seconds(dt) + " or less");
+}
+
+/// Of a method that linear theory gives no limit: what can be done about dt itself.
+std::string smaller_dt(const Preset& p) {
+  return p.dt > least_dt ? "Use a smaller dt and restart: " : "dt is the smallest that is allowed: ";
+}
+
+/// Of an explicit method, whose dt is to be `own` or less and Verlet's `verlet` or less, s.
+std::string advice_on_dt(const Preset& p, double own, double verlet, const std::string& stiffness, bool overdamped) {
+  if (std::max(own, verlet) < least_dt)
+    return "No dt that is allowed (" + seconds(least_dt) + " or more) is stable here: use a smaller " + stiffness +
+           " or a larger m, or the integrator implicit_euler, which is stable at any stiffness, and restart.";
+  if (own < verlet)
+    return "Use the integrator verlet" + (p.dt <= verlet ? "" : " with dt = " + seconds(verlet) + " or less") +
+           " and restart; " +
+           (own >= least_dt ? "this method itself needs dt below about " + seconds(own)
+            : own > 0       ? "this method itself is stable at no dt that is allowed"
+                            : "without damping this method is unstable at every dt") +
+           ".";
+  if (p.dt > own) return "Use dt = " + seconds(own) + " or less, or a smaller " + stiffness + ", and restart.";
+  const std::string smaller = p.dt > least_dt ? "a smaller dt, " : "";
+  return "Use " + smaller + "a smaller " + stiffness + (overdamped ? "" : " or more damping") + ", and restart.";
+}
+
+}  // namespace
+
 std::string advice(const Preset& p) {
   const Mode fastest = any_configuration(p);
   const bool overdamped = fastest.damping > 2 * fastest.omega();
   const std::string stiffness = overdamped ? "k_d" : p.kind == Kind::cloth ? "k_s" : "k";
   const double verlet_dt = advised_dt(p, "verlet");
-  if (p.integrator == "verlet") {
-    if (p.dt <= verlet_dt && overdamped) return "Use a smaller dt or a smaller k_d, and restart.";
-    if (p.dt <= verlet_dt) return "Use a smaller dt, a smaller " + stiffness + " or more damping, and restart.";
-    return "Use dt = " + seconds(verlet_dt) + " or less, or a smaller " + stiffness + ", and restart.";
-  }
-  const std::string step = p.dt <= verlet_dt ? "" : " with dt = " + seconds(verlet_dt) + " or less";
   if (chooses_steps(scheme(p.integrator)))
-    return "Use a smaller dt (its inner steps may be a ten-thousandth of it) or a smaller " + stiffness +
+    return "Use " +
+           std::string(p.dt > least_dt ? "a smaller dt (its inner steps may be a ten-thousandth of it) or " : "") +
+           "a smaller " + stiffness +
            ", and restart; or use the integrator implicit_euler, which is stable at any stiffness.";
   if (projects(scheme(p.integrator)))
-    return "Use a smaller dt or more iterations, and restart: this method has no limit of dt, but with few iterations "
-           "its springs are soft, and bodies and wind may overstretch them; or use the integrator verlet" +
-           step + ".";
+    return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
+           "more iterations, and restart: this method has no limit of dt, but with few iterations its springs are "
+           "soft, "
+           "and bodies and wind may overstretch them" +
+           or_verlet(p, verlet_dt) + ".";
   if (is_implicit(scheme(p.integrator)))
-    return "Use a smaller dt and restart: linear theory sets no limit for this method, but bodies, wind and springs "
-           "that "
-           "switch do; or use the integrator verlet" +
-           step + ".";
-  const double own_dt = advised_dt(p, p.integrator);
-  const std::string own = own_dt > 0 ? "this method itself needs dt below about " + seconds(own_dt)
-                                     : "without damping this method is unstable at every dt";
-  return "Use the integrator verlet" + step + " and restart; " + own + ".";
+    return smaller_dt(p) + "linear theory sets no limit for this method, but bodies, wind and springs that switch do" +
+           or_verlet(p, verlet_dt) + ".";
+  return advice_on_dt(p, advised_dt(p, p.integrator), verlet_dt, stiffness, overdamped);
 }
 
 bool springs_too_weak(const Preset& p) {
@@ -87,16 +124,20 @@ std::string advice_for_weak_springs(const Preset& p) {
 std::optional<Preset> suggested_fix(const Preset& p) {
   if (springs_too_weak(p)) return std::nullopt;
   Preset cured = p;
-  cured.integrator = "verlet";
-  cured.dt = std::min(p.dt, advised_dt(p, "verlet"));
-  if (cured == p || cured.dt < 1e-7) return std::nullopt;  // nothing to change, or below the range of dt
+  const double verlet_dt = advised_dt(p, "verlet"), own_dt = advised_dt(p, p.integrator);
+  const Scheme& method = scheme(p.integrator);
+  const bool is_explicit = has_step_limit(method) && !is_implicit(method);
+  const bool gains = !is_explicit || own_dt < verlet_dt;
+  if (gains) cured.integrator = "verlet";
+  cured.dt = std::min(p.dt, gains ? verlet_dt : own_dt);
+  if (cured == p || cured.dt < least_dt) return std::nullopt;  // nothing to change, or below the range of dt
   return cured;
 }
 
 std::optional<Preset> with_advised_dt(const Preset& p) {
   Preset slower = p;
   slower.dt = advised_dt(p, p.integrator);
-  if (!(slower.dt >= 1e-7 && slower.dt < p.dt)) return std::nullopt;
+  if (!(slower.dt >= least_dt && slower.dt < p.dt)) return std::nullopt;
   return slower;
 }
 

@@ -1,18 +1,19 @@
-// What to do when a run has diverged: a sentence with numbers from the linear theory (docs/model.md, "Words with a
-// meaning").
+// What to do when a run has diverged: a sentence with numbers from the linear theory (docs/model.md, "What the
+// shape decides").
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "core/integrators/solve_counts.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
-/// Largest dt at which the method is stable for any configuration of the cloth, by its linearisation, with
-/// ω² <= (12 k_s + 8 k_b)/m and damping 12 k_d/m; 0 where no dt is. From the method's own table (amplification.h).
-/// One-sided springs switch, so it is advice and no guarantee.
+/// The worst-case limit: largest dt at which the method is stable for any configuration of the cloth, by its
+/// linearisation (worst_modes); 0 where no dt is. From the method's own table (amplification.h). One-sided springs
+/// switch, so it is advice and no guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
 
 /// 0.9 of it, s, in the two digits in which it is said; 0 where no dt is stable, infinity where every one is.
@@ -20,6 +21,9 @@ double advised_dt(const Preset& preset, const std::string& integrator);
 
 /// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
 std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
+
+/// Whether steps of an implicit method did not converge, and what to do, likewise.
+std::string solves_missed(const SolveCounts& solves);
 
 /// What to change so that the preset does not diverge again.
 std::string advice(const Preset& preset);

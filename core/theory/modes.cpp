@@ -33,6 +33,16 @@ Mode any_configuration(const Preset& p) {
   return {(12 * p.k_s + 8 * p.k_b) / p.m, 12 * p.k_d / p.m};
 }
 
+std::vector<Mode> worst_modes(const Preset& p) {
+  const Mode fastest = any_configuration(p);
+  std::vector<Mode> worst{fastest};
+  if (p.kind == Kind::one_weight || p.k_d == 0) return worst;
+  worst.push_back({0, fastest.damping});  // nothing pulls, but damping acts on every whole spring
+  // A bending spring has no damping of its own: K <= (k_s + 4 k_b)/k_d C.
+  if (p.k_b > 0) worst.push_back({fastest.stiffness, fastest.stiffness * p.k_d / (p.k_s + 4 * p.k_b)});
+  return worst;
+}
+
 double dt_crit(const Scheme& scheme, std::span<const Mode> modes) {
   double least = infinity;
   if (!has_step_limit(scheme)) return least;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "core/integrators/scheme.h"
 #include "core/model/preset.h"
@@ -18,6 +19,9 @@ struct Mode {
 
 /// What no mode in any configuration exceeds: ω² = (12 k_s + 8 k_b)/m, damping 12 k_d/m (mass on a spring: k/m, k_d/m).
 Mode any_configuration(const Preset& preset);
+/// The modes that decide whether a method is stable in any configuration: the fastest, and in a damped cloth also those
+/// between stiffness and damping that some methods take worse (docs/model.md, "What the shape decides").
+std::vector<Mode> worst_modes(const Preset& preset);
 
 /// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large, or where
 /// linear theory has nothing to say of dt (has_step_limit).

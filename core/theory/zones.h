@@ -1,5 +1,6 @@
-// Where along a constant a method is stable, near its limit or unstable, the others being as they are: by linear
-// theory, for any configuration of the springs (modes.h).
+// Where along a constant a method is stable in any shape of the cloth, where that depends on the shape, and where it is
+// unstable in every shape, the other constants being as they are: by linear theory (docs/model.md, "What the shape
+// decides").
 #pragma once
 
 #include <array>
@@ -10,7 +11,14 @@
 
 namespace tyglab {
 
-enum class Zone { stable, near, unstable };  ///< near: dt is above 0.9 of the limit
+/// stable: in any shape of the cloth. depends: some shapes are stable, others are not. unstable: in every shape in
+/// which at least one spring pulls, or in every shape at all where damping alone is too much. A mass on a spring has
+/// one shape, so that nothing depends on it.
+enum class Zone { stable, depends, unstable };
+
+/// "stable in any shape", "depends on the shape", "unstable in every shape"; of a mass on a spring "stable",
+/// "unstable".
+std::string_view zone_name(Zone zone, Kind kind);
 
 struct ZoneSpan {
   double from, to;  ///< values of the constant
@@ -35,6 +43,10 @@ inline constexpr std::array<ZonedConstant, 5> zoned_weight{
 
 /// The present zone. stable for methods that no dt makes unstable.
 Zone zone_of(const Preset& preset);
+
+/// dt (s) above which the method is unstable in every shape: at least the worst-case limit (stable_dt), within a
+/// thousandth; 0 where no dt is stable in any, infinity where the method has no limit.
+double every_shape_limit(const Preset& preset);
 
 /// The zones from `least` (above 0) to `most` without gaps, borders within a thousandth of themselves. The first begins
 /// at 0 where the constant may be 0 and is in that zone there too.

@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "core/analysis/boundary.h"
+#include "core/theory/advice.h"
 #include "core/theory/amplification.h"
+#include "core/theory/zones.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::frequency_test {
@@ -167,6 +169,71 @@ TEST_CASE("methods break on the taut sheet within 1 % of where they are predicte
       sheet.dt = 0.6 / std::sqrt(8 * sheet.k_s / sheet.m);
       CHECK(measure_growth(sheet).ratio() == doctest::Approx(1).epsilon(0.05));
     }
+}
+
+TEST_CASE("in every shape the cloth's own limit lies between the worst-case limit and the one of every shape") {
+  test::Random random(7);
+  for (int n = 0; n < 60; ++n) {
+    CAPTURE(n);
+    Preset p = test::quiet_cloth(2 + random.below(5), 2 + random.below(5));
+    p.k_s = std::pow(10, random.uniform(0, 4)), p.m = std::pow(10, random.uniform(-5, -2));
+    p.k_d = n % 3 == 0 ? 0 : std::sqrt(p.k_s * p.m) * std::pow(10, random.uniform(-3, 0.5));
+    p.initial_stretch = random.uniform(0.8, 1.1);
+    if (n % 2 == 0) p.pins.mode = Pins::Mode::top_row;
+    const State shape = test::crumpled(p, std::uint64_t(n), random.uniform(0.01, 0.8), 0);
+    Simulation simulation(p);
+    test::load(simulation, shape);
+    const Linearisation cloth(simulation);
+    if (!(cloth.largest_stiffness(1e-9) > 0)) continue;  // no spring pulls
+    const std::vector<Mode> modes = extreme_modes(cloth, exact_tolerance);
+    for (const char* method : {"verlet", "velocity_verlet", "rk4", "rkn4"}) {
+      CAPTURE(method);
+      p.integrator = method;
+      const double own = dt_crit(scheme(method), modes);
+      CHECK(own >= stable_dt(p, method) * (1 - 1e-3));
+      CHECK(own <= every_shape_limit(p) * (1 + 2e-3));
+    }
+  }
+}
+
+TEST_CASE("one spring that pulls at a free particle is the shape in which Verlet tolerates most") {
+  Preset p = test::quiet_cloth(2, 1);
+  p.pins.mode = Pins::Mode::top_row, p.initial_stretch = 1.1;
+  const double own = dt_crit(scheme("verlet"), extreme_modes(Linearisation(Simulation(p)), exact_tolerance));
+  CHECK(own == doctest::Approx(every_shape_limit(p)).epsilon(2e-3));
+  CHECK(own == doctest::Approx(2 * std::sqrt(p.m / p.k_s)).epsilon(1e-4));
+}
+
+/// A slack cloth of random size, constants and start that weight pulls at, without damping.
+Preset slack_scene(test::Random& random) {
+  static constexpr Pins::Mode modes[] = {Pins::Mode::top_row, Pins::Mode::top_corners, Pins::Mode::four_corners,
+                                         Pins::Mode::left_column};
+  Preset p = test::cloth(4 + random.below(7), 4 + random.below(7));
+  p.k_d = 0, p.k_s = std::pow(10, random.uniform(0.5, 3)), p.m = std::pow(10, random.uniform(-4.5, -3));
+  p.k_b = random.below(2) * p.k_s * random.uniform(0, 0.5);
+  p.pins.mode = modes[random.below(4)];
+  p.tilt_deg = random.uniform(0, 90), p.initial_stretch = random.uniform(0.8, 1.05);
+  return p;
+}
+
+TEST_CASE("below the worst-case limit no undamped slack scene diverges; above the limit of every shape all do") {
+  for (const char* method : {"verlet", "velocity_verlet", "rk4"}) {
+    CAPTURE(method);
+    test::Random random(18);
+    for (int n = 0; n < 25; ++n) {
+      CAPTURE(n);
+      Preset p = slack_scene(random);
+      p.integrator = method;
+      p.dt = 0.99 * stable_dt(p, method);
+      Simulation below(p);
+      below.advance(4000);
+      CHECK_FALSE(below.divergence().has_value());
+      p.dt = 1.02 * every_shape_limit(p);
+      Simulation above(p);
+      above.advance(4000);
+      CHECK(above.divergence().has_value());
+    }
+  }
 }
 
 }  // namespace tyglab::frequency_test

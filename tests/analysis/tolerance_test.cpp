@@ -4,8 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "core/analysis/one_weight.h"
+#include "core/io/preset_io.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::tolerance_test {
@@ -78,12 +83,28 @@ TEST_CASE("a ladder's errors fall by the method's order until they are small eno
   CHECK(ladder[n].error_rms_m > 1e-7);
 }
 
+TEST_CASE("a setting that takes longer than it may is given up, and errs without bound") {
+  const StudyStart start{test::cloth(16, 16, "rk4"), std::nullopt};
+  const StudyReference reference = study_reference(start, 0.2, {}, never);
+  StudyStart slow = start;
+  slow.preset.dt = 1e-6;
+  const ErrorPoint point = measure_point(slow, reference, never, 0.01);
+  CHECK(point.given_up);
+  CHECK(std::isinf(point.error_rms_m));
+  CHECK_FALSE(measure_point(start, reference, never).given_up);
+}
+
+ToleranceChoice choose(const Preset& preset, const SettingsGoal& goal) {
+  return choose_for_tolerance(preset, goal, never, [](const SettingsSearch&) {});
+}
+
 TEST_CASE("the chosen settings keep the tolerance, by the closed form") {
   for (const double tolerance : {1e-3, 1e-5, 1e-8}) {
     CAPTURE(tolerance);
-    const ToleranceChoice choice = choose_for_tolerance(swinging_weight("euler", 0.01), tolerance, 1, {}, never);
+    const ToleranceChoice choice = choose(swinging_weight("euler", 0.01), {.tolerance = tolerance});
     CHECK(choice.preset.integrator == choice.chosen.integrator);
     CHECK(choice.chosen.cost == choice.reached.front().cost);
+    CHECK(choice.seconds == 1);
     Preset preset = choice.preset;
     if (preset.integrator == "dopri5") continue;  // its dt is no step
     CHECK(preset.dt <= choice.chosen.dt);
@@ -98,15 +119,101 @@ TEST_CASE("the chosen settings keep the tolerance, by the closed form") {
 TEST_CASE("what was typed stays, and what cannot be reached is refused with a reason") {
   Preset cloth = test::cloth(8, 8, "velocity_verlet");
   cloth.precision = Precision::float_;
-  const auto choose = [&](double tolerance, bool integrator, bool precision) {
-    return choose_for_tolerance(cloth, tolerance, 0.1, {integrator, precision}, never);
+  const auto chosen = [&](double tolerance, bool integrator, bool precision) {
+    return choose(cloth, {.tolerance = tolerance, .seconds = 0.1, .keeps = {integrator, precision}});
   };
-  CHECK(choose(1e-4, true, false).preset.integrator == "velocity_verlet");
-  CHECK(choose(1e-4, true, true).preset.precision == cloth.precision);
-  CHECK(choose(3e-8, false, false).preset.precision == Precision::double_);  // float does not hold it
-  CHECK_THROWS_AS(choose(3e-8, false, true), ToleranceError);
-  CHECK_THROWS_AS(choose(1e-15, false, false), ToleranceError);
-  CHECK_THROWS_AS(choose_for_tolerance(cloth, 1e-4, 0.1, {}, [] { return true; }), Stopped);
+  CHECK(chosen(1e-4, true, false).preset.integrator == "velocity_verlet");
+  CHECK(chosen(1e-4, true, true).preset.precision == cloth.precision);
+  CHECK(chosen(3e-8, false, false).preset.precision == Precision::double_);  // float does not hold it
+  CHECK_THROWS_AS(chosen(3e-8, false, true), ToleranceError);
+  CHECK_THROWS_AS(chosen(1e-15, false, false), ToleranceError);
+  CHECK_THROWS_AS(choose_for_tolerance(
+                      cloth, {}, [] { return true; }, [](const SettingsSearch&) {}),
+                  Stopped);
+}
+
+/// The largest error of a chosen run within the second, at twenty times, against Runge-Kutta with steps of at most
+/// 2e-5 s: neither its method nor its steps are those that the choice was made by.
+double error_of_choice(const Preset& chosen) {
+  Preset fine = chosen;
+  const int finer = int(std::ceil(chosen.dt / 2e-5));
+  fine.integrator = "rk4", fine.precision = Precision::double_, fine.dt = chosen.dt / finer;
+  Simulation run(chosen), exact(fine);
+  const int steps = std::max(1, int(0.05 / chosen.dt));
+  double worst = 0;
+  for (int done = 0; (done + steps) * chosen.dt <= 1; done += steps) {
+    run.advance(steps), exact.advance(steps * finer);
+    if (run.divergence() || exact.divergence()) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, rms_distance({positions_of(run)}, {positions_of(exact)}));
+  }
+  return worst;
+}
+
+/// What was promised holds, or nothing was; and what is offered in place of a tolerance that was refused can be had.
+/// Returns whether something was promised.
+bool keeps_its_word(const Preset& preset, double tolerance) {
+  constexpr double factor = 1;  // of the tolerance: half of it is aimed at
+  try {
+    const ToleranceChoice choice = choose(preset, {.tolerance = tolerance});
+    CAPTURE(choice.words(tolerance));
+    CHECK(choice.seconds == 1);
+    CHECK(error_of_choice(choice.preset) <= factor * tolerance);
+    return true;
+  } catch (const ToleranceError& refusal) {
+    CAPTURE(std::string(refusal.what()));
+    if (!refusal.tightest) return false;
+    CHECK(*refusal.tightest > tolerance);
+    const ToleranceChoice offered = choose(preset, {.tolerance = *refusal.tightest});
+    CAPTURE(offered.words(*refusal.tightest));
+    CHECK(error_of_choice(offered.preset) <= factor * *refusal.tightest);
+    return false;
+  }
+}
+
+/// A cloth that falls on a sphere within the second.
+Preset random_sphere(unsigned seed) {
+  test::Random random(seed);
+  const auto between = [&](double lo, double hi) { return random.uniform(lo, hi); };
+  Preset preset = test::cloth(9, 9, "verlet");
+  preset.pins.mode = Pins::Mode::none;
+  preset.k_s = between(20, 200), preset.k_b = between(0, 10), preset.k_d = between(5e-4, 4e-3);
+  preset.tilt_deg = between(-20, 20);
+  preset.x_0 = {0, 0.5, -0.12}, preset.L = 0.03;
+  Body sphere;
+  sphere.shape = Body::Shape::sphere;
+  sphere.c = {between(-0.05, 0.05), between(0.1, 0.25), between(-0.05, 0.05)};
+  sphere.r = between(0.05, 0.12), sphere.friction = between(0, 0.6), sphere.restitution = 0;
+  preset.bodies = {sphere};
+  return preset;
+}
+
+TEST_CASE("on a sphere the error after the impact is what was promised, or nothing was") {
+  for (unsigned seed = 1; seed <= unsigned(test::fewer(5, 1)); ++seed) {
+    CAPTURE(seed);
+    keeps_its_word(random_sphere(seed), 1e-5);
+    keeps_its_word(random_sphere(seed), 1e-3);
+  }
+}
+
+TEST_CASE("free fall is certified where the run ends before the impact, and nowhere else") {
+  const Preset preset = random_sphere(3);
+  const ToleranceChoice fall = choose(preset, {.tolerance = 1e-5, .seconds = 0.1});
+  CHECK(fall.seconds == 0.1);
+  CHECK_THROWS_AS(choose(preset, {.tolerance = 1e-7}), ToleranceError);
+}
+
+TEST_CASE("the shipped presets, with fewer particles: what is promised holds") {
+  const std::vector<std::string> names{"sphere",  "hanging",       "one_weight", "denim",     "flag",
+                                       "tearing", "fold_with_k_b", "rubber_mat", "taut_sheet"};
+  int promised = 0, tried = 0;
+  for (; tried < test::fewer(int(names.size()), 3); ++tried) {
+    const std::string& name = names[std::size_t(tried)];
+    CAPTURE(name);
+    Preset preset = load_preset(TYGLAB_SOURCE_DIR "/app/presets/" + name + ".json");
+    if (preset.kind == Kind::cloth && preset.pins.mode != Pins::Mode::list) preset.rows = preset.columns = 9;
+    promised += keeps_its_word(preset, 1e-3);
+  }
+  CHECK(promised >= tried - 3);
 }
 
 }  // namespace tyglab::tolerance_test

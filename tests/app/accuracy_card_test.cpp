@@ -29,14 +29,62 @@ TEST_CASE("the accuracy card says what is known, and why where nothing is") {
   CHECK(accuracy_words(study) == "Measuring…");
   study.present = point("verlet", 2.13e-5, 0.0123);
   CHECK(accuracy_words(study) ==
-        "Verlet: error 2.1e-5 m (rms) over the 0.25 s from t = 0.000 s; it takes 0.012 s of CPU time per simulated "
+        "Verlet's error is 2.1e-5 m (rms) over the next 0.25 s from t = 0.000 s; it takes 0.012 s of CPU time per "
+        "simulated "
         "second.");
   study.present = point("verlet", 2e-9, 0.0123, false);
-  CHECK(accuracy_words(study).find("error below 1e-8 m") != std::string::npos);
+  CHECK(accuracy_words(study).find("error is below 1e-8 m") != std::string::npos);
   study.present = point("verlet", std::numeric_limits<double>::infinity(), 0.0123);
   CHECK(accuracy_words(study).find("Verlet diverges") != std::string::npos);
+  CHECK(accuracy_time(study) == "over the next 0.25 s");
   study.problem = "it cannot be followed";
   CHECK(accuracy_words(study).find("it cannot be followed") != std::string::npos);
+}
+
+TEST_CASE("the accuracy card says over which time its error is, and why that is short") {
+  AccuracyStudy study = study_of(test::cloth(128, 128, "verlet"));
+  CHECK(accuracy_time(study).empty());
+  study.present = point("verlet", 2.13e-5, 0.0123);
+  CHECK(accuracy_words(study).find("would take too long") == std::string::npos);
+  study.reference.seconds = 0.042;
+  CHECK(accuracy_time(study) == "over the next 0.042 s");
+  CHECK(accuracy_words(study).find("fine runs of 128 × 128 particles would take too long") != std::string::npos);
+}
+
+TEST_CASE("its chart reaches the error that settings are looked for") {
+  AccuracyStudy study = study_of(test::cloth(8, 8, "verlet"));
+  study.points = {point("verlet", 1e-3, 0.1), point("verlet", 1e-4, 0.2)};
+  CHECK(accuracy_chart(Tokens{}, study).series.size() == 1);
+  const Chart chart = accuracy_chart(Tokens{}, study, 1e-7);
+  REQUIRE(chart.series.size() == 2);
+  CHECK(chart.series[1].name == "target");
+  CHECK(chart.series[1].x == std::vector<double>{0.1, 0.2});
+  CHECK(chart.series[1].y == std::vector<double>{1e-7, 1e-7});
+}
+
+SettingsSearch finished_search() {
+  SettingsSearch search;
+  search.of = test::cloth(8, 8, "verlet");
+  search.seconds = 1, search.agreement_rms_m = 1e-6, search.references = "rk4", search.done = true;
+  search.methods = search.methods_done = 8;
+  search.points = {point("verlet", 1e-4, 0.1)};
+  return search;
+}
+
+TEST_CASE("the finder says how far it is, what it found, and what can be promised where it refuses") {
+  SettingsSearch search = finished_search();
+  CHECK(finder_words(search, 1e-3).find("over the 1 s from t = 0 s") != std::string::npos);
+  CHECK(finder_words(search, 1e-3).find("whole second") == std::string::npos);
+  CHECK(finder_words(search, 1e-5).find("The tightest tolerance that can be promised is 2e-4 m.") != std::string::npos);
+  CHECK(finder_words(search, 1e-6).find("differ by 1e-6 m") != std::string::npos);
+  search.present = point("euler", 3e-3, 0.2);
+  CHECK(finder_words(search, 1e-3).find("Now: error 0.003 m") != std::string::npos);
+  search.seconds = 0.4;
+  CHECK(finder_words(search, 1e-3).find("whole second") != std::string::npos);
+  search.done = false, search.methods_done = 3;
+  CHECK(finder_words(search, 1e-3) == "Trying methods: 3 of 8…");
+  search.methods = 0;
+  CHECK(finder_words(search, 1e-3).find("finely") != std::string::npos);
 }
 
 TEST_CASE("its chart has a line for each method, and leaves out what cannot be told or diverged") {
@@ -65,7 +113,7 @@ TEST_CASE("the stability chart rises above 1 where the method breaks") {
   REQUIRE(above != curve.y.end());
   CHECK(curve.x[std::size_t(above - curve.y.begin())] == doctest::Approx(2).epsilon(0.02));
   const auto mark = std::find_if(chart.series.begin(), chart.series.end(),
-                                 [](const ChartSeries& series) { return series.name == "at most"; });
+                                 [](const ChartSeries& series) { return series.name == "worst case"; });
   REQUIRE(mark != chart.series.end());
   CHECK(mark->x.front() == doctest::Approx(2 * preset.dt / stable_dt(preset, "verlet")).epsilon(1e-3));
 }

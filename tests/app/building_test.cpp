@@ -54,7 +54,7 @@ TEST_CASE("a small cloth is changed at once, a large one beside the frames") {
   wait(session);
   CHECK(session.preset().rows == large);
   CHECK(session.simulation->steps() == 0);
-  CHECK(session.history.undo(session.preset())->rows == 30);
+  CHECK(session.history.next(true)->constants.rows == 30);
 }
 
 TEST_CASE("what is changed meanwhile is felt at once and by the cloth in work") {
@@ -69,8 +69,8 @@ TEST_CASE("what is changed meanwhile is felt at once and by the cloth in work") 
   CHECK(session.requested_preset() == stiff);
   wait(session);
   CHECK(session.preset() == stiff);
-  CHECK(session.history.undo(session.preset())->rows == large);
-  CHECK(session.history.undo(session.preset())->rows == 20);
+  CHECK(session.history.take(true, std::nullopt).constants.rows == large);
+  CHECK(session.history.next(true)->constants.rows == 20);
 }
 
 TEST_CASE("a newer wish replaces one in work, and going back to the present cloth drops it") {
@@ -122,7 +122,7 @@ TEST_CASE("a restart is built beside the frames too, and an engine that is not t
   apply_edit(session, edit::Change{other});
   wait(session);
   CHECK(session.preset() == before);
-  CHECK_FALSE(session.history.can_undo());
+  CHECK(session.history.next(true)->what == "restart");
   CHECK(session.messages.list().size() == 1);
 }
 
@@ -198,6 +198,47 @@ TEST_CASE("a feature that a device builds a program for is switched on beside th
     CHECK_FALSE(session.rebuild.busy());
     CHECK(session.preset().k_b == k_b);
   }
+}
+
+TEST_CASE("a copy on a device comes when its programs have been built beside the frames") {
+  if (test::skipped_without_device()) return;
+  SlowCompiler slow(test::cloth(20, 20));
+  Session& session = slow.session;
+  const std::vector<Difference> on_device{{&Preset::engine, EngineKind::opencl}};
+  add_copy(session, on_device, false);
+  CHECK(session.copies.lockstep.empty());
+  session.pacing.playing = false;
+  CHECK_FALSE(session.idle());
+  poll_copies(session);
+  add_copy(session, on_device, false);  // it is not ordered twice
+  CHECK(session.copies.lockstep.empty());
+  slow.may_go_on = true;
+  while (session.copies.awaited) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    poll_copies(session);
+  }
+  CHECK(session.copies.lockstep.size() == 1);
+  CHECK(slow.builds == 1);
+}
+
+TEST_CASE("a change for which a copy's device needs other programs is made once they are there") {
+  if (test::skipped_without_device()) return;
+  Preset without = test::cloth(20, 20);
+  without.k_b = 0, without.k_d = 0;
+  SlowCompiler slow(without);
+  Session& session = slow.session;
+  slow.may_go_on = true;
+  add_copy(session, {{&Preset::engine, EngineKind::opencl}}, false);
+  while (session.copies.awaited) poll_copies(session);
+  REQUIRE(session.copies.lockstep.size() == 1);
+  slow.may_go_on = false;
+  slow.change(&Preset::k_b, 1);
+  CHECK(session.rebuild.programs());
+  CHECK(session.preset().k_b == 0);
+  slow.may_go_on = true;
+  wait(session);
+  CHECK(session.preset().k_b == 1);
+  CHECK(cloth_of(session, 0).preset().k_b == 1);
 }
 
 TEST_CASE("who takes the feature back meanwhile waits for nothing, and two features come one after the other") {

@@ -100,7 +100,7 @@ TEST_CASE("a lab is read whole") {
   CHECK(first.stop == 2.0);
   CHECK(first.explanation == Paragraphs{"Because."});
   CHECK(words_of(first.checks[0]) == "k_s ≥ 70 N/m");
-  CHECK(words_of(first.checks[1]) == "integrator is verlet");
+  CHECK(words_of(first.checks[1]) == "Integrator: Verlet");
   const LabStep& second = lab.steps[1];
   CHECK(second.prediction->right == 1);
   CHECK(words_of(second.checks[0]) == "F < 0.5 × F_g");
@@ -116,7 +116,7 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK(says(problem_of("# A lab\n\n## A step\nText\n```python\n"), "my.md:5: the only block"));
   CHECK(says(problem_of(head + "do: it\n"), "my.md:7: this block is never closed"));
   CHECK(says(problem_of(head + "```\n\n```lab\n"), "my.md:10: this step has a ```lab block already"));
-  CHECK(says(problem_of("# A lab\n```lab\n```\n"), "belongs to a step"));
+  CHECK(says(problem_of("# A lab\n```lab\nset: k_s=3\n```\n"), "belongs to a step"));
   CHECK(says(problem_in("chek: t > 1 s"), "my.md:8: \"chek\" is not a key of a lab; did you mean check?"));
   CHECK(says(problem_in("just words"), "has no colon"));
   CHECK(says(problem_in("check:"), "has no value"));
@@ -155,6 +155,68 @@ TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
   CHECK(says(problem_in("check: integrator = foo"), "integrator is never \"foo\". Known: euler"));
   CHECK(says(problem_in("stop: -1 s"), "above 0"));
   CHECK(says(problem_in("needs: luck"), "opencl"));
+}
+
+TEST_CASE("a check says over which part of the motion it is judged") {
+  const auto check = [](const std::string& text) {
+    const Lab lab = parse_lab(head + "check: " + text + "\n```\n", "my.md");
+    return lab.steps[0].checks[0];
+  };
+  CHECK(check("k_s >= 180 N/m").span == Span::now);
+  CHECK(check("k_s >= 180 N/m throughout").span == Span::throughout);
+  CHECK(words_of(check("k_s >= 180 throughout")) == "k_s ≥ 180 N/m throughout");
+  CHECK(words_of(check("integrator != euler throughout")) == "Integrator: not Euler throughout");
+  CHECK(words_of(check("F < 0.5 * F_g once")) == "F < 0.5 × F_g once");
+  CHECK(words_of(check("fastest < 0.1 m/s for 0.5 s")) == "fastest < 0.1 m/s for 0.5 s");
+  CHECK(check("fastest < 0.1 m/s for 0.5").seconds == 0.5);
+  CHECK(words_of(check("F_max < 0.1 N when torn > 0")) == "F_max < 0.1 N when torn > 0");
+  CHECK(words_of(check("untouched = yes throughout")) == "Nothing else changed throughout");
+  CHECK(words_of(check("untouched = no")) == "Nothing else changed: no");
+  CHECK(says(problem_in("check: k_s > 3 N/m thruoghout"), "my.md:8: \"thruoghout\" ends no check; did you mean"));
+  CHECK(says(problem_in("check: k_s > 3 N/m onec"), "did you mean once?"));
+  CHECK(says(problem_in("check: k_s > 3 N/m throughout once"), "one of throughout, once, for and when"));
+  CHECK(says(problem_in("check: k_s > 3 N/m once now"), "once ends a check"));
+  CHECK(says(problem_in("check: throughout"), "a check begins with a quantity"));
+  CHECK(says(problem_in("check: fastest < 1 m/s for soon"), "for is followed by a simulated time"));
+  CHECK(says(problem_in("check: fastest < 1 m/s for -1 s"), "for is followed by a simulated time"));
+  CHECK(says(problem_in("check: k_s > 3 N/m when"), "when needs a check"));
+  CHECK(says(problem_in("check: k_s > 3 N/m when torn > 0 once"), "a plain check"));
+  CHECK(says(problem_in("check: k_s > 3 N/m when tron > 0"), "\"tron\" is not a quantity"));
+  CHECK(says(problem_in("check: error < 1 m throughout"), "measured beside the motion"));
+  CHECK(says(problem_in("check: dt < 1 s when error < 1 m"), "measured beside the motion"));
+  CHECK(says(problem_in("check: t >= 2 s throughout"), "t only grows"));
+  CHECK(problem_in("check: t >= 2 s when torn > 0") == "none");
+}
+
+TEST_CASE("a step says what is to be seen, and a lab how long it takes") {
+  const Lab lab = parse_lab(
+      "# A lab\n\nWhat for.\n\n```lab\nminutes: 15\n```\n\n## First\n\nText.\n\n```lab\nshow: energy\nspeed: 0.1\n"
+      "view: 2\ncolor: tension\n```\n\n## Second\n\nMore.\n",
+      "my.md");
+  CHECK(lab.minutes == 15);
+  CHECK(lab.summary == Paragraphs{"What for."});
+  CHECK(lab.steps[0].show == "energy");
+  CHECK(lab.steps[0].speed == 0.1);
+  CHECK(lab.steps[0].view == 2);
+  CHECK(lab.steps[0].color == "tension");
+  CHECK(lab.steps[1].show.empty());
+  CHECK_FALSE(lab.steps[1].speed.has_value());
+  CHECK(says(problem_in("show: enregy"), "my.md:8: show: there is no card \"enregy\"; did you mean energy?"));
+  CHECK(says(problem_in("show: everything at all"), "known: forces, height"));
+  CHECK(says(problem_in("speed: 0"), "from 0.001 to 10"));
+  CHECK(says(problem_in("speed: quick"), "from 0.001 to 10"));
+  CHECK(says(problem_in("view: 6"), "view: is 1 (triangles)"));
+  CHECK(says(problem_in("view: 1.5"), "view: is 1 (triangles)"));
+  CHECK(says(problem_in("color: tensoin"), "did you mean tension?"));
+  CHECK(says(problem_in("minutes: 15"), "minutes: is of the whole lab"));
+  const auto problem_of_head = [](const std::string& lines) {
+    return problem_of("# A lab\n\n```lab\n" + lines + "\n```\n\n## A step\n\nText.\n");
+  };
+  CHECK(problem_of_head("minutes: 15") == "none");
+  CHECK(says(problem_of_head("minutes: soon"), "my.md:4: minutes: is a whole number"));
+  CHECK(says(problem_of_head("minutes: 0"), "a whole number from 1 to 600"));
+  CHECK(says(problem_of_head("open: hanging"), "my.md:4: open: belongs to a step"));
+  CHECK(says(problem_of_head("minutes: 5\n```\n\n```lab\nminutes: 6"), "under its title already"));
 }
 
 TEST_CASE("a lab is found by its name or its file") {

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "app/session/edits.h"
+#include "app/session/motion.h"
 #include "app/studies/job.h"
 #include "core/io/preset_io.h"
 #include "tests/support/sanitized.h"
@@ -57,6 +58,47 @@ void LabPlayer::run(double seconds) {
   update();
 }
 
+void LabPlayer::restart() {
+  tyglab::restart(session_);
+  update();
+}
+
+void LabPlayer::set_up_again() {
+  set_up_step(session_);
+  update();
+}
+
+void LabPlayer::cut(const std::vector<Pins::Site>& sites) {
+  REQUIRE(apply_edit(session_, edit::Cut{sites}));
+}
+
+void LabPlayer::pull(int i, int j, const glm::dvec3& to, double seconds) {
+  REQUIRE(apply_edit(session_, edit::Grab{i, j}));
+  const double end = session_.simulation->time() + seconds;
+  session_.pacing.playing = true;
+  while (session_.simulation->time() < end && !session_.simulation->divergence()) {
+    session_.wants = {};
+    SessionInput input;
+    input.hand = to;
+    session_.update(1.0 / 60, input);
+  }
+  session_.pacing.playing = false;
+}
+
+void LabPlayer::release() {
+  REQUIRE(apply_edit(session_, edit::Release{}));
+}
+
+std::string LabPlayer::card(std::size_t check) {
+  const StepRecord& record = lab().record();
+  return check_in_words(session_, lab().now().checks.at(check), record.checks.at(check), record.seen.at(check));
+}
+
+void LabPlayer::skip() {
+  enter_step(session_, lab().step + 1);
+  update();
+}
+
 void LabPlayer::look() {
   const auto limits = [&] {
     const auto& known = session_.studies.stability.limits();
@@ -65,7 +107,7 @@ void LabPlayer::look() {
   const auto study = [&] {
     if (!accuracy_open) return true;
     const auto known = session_.studies.accuracy.study();
-    return known && known->present && known->of == session_.preset() && known->t == session_.simulation->time();
+    return known && known->present && known->of == session_.preset() && known->at == session_.study_moment().mark();
   };
   const auto begun = std::chrono::steady_clock::now();
   const bool playing = std::exchange(session_.pacing.playing, false);

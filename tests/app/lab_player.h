@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/session/session.h"
 
@@ -27,6 +28,16 @@ class LabPlayer {
   bool accuracy_open = false;
   /// The next step, which opens its preset.
   void next();
+  /// The same though this one is not done.
+  void skip();
+  void restart();
+  void set_up_again();
+  void cut(const std::vector<Pins::Site>& sites);
+  /// Grabs that particle and holds it there for so long.
+  void pull(int i, int j, const glm::dvec3& to, double seconds);
+  void release();
+  /// What the card says of that check of the step.
+  std::string card(std::size_t check);
   /// One update, in which what was asked for is done.
   void update(double seconds = 0);
 

@@ -54,7 +54,7 @@ TEST_CASE("the facts name the engine and the memory of the solver's arrays") {
   desk.session.simulation->forces(Reduction::sum);  // reads the whole state: six doubles a particle
   CHECK(value("masks and read-outs") == "50 kB");
   CHECK(value("undo") == "0 kB");
-  for (int n = 0; n < 10; ++n) desk.session.history.record(desk.session.preset(), 0);
+  for (int n = 0; n < 10; ++n) desk.session.history.record({desk.session.preset()}, 0);
   CHECK(value("undo") != "0 kB");
 }
 

@@ -57,18 +57,21 @@ TEST_CASE("a machine too slow drops time instead of falling ever further behind"
 TEST_CASE("undo and redo go gesture by gesture") {
   History history;
   CHECK_FALSE(history.can_undo());
-  history.record(with_k_s(1), 7);
-  history.record(with_k_s(2), 7);  // the same drag
-  history.record(with_k_s(3), 8);
+  history.record({with_k_s(1)}, 7);
+  history.record({with_k_s(2)}, 7);  // the same drag
+  history.record({with_k_s(3)}, 8);
   Preset present = with_k_s(4);
-  present = *history.undo(present);
+  CHECK(history.what(true, present) == "k_s 3 → 4 N/m");
+  present = history.take(true, HistoryEntry{present}).constants;
   CHECK(present.k_s == 3);
-  present = *history.undo(present);
+  CHECK(history.what(true, present) == "k_s 1 → 3 N/m");
+  CHECK(history.what(false, present) == "k_s 3 → 4 N/m");
+  present = history.take(true, HistoryEntry{present}).constants;
   CHECK(present.k_s == 1);
-  CHECK_FALSE(history.undo(present).has_value());
-  present = *history.redo(present);
+  CHECK_FALSE(history.can_undo());
+  present = history.take(false, HistoryEntry{present}).constants;
   CHECK(present.k_s == 3);
-  history.record(present, 0);
+  history.record({present}, 0);
   CHECK_FALSE(history.can_redo());
 }
 

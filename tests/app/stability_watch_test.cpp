@@ -40,14 +40,54 @@ TEST_CASE("the limits are those of linear theory, and follow the constants") {
   CHECK(soft.any == doctest::Approx(stable_dt(preset, preset.integrator)).epsilon(1e-3));
   REQUIRE(soft.now.has_value());
   CHECK(*soft.now > soft.any);
+  CHECK(soft.every > *soft.now);
   preset.k_s *= 100, preset.k_b *= 100;
   simulation.apply(edit::Change{preset});
   const StabilityLimits stiff = limits_of(simulation);
   CHECK(stiff.any < soft.any / 8);
-  CHECK(stability_text(stiff, 2 * stiff.any) == "2.00");
-  const std::string words = stability_words(stiff, 2 * stiff.any);
-  CHECK(says(words, "2.00 of the largest"));
-  CHECK(says(words, "not a guarantee"));
+  CHECK(stability_text(stiff, 2 * stiff.any) == "200 %");
+  CHECK(stability_text(stiff, 0.75 * stiff.any) == "75 %");
+}
+
+StabilityLimits made_up(double now) {
+  StabilityLimits limits;
+  limits.of.integrator = "verlet";
+  limits.any = 1e-3, limits.every = 3.46e-3, limits.now = now, limits.omega = 1550;
+  return limits;
+}
+
+TEST_CASE("the gauge says its three zones in words, and dt in parts of both limits") {
+  const StabilityLimits limits = made_up(1.29e-3);
+  const std::string stable = stability_words(limits, 7.5e-4);
+  CHECK(says(stable,
+             "Stable in any shape: dt is 75 % of the worst-case limit and 58 % of this cloth's own, as it hangs now."));
+  CHECK(says(stable, "guide, not a guarantee"));
+  CHECK(says(stability_words(limits, 1.2e-3),
+             "Depends on the shape: dt is 120 % of the worst-case limit and 93 % of this cloth's own"));
+  CHECK(says(stability_words(limits, 4e-3), "Unstable in every shape: dt is 400 %"));
+}
+
+TEST_CASE("each mark of the gauge says what it is; the cloth's own limit is no promise") {
+  const auto marks = gauge_marks(made_up(1.29e-3), 7.5e-4);
+  REQUIRE(marks.size() == 4);
+  CHECK(says(marks[0].words, "this cloth's own limit, as it hangs now: 0.00129 s"));
+  CHECK(says(marks[0].words, "promises nothing"));
+  CHECK(says(marks[1].words, "the worst-case limit, 0.001 s. Up to it, Verlet is stable in any shape"));
+  CHECK(says(marks[2].words, "above 0.00346 s, Verlet is unstable in every shape in which a spring pulls"));
+  CHECK(says(marks[3].words, "dt is 75 %"));
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const GaugeMark& mark : gauge_marks(made_up(infinity), 1e-3)) CHECK(mark.name != "this cloth");  // it is slack
+  StabilityLimits weight = made_up(1e-3);
+  weight.of.kind = Kind::one_weight, weight.every = weight.any;
+  CHECK(gauge_marks(weight, 1e-3).size() == 2);
+  CHECK(part_words(weight, 7.5e-4) == "dt is 75 % of the limit.");
+}
+
+TEST_CASE("the worst-case limit is always in the gauge's middle, and no dt beyond its end") {
+  const StabilityLimits limits = made_up(1.29e-3);
+  CHECK(gauge_position(limits, limits.any) == 0.5);
+  CHECK(gauge_position(limits, 1) < 1);
+  CHECK(gauge_position(limits, 1e-3) < gauge_position(limits, 1.1e-3));
 }
 
 TEST_CASE("methods without a limit, and those that no dt makes stable, are named so") {

@@ -1,4 +1,4 @@
-// Every theme can be read: contrasts as the WCAG 2.1 defines them.
+// Every theme can be read: contrasts as the WCAG 2.1 defines them, and colors that the color-blind tell apart.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -6,16 +6,18 @@
 #include <cmath>
 #include <string>
 
+#include "app/ui/constants/zones.h"
 #include "app/ui/kit/theme.h"
 
 namespace tyglab::theme_test {
 
+double linear_part(ImU32 byte) {
+  const double c = double(byte & 255) / 255;
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
 double luminance(ImU32 color) {
-  const auto linear = [](ImU32 byte) {
-    const double c = double(byte & 255) / 255;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-  };
-  return 0.2126 * linear(color) + 0.7152 * linear(color >> 8) + 0.0722 * linear(color >> 16);
+  return 0.2126 * linear_part(color) + 0.7152 * linear_part(color >> 8) + 0.0722 * linear_part(color >> 16);
 }
 
 double contrast(ImU32 a, ImU32 b) {
@@ -40,6 +42,56 @@ TEST_CASE("text of every theme has 4.5 to 1 at least on all grounds, curves and 
       CHECK(contrast(signs[n], c.panel) > 3);
     }
   }
+}
+
+using Color = std::array<double, 3>;
+
+/// CIE L*a*b* of linear sRGB (D65).
+Color lab_of(const Color& rgb) {
+  const auto f = [](double t) { return t > 216.0 / 24389 ? std::cbrt(t) : (24389.0 / 27 * t + 16) / 116; };
+  const double x = f((0.4124 * rgb[0] + 0.3576 * rgb[1] + 0.1805 * rgb[2]) / 0.9505),
+               y = f(0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]),
+               z = f((0.0193 * rgb[0] + 0.1192 * rgb[1] + 0.9505 * rgb[2]) / 1.089);
+  return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
+}
+
+/// What somebody sees who lacks one kind of cones (Machado, Oliveira and Fernandes 2009, severity 1).
+struct Vision {
+  const char* name;
+  std::array<Color, 3> matrix;
+};
+const Vision visions[] = {
+    {"usual", {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}},
+    {"no red", {{{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}}}},
+    {"no green", {{{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.01182, 0.04294, 0.968881}}}},
+    {"no blue", {{{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.3039}}}}};
+
+double difference(ImU32 a, ImU32 b, const Vision& vision) {
+  const auto seen = [&](ImU32 color) {
+    const Color rgb{linear_part(color), linear_part(color >> 8), linear_part(color >> 16)};
+    Color out{};
+    for (std::size_t n = 0; n < 3; ++n)
+      out[n] = std::clamp(vision.matrix[n][0] * rgb[0] + vision.matrix[n][1] * rgb[1] + vision.matrix[n][2] * rgb[2],
+                          0.0, 1.0);
+    return lab_of(out);
+  };
+  const Color one = seen(a), other = seen(b);
+  return std::hypot(one[0] - other[0], one[1] - other[1], one[2] - other[2]);
+}
+
+TEST_CASE("the colors of the zones of stability are told apart in every theme, also by the color-blind") {
+  for (const Look& look : looks())
+    for (const Vision& vision : visions) {
+      CAPTURE(std::string(look.name));
+      CAPTURE(std::string(vision.name));
+      const Tokens c = look.tokens();
+      const ImU32 stable = zone_color(c, Zone::stable), depends = zone_color(c, Zone::depends),
+                  unstable = zone_color(c, Zone::unstable);
+      constexpr double plainly = 15;  // 2.3 can just be seen
+      CHECK(difference(stable, depends, vision) > plainly);
+      CHECK(difference(depends, unstable, vision) > plainly);
+      CHECK(difference(stable, unstable, vision) > plainly);
+    }
 }
 
 TEST_CASE("an unknown theme is the first one") {

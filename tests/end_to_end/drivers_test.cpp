@@ -5,6 +5,7 @@
 
 #include "tests/support/devices.h"
 #include "tests/support/files.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/skip.h"
 
 namespace tyglab::drivers_test {
@@ -47,6 +48,8 @@ TEST_CASE("an OpenCL driver without a linker is found out in a process of its ow
 }
 
 TEST_CASE("a limit of memory ends the drawing with a sentence that names it") {
+  if (test::sanitized)
+    return test::skip("AddressSanitizer needs more memory than any such limit", test::Missing::of_machine);
   const test::TemporaryFolder folder;
   int failed = 0;
   for (int megabytes = 200; megabytes <= 650; megabytes += 50) {

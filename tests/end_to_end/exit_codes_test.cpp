@@ -48,6 +48,23 @@ TEST_CASE("3: a preset's texture lies outside its folder; one that the user chos
   CHECK(chosen.err.empty());
 }
 
+TEST_CASE("2: a tolerance that cannot be promised is refused with the one that can be, and the command to type") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> scene{"run", "hanging", "--set", "rows=4", "--set", "columns=4", "--seconds", "0.1"};
+  std::vector<std::string> call = scene;
+  call.insert(call.end(), {"--tolerance", "1e-12"});
+  const auto refused = test::tyglab(folder.path(), call);
+  CHECK(refused.code == 2);
+  const std::string typed = "tyglab run hanging --set rows=4 --set columns=4 --seconds 0.1 --tolerance ";
+  const auto at = refused.err.find(typed);
+  REQUIRE(at != std::string::npos);
+  const std::string offered = refused.err.substr(at + typed.size(), refused.err.rfind('.') - at - typed.size());
+  call.back() = offered;
+  const auto chosen = test::tyglab(folder.path(), call);
+  CHECK(chosen.code == 0);
+  CHECK(chosen.err.find("--tolerance chose") != std::string::npos);
+}
+
 TEST_CASE("0: help of the program and of every command, with an example; version; lists") {
   const test::TemporaryFolder folder;
   check_calls({{{"--help"}, 0, "run"},
@@ -78,7 +95,7 @@ TEST_CASE("2: the command line is wrong, --set included") {
                {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e9"},
                {{"run", "denim", "--steps", "1", "--set", "k_x=3"}, 2, "did you mean"},
                {{"run", "denim", "--steps", "1", "--set", "K_S=3"}, 2, "did you mean k_s?"},
-               {{"--dt", "0.1", "denim", "--steps", "4"}, 2, "Not expected here: --steps 4."},
+               {{"--dt", "0.1", "denim", "--steps", "4"}, 2, "--steps 4 are not expected here."},
                {{"run", "denim", "--steps", "1", "--integrator", "eular"}, 2, "euler"},
                {{"run", "denim", "--steps", "1", "--precision", "half"}, 2, "precision"},
                {{"run", "denim", "--steps", "1", "--engine", "gpu"}, 2, "engine"},
@@ -151,6 +168,17 @@ TEST_CASE("3: a preset is wrong or missing") {
   check_calls({{{"presets", "check", "right.json"}, 0, "right.json"},
                {{"presets", "check", "denim"}, 0, "denim is a valid preset"}},
               folder.path());
+}
+
+TEST_CASE("3: the program's data is missing, also where the command line is wrong") {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "bin");
+  std::filesystem::copy(TYGLAB_BINARY, folder / "bin/tyglab");
+  for (const char* option : {"--bogus", "--help"}) {
+    const auto outcome = test::run(folder.path(), {(folder / "bin/tyglab").string(), "rum", option});
+    CHECK(outcome.code == (std::string(option) == "--help" ? 0 : 3));
+    CHECK(test::lines(outcome.err).size() == (outcome.code == 0 ? 0 : 1));
+  }
 }
 
 TEST_CASE("4: run and render diverge; what they had is written, and when, where and why is said") {

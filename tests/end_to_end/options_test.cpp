@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "core/io/preset_io.h"
 #include "tests/support/files.h"
 
 namespace tyglab::options_test {
@@ -97,6 +98,61 @@ TEST_CASE("devices tells how many threads the CPU engine may use") {
   const std::string threads = ", up to " + std::to_string(count) + (count == 1 ? " thread\n" : " threads\n");
   const auto outcome = check(folder, {"devices"}, 0, threads);
   CHECK(outcome.out.find(threads) != outcome.out.rfind(threads));  // float and double
+}
+
+TEST_CASE("steps of implicit methods that do not converge are told once, in text and JSON, also with one iteration") {
+  const test::TemporaryFolder folder;
+  const Words stiff{"--steps", "3", "--dt", "0.0166", "--set", "k_s=1e5", "--json", "a.json"};
+  for (const char* method : {"implicit_euler", "implicit_midpoint", "tr_bdf2"})
+    for (const char* iterations : {"1", "2"}) {
+      Words words{"run", "hanging", "--integrator", method, "--set", "iterations=" + std::string(iterations)};
+      words.insert(words.end(), stiff.begin(), stiff.end());
+      const auto outcome = check(folder, words, 0, " steps did not converge (up to ");
+      CHECK(test::lines(outcome.err).size() == 1);
+      CHECK(outcome.err.find("Use a smaller dt or more iterations.") != std::string::npos);
+      const std::string json = test::read_file(folder / "a.json");
+      CHECK(json.find("\"unconverged_steps\": 0") == std::string::npos);
+      CHECK(json.find("\"worst_residual\": null") == std::string::npos);
+    }
+  const Words calm{"run", "hanging", "--integrator", "implicit_euler", "--steps", "3", "--set", "iterations=1"};
+  CHECK(check(folder, calm, 0, "3 steps to t").err.empty());
+}
+
+TEST_CASE("a ledger does not change when a run diverges") {
+  const test::TemporaryFolder folder;
+  for (const Words& more : {Words{}, Words{"--ledger", "a.csv"}}) {
+    Words words{"run", "explodes", "--steps", "100"};
+    words.insert(words.end(), more.begin(), more.end());
+    check(folder, words, 4, "(step 64)");
+  }
+}
+
+TEST_CASE("help names choices once, and what is refused comes first") {
+  const test::TemporaryFolder folder;
+  CHECK(check(folder, {"--help"}, 0, "--effects auto|all|few").out.find('{') == std::string::npos);
+  CHECK(check(folder, {"render", "--help"}, 0, "--color tension|").out.find('{') == std::string::npos);
+  CHECK(check(folder, {"bench", "skip", "--help"}, 0, "--precision").out.find('{') == std::string::npos);
+  check(folder, {"run", "denim", "--bogus"}, 2, "tyglab: --bogus is not expected here.");
+  check(folder, {"run", "denim", "--set", "rows=1e9"}, 2, "allowed: 2 to 4096");
+  check(folder, {"run", "denim", "--set", "rows=1.5"}, 2, "allowed: 2 to 4096");
+  check(folder, {"run", "denim", "--set", "rows=9999999999999"}, 2, "rows: 9999999999999 is not allowed");
+}
+
+TEST_CASE("run and presets check say in plain words that a preset's image is damaged") {
+  const test::TemporaryFolder folder;
+  Preset preset;
+  preset.texture = "a.png";
+  test::write_file(folder / "a.json", preset_to_json(preset));
+  for (const std::string& bytes :
+       {std::string("\x89PNG\r\n\x1a\n1234"), std::string("no picture"), std::string("BM")}) {
+    test::write_file(folder / "a.png", bytes);
+    for (const Words& call : {Words{"run", "a.json", "--steps", "1"}, Words{"presets", "check", "a.json"}}) {
+      const auto outcome = check(folder, call, 0, "tyglab: view.texture: the cloth would be drawn without its image: ");
+      CHECK(test::lines(outcome.err).size() == 1);
+      const bool plain = outcome.err.find("(it is ") != std::string::npos;
+      CHECK_MESSAGE(plain, outcome.err);
+    }
+  }
 }
 
 }  // namespace tyglab::options_test

@@ -120,6 +120,7 @@ TEST_CASE("130: an interrupted benchmark leaves the older results") {
   CHECK(outcome.code == 130);
   CHECK(test::read_file(folder / "b.json") == "older");
   CHECK(nlohmann::json::parse(test::read_file(folder / "b.json.incomplete")).contains("runs"));
+  CHECK(outcome.err.find("complete, in b.json.incomplete.") != std::string::npos);
 }
 
 TEST_CASE("6: a full disk leaves every older file, and whole rows and frames beside them") {

@@ -73,6 +73,21 @@ TEST_CASE("a name with a line feed begins no line of its own") {
   CHECK(test::lines(outcome.err).size() == 1);
 }
 
+TEST_CASE("names of files and presets with line feeds stay within one line") {
+  const test::TemporaryFolder folder;
+  Preset preset;
+  preset.name = "a\nb";
+  save_preset(preset, folder / "c\nd.json");
+  for (const std::vector<std::string>& call :
+       {std::vector<std::string>{"run", "c\nd.json", "--steps", "1", "--state", "e\nf.csv"},
+        std::vector<std::string>{"presets", "check", "c\nd.json"}}) {
+    const auto outcome = test::tyglab(folder.path(), call);
+    CHECK(outcome.code == 0);
+    CHECK(test::lines(outcome.out).size() == 1);
+    CHECK(outcome.out.find("c\\x0ad") != std::string::npos);
+  }
+}
+
 TEST_CASE("files on standard output keep every byte") {
   const test::TemporaryFolder folder;
   Preset preset;

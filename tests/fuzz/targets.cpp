@@ -2,19 +2,27 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
 
 #include "app/base/settings.h"
+#include "app/cli/commands/program.h"
 #include "app/render/image.h"
 #include "app/session/lab.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/output/series_csv.h"
+#include "core/output/state_csv.h"
+#include "tests/fuzz/csv_reader.h"
 #include "tests/support/pictures.h"
 
 namespace tyglab::fuzz {
@@ -95,6 +103,98 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// What is printed meanwhile goes nowhere.
+class Hushed {
+ public:
+  Hushed() : out_(std::cout.rdbuf(&nowhere_)), err_(std::cerr.rdbuf(&nowhere_)) {}
+  ~Hushed() { std::cout.rdbuf(out_), std::cerr.rdbuf(err_); }
+  Hushed(const Hushed&) = delete;
+  Hushed& operator=(const Hushed&) = delete;
+  std::string text() const { return nowhere_.str(); }
+
+ private:
+  std::stringbuf nowhere_;
+  std::streambuf *out_, *err_;
+};
+
+/// A word a line. It is understood, or refused with a sentence and the exit code of command lines.
+void read_command_line(std::string_view input) {
+  std::vector<std::string> words{"tyglab"};
+  for (const std::string& line : lines(input.substr(0, 4096)))
+    if (words.size() < 64) words.push_back(line.substr(0, line.find('\0')));
+  std::vector<const char*> typed;
+  for (const std::string& word : words) typed.push_back(word.c_str());
+  const Hushed hushed;
+  Action action;
+  CLI::App program("", "tyglab");
+  declare_program(program, action);
+  try {
+    program.parse(int(typed.size()), typed.data());
+  } catch (const CLI::ParseError& error) {
+    const int code = exit_of_parsing(program, error, std::span(typed).subspan(1));
+    require(code == exit_command_line || code == exit_done, "what is not understood ends with exit code 2");
+    require(hushed.text().size() >= 8, "it says why");
+    return;
+  }
+  require(action != nullptr, "a command line that is understood asks for something");
+}
+
+/// Numbers as their bytes, whatever they are.
+class Numbers {
+ public:
+  explicit Numbers(std::string_view bytes) : bytes_(bytes) {}
+  bool empty() const { return bytes_.empty(); }
+  double next() {
+    double value = 0;
+    const std::size_t size = std::min(bytes_.size(), sizeof value);
+    std::memcpy(&value, bytes_.data(), size);
+    bytes_.remove_prefix(size);
+    return value;
+  }
+
+ private:
+  std::string_view bytes_;
+};
+
+void require_good_table(const std::string& text, std::size_t rows) {
+  std::string problem;
+  const CsvTable table = read_csv(text, problem);
+  require(problem.empty(), "a table can be read: " + problem);
+  require(table.rows.size() == rows, "a table has all its rows");
+}
+
+/// Every table that the program writes, of states that hold any numbers: each has all its cells, and a number that is
+/// finite comes back as it was; one that is not leaves its cell empty, and is in no state (StepGuard).
+void write_tables(std::string_view input) {
+  Numbers numbers(input);
+  const Lattice lattice{2, 3};
+  State state;
+  state.x.resize(6), state.v.resize(6);
+  for (VectorField<double>* field : {&state.x, &state.v})
+    for (auto* part : {&field->x, &field->y, &field->z})
+      for (double& value : *part) value = numbers.next(), value = std::isfinite(value) ? value : 0;
+  const std::string text = state_csv(lattice, state, {0.5, 3, "0123456789abcdef"});
+  require_good_table(text, 6);
+  std::string problem;
+  const CsvTable table = read_csv(text, problem);
+  for (std::size_t p = 0; p < 6; ++p)
+    require(table.rows[p][2] == state.x.x[p] && table.rows[p][7] == state.v.z[p], "a state comes back as it was");
+
+  const fs::path file = fs::temp_directory_path() / ("tyglab-fuzz-" + std::to_string(::getpid()) + ".csv");
+  for (const auto& columns : {series_columns(Kind::cloth), ledger_columns()}) {
+    SeriesCsv series(file, columns, "0123456789abcdef");
+    std::size_t rows = 0;
+    for (; rows < 3; ++rows) {
+      std::vector<double> values(columns.size());
+      for (double& value : values) value = numbers.next();
+      series.add(double(rows), values);
+    }
+    series.end();
+    require_good_table(content(file), rows);
+  }
+  fs::remove(file);
+}
+
 std::vector<std::string> files_of(const char* folder, const char* extension) {
   std::vector<std::string> all;
   for (const auto& entry : fs::directory_iterator(fs::path(TYGLAB_SOURCE_DIR) / folder))
@@ -129,11 +229,42 @@ std::vector<std::string> settings_file_seeds() {
               preset + "}}"};
 }
 
+/// Every command with each of its options.
+void add_command_lines(const CLI::App& command, const std::string& before, std::vector<std::string>& all) {
+  for (const CLI::Option* option : command.get_options())
+    for (const char* value : {"1", "denim", "auto", "k_s=5", "640x480"})
+      all.push_back(before + (option->get_positional() ? "" : option->get_name() + "\n") + value);
+  for (const CLI::App* next : command.get_subcommands([](const CLI::App*) { return true; }))
+    add_command_lines(*next, before + next->get_name() + "\n", all);
+}
+
+std::vector<std::string> command_line_seeds() {
+  Action action;
+  CLI::App program("", "tyglab");
+  declare_program(program, action);
+  std::vector<std::string> all{"", "run\ndenim\n--seconds\n2\n--state\ndenim.csv", "rum\n--help", "--size=1x1\nrun"};
+  add_command_lines(program, "", all);
+  return all;
+}
+
+std::vector<std::string> table_seeds() {
+  std::vector<std::string> all;
+  for (const double value : {0.0, -0.0, 1.0 / 3, 5e-324, -1.7976931348623157e308, double(INFINITY), double(NAN)}) {
+    std::string bytes(sizeof value, '\0');
+    std::memcpy(bytes.data(), &value, sizeof value);
+    std::string& seed = all.emplace_back();
+    for (int n = 0; n < 120; ++n) seed += bytes;
+  }
+  return all;
+}
+
 constexpr Target all_targets[]{{"presets", read_preset_text, preset_seeds},
                                {"settings", read_settings, setting_seeds},
                                {"labs", read_lab, lab_seeds},
                                {"pictures", read_picture, picture_seeds},
-                               {"sessions", read_settings_file, settings_file_seeds}};
+                               {"sessions", read_settings_file, settings_file_seeds},
+                               {"command_lines", read_command_line, command_line_seeds},
+                               {"tables", write_tables, table_seeds}};
 
 }  // namespace
 

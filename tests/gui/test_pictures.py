@@ -160,7 +160,7 @@ def effects(stage):
     few.key("space")
     few.rest()
     plain = stage.keep("few", still=True)
-    few.find("all effects")
+    few.find("full quality")
     few.wait(lambda r: r["effects_left_out"] == 0, "the palette to bring all back")
     few.rest()
     x, y, width, height = report["viewport"]

@@ -192,6 +192,64 @@ TEST_CASE("the accuracy card measures the present settings beside the frames, an
   CHECK_FALSE(study().has_value());  // the work ends with the card
 }
 
+TEST_CASE("settings for an error are found beside the frames, ranked by their cost, and used with a click") {
+  test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 5; }});
+  const auto search = [&] { return studies(window).settings.search(); };
+  window.find("settings for an error");
+  CHECK(window.drew("Error at most"));
+  CHECK_FALSE(search().has_value());  // nothing is measured before it is asked for
+  CHECK_FALSE(studies(window).accuracy.study().has_value());
+  window.pause();
+  window.click("plots.target");
+  window.key(GLFW_KEY_A, GLFW_MOD_CONTROL);
+  window.type("nonsense");
+  window.key(GLFW_KEY_ENTER);
+  CHECK(window.said("“nonsense” is not an error"));
+  CHECK_FALSE(search().has_value());
+  window.click("plots.target");
+  window.key(GLFW_KEY_A, GLFW_MOD_CONTROL);
+  window.type("0.5 mm");
+  window.key(GLFW_KEY_ENTER);
+  window.until([&] { return search().has_value(); }, "the search to begin");
+  CHECK(search()->goal.tolerance == doctest::Approx(5e-4));
+  window.until([&] { return search()->done; }, "the search to end");
+  const auto reached = settings_for(*search(), 5e-4);
+  REQUIRE(reached.size() > 1);
+  CHECK(std::is_sorted(reached.begin(), reached.end(), [](auto& a, auto& b) { return a.cost < b.cost; }));
+  const Preset before = window.preset();
+  window.click("plots.setting2");
+  window.until([&] { return window.preset().integrator == reached[1].integrator; }, "the setting to be used");
+  CHECK(window.preset() == with_setting(before, reached[1]));
+  CHECK(window.sees("plots.setting1"));  // the ranking stays: it is about the same motion
+  window.rest();
+  window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  window.until([&] { return window.preset() == before; }, "one undo to take method and dt back");
+  window.type_value("k_s", "90");
+  window.until([&] { return window.drew("The constants have changed"); }, "the ranking to be taken back");
+  CHECK_FALSE(window.sees("plots.setting1"));
+  window.click("plots.accuracy_ways.1");
+  window.until([&] { return !search().has_value(); }, "the search to end with the sight of it");
+}
+
+TEST_CASE("an error that cannot be promised is refused, and the tightest that can be is a click away") {
+  test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 4; }});
+  const auto search = [&] { return studies(window).settings.search(); };
+  window.pause();
+  window.find("settings for an error");
+  window.click("plots.target");
+  window.key(GLFW_KEY_A, GLFW_MOD_CONTROL);
+  window.type("1e-12");
+  window.click("plots.Find");
+  window.until([&] { return search() && search()->done; }, "the search to end");
+  CHECK(window.drew("The tightest tolerance that can be promised is"));
+  CHECK_FALSE(window.sees("plots.setting1"));
+  const double tightest = tightest_tolerance(*search());
+  window.frames(2);
+  window.click(window.control_beginning("plots.Use"));
+  window.until([&] { return window.sees("plots.setting1"); }, "settings for what can be promised");
+  CHECK(*studies(window).settings.tolerance() == doctest::Approx(tightest));
+}
+
 TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work") {
   test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 13; }});
   const auto cells = [&] {
@@ -217,6 +275,33 @@ TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it
   window.key(GLFW_KEY_M);
   window.frames(2);
   CHECK_FALSE(studies(window).map.findings().has_value());
+}
+
+TEST_CASE("the card Energy says since when it counts, and offers to count from the start") {
+  test::NullUi window(test::UiOptions{.preset = "hanging"});
+  window.until([&] { return window.t() > 0.3; }, "some motion");
+  window.find("energy card");
+  window.pause();
+  window.frames(4);
+  REQUIRE(window.cloth().ledger());
+  CHECK(window.cloth().ledger()->began > 0.3);
+  CHECK(window.drew("counted since t = 0."));
+  window.click("plots.count_from_start");
+  window.frames(4);
+  CHECK(window.cloth().ledger()->began == 0);
+  CHECK(window.drew("counted since the start"));
+}
+
+TEST_CASE("what the card Energy shows moves no divergence") {
+  std::int64_t steps[2] = {};
+  for (const bool open : {false, true}) {
+    test::NullUi window(test::UiOptions{.preset = "explodes"});
+    if (open) window.find("energy card");
+    window.key(GLFW_KEY_R);
+    window.until([&] { return window.diverged(); }, "the divergence");
+    steps[open] = window.cloth().divergence()->step;
+  }
+  CHECK(steps[0] == steps[1]);
 }
 
 }  // namespace tyglab::cards_test

@@ -188,4 +188,69 @@ TEST_CASE("a tooltip stands beside its row and hides no constant; while the help
   CHECK_FALSE(window.tooltip().has_value());
 }
 
+TEST_CASE(
+    "the gauge under dt explains itself: each of its marks, and the bar between them, has a tooltip that appears") {
+  test::NullUi window;
+  window.pause();
+  const auto& limits = window.session.studies.stability.limits();
+  window.until([&] { return limits && limits->now && limits->now < 2 * limits->any; }, "the limits");
+  const auto says = [&](const char* control, const char* words) {
+    CAPTURE(std::string(control));
+    window.rest();
+    window.frames(3);
+    CHECK_FALSE(window.tooltip().has_value());
+    const Box box = window.control(std::string("constants.") + control);
+    const bool bar = std::string(control) == "stability";
+    window.move({bar ? box.lo.x + 3 : (box.lo.x + box.hi.x) / 2, (box.lo.y + box.hi.y) / 2});
+    window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
+    window.frames(2);
+    CHECK(window.drew(words));
+  };
+  says("gauge_worst_case", "Line: the worst-case limit,");
+  says("gauge_this_cloth", "Dot: this cloth's own limit, as it hangs now");
+  says("gauge_every_shape", "is unstable in every shape in which a spring pulls");
+  says("gauge_dt", "of this cloth's own, as it hangs now.");
+  says("stability", "Stable in any shape: dt is");
+}
+
+TEST_CASE("the tooltip of k_s says in which zone it is: at 180 N/m on lab 03's sheet it depends on the shape") {
+  test::NullUi window({.preset = "taut_sheet", .with = [](Preset& preset) {
+                         preset.integrator = "verlet", preset.dt = 1e-3, preset.k_s = 180, preset.k_d = 0;
+                       }});
+  window.pause();
+  const auto& limits = window.session.studies.stability.limits();
+  window.until([&] { return limits && limits->now; }, "the limits");
+  window.move(window.along("constants.k_s.slider", 0.5f));
+  window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
+  window.frames(2);
+  CHECK(window.drew("Depends on the shape: dt is"));
+  CHECK(window.drew("stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape"));
+}
+
+TEST_CASE("a typed value makes the slider longer on its side alone, until it is reset") {
+  test::NullUi window;
+  window.pause();
+  const auto at = [&](float part) {
+    window.frames(60);  // two clicks in a row are a double click
+    window.click(window.along("constants.k_s.slider", part));
+    const double value = window.preset().k_s;
+    window.key(GLFW_KEY_Z, ctrl);
+    return value;
+  };
+  const double low = at(0.2f), high = at(0.9f);
+  CHECK(at(0.01f) == 0);
+  window.type_value("k_s", "1e5");
+  CHECK(at(0.01f) == 0);  // 0 stays at the left
+  CHECK(at(0.9f) > 20 * high);
+  CHECK(at(0.9f) < 1e5);  // so that 1e5 is near the end, not in the middle
+  CHECK(at(0.2f) < 10 * low);
+  window.type_value("k_s", "60");
+  CHECK(at(0.9f) > 20 * high);  // it does not shrink under the hand
+  window.frames(60);
+  window.double_click(window.along("constants.k_s.slider", 0.5f));
+  CHECK(window.preset().k_s == preset_k_s);
+  CHECK(at(0.9f) == doctest::Approx(high));
+  CHECK(at(0.2f) == doctest::Approx(low));
+}
+
 }  // namespace tyglab::constants_test

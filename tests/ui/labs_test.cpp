@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "app/base/glfw_keys.h"
+#include "app/session/lab_state.h"
 #include "app/session/requests.h"
 #include "tests/ui/null_ui.h"
 
@@ -123,20 +124,145 @@ TEST_CASE("the lab on k_s: the limit is predicted, found by an explosion, and ke
   CHECK(window.preset().k_s == 800);  // nothing is opened by going back
 }
 
-TEST_CASE("a lab asks before it takes the place of unsaved work; its own steps do not") {
+TEST_CASE("a lab asks nothing: what it takes the place of is kept, and what is done in it is no work") {
   test::NullUi window;
   window.type_value("k_s", "77");
+  window.key(GLFW_KEY_SPACE);
+  window.frames(20);
+  window.pause();
+  const double t = window.t();
+  CHECK(unsaved(window.session));
   window.click("top.labs");
   window.click("palette.Lab.Why_Euler_gains_energy");
-  CHECK(window.ui.dialog.kind == Dialog::Kind::unsaved);
-  window.click("dialog.Discard_the_changes");
+  window.frames(2);
+  CHECK(window.ui.dialog.kind == Dialog::Kind::none);
   CHECK(window.session.document.label == "one_weight");
   window.type_value("k", "11");
+  CHECK_FALSE(unsaved(window.session));
   window.click("lab.Set_up_again");
   CHECK(window.preset().k == 10);  // the step as it was
-  CHECK(window.ui.dialog.kind == Dialog::Kind::none);
+  window.type_value("k", "12");
+  window.session.request(request::Quit{});
+  apply_requests(window.session);
+  CHECK(window.session.quit);  // nothing is lost
+  CHECK_FALSE(window.session.question.has_value());
+  window.session.quit = false;
   window.click("lab.leave");
   CHECK_FALSE(window.session.labs.run.has_value());
+  CHECK_FALSE(unsaved(window.session));
+  CHECK(window.said("is kept as it was before the lab"));
+  window.find("back to your");
+  window.frames(2);
+  CHECK(window.session.document.label == "hanging");
+  CHECK(window.preset().k_s == 77);
+  CHECK(window.t() == t);
+  CHECK(window.paused());
+  CHECK(unsaved(window.session));
+  CHECK(window.session.history.can_undo());
+  CHECK(window.session.labs.kept.empty());
+}
+
+TEST_CASE("another lab keeps the experiment too, and only what is no lab's is kept") {
+  test::NullUi window;
+  window.type_value("k_s", "77");
+  begin(window, "hooke", "01_hooke");
+  window.type_value("k", "11");
+  begin(window, "critical", "03_stiffness");
+  REQUIRE(window.session.labs.kept.size() == 1);
+  CHECK(window.session.labs.kept[0].constants.k_s == 77);
+  window.find("flag in");
+  window.type_value("k_s", "33");
+  CHECK(unsaved(window.session));  // that is no lab's cloth
+  window.click("lab.Open_the_lab_s_cloth");
+  window.frames(2);
+  CHECK(window.ui.dialog.kind == Dialog::Kind::none);
+  CHECK(window.session.document.label == "taut_sheet");
+  REQUIRE(window.session.labs.kept.size() == 2);
+  window.find("back to your");
+  window.frames(2);
+  CHECK_FALSE(window.session.labs.run.has_value());
+  CHECK(window.session.document.label == "flag");
+  CHECK(window.preset().k_s == 33);
+  window.find("back to your");
+  window.frames(2);
+  CHECK(window.preset().k_s == 77);
+  REQUIRE(window.session.labs.kept.size() == 1);  // the flag with its changes
+  CHECK(window.session.labs.kept[0].document.label == "flag");
+}
+
+TEST_CASE("a step shows what it is about, at its speed, and the lab's end gives the user's own speed back") {
+  test::NullUi window;
+  window.session.pacing.speed = 0.5;
+  Lab lab = parse_lab(
+      "# A lab\n\nWhat for.\n\n## First\n\nText.\n\n```lab\nopen: hanging\nshow: energy\nspeed: 0.1\nview: 2\n"
+      "color: tension\n```\n\n## Second\n\nMore.\n\n```lab\nshow: map\n```\n",
+      "mine.md");
+  lab.label = "mine";
+  find_labs(window.session);
+  window.session.labs.list = {lab};
+  begin_lab(window.session, "mine");
+  window.frames(4);
+  CHECK(window.session.pacing.speed == 0.1);
+  CHECK(window.preset().mode == 2);
+  CHECK_FALSE(unsaved(window.session));
+  REQUIRE(window.scene.colors.chosen.has_value());
+  CHECK(window.scene.colors.chosen->field == ParticleField::tension);
+  CHECK(window.session.simulation->ledger().has_value());  // the card Energy is open
+  enter_step(window.session, 1);
+  window.frames(4);
+  CHECK(window.session.pacing.speed == 0.5);
+  CHECK_FALSE(window.scene.colors.chosen.has_value());
+  CHECK(window.drew("Which k_s and dt are stable"));
+  leave_lab(window.session);
+  CHECK(window.session.pacing.speed == 0.5);
+}
+
+TEST_CASE("the card says which number is looked at, where it is seen, and why a check is broken") {
+  for (const glm::ivec2 size : {glm::ivec2{1280, 720}, glm::ivec2{900, 600}}) {
+    test::NullUi window({.size = size});
+    find_labs(window.session);
+    window.session.labs.progress["03_stiffness"] = 1;
+    begin_lab(window.session, "03_stiffness");
+    window.frames(4);
+    choose(window, 1);
+    window.rest();
+    CHECK(window.drew("k_s ≥ 180 N/m throughout"));
+    CHECK(window.drew("k_s is 50 N/m now"));
+    CHECK(window.drew("constants, Springs"));
+    window.session.pacing.playing = true;
+    window.until([&] { return window.t() > 0.1; }, "a tenth of a second");
+    CHECK(window.drew("k_s was 50 N/m at t = 0.0"));
+    CHECK(window.drew("restart, and keep it at 180 N/m or more from the beginning"));
+  }
+}
+
+TEST_CASE("every step of every lab has its whole title on its card, in small windows too") {
+  for (const glm::ivec2 size : {glm::ivec2{1280, 720}, glm::ivec2{900, 600}}) {
+    test::NullUi window({.size = size});
+    for (const Lab& each : find_labs(window.session)) {
+      begin_lab(window.session, each.label);
+      for (std::size_t step = 0; step < each.steps.size(); ++step) {
+        CAPTURE(each.label);
+        CAPTURE(step);
+        enter_step(window.session, step);
+        window.session.requests.clear();  // the cloth is of no matter
+        window.session.labs.opened = window.session.document.label;
+        window.frames(2);
+        CHECK(window.drew(each.steps[step].title));
+        CHECK(window.drew("Step " + std::to_string(step + 1) + " of " + std::to_string(each.steps.size())));
+      }
+    }
+  }
+}
+
+TEST_CASE("the list of labs has their numbers, minutes and purposes") {
+  test::NullUi window;
+  window.session.labs.progress["02_euler"] = 3;
+  window.click("top.labs");
+  window.frames(2);
+  CHECK(window.drew("3 steps · 15 min"));
+  CHECK(window.drew("done"));
+  CHECK(window.drew("A spring, a weight, and then a whole cloth of them"));
 }
 
 TEST_CASE("a lab waits while another preset is open, says so, and puts its own cloth back") {

@@ -158,7 +158,7 @@ TEST_CASE("M and I bring their card to the front, and close it only where it sta
   window.key(GLFW_KEY_M);
   window.frames(4);
   CHECK(window.ui.plots.tab == "Map");
-  CHECK(window.sees("plots.map"));  // not closed
+  window.until([&] { return window.sees("plots.map"); }, "the map");  // not closed, but begun anew
   window.key(GLFW_KEY_M);
   window.frames(4);
   CHECK_FALSE(has_tab(window, "Map"));
@@ -379,6 +379,52 @@ TEST_CASE("Ctrl+T goes through the themes and round again, and each colors the p
     CHECK((window.ui.theme.scale > scale) == larger);
     CHECK((ImGui::GetStyle().Colors[ImGuiCol_WindowBg].x > 0.7f) == light);
   }
+}
+
+TEST_CASE("presentation mode gives the cloth two thirds of the window, and keeps at hand what a lecture needs") {
+  for (const char* theme : {"dark", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window(options("hanging", 1, theme));
+    window.key(GLFW_KEY_F5);
+    window.frames(6);
+    const glm::vec2 cloth = window.ui.viewport.size();
+    CHECK(cloth.x * cloth.y >= 0.65f * 1280 * 720);
+    for (const char* name : {"podium.play", "podium.step", "podium.restart", "podium.k_s.slider", "podium.dt.slider",
+                             "podium.speed.4", "podium.present", "podium.card"}) {
+      CAPTURE(std::string(name));
+      CHECK(whole(window, name, 20));
+    }
+    window.until([&] { return window.sees("podium.stability"); }, "the gauge");
+    CHECK_FALSE(window.sees("top.play"));
+    CHECK(window.session.wants.forces);
+    window.click("podium.card");
+    window.frames(3);
+    CHECK(window.ui.viewport.size().x == 1280);
+    CHECK_FALSE(window.session.wants.forces);
+    const double dt = window.preset().dt;
+    window.click(window.along("podium.dt.slider", 0.2f));
+    window.frames(3);
+    CHECK(window.preset().dt < dt);
+    window.click("podium.present");
+    window.frames(6);
+    CHECK(window.sees("top.play"));
+  }
+}
+
+TEST_CASE("in a small window with large text presentation mode keeps the step and its gauge") {
+  test::NullUi window(options("one_weight", 1.5, "light", {900, 600}));
+  window.key(GLFW_KEY_F5);
+  window.frames(6);
+  CHECK(whole(window, "podium.dt.slider", 20));
+  CHECK(whole(window, "podium.play", 20));
+}
+
+TEST_CASE("slow motion is chosen by what one sees") {
+  test::NullUi window;
+  window.click("top.speed.3");
+  CHECK(window.session.pacing.speed == 1.0 / 20);
+  window.click("top.speed.1");
+  CHECK(window.session.pacing.speed == 1);
 }
 
 }  // namespace tyglab::layout_test

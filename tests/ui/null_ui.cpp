@@ -22,7 +22,6 @@
 namespace tyglab::test {
 namespace {
 
-constexpr double ui_frame_time = 1.0 / 60;                                  // s
 constexpr std::chrono::seconds longest_wait{test::sanitized ? 1000 : 100};  // far above what a loaded machine takes
 constexpr int settled = 3;                                                  // frames after which a layout stands still
 
@@ -81,13 +80,13 @@ NullUi::NullUi(const UiOptions& options) : context_(nullptr) {
   ImGuiIO& io = ImGui::GetIO();
   gui::prepare_io(io);
   io.DisplaySize = ImVec2(float(options.size.x), float(options.size.y));
-  io.DeltaTime = float(ui_frame_time);
+  io.DeltaTime = float(frame_time);
   settings.tour_seen = true;
   options.settings(settings);
   ui.controls = &places_;
   session.labs.progress = settings.labs;
   let_work_yield(false);
-  session.pacing.patient = true;
+  session.pacing.patient = options.patient;
   const Preset preset = first_preset(options);
   std::string fallback;
   session.simulation = make_simulation(preset, 1, fallback);
@@ -103,18 +102,19 @@ NullUi::~NullUi() {
 }
 
 void NullUi::frame() {
-  ui.now = tools.now = ui.now + ui_frame_time;
+  const auto begun = std::chrono::steady_clock::now();
+  ui.now = tools.now = ui.now + frame_time;
   if (take_look(ui, 1)) ui.fonts = fonts_of(ui.theme.scale).fonts;
-  act_on_events(ui, ui_frame_time, ui_frame_time);
+  act_on_events(ui, frame_time, frame_time);
   scene.draw({1, 1});
   gui_input_.feed(input);
   ImGui::NewFrame();
   draw_panels(ui);
   ImGui::Render();
-  drawn_ = drawn_text();
   end_gestures(ui);
   places_.end_frame();
   input.clear();
+  if (after_frame) after_frame(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count());
 }
 
 void NullUi::frames(int count) {
@@ -125,7 +125,9 @@ void NullUi::until(const std::function<bool()>& condition, std::string_view what
   const auto end = std::chrono::steady_clock::now() + longest_wait;
   for (int n = 0; !condition(); ++n) {
     if (std::chrono::steady_clock::now() > end) FAIL("waited in vain for ", std::string(what));
-    if (n > 50) std::this_thread::sleep_for(std::chrono::milliseconds(1));  // other threads are at work
+    // Other threads are at work, and under the sanitizers a frame takes as long as a share of theirs.
+    if (n > (test::sanitized ? 10 : 50))
+      std::this_thread::sleep_for(std::chrono::milliseconds(test::sanitized ? 30 : 1));
     frame();
   }
 }
@@ -295,7 +297,7 @@ std::filesystem::path NullUi::write_export(const std::string& name) {
 }
 
 bool NullUi::drew(std::string_view text) const {
-  return drawn_.find(without_spaces(text)) != std::string::npos;
+  return drawn_text().find(without_spaces(text)) != std::string::npos;
 }
 
 bool NullUi::said(std::string_view part) const {

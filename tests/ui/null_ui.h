@@ -25,6 +25,7 @@ struct UiOptions {
   std::function<void(Preset&)> with = [](Preset&) {};          ///< changes to it
   glm::ivec2 size{1280, 720};                                  ///< of the window, pixels
   std::function<void(Settings&)> settings = [](Settings&) {};  ///< changes to the settings
+  bool patient = true;                                         ///< all steps that are due are made (Pacing)
 };
 
 class NullUi : public Desk {
@@ -37,6 +38,7 @@ class NullUi : public Desk {
   /// Does what the window does in a frame, a 60th of a second after the last one.
   void frame();
   void frames(int count);
+  std::function<void(double seconds)> after_frame;  ///< called after each, with the wall time that it took
   /// Frames until the condition holds. Fails the test where it never does.
   void until(const std::function<bool()>& condition, std::string_view what);
 
@@ -101,6 +103,7 @@ class NullUi : public Desk {
   glm::vec2 pixel_of(int i, int j);
 
   static constexpr int enter = 257, escape = 256;  // as GLFW has them
+  static constexpr double frame_time = 1.0 / 60;   // s
   TemporaryFolder config;
 
  private:
@@ -110,7 +113,6 @@ class NullUi : public Desk {
   ImGuiContext* context_;
   GuiInput gui_input_;
   ControlPlaces places_;
-  std::string drawn_;
 };
 
 }  // namespace tyglab::test

@@ -178,6 +178,40 @@ TEST_CASE("a particle at rest on a plane stays at rest, and keeps friction") {
   }
 }
 
+TEST_CASE("a ball that is dropped rests when its bounces would have ended, and bounces on where nothing is lost") {
+  constexpr double height = 0.3, g = 9.82;
+  const auto dropped = [](const char* integrator, double e) {
+    Preset preset = shot(integrator, {0, height, 0}, {0, 0, 0});
+    preset.g = g;
+    preset.bodies = {plane(0)};
+    preset.bodies[0].restitution = e;
+    return preset;
+  };
+  for (const char* integrator : methods) {
+    for (const double e : {0.2, 0.5, 0.8, 0.9}) {
+      CAPTURE(std::string(integrator));
+      CAPTURE(e);
+      const Preset preset = dropped(integrator, e);
+      const double rest = std::sqrt(2 * height / g) * (1 + e) / (1 - e);  // s: fall and bounces, a geometric series
+      Simulation simulation(preset);
+      simulation.advance(int(1.5 * rest / preset.dt));
+      for (int look = 0; look < 50; ++look) {
+        simulation.advance(1);
+        CHECK(simulation.read().x.y[0] < 3 * g * preset.dt * preset.dt);
+        CHECK(std::abs(simulation.read_raw().v.y[0]) < 2 * g * preset.dt);
+      }
+    }
+    Simulation elastic(dropped(integrator, 1));
+    elastic.advance(5000);
+    double highest = 0;
+    for (int look = 0; look < 600; ++look) {
+      elastic.advance(1);
+      highest = std::max(highest, elastic.read().x.y[0]);
+    }
+    CHECK(highest > 0.9 * height);
+  }
+}
+
 TEST_CASE("a start inside is projected to the nearest surface without a kick") {
   for (const char* integrator : methods) {
     for (const Precision precision : {Precision::double_, Precision::float_}) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
+#include "core/integrators/names.h"
 #include "core/theory/advice.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
@@ -287,6 +288,34 @@ TEST_CASE("the cure makes the change that the remedy names first, and heals") {
   Preset calm;
   calm.dt = 1e-6;
   CHECK_FALSE(suggested_fix(calm).has_value());
+}
+
+TEST_CASE("no advice names a dt that is not allowed, or a method that is stable at no larger dt") {
+  const auto stiff = [](const char* integrator, double k_s, double dt) {
+    Preset p = test::cloth(4, 4, integrator);
+    p.k_s = k_s, p.k_b = 0, p.k_d = 0, p.dt = dt;
+    return p;
+  };
+  for (const std::string_view integrator : integrator_names()) {
+    CAPTURE(std::string(integrator));
+    Preset hopeless = stiff(integrator.data(), 1e9, 1e-3);
+    hopeless.m = 1e-6;  // Verlet needs 1.6e-8 s
+    const std::string none = advice(hopeless);
+    CAPTURE(none);
+    for (const char* below : {"e-8 s", "e-9 s", "e-10 s", "e-11 s"}) CHECK(none.find(below) == std::string::npos);
+    CHECK(none.find("integrator verlet") == std::string::npos);
+    CHECK_FALSE(suggested_fix(hopeless).has_value());
+  }
+  for (const char* integrator : {"velocity_verlet", "semi_implicit_euler", "rk4"}) {
+    CAPTURE(std::string(integrator));
+    const Preset preset = stiff(integrator, 1e4, 1e-2);
+    CHECK(advice(preset).find("verlet and") == std::string::npos);
+    CHECK(advice(preset).starts_with("Use dt = "));
+    const auto fixed = suggested_fix(preset);
+    REQUIRE(fixed.has_value());
+    CHECK(fixed->integrator == integrator);
+  }
+  CHECK(advice(stiff("euler", 1e4, 1e-2)).starts_with("Use the integrator verlet with dt = "));
 }
 
 }  // namespace tyglab::divergence_test

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
+#include "core/theory/modes.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::zones_test {
@@ -17,38 +19,95 @@ Preset undamped(const char* method) {
   return preset;
 }
 
-/// Where the zone becomes unstable.
-double breaks_at(const std::vector<ZoneSpan>& zones) {
-  const auto at = std::find_if(zones.begin(), zones.end(), [](const ZoneSpan& z) { return z.zone == Zone::unstable; });
+/// Where a zone begins.
+double begins(const std::vector<ZoneSpan>& zones, Zone zone) {
+  const auto at = std::find_if(zones.begin(), zones.end(), [&](const ZoneSpan& z) { return z.zone == zone; });
   REQUIRE(at != zones.end());
   return at->from;
 }
 
-TEST_CASE("without damping Verlet breaks where dt² (12 k_s + 8 k_b)/m is 4, along every constant") {
+/// The zones in their order.
+std::vector<Zone> order(const std::vector<ZoneSpan>& zones) {
+  std::vector<Zone> all;
+  for (const ZoneSpan& span : zones) all.push_back(span.zone);
+  return all;
+}
+
+const std::vector<Zone> three{Zone::stable, Zone::depends, Zone::unstable};
+
+TEST_CASE("without damping Verlet is stable in any shape while dt² (12 k_s + 8 k_b)/m < 4, and in none above 4 m/k_s") {
   const Preset p = undamped("verlet");
   CHECK(zone_of(p) == Zone::stable);
   const double top = 4 * p.m / (p.dt * p.dt);
-  CHECK(breaks_at(stability_zones(p, &Preset::k_s, 0.05, 5e4)) ==
-        doctest::Approx((top - 8 * p.k_b) / 12).epsilon(2e-3));
-  CHECK(breaks_at(stability_zones(p, &Preset::k_b, 0.05, 5e4)) ==
-        doctest::Approx((top - 12 * p.k_s) / 8).epsilon(2e-3));
-  CHECK(breaks_at(stability_zones(p, &Preset::dt, 1e-6, 1)) == doctest::Approx(stable_dt(p, "verlet")).epsilon(2e-3));
-  const auto masses = stability_zones(p, &Preset::m, 1e-7, 1);
-  CHECK(masses.front().zone == Zone::unstable);
-  CHECK(masses.front().to == doctest::Approx(p.dt * p.dt * (12 * p.k_s + 8 * p.k_b) / 4).epsilon(2e-3));
+  const auto k_s = stability_zones(p, &Preset::k_s, 0.05, 5e4);
+  CHECK(begins(k_s, Zone::depends) == doctest::Approx((top - 8 * p.k_b) / 12).epsilon(2e-3));
+  CHECK(begins(k_s, Zone::unstable) == doctest::Approx(top).epsilon(2e-3));
+  const auto k_b = stability_zones(p, &Preset::k_b, 0.05, 5e4);
+  CHECK(begins(k_b, Zone::depends) == doctest::Approx((top - 12 * p.k_s) / 8).epsilon(2e-3));
+  CHECK(k_b.back().zone == Zone::depends);  // bending springs need not push, and k_s alone is soft enough
+  const auto dt = stability_zones(p, &Preset::dt, 1e-6, 1);
+  CHECK(order(dt) == three);
+  CHECK(begins(dt, Zone::depends) == doctest::Approx(stable_dt(p, "verlet")).epsilon(2e-3));
+  CHECK(begins(dt, Zone::unstable) == doctest::Approx(2 * std::sqrt(p.m / p.k_s)).epsilon(2e-3));
+  CHECK(every_shape_limit(p) == doctest::Approx(2 * std::sqrt(p.m / p.k_s)).epsilon(2e-3));
+  const auto m = stability_zones(p, &Preset::m, 1e-7, 1);
+  CHECK(m.front().zone == Zone::unstable);
+  CHECK(m.front().to == doctest::Approx(p.dt * p.dt * p.k_s / 4).epsilon(2e-3));
+  CHECK(m.back().from == doctest::Approx(p.dt * p.dt * (12 * p.k_s + 8 * p.k_b) / 4).epsilon(2e-3));
 }
 
-TEST_CASE("zones cover the span without gaps, stable, near, unstable") {
+TEST_CASE("zones cover the span without gaps, and the present one is where the value lies") {
   const Preset p = undamped("verlet");
   const auto zones = stability_zones(p, &Preset::k_s, 0.05, 5e4);
-  REQUIRE(zones.size() == 3);
-  CHECK(zones[0].from == 0);
-  CHECK(zones[2].to == 5e4);
+  CHECK(order(zones) == three);
+  CHECK(zones.front().from == 0);
+  CHECK(zones.back().to == 5e4);
   for (std::size_t n = 1; n < zones.size(); ++n) CHECK(zones[n].from == zones[n - 1].to);
-  CHECK(zones[1].zone == Zone::near);
-  // dt is 0.9 of the limit where k is 0.81 of what it breaks at.
-  const double top = 4 * p.m / (p.dt * p.dt);
-  CHECK(zones[1].from == doctest::Approx((0.81 * top - 8 * p.k_b) / 12).epsilon(3e-3));
+  for (const ZoneSpan& span : zones) {
+    Preset there = p;
+    there.k_s = std::max((span.from + span.to) / 2, 0.1);
+    CHECK(zone_of(there) == span.zone);
+  }
+}
+
+TEST_CASE("damping acts in every shape: 8 springs at a particle inside, 12 k_d/m in the worst mode") {
+  Preset p = undamped("verlet");
+  p.k_s = p.k_b = 1e-6, p.k_d = 0.01;
+  CHECK(stable_dt(p, "verlet") == doctest::Approx(2 * p.m / (12 * p.k_d)).epsilon(2e-3));
+  CHECK(every_shape_limit(p) == doctest::Approx(2 * p.m / (8 * p.k_d)).epsilon(2e-3));
+  p.columns = 1;  // a thread: two springs at a particle
+  CHECK(every_shape_limit(p) == doctest::Approx(2 * p.m / (2 * p.k_d)).epsilon(2e-3));
+}
+
+TEST_CASE("where damping alone is worse than damped stiffness, the worst case is the slack cloth") {
+  Preset p = undamped("rk4");
+  p.k_b = 0, p.k_d = std::sqrt(p.k_s * p.m / 3);  // critical at 12 k_s/m and 12 k_d/m
+  constexpr double real_axis = 2.785;             // of Runge-Kutta 4
+  CHECK(stable_dt(p, "rk4") == doctest::Approx(real_axis * p.m / (12 * p.k_d)).epsilon(2e-3));
+  CHECK(dt_crit(scheme("rk4"), std::vector<Mode>{any_configuration(p)}) > 1.5 * stable_dt(p, "rk4"));
+  const double verlet = dt_crit(scheme("verlet"), std::vector<Mode>{any_configuration(p)});
+  CHECK(stable_dt(p, "verlet") == verlet);  // to the bit: more of either is worse for it
+}
+
+TEST_CASE("a method that is stable at no dt without damping is unstable in every shape there") {
+  for (const char* method : {"euler", "improved_euler"}) {
+    CHECK(every_shape_limit(undamped(method)) == 0);
+    const auto zones = stability_zones(undamped(method), &Preset::dt, 1e-6, 1);
+    REQUIRE(zones.size() == 1);
+    CHECK(zones.front().zone == Zone::unstable);
+  }
+}
+
+TEST_CASE("of a mass on a spring nothing depends on the shape") {
+  Preset p = test::one_weight();
+  for (const double k_d : {0.0, 0.1}) {
+    p.k_d = k_d;
+    const auto zones = stability_zones(p, &Preset::dt, 1e-6, 1e3);
+    CHECK(order(zones) == std::vector<Zone>{Zone::stable, Zone::unstable});
+    CHECK(every_shape_limit(p) == doctest::Approx(stable_dt(p, p.integrator)).epsilon(2e-3));
+  }
+  CHECK(zone_name(Zone::unstable, p.kind) == "unstable");
+  CHECK(zone_name(Zone::unstable, Kind::cloth) == "unstable in every shape");
 }
 
 TEST_CASE("rest lengths move no limit: one zone, that of the other constants") {

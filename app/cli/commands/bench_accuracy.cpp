@@ -125,7 +125,7 @@ int accuracy(const AccuracyOptions& options) {
     write_output(options.json, accuracy_json(results, statistics).dump(2) + "\n", bench_reach());
   if (!options.png.empty())
     write_charts(options.png, accuracy_charts(results), bench_reach(), 2, 1.5f, accuracy_chart_height);
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 }  // namespace

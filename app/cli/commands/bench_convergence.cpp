@@ -15,6 +15,7 @@
 #include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
 #include "core/io/destination.h"
+#include "core/io/terminal.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -67,7 +68,8 @@ void print_study(std::ostream& out, const std::string& label, const Convergence&
     return;
   }
   out << machine_line() << '\n'
-      << label << ", " << scheme(study.of.integrator).title << " in double, over " << study.seconds << " s\n"
+      << in_one_line(label) << ", " << scheme(study.of.integrator).title << " in double, over " << study.seconds
+      << " s\n"
       << "       dt, s    error, m  difference to dt/2, m\n";
   std::array<char, 120> line;
   for (const ConvergencePoint& point : study.points) {
@@ -114,7 +116,7 @@ int convergence(const ConvergenceOptions& options) {
     chart.padding = 20;
     write_charts(options.bench.png, {chart}, bench_reach(), 1);
   }
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 }  // namespace

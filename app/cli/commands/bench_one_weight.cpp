@@ -115,7 +115,7 @@ int one_weight(const WeightOptions& options) {
   }
   if (!options.json.empty()) write_output(options.json, bench_json("one-weight", json).dump(2) + "\n", bench_reach());
   if (!options.png.empty()) write_charts(options.png, {weight_chart(runs)}, bench_reach());
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ int skip(const SkipOptions& options) {
     write_output(options.json, all.dump(2) + "\n", bench_reach());
   }
   if (!options.png.empty()) write_charts(options.png, {skip_chart(rows, options.side)}, bench_reach());
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 /// The feature and the state that "wind:off" names. Throws UsageError.
@@ -209,7 +209,7 @@ void add_bench_skip(CLI::App& bench, Action& action) {
             options->precision = name == "double" ? Precision::double_ : Precision::float_;
           },
           "With --only: float (default) or double")
-      ->check(CLI::IsMember({"float", "double"}))
+      ->check(CLI::IsMember({"float", "double"}).description(""))
       ->type_name("float|double")
       ->needs(one);
   add_json(*command, *options);

@@ -143,7 +143,7 @@ int throughput(const ThroughputOptions& options) {
   progress.clear();
   if (!options.json.empty()) write_output(options.json, bench_json("throughput", json).dump(2) + "\n", bench_reach());
   if (!options.png.empty()) write_charts(options.png, {throughput_chart(rows, options.repeats)}, bench_reach());
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 void print_pair(std::ostream& out, const std::array<ThroughputRow, 2>& rows) {
@@ -179,7 +179,7 @@ int throughput_beside_load(const ThroughputOptions& options) {
   }
   progress.clear();
   if (!options.json.empty()) write_output(options.json, bench_json("throughput", json).dump(2) + "\n", bench_reach());
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ int list_labs() {
   for (const Lab& lab : labs) width = std::max(width, lab.label.size());
   for (const Lab& lab : labs)
     std::cout << lab.label << std::string(width - lab.label.size() + 2, ' ') << lab.title << " ("
-              << counted(std::int64_t(lab.steps.size()), "step") << ")\n";
+              << counted(std::int64_t(lab.steps.size()), "step")
+              << (lab.minutes > 0 ? ", about " + counted(lab.minutes, "minute") : "") << ")\n";
   for (const std::string& problem : problems) std::cerr << "tyglab: " << problem << '\n';
   std::cout << "\nNext: open the sandbox with `tyglab` and choose one with Ctrl+L.\n";
   return problems.empty() ? exit_done : exit_input;

@@ -10,6 +10,7 @@
 #include "core/io/destination.h"
 #include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/model/notation.h"
 
 namespace tyglab {
@@ -34,8 +35,8 @@ int show(const std::string& name) {
 
 int check(const std::string& name_or_file) {
   const Preset preset = read_preset(find_preset(name_or_file).file);
-  warn_of_missing_texture(preset);
-  std::cout << name_or_file << " is a valid preset: " << printable(preset.name) << ", "
+  warn_of_texture(preset);
+  std::cout << in_one_line(name_or_file) << " is a valid preset: " << printable(preset.name) << ", "
             << (preset.kind == Kind::one_weight
                     ? std::string("mass on a spring")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")

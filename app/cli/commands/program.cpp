@@ -1,6 +1,5 @@
 #include "app/cli/commands/program.h"
 
-#include "app/cli/command_line.h"
 #include "app/cli/commands/bench.h"
 #include "app/cli/commands/devices.h"
 #include "app/cli/commands/labs.h"
@@ -16,16 +15,7 @@
 
 namespace tyglab {
 
-int run_program(int argc, char** argv) {
-  prepare_process();
-  const CrashExplainer until_the_end;
-  probe_drivers_in_child();
-  try_programs_in_child();
-  Action action;
-  CLI::App program(
-      "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
-      "Without a command it opens the sandbox with PRESET, or with the last session.",
-      "tyglab");
+void declare_program(CLI::App& program, Action& action) {
   program.set_version_flag("--version", "tyglab " TYGLAB_VERSION);
   program.footer(
       "Examples: tyglab denim\n"
@@ -40,6 +30,19 @@ int run_program(int argc, char** argv) {
   add_stability_command(program, action);
   add_devices_command(program, action);
   add_try_opencl_command(program, action);
+}
+
+int run_program(int argc, char** argv) {
+  prepare_process();
+  const CrashExplainer until_the_end;
+  probe_drivers_in_child();
+  try_programs_in_child();
+  Action action;
+  CLI::App program(
+      "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
+      "Without a command it opens the sandbox with PRESET, or with the last session.",
+      "tyglab");
+  declare_program(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

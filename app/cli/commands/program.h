@@ -1,7 +1,14 @@
 // The program from its command line to its exit code.
 #pragma once
 
+#include <CLI/CLI.hpp>
+
+#include "app/cli/command_line.h"
+
 namespace tyglab {
+
+/// Adds all commands with their options. Parsing sets `action` to what the command line asks for; both must outlive it.
+void declare_program(CLI::App& program, Action& action);
 
 /// Picks a command, and does what it says. Returns the exit code.
 int run_program(int argc, char** argv);

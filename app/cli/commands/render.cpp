@@ -84,11 +84,11 @@ int render(const RenderOptions& options) {
   }
 
   std::ostream& out = people(options.outputs());
-  out << label << ": t = " << simulation.time() << " s. Wrote " << output_name(written);
+  out << in_one_line(label) << ": t = " << simulation.time() << " s. Wrote " << output_name(written);
   if (sequence) out << " (" << counted(frame, "image") << ", " << plan.fps() << " per second)";
   out << '.' << std::endl;
   if (simulation.divergence()) {
-    std::cerr << "tyglab: " << label << ' ' << divergence_text(*simulation.divergence()) << '\n';
+    std::cerr << "tyglab: " << in_one_line(label) << ' ' << divergence_text(*simulation.divergence()) << '\n';
     return exit_diverged;
   }
   if (!stepper.interrupted()) return exit_done;

@@ -16,6 +16,7 @@
 #include "core/analysis/tolerance.h"
 #include "core/io/destination.h"
 #include "core/io/preset_io.h"
+#include "core/io/terminal.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 #include "core/output/obj.h"
@@ -54,7 +55,7 @@ class Outputs {
     check_outputs(options.outputs(), scene.source.file);
     if (options.obj.empty()) return;
     if (scene.preset.kind == Kind::one_weight)
-      throw UsageError("--obj needs a cloth, and " + scene.source.label +
+      throw UsageError("--obj needs a cloth, and " + in_one_line(scene.source.label) +
                        " is a mass on a spring; --series writes its motion");
     make_output_folder("--obj", options.obj);
   }
@@ -139,12 +140,16 @@ class Outputs {
   std::int64_t row_ = 0;    ///< rows written
 };
 
+/// JSON has no word for inf and nan: null.
+Json finite_json(double value) {
+  return std::isfinite(value) ? Json(value) : Json();
+}
+
 Json divergence_json(const std::optional<Divergence>& divergence) {
   if (!divergence) return nullptr;
   const Divergence& d = *divergence;
-  // JSON has no word for inf and nan: null.
   return {{"t", d.t},         {"step", d.step},         {"i", d.i},
-          {"j", d.j},         {"quantity", d.quantity}, {"value", std::isfinite(d.value) ? Json(d.value) : Json()},
+          {"j", d.j},         {"quantity", d.quantity}, {"value", finite_json(d.value)},
           {"cause", d.cause}, {"remedy", d.advice}};
 }
 
@@ -162,7 +167,9 @@ Json solves_json(const Engine& engine) {
   return {{"newton_steps", counts.newton},
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
-          {"unconverged", counts.unconverged}};
+          {"unconverged", counts.unconverged},
+          {"unconverged_steps", counts.unconverged_steps},
+          {"worst_residual", counts.unconverged_steps > 0 ? finite_json(counts.worst_residual) : Json()}};
 }
 
 /// The ledger at the end, J; null where none was kept.
@@ -259,7 +266,7 @@ std::string number(double value, int digits) {
 
 /// The closing sentence. `also`: the name of the summary itself, where it was written.
 std::string closing(const Json& summary, const std::string& also) {
-  const std::string label = summary["preset"];
+  const std::string label = in_one_line(summary["preset"].get<std::string>());
   std::string text = label + ": " + counted(summary["steps"], "step") + " to t = " + number(summary["t"], 6) +
                      " s, computed in " + number(summary["seconds"], 3) + " s";
   if (summary["steps"] > 0) text += " (" + number(summary["ns_per_particle_step"], 3) + " ns per particle and step)";
@@ -278,7 +285,7 @@ std::string closing(const Json& summary, const std::string& also) {
 
 int run(const RunOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
-  warn_of_missing_texture(scene.preset);
+  warn_of_texture(scene.preset);
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   options.length.warn_if_too_short(scene.preset.dt);
   Outputs outputs(options, scene, steps);
@@ -314,11 +321,10 @@ int run(const RunOptions& options) {
 
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)
-    std::cerr << "tyglab: " << scene.source.label << ' ' << divergence_text(*simulation.divergence()) << '\n';
-  if (const SolveCounts solves = simulation.engine().solves(); solves.unconverged > 0)
-    std::cerr << "tyglab: " << counted(solves.unconverged, "solve")
-              << " did not reach the tolerance, so the result is not quite the method's: use a smaller dt or more "
-                 "--set iterations=N.\n";
+    std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << divergence_text(*simulation.divergence())
+              << '\n';
+  if (const std::string missed = solves_missed(simulation.engine().solves()); !missed.empty())
+    std::cerr << "tyglab: " << missed << '\n';
   if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
   if (simulation.left_inside() > 0)

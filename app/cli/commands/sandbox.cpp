@@ -107,7 +107,7 @@ void add_sandbox_command(CLI::App& program, Action& action) {
       .add_option("--effects", options->effects,
                   "Soft shadows and smooth edges: auto turns off what this machine draws too slowly")
       ->type_name("auto|all|few")
-      ->check(CLI::IsMember({"auto", "all", "few"}));
+      ->check(CLI::IsMember({"auto", "all", "few"}).description(""));
   add_color_option(program, options->color, true);
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {

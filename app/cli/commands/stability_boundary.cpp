@@ -176,7 +176,7 @@ int boundary(const BenchOptions& options) {
   }
   if (!options.png.empty())
     write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)}, bench_reach());
-  if (const int code = bench_exit(); code != exit_done) return code;
+  if (const int code = bench_exit(options.outputs()); code != exit_done) return code;
   if (kept) return exit_done;
   std::cerr << "tyglab: a method did not become unstable where predicted (1 %, growth 5 %); see the ratios.\n";
   return exit_violation;

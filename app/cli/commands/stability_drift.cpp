@@ -129,7 +129,7 @@ int drift(const BenchOptions& options) {
                  {drift_chart(rows, "taut_sheet", false), drift_chart(rows, "slack_sheet", false),
                   drift_chart(rows, "slack_sheet", true)},
                  bench_reach());
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 }  // namespace

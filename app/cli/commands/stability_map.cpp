@@ -1,6 +1,7 @@
 // `tyglab stability map`: which stiffness and dt a method tolerates in a scene, by theory and by short runs.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -16,7 +17,9 @@
 #include "core/analysis/machine.h"
 #include "core/integrators/scheme.h"
 #include "core/io/destination.h"
+#include "core/io/terminal.h"
 #include "core/model/readable.h"
+#include "core/theory/zones.h"
 
 namespace tyglab {
 namespace {
@@ -49,8 +52,19 @@ Json map_json(const Preset& preset, const std::string& label, const std::vector<
   return json;
 }
 
+/// Theory's zones of dt with the preset's own stiffness.
+std::string borders_here(const Preset& preset, double limit) {
+  const auto border = [&](Zone zone, const char* side, double dt) {
+    return std::string(zone_name(zone, preset.kind)) + " " + side + " " + short_number(dt, 3) + " s";
+  };
+  const double every = every_shape_limit(preset);
+  std::string text = "| worst-case limit, by theory: " + border(Zone::stable, "up to", limit);
+  if (preset.kind == Kind::cloth && std::isfinite(every)) text += ", " + border(Zone::unstable, "above", every);
+  return text + ", at " + stiffness_key(preset) + " = " + short_number(stiffness_of(preset)) + " N/m\n";
+}
+
 /// The map as letters, from cells row by row: stiffness to the right and dt upward: × diverged, · stayed bounded. A
-/// stroke stands in each row where theory's largest stable dt is passed.
+/// stroke stands in each row where the worst-case limit is passed.
 void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, const std::vector<MapCell>& cells) {
   std::array<char, 200> line;
   for (auto cell = cells.begin(); cell != cells.end();) {
@@ -68,9 +82,7 @@ void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, con
   out << stiffness_key(preset) << " from " << short_number(grid.stiffness(0.5), 3) << " to "
       << short_number(grid.stiffness(grid.columns - 0.5), 3) << " N/m; × diverged, · bounded in a short run\n";
   const double here = map_limit(preset);
-  out << (here > 0 ? "| theory's largest stable dt (any configuration): " + short_number(here, 3) + " s at " +
-                         stiffness_key(preset) + " = " + short_number(stiffness_of(preset)) + " N/m\n"
-                   : "In theory " + preset.integrator + " has no largest stable dt.\n");
+  out << (here > 0 ? borders_here(preset, here) : "In theory " + preset.integrator + " has no largest stable dt.\n");
 }
 
 int map(const MapOptions& options) {
@@ -79,7 +91,8 @@ int map(const MapOptions& options) {
   const ResolvedPreset scene = options.preset.resolve("hanging");
   const MapGrid grid = options.bench.quick ? map_grid(scene.preset, 12, 8) : map_grid(scene.preset, 36, 26);
   const std::vector<int> order = coarse_first(grid);
-  out << machine_line() << '\n' << scene.source.label << ", " << scheme(scene.preset.integrator).title << '\n';
+  out << machine_line() << '\n'
+      << in_one_line(scene.source.label) << ", " << scheme(scene.preset.integrator).title << '\n';
   std::vector<MapCell> cells(order.size());
   std::size_t done = 0;
   InterruptGuard guard;
@@ -105,7 +118,7 @@ int map(const MapOptions& options) {
                                 map_boundary(scene.preset, grid), cells);
     write_charts(options.bench.png, {page}, bench_reach(), 1);
   }
-  return bench_exit();
+  return bench_exit(options.outputs());
 }
 
 }  // namespace

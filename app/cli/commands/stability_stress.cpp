@@ -144,7 +144,7 @@ int stress(const StressOptions& options) {
   if (InterruptGuard::interrupted())
     std::cerr << "tyglab: Continue with --seed " << seed << " --from " << options.from + std::int64_t(rows.size())
               << " --cases " << count - std::int64_t(rows.size()) << "\n";
-  if (const int code = bench_exit(); code != exit_done) return code;
+  if (const int code = bench_exit(options.outputs()); code != exit_done) return code;
   if (failed == 0) return exit_done;
   std::cerr << "tyglab: " << counted(failed, "case") << " failed; see above.\n";
   return exit_violation;

@@ -1,7 +1,9 @@
 #include "app/ui/cards/accuracy_card.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "app/base/numbers.h"
 #include "app/ui/cards/cards.h"
@@ -18,7 +20,7 @@ namespace {
 constexpr const char* stability_heading = card_name::stability;
 constexpr const char* accuracy_heading = card_name::accuracy;
 // Pixels at scale 1.
-constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62;
+constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62, ways_room_at_1 = 9;
 
 /// Words over a chart, in what the card's height leaves.
 void words_and_chart(Ui& ui, float height, const std::string& words, const Chart* chart, float room_at_1 = words_at_1) {
@@ -49,10 +51,21 @@ std::string stability_sentence(const StabilityLimits& limits) {
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
   const double radius = spectral_radius(amplification(method, h, zeta));
   const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
-  const std::string kept = short_number(radius);
+  const std::string size = short_number(rounded(100 * radius, 4)) + " % each step.";
   return of + short_number(h, 3) +
-         (radius > 1 + 1e-9 ? ", where an oscillation grows " + kept + "-fold per step."
-                            : ", where an oscillation keeps " + kept + " of its amplitude per step.");
+         (radius > 1 + 1e-9   ? ": oscillations grow to " + size
+          : radius < 1 - 1e-9 ? ": oscillations shrink to " + size
+                              : ": oscillations keep their size.");
+}
+
+/// A sentence after the others, where less of the motion is compared than usual.
+std::string why_short(const AccuracyStudy& study) {
+  if (study.reference.seconds > 0.8 * AccuracyWatch::window) return {};
+  const Preset& of = study.of;
+  const std::string what = of.kind == Kind::one_weight
+                               ? "a spring this stiff"
+                               : std::to_string(of.rows) + " × " + std::to_string(of.columns) + " particles";
+  return " No more is compared, since fine runs of " + what + " would take too long.";
 }
 
 }  // namespace
@@ -77,30 +90,37 @@ Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
   if (damped) curve("undamped", LineStyle::dotted, limits.undamped);
   most = std::max({most, now, bound});
   chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
-  if (limits.now) chart.series.push_back(mark_at("cloth now", now, c.text, LineStyle::solid, least, hi));
-  chart.series.push_back(mark_at("at most", bound, c.warning, LineStyle::dashed, least, hi));
+  if (limits.now) chart.series.push_back(mark_at("this cloth", now, c.text, LineStyle::solid, least, hi));
+  chart.series.push_back(mark_at("worst case", bound, c.warning, LineStyle::dashed, least, hi));
   return chart;
+}
+
+std::string accuracy_time(const AccuracyStudy& study) {
+  if (!study.present) return {};
+  return "over the next " + short_number(rounded(study.reference.seconds, 2)) + " s";
 }
 
 std::string accuracy_words(const AccuracyStudy& study) {
   if (!study.problem.empty()) return "There is no reference to compare with: " + study.problem + ".";
   if (!study.present) return "Measuring…";
   const ErrorPoint& now = *study.present;
-  const std::string over = " over the " + short_number(rounded(study.reference.seconds, 2)) +
-                           " s from t = " + time_number(study.t, now.dt) + " s";
+  const std::string over = " over the next " + short_number(rounded(study.reference.seconds, 2)) +
+                           " s from t = " + time_number(study.at.t, now.dt) + " s";
+  const std::string short_time = why_short(study);
   const std::string method(scheme(now.integrator).title);
   if (!chooses_steps(scheme(now.integrator)) && now.dt < 0.9 * study.of.dt)
     return "The reference covers only " + short_number(rounded(study.reference.seconds, 2)) +
            " s of this cloth: too short to measure the error at dt = " + short_number(study.of.dt) + " s.";
-  if (!std::isfinite(now.error_rms_m)) return "With the present settings, " + method + " diverges" + over + ".";
+  if (!std::isfinite(now.error_rms_m))
+    return "With the present settings, " + method + " diverges" + over + "." + short_time;
   const double floor = 10 * study.reference.agreement_rms_m;
-  const std::string error = now.resolved ? "error " + short_number(rounded(now.error_rms_m, 2))
-                                         : "error below " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
-  return method + ": " + error + " m (rms)" + over + "; it takes " + short_number(rounded(now.cost, 2)) +
-         " s of CPU time per simulated second.";
+  const std::string error = now.resolved ? short_number(rounded(now.error_rms_m, 2))
+                                         : "below " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
+  return method + "'s error is " + error + " m (rms)" + over + "; it takes " + short_number(rounded(now.cost, 2)) +
+         " s of CPU time per simulated second." + short_time;
 }
 
-Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
+Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study, std::optional<double> target) {
   Chart chart;
   chart.padding = 0;
   chart.x.title = "CPU seconds per simulated second", chart.x.log = true;
@@ -114,6 +134,13 @@ Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study) {
     ChartSeries series{std::string(scheme(name).title), integrator_style(c, name), true, 2.5f, {}, {}};
     for (; n < study.points.size() && study.points[n].integrator == name; ++n) put(series, study.points[n]);
     if (!series.x.empty()) chart.series.push_back(std::move(series));
+  }
+  if (target && !chart.series.empty()) {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const ChartSeries& series : chart.series)
+      for (const double cost : series.x) least = std::min(least, cost), most = std::max(most, cost);
+    chart.series.push_back(
+        {"target", {c.warning, LineStyle::dashed, 1.6f}, true, 0, {least, most}, {*target, *target}});
   }
   if (!study.present || (study.present->tolerance == 0 && study.present->dt < 0.9 * study.of.dt)) return chart;
   ChartSeries present{"present settings", {c.text, LineStyle::solid, 1}, false, 6, {}, {}};
@@ -139,7 +166,9 @@ void stability_card(Ui& ui, float height) {
 }
 
 float accuracy_card_height(const Ui& ui, float) {
-  const float words = ui.plots.convergence ? convergence_words_at_1 : words_at_1 + 50;
+  if (ui.plots.accuracy == AccuracySide::settings)
+    return card_height(ui, accuracy_heading, ways_at_1 + settings_finder_at_1);
+  const float words = ui.plots.accuracy == AccuracySide::convergence ? convergence_words_at_1 : words_at_1 + 70;
   return card_height(ui, accuracy_heading, ways_at_1 + words + chart_at_1);
 }
 
@@ -147,14 +176,18 @@ namespace {
 
 /// Errors of several methods, or the order of the present one; of that what else can be done with it.
 void accuracy_ways(Ui& ui) {
-  static constexpr const char* ways[] = {"Errors", "Convergence"};
+  static constexpr const char* ways[] = {"Errors", "Convergence", "Find settings"};
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  if (const int k = segments(ui, "accuracy ways", ways, 2, ui.plots.convergence); k >= 0) ui.plots.convergence = k == 1;
-  tooltip(ui, gui::item_id(), "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on.");
+  AccuracySide& side = ui.plots.accuracy;
+  if (const int k = segments(ui, "accuracy ways", ways, 3, int(side), ways_room_at_1); k >= 0) side = AccuracySide(k);
+  tooltip(
+      ui, gui::item_id(),
+      "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on. Find settings: which methods and dt "
+      "keep an error that you choose, and what they cost.");
   const auto at_right = [&](int n) {
     ImGui::SetCursorScreenPos({lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)), lo.y + ui.theme.px(2)});
   };
-  if (ui.plots.convergence) {
+  if (side == AccuracySide::convergence) {
     at_right(0);
     if (quiet_button(ui, "csv_convergence", icon::download, "CSV", "Export the convergence as CSV…"))
       ui.command("export_convergence");
@@ -168,7 +201,7 @@ void accuracy_ways(Ui& ui) {
 void errors_shown(Ui& ui, float height) {
   const auto study = ui.session.studies.accuracy.study();
   if (!study) return words_and_chart(ui, height, "Measuring…", nullptr);
-  const Chart chart = accuracy_chart(ui.theme.colors, *study);
+  const Chart chart = accuracy_chart(ui.theme.colors, *study, target_error(ui));
   words_and_chart(ui, height, accuracy_words(*study), study->present ? &chart : nullptr);
 }
 
@@ -185,13 +218,15 @@ void convergence_shown(Ui& ui, float height) {
 }  // namespace
 
 void accuracy_card(Ui& ui, float height) {
-  if (begin_card(ui, accuracy_heading, height)) {
+  const auto study = ui.session.studies.accuracy.study();
+  if (begin_card(ui, accuracy_heading, height, study ? accuracy_time(*study) : "")) {
     if (ui.session.simulation->lattice().size() > AccuracyWatch::largest) {
       words_and_chart(ui, height, "This cloth is too large to be measured here.", nullptr);
     } else {
       accuracy_ways(ui);
       const float rest = height - ui.theme.px(ways_at_1);
-      ui.plots.convergence ? convergence_shown(ui, rest) : errors_shown(ui, rest);
+      constexpr std::array shown{errors_shown, convergence_shown, settings_finder};
+      shown[std::size_t(ui.plots.accuracy)](ui, rest);
     }
   }
   end_card(ui);

@@ -1,10 +1,13 @@
-// What linear theory and trial runs say of the present settings, as two cards of the plots column.
+// What linear theory and trial runs say of the present settings, and which others reach an error, as two cards of the
+// plots column.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "app/ui/kit/chart.h"
 #include "app/ui/state/ui.h"
+#include "core/analysis/settings_search.h"
 
 namespace tyglab {
 
@@ -16,10 +19,22 @@ float stability_card_height(const Ui& ui, float width);
 void accuracy_card(Ui& ui, float height);
 float accuracy_card_height(const Ui& ui, float width);
 
-/// The chart of a study: error over cost, a line for each method, the present settings as a disc of their own.
-Chart accuracy_chart(const Tokens& colors, const AccuracyStudy& study);
-/// Its sentence: "Verlet: error 2.1e-05 m (rms) over the 0.25 s from t = 1.2 s; …"
+/// The chart of a study: error over cost, a line for each method, the present settings as a disc of their own, and a
+/// line at the error that settings are looked for (m), which the axis then holds.
+Chart accuracy_chart(const Tokens& colors, const AccuracyStudy& study, std::optional<double> target = {});
+/// Over which time the errors of a study are, for the card's head: "over the next 0.25 s"; nothing while none is known.
+std::string accuracy_time(const AccuracyStudy& study);
+/// Its sentences: "Verlet: error 2.1e-05 m (rms) over the next 0.25 s from t = 1.2 s; …", and why that time is short.
 std::string accuracy_words(const AccuracyStudy& study);
+/// "Find settings" in the card of accuracy (settings_finder.cpp): an error goes in, methods and dt that keep it come
+/// out, the cheapest first, each with a click to use it.
+void settings_finder(Ui& ui, float height);
+inline constexpr float settings_finder_at_1 = 292;  ///< its height, pixels at scale 1
+/// The error that is typed there, m; none while it is no number in the range of a tolerance.
+std::optional<double> target_error(const Ui& ui);
+/// What is known for that error, in sentences: how far the search has come, over which time, or why there is nothing.
+std::string finder_words(const SettingsSearch& search, double tolerance);
+
 /// The chart of a method's spectral radius.
 Chart stability_chart(const Tokens& colors, const StabilityLimits& limits);
 

@@ -42,7 +42,11 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   tooltip(ui, gui::item_id(), std::string(row.help) + (unexplained ? " Now " + share_text(reading) + "." : ""));
   ImGui::PopID();
   const ImU32 ink = row.joule == 0 && !unexplained ? c.quiet : c.text;
-  const ImU32 color = unexplained ? color_of(c, part) : row.kind == EnergyKind::has ? c.accent : c.text;
+  const bool unknown = unexplained && reading.began >= ui.session.simulation->time();
+  const ImU32 color = unknown                       ? c.quiet
+                      : unexplained                 ? color_of(c, part)
+                      : row.kind == EnergyKind::has ? c.accent
+                                                    : c.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink, row.name);
   const float value = ui.theme.px(96), bar = ui.theme.px(4), left = lo.x + ui.theme.px(128);
@@ -50,9 +54,24 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   if (row.name != height_row && left + ui.theme.px(24) < lo.x + width - value)
     draw_bar(ui, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
              faded(color, 0.8f));
-  const std::string text = short_number(row.joule, 3) + " J";
+  const std::string text = unknown ? "–" : short_number(row.joule, 3) + " J";
   const ImFont& mono = *ui.fonts.mono;
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, unexplained ? color : ink, text);
+}
+
+/// Since when all this has been counted: the ledger is kept only while somebody wants it.
+void since_line(Ui& ui, const LedgerReading& reading, float width) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const bool late = reading.began > 0;
+  const std::string text = late ? "counted since t = " + time_number(reading.began, ui.session.preset().dt) + " s"
+                                : "counted since the start";
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,
+                   {lo.x, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)},
+                   late ? ui.theme.colors.warning : ui.theme.colors.quiet, text);
+  if (!late) return;
+  ImGui::SetCursorScreenPos({lo.x + width - ui.theme.px(22), lo.y - ui.theme.px(1)});
+  if (quiet_button(ui, "count_from_start", icon::restart, "Restart", "Restart the motion, and count from its start"))
+    ui.command("restart");
 }
 
 }  // namespace
@@ -81,7 +100,7 @@ std::string share_text(const LedgerReading& reading) {
 }
 
 float energy_card_height(const Ui& ui, float) {
-  return card_height(ui, energy_heading, float(energy_rows({}).size()) * card::line + 2 * gap_at_1);
+  return card_height(ui, energy_heading, float(energy_rows({}).size() + 1) * card::line + 3 * gap_at_1);
 }
 
 void energy_card(Ui& ui, float height) {
@@ -98,6 +117,8 @@ void energy_card(Ui& ui, float height) {
       last = row.kind;
       energy_line(ui, row, *reading, largest, width);
     }
+    ImGui::Dummy({width, ui.theme.px(gap_at_1)});
+    since_line(ui, *reading, width);
   }
   end_card(ui);
 }

@@ -90,13 +90,12 @@ float controls_height(const Ui& ui, float width) {
 }
 
 void source_control(Ui& ui) {
-  if (ui.session.preset().kind == Kind::one_weight) {
-    ui.session.recorded.source = Source::particle;  // there is but one
-  } else if (const int k = segments(ui, "source", force_sources.data(), 3, int(ui.session.recorded.source));
-             k >= 0 && k != int(ui.session.recorded.source)) {
-    ui.session.recorded.source = Source(k);
-    ui.session.recorded.forces.clear();
-  }
+  if (ui.session.preset().kind == Kind::one_weight) return;
+  Recorded& recorded = ui.session.recorded;
+  const int k = segments(ui, "source", force_sources.data(), 3, int(recorded.chosen));
+  if (k < 0 || k == int(recorded.chosen)) return;
+  recorded.chosen = Source(k);
+  recorded.forces.clear();
 }
 
 void right_controls(Ui& ui, ImVec2 at) {
@@ -123,7 +122,7 @@ void force_controls(Ui& ui, const Region& inner) {
 
 const char* force_title(const Ui& ui) {
   if (ui.session.preset().kind == Kind::one_weight) return "Forces on the mass";
-  switch (ui.session.recorded.source) {
+  switch (force_source(ui.session)) {
     case Source::sum:
       return "Forces, summed over the cloth";
     case Source::maximum:
@@ -161,7 +160,7 @@ void force_card(Ui& ui, float height) {
   const float head = controls_height(ui, inner.size.x);
   const float plot_height = inner.size.y - head - places.height - ui.theme.px(force_over_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
-  const bool no_particle = ui.session.recorded.source == Source::particle && !ui.session.picked;
+  const bool no_particle = force_source(ui.session) == Source::particle && !ui.session.picked;
   const PlotFrame frame = time_frame(ui, ui.session.recorded.forces, plots.log, "N",
                                      no_particle ? "Right-click a particle to pick it" : why_empty(ui));
   zoom_time(ui, frame, draw_plot(ui, "plot", {inner.size.x, plot_height}, curves, frame));

@@ -7,6 +7,7 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/map_chart.h"
 #include "app/ui/kit/widgets.h"
+#include "core/theory/zones.h"
 
 namespace tyglab {
 namespace {
@@ -60,6 +61,9 @@ void stability_map(Ui& ui, ImVec2 size) {
   const MapCell* cell = cell_at(*map, *place);
   wrapped(ui, cell != nullptr ? cell_words(map->of, *cell) + "." : "This run has not been computed yet.",
           ui.theme.colors.text);
+  const Zone zone = zone_of(at_place(map->of, map->grid.stiffness(place->x), map->grid.dt(place->y)));
+  if (!map->boundary.dt.empty())
+    wrapped(ui, "In linear theory: " + std::string(zone_name(zone, map->of.kind)) + ".", ui.theme.colors.text);
   wrapped(ui, "Click to use these values.", ui.theme.colors.quiet);
   end_tooltip(ui);
 }

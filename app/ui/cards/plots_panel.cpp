@@ -93,7 +93,8 @@ using Foot = std::array<FootCard, 5>;
 /// The lowest first.
 Foot foot_cards(const Ui& ui) {
   const bool small = ui.session.simulation->lattice().size() <= AccuracyWatch::largest;
-  const auto accuracy = ui.plots.convergence ? &Wants::convergence : &Wants::accuracy;
+  static constexpr std::array sides{&Wants::accuracy, &Wants::convergence, &Wants::settings};
+  const auto accuracy = sides[std::size_t(ui.plots.accuracy)];
   return {{{{card_name::performance, performance_card, performance_card_height}},
            {{card_name::energy, energy_card, energy_card_height, &Wants::ledger}},
            {{card_name::accuracy, accuracy_card, accuracy_card_height, small ? accuracy : nullptr}},
@@ -146,6 +147,11 @@ std::size_t chosen_tab(const Plots& plots, std::span<const Card> cards) {
 ColumnPlan plan_column(const Ui& ui, ImVec2 column) {
   const float gap = ui.theme.px(margin_at_1), tabs = ui.theme.px(tabs_at_1) + ui.theme.px(under_tabs_at_1);
   ColumnPlan plan{plot_cards(ui), foot_cards(ui)};
+  if (ui.presenting) {
+    for (const FootCard& card : plan.foot) plan.cards.push_back(card.card);
+    plan.available = column.y, plan.tabs = true, plan.chosen = chosen_tab(ui.plots, plan.cards);
+    return plan;
+  }
   float stacked = 0, tallest = 0;
   for (const Card& card : plan.cards) {
     const float least = card.least(ui, column.x);

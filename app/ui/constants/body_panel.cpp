@@ -121,7 +121,8 @@ void view_section(Ui& ui) {
     if (check(ui, "shadows", ui.scene.view.shadows)) ui.scene.view.shadows = !ui.scene.view.shadows;
   });
   labeled_row(ui, "effects", [&](float) {
-    if (check(ui, "all, even if slow", ui.scene.effects.mode == Effects::Mode::all)) ui.command("toggle_effects");
+    if (check(ui, "full quality (may be slow)", ui.scene.effects.mode == Effects::Mode::all))
+      ui.command("toggle_effects");
     tooltip(ui, gui::item_id(),
             "If drawing takes longer than 20 ms, soft shadow edges are turned off, then smooth edges, then shadows; "
             "the status bar says so.");

@@ -68,36 +68,32 @@ void classify(const FieldOf<T>& field, Line& line) {
   line.components = std::holds_alternative<glm::dvec3 T::*>(field) ? 3 : 1;
 }
 
-/// The slider spans what lies round the preset's value; a value typed beyond it moves the span.
-SliderScale scale_of(const Line& line, int k) {
-  PresetRow probe{};
-  probe.field = &Preset::offset;
-  probe.min = line.min, probe.max = line.max, probe.scale = line.scale;
+/// The slider spans what lies round the preset's value, and whatever the value has been since it was last that.
+SliderScale scale_of(Ui& ui, const Line& line, int k) {
+  PresetRow limits{};
+  limits.field = &Preset::offset;
+  limits.min = line.min, limits.max = line.max, limits.scale = line.scale;
   double center = std::isnan(line.saved[k]) ? line.value[k] : line.saved[k];
   if (line.components == 3)
     for (double v : {line.saved[0], line.saved[1], line.saved[2]})
       if (std::abs(v) > std::abs(center)) center = v;
-  SliderRange range = slider_range(probe, center);
-  if (line.value[k] != 0 && (line.value[k] > range.max || line.value[k] < range.min))
-    range = slider_range(probe, line.value[k]);
-  return {range.min, range.max, line.scale, line.integer};
-}
-
-/// On which side of its slider the preset's value lies, since the span has moved to where the value is now: -1 left,
-/// 1 right, 0 on it.
-int preset_is_off(const Line& line, const SliderScale& scale) {
-  const double saved = line.saved[0];
-  if (line.components != 1 || std::isnan(saved) || saved == 0) return 0;
-  return saved < scale.min ? -1 : saved > scale.max ? 1 : 0;
-}
-
-/// A small arrowhead at that end of the slider.
-void draw_off_mark(Ui& ui, int side, ImVec2 lo, ImVec2 hi) {
-  if (side == 0) return;
-  const float size = ui.theme.px(4), x = side < 0 ? lo.x - ui.theme.px(1) : hi.x + ui.theme.px(1),
-              middle = std::round((lo.y + hi.y) / 2), tip = float(side) * size;
-  ImGui::GetWindowDrawList()->AddTriangleFilled({x + tip, middle}, {x, middle - size}, {x, middle + size},
-                                                ui.theme.colors.warning);
+  SliderScale scale = slider_scale(limits, center);
+  scale.integer = line.integer;
+  if (std::isnan(line.saved[k])) return scale;  // it has no preset to go back to
+  auto& reaches = ui.slider.reaches;
+  const std::string name = line.key + "." + std::to_string(k);
+  const double value = line.value[k];
+  auto known = reaches.find(name);
+  if (known != reaches.end() && (known->second.preset != line.saved[k] || value == line.saved[k]))
+    reaches.erase(known), known = reaches.end();
+  if (known == reaches.end()) {
+    const SliderScale needed = grown(scale, limits, value);
+    if (needed.min == scale.min && needed.max == scale.max && needed.low == scale.low) return scale;
+    known = reaches.emplace(name, SliderReach{line.saved[k], value, value}).first;
+  }
+  SliderReach& reach = known->second;
+  reach.least = std::min(reach.least, value), reach.most = std::max(reach.most, value);
+  return grown(grown(scale, limits, reach.least), limits, reach.most);
 }
 
 std::string value_text(const Line& line, double value) {
@@ -152,12 +148,6 @@ void row_tooltip(Ui& ui, const Line& line) {
   wrapped(ui, facts, c.quiet);
   if (const auto& limits = ui.session.studies.stability.limits())
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);
-  if (const SliderScale scale = scale_of(line, 0); preset_is_off(line, scale) != 0)
-    wrapped(ui,
-            "The slider has moved with the value: it now ranges from " + short_number(scale.min) + " to " +
-                short_number(scale.max) + ", and the preset's " + short_number(line.saved[0]) +
-                " is outside. Double-click to reset.",
-            c.warning);
   if (line.effect == Effect::start) wrapped(ui, "Takes effect at the next restart (R).", c.warning);
   ImGui::PushFont(ui.fonts.small);
   wrapped(ui,
@@ -238,7 +228,7 @@ void vector_cells(Ui& ui, const Line& line, const RowColumns& columns, float sli
   for (int k = 0; k < 3; ++k) {
     if (k > 0) ImGui::SameLine(0, ui.theme.px(4));
     const SliderResult result =
-        drag_cell(ui, names[k], scale_of(line, k), line.value[k], cell, columns.height, line.unit);
+        drag_cell(ui, names[k], scale_of(ui, line, k), line.value[k], cell, columns.height, line.unit);
     if (ui.controls) report_control(ui, line.key + "." + names[k]);
     take(ui, line, k, result, ImGui::GetID(names[k]));
   }
@@ -257,11 +247,10 @@ void draw_line(Ui& ui, const Line& line) {
   } else {
     const unsigned gesture = ImGui::GetID("slider");
     take_wanted_focus(ui, line.key);
-    const SliderScale scale = scale_of(line, 0);
+    const SliderScale scale = scale_of(ui, line, 0);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const SliderResult slid = slider(ui, scale, line.value[0], slider_width, columns.height);
     draw_zones(ui, line.key, scale, at, {at.x + slider_width, at.y + columns.height});
-    draw_off_mark(ui, preset_is_off(line, scale), at, {at.x + slider_width, at.y + columns.height});
     if (ui.controls) report_control(ui, line.key + ".slider");
     take(ui, line, 0, slid, gesture);
     ImGui::SameLine(0, columns.gap);

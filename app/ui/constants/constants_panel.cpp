@@ -77,41 +77,6 @@ void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle,
   draw_styled_line(draw, ends, 2, style, theme.scale);
 }
 
-void integrator_row(Ui& ui) {
-  const Tokens& c = ui.theme.colors;
-  const Scheme& now = scheme(ui.session.requested_preset().integrator);
-  const float width = ui.row_width;
-  const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string room = "         ", label = room + label_of(now);
-  const bool open = begin_combo(ui, "##integrator", label.c_str(), width);
-  const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (!open) {
-    draw_sample(ui.theme, draw, lo.x + ui.theme.px(10), middle, now);
-    const std::string order = order_text(now);
-    const float x = lo.x + width - ui.theme.px(34) - text_width(*ui.fonts.small, order);
-    if (x > lo.x + text_width(*ui.fonts.text, label) + ui.theme.px(16))
-      draw_text(draw, *ui.fonts.small, {x, middle - ui.fonts.small->FontSize / 2}, c.quiet, order);
-    tooltip(ui, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
-    return;
-  }
-  for (const Scheme& choice : schemes()) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const std::string name = room + label_of(choice);
-    const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
-    draw_sample(ui.theme, *ImGui::GetWindowDrawList(), at.x + ui.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
-                choice);
-    if (chosen && choice.name != now.name) {
-      Preset next = ui.session.requested_preset();
-      next.integrator = choice.name;
-      ui.session.propose(std::move(next));
-    }
-    report_control(ui, choice.name);
-    tooltip(ui, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
-  }
-  end_combo();
-}
-
 void scale_resolution(Ui& ui, double q) {
   ui.session.propose(with_resolution(ui.session.requested_preset(), q));
 }
@@ -183,6 +148,41 @@ bool empty(const Section& wanted, const Preset& preset) {
 }
 
 }  // namespace
+
+void integrator_row(Ui& ui) {
+  const Tokens& c = ui.theme.colors;
+  const Scheme& now = scheme(ui.session.requested_preset().integrator);
+  const float width = ui.row_width;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const std::string room = "         ", label = room + label_of(now);
+  const bool open = begin_combo(ui, "##integrator", label.c_str(), width);
+  const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (!open) {
+    draw_sample(ui.theme, draw, lo.x + ui.theme.px(10), middle, now);
+    const std::string order = order_text(now);
+    const float x = lo.x + width - ui.theme.px(34) - text_width(*ui.fonts.small, order);
+    if (x > lo.x + text_width(*ui.fonts.text, label) + ui.theme.px(16))
+      draw_text(draw, *ui.fonts.small, {x, middle - ui.fonts.small->FontSize / 2}, c.quiet, order);
+    tooltip(ui, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
+    return;
+  }
+  for (const Scheme& choice : schemes()) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const std::string name = room + label_of(choice);
+    const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
+    draw_sample(ui.theme, *ImGui::GetWindowDrawList(), at.x + ui.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
+                choice);
+    if (chosen && choice.name != now.name) {
+      Preset next = ui.session.requested_preset();
+      next.integrator = choice.name;
+      ui.session.propose(std::move(next));
+    }
+    report_control(ui, choice.name);
+    tooltip(ui, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
+  }
+  end_combo();
+}
 
 bool applies(const PresetRow& row, const Preset& preset) {
   if (std::holds_alternative<std::string Preset::*>(row.field) || row.section == "view") return false;

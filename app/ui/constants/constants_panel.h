@@ -10,6 +10,8 @@
 namespace tyglab {
 
 void constants_panel(Ui& ui, const Region& region);
+/// The method, to be chosen.
+void integrator_row(Ui& ui);
 /// Its contents, section by section.
 void constants_sections(Ui& ui);
 void body_sections(Ui& ui);

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <optional>
 
 #include "app/base/numbers.h"
 #include "app/ui/constants/constant_row.h"
+#include "app/ui/constants/zones.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
@@ -14,31 +15,69 @@
 namespace tyglab {
 namespace {
 
-constexpr double full = 1.5;  // of the limit, at the bar's right end
-constexpr double near_limit = 0.9;
-
-ImU32 color_of(const Tokens& c, double part) {
-  return part > 1 ? c.danger : part > near_limit ? c.warning : c.good;
+std::string percent(double part) {
+  return short_number(rounded(100 * part, part < 1 ? 2 : 3)) + " %";
 }
 
-std::string two_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, value < 10 ? "%.2f" : "%.3g", value);
-  return text;
+bool has_limit(const StabilityLimits& limits) {
+  return limits.any > 0 && std::isfinite(limits.any);
+}
+
+/// The cloth's own limit, where it is known and springs act.
+std::optional<double> own_limit(const StabilityLimits& limits) {
+  const bool cloth = limits.of.kind == Kind::cloth;
+  return cloth && limits.now && *limits.now > 0 && std::isfinite(*limits.now) ? limits.now : std::nullopt;
+}
+
+Zone zone_at(const StabilityLimits& limits, double dt) {
+  return dt <= limits.any ? Zone::stable : dt <= limits.every ? Zone::depends : Zone::unstable;
 }
 
 void draw_gauge(Ui& ui, const StabilityLimits& limits, ImVec2 lo, ImVec2 hi) {
   const Tokens& c = ui.theme.colors;
-  const double part = ui.session.requested_preset().dt / limits.any;
-  const float rounding = ui.theme.px(3), width = hi.x - lo.x;
-  const auto at = [&](double of) { return lo.x + width * float(std::clamp(of / full, 0.0, 1.0)); };
+  const double dt = ui.session.requested_preset().dt;
+  const float rounding = ui.theme.px(3), width = hi.x - lo.x, strip = ui.theme.px(5), line = ui.theme.px(2);
+  const auto at = [&](double value) { return std::round(lo.x + width * float(gauge_position(limits, value))); };
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(lo, hi, c.field, rounding);
-  draw.AddRectFilled(lo, {std::max(at(part), lo.x + 2 * rounding), hi.y}, color_of(c, part), rounding);
-  const float reach = ui.theme.px(3), line = ui.theme.px(2);
-  draw.AddLine({at(1), lo.y - reach}, {at(1), hi.y + reach}, c.text, line);
-  if (limits.now && *limits.now > 0 && *limits.now < full * limits.any)
-    draw.AddCircleFilled({at(*limits.now / limits.any), (lo.y + hi.y) / 2}, ui.theme.px(3), c.text, 16);
+  const ImVec2 foot{hi.x, hi.y - strip};
+  draw.AddRectFilled(lo, foot, c.field, rounding);
+  draw.AddRectFilled(lo, {std::max(at(dt), lo.x + 2 * rounding), foot.y - line / 2}, zone_color(c, zone_at(limits, dt)),
+                     rounding);
+  const float any = at(limits.any), every = std::isfinite(limits.every) ? at(limits.every) : hi.x;
+  const float top = foot.y + line / 2;
+  draw_zone(ui, Zone::stable, {lo.x, top}, {any, hi.y});
+  if (every > any) draw_zone(ui, Zone::depends, {any, top}, {every, hi.y});
+  if (hi.x > every) draw_zone(ui, Zone::unstable, {every, top}, hi);
+  draw.AddLine({any, lo.y - line}, {any, hi.y + line}, c.text, line);
+  if (const auto own = own_limit(limits)) {
+    const ImVec2 middle{at(*own), (lo.y + foot.y) / 2};
+    draw.AddCircleFilled(middle, ui.theme.px(4.5f), c.panel, 16);
+    draw.AddCircleFilled(middle, ui.theme.px(3), c.text, 16);
+  }
+}
+
+/// One target, from `lo` to `hi`, of which the bar takes the left part: near a mark it says what that is, else all.
+void gauge_tooltips(Ui& ui, const StabilityLimits& limits, double dt, ImVec2 lo, ImVec2 hi, float bar) {
+  const float reach = ui.theme.px(5);
+  const auto x_of = [&](const GaugeMark& mark) { return lo.x + bar * float(gauge_position(limits, mark.at)); };
+  const std::vector<GaugeMark> marks = gauge_marks(limits, dt);
+  if (ui.controls)
+    for (const GaugeMark& mark : marks) {
+      ImGui::SetCursorScreenPos({x_of(mark) - 1, lo.y});
+      ImGui::Dummy({2, hi.y - lo.y});
+      report_control(ui, "gauge " + std::string(mark.name));
+    }
+  ImGui::SetCursorScreenPos(lo);
+  ImGui::InvisibleButton("gauge", {hi.x - lo.x, hi.y - lo.y});
+  report_control(ui, "stability");
+  const float pointer = ImGui::GetIO().MousePos.x;
+  const auto off = [&](const GaugeMark& mark) { return std::abs(pointer - x_of(mark)); };
+  const auto nearest = std::min_element(marks.begin(), marks.end(),
+                                        [&](const GaugeMark& a, const GaugeMark& b) { return off(a) < off(b); });
+  if (nearest != marks.end() && off(*nearest) <= reach)
+    tooltip(ui, ImGui::GetID(nearest->name.data()), nearest->words);
+  else
+    tooltip(ui, gui::item_id(), stability_words(limits, dt));
 }
 
 /// "auto" where other rows have their unit: dt follows the constants.
@@ -52,10 +91,10 @@ void auto_toggle(Ui& ui, ImVec2 at, float width, float height) {
   report_control(ui, "auto");
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),
-          on ? "dt is chosen by the program: 0.8 of what is stable in any configuration, less if the ledger finds "
-               "that the method adds energy. Click to keep the present dt."
-             : "Let the program choose and adjust dt: 0.8 of what is stable in any configuration, less if the "
-               "ledger finds that the method adds energy.");
+          on ? "dt is chosen by the program: 0.8 of the worst-case limit, less if the ledger finds that the method "
+               "adds energy. Click to keep the present dt."
+             : "Let the program choose and adjust dt: 0.8 of the worst-case limit, less if the ledger finds that the "
+               "method adds energy.");
   const float inset = std::round((height - ui.theme.px(20)) / 2);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + inset}, {at.x + width, at.y + height - inset},
@@ -70,9 +109,47 @@ void auto_toggle(Ui& ui, ImVec2 at, float width, float height) {
 
 }  // namespace
 
+double gauge_position(const StabilityLimits& limits, double dt) {
+  return dt / (dt + limits.any);
+}
+
 std::string stability_text(const StabilityLimits& limits, double dt) {
   if (std::isinf(limits.any)) return "no limit";
-  return limits.any > 0 ? two_digits(dt / limits.any) : "always above";
+  return limits.any > 0 ? percent(dt / limits.any) : "always above";
+}
+
+std::string part_words(const StabilityLimits& limits, double dt) {
+  if (!has_limit(limits)) return "";
+  const bool cloth = limits.of.kind == Kind::cloth;
+  std::string text = "dt is " + percent(dt / limits.any) + " of the " + (cloth ? "worst-case limit" : "limit");
+  if (const auto own = own_limit(limits))
+    text += " and " + percent(dt / *own) + " of this cloth's own, as it hangs now";
+  return text + ".";
+}
+
+std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
+  std::vector<GaugeMark> marks;
+  if (!has_limit(limits)) return marks;
+  const bool cloth = limits.of.kind == Kind::cloth;
+  const std::string method(scheme(limits.of.integrator).title);
+  const auto seconds = [](double value) { return short_number(rounded(value, 3)) + " s"; };
+  if (const auto own = own_limit(limits))
+    marks.push_back({"this cloth", *own,
+                     "Dot: this cloth's own limit, as it hangs now: " + seconds(*own) +
+                         ", from its fastest mode, ω = " + short_number(rounded(limits.omega, 3)) +
+                         " 1/s. It changes with the shape and promises nothing: without damping, slack cloths have "
+                         "diverged from 0.63 of it on."});
+  marks.push_back({"worst case", limits.any,
+                   cloth ? "Line: the worst-case limit, " + seconds(limits.any) + ". Up to it, " + method +
+                               " is stable in any shape of the cloth."
+                         : "Line: the limit, " + seconds(limits.any) + ". Above it, " + method + " is unstable."});
+  if (cloth && std::isfinite(limits.every))
+    marks.push_back({"every shape", limits.every,
+                     "Hatched: above " + seconds(limits.every) + ", " + method +
+                         " is unstable in every shape in which a spring pulls. Between the line and here it depends "
+                         "on the shape."});
+  marks.push_back({"dt", dt, "Bar: " + part_words(limits, dt)});
+  return marks;
 }
 
 std::string stability_words(const StabilityLimits& limits, double dt) {
@@ -81,15 +158,11 @@ std::string stability_words(const StabilityLimits& limits, double dt) {
   if (std::isinf(limits.any))
     return "Linear theory sets no largest dt for this method. Bodies, and springs that switch, still can.";
   if (limits.any == 0) return "No dt is stable: without more damping this method feeds energy into every oscillation.";
-  std::string text = "dt is " + two_digits(dt / limits.any) + " of the largest that is stable in any configuration, " +
-                     short_number(limits.any) + " s.";
-  if (limits.now && *limits.now > 0 && std::isfinite(*limits.now))
-    text += " As the cloth hangs now (dot), " + short_number(*limits.now) +
-            " s: its fastest mode has ω = " + short_number(limits.omega) + " 1/s.";
-  if (std::isfinite(limits.stiffness) && limits.stiffness > 0 && limits.of.kind == Kind::cloth)
-    text += " With this dt, springs " + two_digits(limits.stiffness) + " times as stiff would reach the limit" +
-            (limits.of.k_b == 0 ? ": k_s = " + short_number(limits.stiffness * limits.of.k_s) + " N/m." : ".");
-  return text + " One-sided springs switch, so this is a guide, not a guarantee.";
+  const std::string name(zone_name(zone_at(limits, dt), limits.of.kind));
+  std::string text = char(name.front() - 'a' + 'A') + name.substr(1) + ": " + part_words(limits, dt);
+  for (const GaugeMark& mark : gauge_marks(limits, dt))
+    if (mark.name != "dt") text += "\n" + mark.words;
+  return text + "\nThis is linear theory: springs that switch make it a guide, not a guarantee.";
 }
 
 void stability_row(Ui& ui) {
@@ -98,27 +171,24 @@ void stability_row(Ui& ui) {
     const RowColumns columns = row_columns(ui);
     const ImVec2 lo = ImGui::GetCursorScreenPos();
     const float height = ui.theme.px(30);  // as the labels of such rows are placed
-    ImGui::Dummy({width, height});
-    report_control(ui, "stability");
-    const bool wants_words = tooltip_due(ui, ImGui::GetID("stability"));
     auto_toggle(ui, {lo.x + width - columns.unit, lo.y}, columns.unit, height);
     if (!limits) return;
     const Tokens& c = ui.theme.colors;
     const double dt = ui.session.requested_preset().dt;
-    const bool bounded = limits->any > 0 && std::isfinite(limits->any);
+    const bool bounded = has_limit(*limits);
     const float bar = width - columns.value - columns.unit - 2 * columns.gap, middle = lo.y + height / 2;
-    const float half = ui.theme.px(4);
     const std::string text = stability_text(*limits, dt);
     const float right = lo.x + bar + columns.gap + columns.value;
+    const float half = ui.theme.px(7);
     if (bounded) draw_gauge(ui, *limits, {lo.x, middle - half}, {lo.x + bar, middle + half});
     const ImFont& font = bounded ? *ui.fonts.mono : *ui.fonts.small;
     const float x = bounded ? right - ui.theme.px(6) - text_width(font, text) : lo.x;
     draw_on_baseline(*ImGui::GetWindowDrawList(), font, {x, baseline_at(ui.fonts, middle)},
-                     bounded            ? color_of(c, dt / limits->any)
+                     bounded            ? zone_color(c, zone_at(*limits, dt))
                      : limits->any == 0 ? c.danger
                                         : c.quiet,
                      text);
-    if (wants_words) tooltip(ui, ImGui::GetID("stability"), stability_words(*limits, dt));
+    gauge_tooltips(ui, *limits, dt, lo, {right, lo.y + height}, bar);
   });
 }
 

@@ -1,7 +1,9 @@
-// The gauge under dt: how much of what linear theory allows the present dt is.
+// The gauge under dt: dt as a part of what linear theory allows in the worst case, and of what this cloth does now.
 #pragma once
 
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "app/studies/stability_watch.h"
 
@@ -9,12 +11,28 @@ namespace tyglab {
 
 struct Ui;
 
-/// dt over dt_crit in any configuration, as a bar with a number; a mark where the limit of the cloth as it hangs lies.
+/// dt over the worst-case limit, as a bar with a number; marks where this cloth's own limit lies and from where on
+/// every shape is unstable. Each mark has a tooltip, and the bar one for all.
 void stability_row(Ui& ui);
 
-/// The gauge's number: "0.57", "no limit", "always above".
+/// The gauge's number: "57 %", "no limit", "always above".
 std::string stability_text(const StabilityLimits& limits, double dt);
-/// What its tooltip says.
+/// "dt is 75 % of the worst-case limit and 58 % of this cloth's own, as it hangs now." Of the mass on a spring "dt is
+/// 75 % of the limit." Empty where there is no limit, or none that is stable.
+std::string part_words(const StabilityLimits& limits, double dt);
+/// The bar's tooltip.
 std::string stability_words(const StabilityLimits& limits, double dt);
+
+/// A place on the gauge that has something to say.
+struct GaugeMark {
+  std::string_view name;  ///< "dt", "worst case", "this cloth", "every shape"
+  double at;              ///< s
+  std::string words;      ///< its tooltip
+};
+/// None where there is no limit, or none that is stable.
+std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt);
+/// Where a dt is drawn along the bar, 0 to 1: the worst-case limit is always in the middle, and no dt is beyond the
+/// end.
+double gauge_position(const StabilityLimits& limits, double dt);
 
 }  // namespace tyglab

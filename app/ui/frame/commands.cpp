@@ -52,6 +52,11 @@ void toggle_play(Ui& ui) {
   pacing.restart_measure();
 }
 
+std::string nothing_moves(const Ui& ui) {
+  if (!ui.session.simulation->divergence() || ui.session.copies.lockstep.alive()) return "";
+  return "The simulation has diverged: restart it (R), rewind it (←), or choose a way out in the banner.";
+}
+
 void step_once(Ui& ui) {
   single_step(ui.session, ui.tools.session_input().hand);
 }
@@ -64,7 +69,16 @@ std::string nothing_earlier(const Ui& ui) {
 
 void rewind_a_second(Ui& ui) {
   ui.session.pacing.playing &= !ui.session.simulation->divergence();
-  rewind(ui.session);
+  rewind_and_say_what_stays(ui.session);
+}
+
+std::string no_replay(const Ui& ui) {
+  return nothing_to_replay(ui.session);
+}
+
+void replay_slowly(Ui& ui) {
+  if (ui.session.preset().kind == Kind::cloth) ui.color_by(ParticleField::strain);
+  ui.session.request(request::Replay{});
 }
 
 void frame_cloth(Ui& ui) {
@@ -87,6 +101,10 @@ std::string no_lab(const Ui& ui) {
   return ui.session.labs.run ? "" : "There is no lab in progress.";
 }
 
+std::string no_experiment(const Ui& ui) {
+  return ui.session.labs.kept.empty() ? "No experiment was changed before a lab." : "";
+}
+
 std::string no_weight(const Ui& ui) {
   return ui.session.preset().kind == Kind::one_weight ? "" : "That needs the mass on a spring; this is a cloth.";
 }
@@ -107,7 +125,13 @@ void next_color(Ui& ui) {
 void show_convergence(Ui& ui) {
   show_card(ui, card_name::accuracy);
   ui.session.studies.convergence.drop();
-  ui.plots.convergence = true;
+  ui.plots.accuracy = AccuracySide::convergence;
+}
+
+/// Opens the card where they are searched for.
+void show_settings_finder(Ui& ui) {
+  show_card(ui, card_name::accuracy);
+  ui.plots.accuracy = AccuracySide::settings;
 }
 
 /// All effects however long they take, or as many as the machine draws in time.
@@ -227,13 +251,25 @@ void next_theme(Ui& ui) {
   ui.scale_changed = ui.scene.redraw = true;
 }
 
+void present(Ui& ui) {
+  ui.presenting = !ui.presenting;
+  ui.panels = true;
+}
+
 void request_quit(Ui& ui) {
   ui.session.request(request::Quit{});
 }
 
 std::vector<CommandRow> all_rows() {
   std::vector<CommandRow> rows{
-      {"toggle_play", "Run or pause", "Space", {{GLFW_KEY_SPACE, 0}}, "pauses and runs", "play stop", toggle_play},
+      {"toggle_play",
+       "Run or pause",
+       "Space",
+       {{GLFW_KEY_SPACE, 0}},
+       "pauses and runs",
+       "play stop",
+       toggle_play,
+       nothing_moves},
       {"step",
        "One step of dt",
        "→ or O",
@@ -249,6 +285,14 @@ std::vector<CommandRow> all_rows() {
        "back",
        rewind_a_second,
        nothing_earlier},
+      {"replay",
+       "Replay the last 50 steps slowly",
+       "",
+       {},
+       "",
+       "divergence explosion slow motion",
+       replay_slowly,
+       no_replay},
       {"restart",
        "Restart the motion",
        "R or Backspace",
@@ -275,12 +319,20 @@ std::vector<CommandRow> all_rows() {
        "lessons exercises course",
        choose_lab},
       {"leave_lab", "Leave the lab", "", {}, "", "quit end", of_session<leave_lab>, no_lab},
+      {"back_to_experiment",
+       "Back to your experiment",
+       "",
+       {},
+       "",
+       "lab before unsaved return",
+       of_session<back_to_experiment>,
+       no_experiment},
       {"toggle_panels", "All panels", "Tab", {{GLFW_KEY_TAB, 0}}, "hides the panels", "show", toggle<&Ui::panels>},
       {"toggle_map",
        "Map of k_s and dt",
        "M",
        {{GLFW_KEY_M, 0}},
-       "maps which k_s and dt are stable",
+       "maps the zones of stability over k_s and dt",
        "stability card",
        toggle_card<card_name::map, &Layout::map, &Wants::map>},
       {"toggle_inside",
@@ -320,12 +372,19 @@ std::vector<CommandRow> all_rows() {
        next_color,
        no_cloth},
       {"measure_convergence", "Order of convergence", "", {}, "", "accuracy error dt slope measured", show_convergence},
-      {"toggle_effects",
-       "All effects, even if slow to draw",
+      {"find_settings",
+       "Find settings for an error",
        "",
        {},
        "",
-       "shadows smooth edges quality graphics",
+       "accuracy tolerance target method integrator dt cheapest fastest",
+       show_settings_finder},
+      {"toggle_effects",
+       "Full quality (may be slow)",
+       "",
+       {},
+       "",
+       "all effects shadows smooth edges graphics",
        toggle_effects},
       {"save_picture",
        "Save an image…",
@@ -355,6 +414,13 @@ std::vector<CommandRow> all_rows() {
        "slow motion while you grab or cut",
        "speed quarter grab",
        toggle_slow_hand},
+      {"present",
+       "Presentation mode",
+       "F5",
+       {{GLFW_KEY_F5, 0}},
+       "presents: a large cloth, few controls",
+       "projector lecture beamer talk",
+       present},
       {"full_screen", "Full screen", "F11", {{GLFW_KEY_F11, 0}}, "full screen", "window", toggle_full_screen},
       {"open_dialog",
        "Open…",
@@ -371,14 +437,7 @@ std::vector<CommandRow> all_rows() {
        "saves the preset under another name",
        "file write",
        dialog<Dialog::Kind::save>},
-      {"undo",
-       "Undo",
-       "Ctrl+Z",
-       {{GLFW_KEY_Z, control, true}},
-       "undoes a change of constants",
-       "",
-       undo,
-       nothing_to_undo},
+      {"undo", "Undo", "Ctrl+Z", {{GLFW_KEY_Z, control, true}}, "undoes the last action", "", undo, nothing_to_undo},
       {"redo",
        "Redo",
        "Ctrl+Shift+Z",

@@ -115,7 +115,7 @@ std::vector<CommandRow> export_rows() {
       {"Export height as CSV", rows_of_frames, "height.csv", text_file<height>}, export_no_weight);
   add("export_map", "Export map as CSV…", "write stability",
       {"Export map of stiffness and dt as CSV",
-       "One row per measured cell: stiffness, dt, the short run's result, theory's largest stable dt.", "map.csv",
+       "One row per measured cell: stiffness, dt, the short run's result, the worst-case limit of dt.", "map.csv",
        text_file<map>});
   add("export_map_picture", "Export map as PNG…", "write stability picture image",
       {"Export map of stiffness and dt as PNG", "An image of the map as far as it has been measured.", "map.png",

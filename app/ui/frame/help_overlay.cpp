@@ -1,6 +1,7 @@
 // F1: what mouse and keys do.
 #include <algorithm>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "app/ui/frame/commands.h"
@@ -62,12 +63,20 @@ void table(Ui& ui, const char* title, std::span<const Entry> entries, const Colu
   ImGui::SetCursorPos({column.left, y + ui.theme.px(8)});
 }
 
-/// Every command that has keys; the views have theirs.
-std::vector<Entry> key_entries() {
-  std::vector<Entry> entries;
-  for (const CommandRow& row : command_rows())
-    if (*row.keys != 0) entries.push_back({row.keys, row.help});
-  entries.push_back({"1 to 5", "the five views"});
+/// Every command that has keys, in two tables that are about as long as those of the mouse make them; the views have
+/// theirs.
+struct KeyEntries {
+  std::vector<Entry> cloth, window;
+};
+
+KeyEntries key_entries() {
+  KeyEntries entries;
+  std::vector<Entry>* to = &entries.cloth;
+  for (const CommandRow& row : command_rows()) {
+    if (std::string_view(row.id) == "larger_text") to = &entries.window;
+    if (*row.keys != 0) to->push_back({row.keys, row.help});
+  }
+  entries.cloth.push_back({"1 to 5", "the five views"});
   return entries;
 }
 
@@ -79,9 +88,11 @@ void tables(Ui& ui, float width) {
   const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
   table(ui, "In the viewport", mouse_entries, left);
   table(ui, "On sliders", sliders, left);
+  const KeyEntries keys = key_entries();
+  table(ui, "Window", keys.window, left);
   const float half = ImGui::GetCursorPosY();
   if (two) ImGui::SetCursorPosY(start.y);
-  table(ui, "Keys", key_entries(), right);
+  table(ui, "Keys", keys.cloth, right);
   text_between(ui, "An active slider or text field keeps its keys; Esc releases them.",
                {right.left, ImGui::GetCursorPosY()}, right.left + column, ui.theme.colors.quiet);
   ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + ui.theme.px(4)});

@@ -7,7 +7,7 @@
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
-#include "app/session/observables.h"
+#include "app/session/lab_check.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
@@ -119,24 +119,20 @@ bool to_be_predicted(const LabStep& step, const StepRecord& record) {
   return step.prediction && !record.predicted && !record.done;
 }
 
-/// "now 50 N/m", or what makes it known.
-std::string present_value(Ui& ui, const Condition& check, CheckState state) {
-  if (is_word(check.name)) return "now " + std::string(observe_word(ui.session, check.name));
-  const Observable* row = find_observable(check.name);
-  const auto value = observe(ui.session, check.name);
-  if (value) return with_whole_terms("now " + with_unit(*value, unit_of(check.name)));
-  return row != nullptr && state == CheckState::unknown ? std::string(row->hint) : std::string();
+void check_line(Ui& ui, const Condition& check, CheckState state, const CheckMemory& memory, bool done) {
+  const Tokens& c = ui.theme.colors;
+  if (done) return marked_line(ui, icon::check, "+", c.good, with_whole_terms(words_of(check)), c.text);
+  const std::string words = with_whole_terms(check_in_words(ui.session, check, state, memory));
+  if (state == CheckState::holds) return marked_line(ui, icon::check, "+", c.good, words, c.text);
+  if (state == CheckState::open) return marked_line(ui, icon::circle, "o", c.quiet, words, c.text);
+  if (state == CheckState::broken) return marked_line(ui, icon::close, "x", c.warning, words, c.text);
+  marked_line(ui, icon::unknown, "?", c.warning, words, c.text);
 }
 
-void check_line(Ui& ui, const Condition& check, CheckState state, bool done) {
-  const Tokens& c = ui.theme.colors;
-  const std::string words = with_whole_terms(words_of(check));
-  if (done) return marked_line(ui, icon::check, "+", c.good, words + ": seen", c.text);
-  const std::string now = present_value(ui, check, state);
-  const std::string all = words + (now.empty() ? "" : " · " + now);
-  if (state == CheckState::holds) return marked_line(ui, icon::check, "+", c.good, all + " · holds", c.text);
-  if (state == CheckState::open) return marked_line(ui, icon::circle, "o", c.quiet, all + " · not yet", c.text);
-  marked_line(ui, icon::unknown, "?", c.warning, all + (now.empty() ? " · not known yet" : ""), c.text);
+/// The experiment that the lab has taken the place of.
+void back_button(Ui& ui) {
+  if (ui.session.labs.kept.empty()) return;
+  if (text_button(ui, "Back to your experiment")) ui.command("back_to_experiment");
 }
 
 /// Another preset is open than the lab's: what it means, and the ways on.
@@ -149,6 +145,7 @@ void waiting_part(Ui& ui) {
   if (text_button(ui, "Open the lab's cloth", true)) resume_lab(ui.session);
   ImGui::SameLine();
   if (text_button(ui, "Leave the lab")) ui.command("leave_lab");
+  back_button(ui);
 }
 
 void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
@@ -166,7 +163,8 @@ void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   if (step.checks.empty()) return;
   small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
   for (std::size_t k = 0; k < step.checks.size(); ++k)
-    check_line(ui, step.checks[k], k < record.checks.size() ? record.checks[k] : CheckState::open, record.done);
+    if (k < record.checks.size() && k < record.seen.size())
+      check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
 }
 
 void explanation_part(Ui& ui, LabRun& run) {
@@ -174,6 +172,17 @@ void explanation_part(Ui& ui, LabRun& run) {
   if (std::exchange(run.show_explanation, false)) ImGui::SetScrollHereY(0);
   small_head(ui, "WHY", ui.theme.colors.accent);
   paragraphs_of(ui, run.now().explanation, ui.theme.colors.text);
+}
+
+void end_part(Ui& ui, const LabRun& run) {
+  if (run.record().done && run.step + 1 == run.lab.steps.size()) back_button(ui);
+}
+
+/// The step's title, where it has no room beside the buttons.
+void title_part(Ui& ui, const LabRun& run) {
+  ImGui::PushFont(ui.fonts.title);
+  wrapped(ui, in_lines(*ui.fonts.title, run.now().title, ImGui::GetContentRegionAvail().x), ui.theme.colors.text);
+  ImGui::PopFont();
 }
 
 void reading_part(Ui& ui, LabRun& run) {
@@ -237,21 +246,25 @@ float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
   return x;
 }
 
-void lab_header(Ui& ui, LabRun& run, const Region& region) {
+/// Returns whether the step's title had room.
+bool lab_header(Ui& ui, LabRun& run, const Region& region) {
   const Tokens& c = ui.theme.colors;
   const float end = lab_buttons(ui, run, region) - ui.theme.px(12);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float middle = region.at.y + ui.theme.px(24), margin = ui.theme.px(16);
   float x = region.at.x + margin;
   const float baseline = baseline_at(ui.fonts, middle);
-  const std::string title = fitted(*ui.fonts.title, run.now().title, end - x);
-  draw_on_baseline(draw, *ui.fonts.title, {x, baseline}, c.text, title);
-  x += text_width(*ui.fonts.title, title) + ui.theme.px(10);
   char place[32];
   std::snprintf(place, sizeof place, "Step %zu of %zu", run.step + 1, run.lab.steps.size());
-  if (x + text_width(*ui.fonts.small, place) > end) return;
+  const float width = text_width(*ui.fonts.title, run.now().title);
+  const bool room = x + width <= end;
+  if (room)
+    draw_on_baseline(draw, *ui.fonts.title, {x, baseline}, c.text, run.now().title), x += width + ui.theme.px(10);
+  if (x + text_width(*ui.fonts.small, place) > end) return room;
   const std::string full = std::string(place) + " · " + run.lab.title;
-  draw_on_baseline(draw, *ui.fonts.small, {x, baseline}, c.quiet, fitted(*ui.fonts.small, full, end - x));
+  draw_on_baseline(draw, *ui.fonts.small, {x, baseline}, c.quiet,
+                   x + text_width(*ui.fonts.small, full) <= end ? full : place);
+  return room;
 }
 
 }  // namespace
@@ -266,7 +279,7 @@ void lab_panel(Ui& ui, const Region& region) {
   if (!begin_region("lab", region, c.panel, {0, 0})) return end_region();
   LabRun& run = *ui.session.labs.run;
   ImGui::GetWindowDrawList()->AddLine(region.at, {region.at.x + region.size.x, region.at.y}, c.line);
-  lab_header(ui, run, region);
+  const bool titled = lab_header(ui, run, region);
   const float margin = ui.theme.px(16), gap = ui.theme.px(20), top = region.at.y + ui.theme.px(header_at_1);
   const float left = region.at.x + margin, width = region.size.x - margin - ui.theme.px(8);
   const float height = region.at.y + region.size.y - top - ui.theme.px(4);
@@ -274,6 +287,7 @@ void lab_panel(Ui& ui, const Region& region) {
   const float column = two ? std::floor((width - gap) / 2) : width;
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
   begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height});
+  if (!titled) title_part(ui, run);
   reading_part(ui, run);
   // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
   const bool beside = two && to_be_predicted(run.now(), run.record());
@@ -282,6 +296,7 @@ void lab_panel(Ui& ui, const Region& region) {
   if (beside) prediction_part(ui, run.now(), run.record());
   doing_part(ui, run.now(), run.record());
   explanation_part(ui, run);
+  end_part(ui, run);
   end_lab_column(ui);
   end_region();
 }

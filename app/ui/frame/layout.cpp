@@ -57,13 +57,28 @@ void side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
 
 /// Where the regions are; what has no width or no height is not there.
 struct LayoutPlan {
-  Region viewport, lab, top, status, constants, plots;
+  Region viewport, lab, top, status, constants, plots, podium;
   Region tabs;                 ///< which choose between columns
   bool in_turn = false;        ///< the cloth is one of those
   bool lab_with_side = false;  ///< the lab stands with the constants, not with the plots
 };
 
+/// The cloth, below it the few controls, and beside it one card where there is room.
+LayoutPlan plan_presentation(const Ui& ui, ImVec2 window) {
+  LayoutPlan plan;
+  const float low = podium_height(ui), height = std::max(window.y - low, 1.f), least = ui.theme.px(200);
+  const float lab = lab_panel_height(ui, height);
+  float right = ui.presented_card ? std::round(0.225f * window.x) : 0;
+  if (right < least) right = 0;
+  plan.viewport = {{0, 0}, {window.x - right, std::max(height - lab, 1.f)}};
+  plan.lab = {{0, height - lab}, {window.x - right, lab}};
+  plan.podium = {{0, height}, {window.x, low}};
+  if (right > 0) plan.plots = {{window.x - right, 0}, {right, height}};
+  return plan;
+}
+
 LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
+  if (ui.presenting && ui.panels) return plan_presentation(ui, window);
   const Layout& layout = ui.settings.layout;
   const bool panels = ui.panels;
   const float top = panels ? ui.theme.px(48) : 0;
@@ -125,12 +140,14 @@ void draw_layout(Ui& ui, ImVec2 window) {
   if (plan.constants.size.x > 0) constants_panel(ui, plan.constants);
   if (plan.plots.size.x > 0) plots_panel(ui, plan.plots);
   if (plan.status.size.y > 0) status_bar(ui, plan.status);
+  if (plan.podium.size.y > 0) podium(ui, plan.podium);
   const float top = plan.top.size.y;
   if (left > 0 && !plan.in_turn) {
     const Region& side = plan.constants.size.x > 0 ? plan.constants : plan.plots;
     splitter(ui, "left border", left, top, side.at.y + side.size.y, layout.left_width, 1);
   }
-  if (right < window.x) splitter(ui, "right border", right, top, window.y, layout.right_width, -1);
+  if (right < window.x && plan.podium.size.y == 0)
+    splitter(ui, "right border", right, top, window.y, layout.right_width, -1);
   tour_card(ui);
   help_overlay(ui);
   palette(ui);
@@ -143,7 +160,8 @@ Wants layout_wants(const Ui& ui, ImVec2 window) {
   const LayoutPlan plan = plan_layout(ui, window);
   Wants wants;
   if (plan.plots.size.x > 0) wants = plots_want(ui, plan.plots.size);
-  if (plan.constants.size.x > 0) wants.stability = true;  // the gauge under dt, the zones under sliders
+  if (plan.constants.size.x > 0 || plan.podium.size.y > 0)
+    wants.stability = true;  // the gauge under dt, the zones under sliders
   return wants;
 }
 

@@ -34,8 +34,17 @@ void add_commands(const Ui& ui, std::vector<PaletteEntry>& list) {
 
 std::string progress(const Ui& ui, const Lab& lab) {
   const int done = steps_done(ui.session, lab), steps = int(lab.steps.size());
-  if (done == 0) return std::to_string(steps) + " steps";
-  return done == steps ? "done" : std::to_string(done) + " of " + std::to_string(steps);
+  if (done == steps) return "done";
+  const std::string minutes = lab.minutes > 0 ? " · " + std::to_string(lab.minutes) + " min" : "";
+  return (done == 0 ? std::to_string(steps) + " steps" : std::to_string(done) + " of " + std::to_string(steps)) +
+         minutes;
+}
+
+/// "1" of "01_hooke"; empty where the file's name begins with no number.
+std::string number_of(const Lab& lab) {
+  const std::string digits = lab.label.substr(0, lab.label.find_first_not_of("0123456789"));
+  const auto first = digits.find_first_not_of('0');
+  return first == std::string::npos ? "" : digits.substr(first);
 }
 
 std::string all_of(const Paragraphs& text) {
@@ -47,7 +56,8 @@ std::string all_of(const Paragraphs& text) {
 void add_labs(Ui& ui, std::vector<PaletteEntry>& list) {
   for (const Lab& lab : find_labs(ui.session))
     list.push_back({"Lab", lab.title, progress(ui, lab), lab.label, all_of(lab.summary),
-                    [label = lab.label](Ui& u) { begin_lab(u.session, label); }});
+                    [label = lab.label](Ui& u) { begin_lab(u.session, label); }, number_of(lab),
+                    lab.summary.empty() ? "" : lab.summary.front()});
 }
 
 void add_presets(std::vector<PaletteEntry>& list, const std::filesystem::path& file, bool shipped) {
@@ -120,16 +130,29 @@ void add_colors(const Ui& ui, std::vector<PaletteEntry>& list) {
 }
 
 /// The kind of thing stands before its name, unless all are of one.
+/// With what a lab is for under its title.
+float row_height(const Ui& ui, const PaletteEntry& entry, float width) {
+  const float title = ui.theme.px(28);
+  if (!ui.palette.labs || entry.purpose.empty()) return title;
+  const ImFont& small = *ui.fonts.small;
+  const std::string purpose = in_lines(small, entry.purpose, width - ui.theme.px(26 + 20));
+  return title + small.CalcTextSizeA(small.FontSize, 1e9f, 0, purpose.c_str()).y + ui.theme.px(8);
+}
+
 void palette_row(Ui& ui, const PaletteEntry& entry, bool chosen, float width) {
   const Tokens& c = ui.theme.colors;
-  const float height = ui.theme.px(28), padding = ui.theme.px(10), group = ui.palette.labs ? 0 : ui.theme.px(84);
-  const ImVec2 lo = ImGui::GetItemRectMin(), hi{lo.x + width, lo.y + height};
+  const bool labs = ui.palette.labs;
+  const float height = ui.theme.px(28), padding = ui.theme.px(10), group = ui.theme.px(labs ? 26 : 84);
+  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (chosen) draw.AddRectFilled(lo, hi, mixed(c.field, c.accent, 0.3f), ui.theme.px(5));
   const float baseline = baseline_at(ui.fonts, lo.y + height / 2);
   const ImFont &text = *ui.fonts.text, &small = *ui.fonts.small;
   const float keys = text_width(small, entry.keys), right = hi.x - padding - keys;
-  if (group > 0) draw_on_baseline(draw, small, {lo.x + padding, baseline}, c.quiet, entry.group);
+  draw_on_baseline(draw, small, {lo.x + padding, baseline}, c.quiet, labs ? entry.number : entry.group);
+  if (labs)
+    draw_text(draw, small, {lo.x + padding + group, lo.y + height}, chosen ? c.text : c.quiet,
+              in_lines(small, entry.purpose, width - group - 2 * padding));
   draw_on_baseline(draw, text, {lo.x + padding + group, baseline}, c.text,
                    fitted(text, entry.title, right - padding - lo.x - padding - group));
   draw_on_baseline(draw, small, {right, baseline}, chosen ? c.text : c.quiet, entry.keys);
@@ -162,7 +185,7 @@ int palette_list(Ui& ui, const std::vector<int>& found, float height, bool moved
   for (int k = 0; k < int(found.size()); ++k) {
     ImGui::PushID(k);
     const PaletteEntry& entry = palette.entries[std::size_t(found[std::size_t(k)])];
-    if (ImGui::InvisibleButton("entry", {width, ui.theme.px(28)})) clicked = found[std::size_t(k)];
+    if (ImGui::InvisibleButton("entry", {width, row_height(ui, entry, width)})) clicked = found[std::size_t(k)];
     report_control(ui, entry.group + "." + entry.title);
     const ImVec2 way = ImGui::GetIO().MouseDelta;
     if (ImGui::IsItemHovered() && (way.x != 0 || way.y != 0)) palette.selected = k;
@@ -183,7 +206,9 @@ void palette_contents(Ui& ui, float height) {
   if (palette.narrowed != palette.text) palette.narrowed = palette.text, palette.selected = 0;
   const bool moved = palette.go != 0;
   palette.selected = std::clamp(palette.selected + std::exchange(palette.go, 0), 0, std::max(int(found.size()) - 1, 0));
-  const float rows = float(std::max(int(found.size()), 1)) * ui.theme.px(30);
+  float rows = found.empty() ? ui.theme.px(30) : 0;
+  for (const int k : found)
+    rows += row_height(ui, palette.entries[std::size_t(k)], ImGui::GetContentRegionAvail().x) + ui.theme.px(2);
   const int clicked = palette_list(ui, found, std::min(height, rows), moved);
   // Enter counts once the field has been shown all that was typed before it.
   const bool enter = palette.enter && !ui.input.unread;

@@ -15,6 +15,10 @@ float lab_panel_height(const Ui& ui, float available);
 /// From this width on (pixels at scale 1) it has two columns.
 inline constexpr float lab_two_columns = 544;
 
+/// What presentation mode has in place of bars and columns, below the cloth.
+void podium(Ui& ui, const Region& region);
+float podium_height(const Ui& ui);
+
 /// All regions, with the borders between them that drag.
 void draw_layout(Ui& ui, ImVec2 window);
 /// What they want to be worked out, in a window of that size (px): by what is open and has room, drawn or not.

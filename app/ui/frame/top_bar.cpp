@@ -6,6 +6,7 @@
 #include "app/ui/constants/engine_menu.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/panels.h"
+#include "app/ui/frame/transport.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
@@ -52,6 +53,7 @@ void document_menu(Ui& ui) {
     if (ImGui::MenuItem(row_of(id).name, row_of(id).keys, is)) ui.command(id);
     report_control(ui, row_of(id).name);
   };
+  shown("present", ui.presenting);
   shown("toggle_map", ui.settings.layout.map);
   shown("toggle_inside", ui.settings.layout.inside);
   if (ImGui::MenuItem("Hints", nullptr, ui.settings.layout.status))
@@ -91,21 +93,8 @@ float document_name(Ui& ui, float x, float width) {
 }
 
 float transport(Ui& ui, float x) {
-  const float gap = ui.theme.px(6), y = bar_middle(ui, ui.theme.px(32));
-  ImGui::SetCursorScreenPos({x, y});
-  if (icon_button(ui, "restart", icon::restart, "Restart", "Restart the motion and keep the constants",
-                  "R or Backspace"))
-    ui.command("restart");
-  ImGui::SameLine(0, gap);
-  const bool playing = ui.session.pacing.playing;
-  if (icon_button(ui, "play", playing ? icon::pause : icon::play, playing ? "Pause" : "Run", playing ? "Pause" : "Run",
-                  "Space", playing))
-    ui.command("toggle_play");
-  ImGui::SameLine(0, gap);
-  if (icon_button(ui, "step", icon::step, "Step", "One step of dt, then pause",
-                  ui.slider.focused != 0 ? "O (→ moves the slider until Esc)" : "→ or O"))
-    ui.command("step");
-  const ImVec2 hi = ImGui::GetItemRectMax();
+  const float y = bar_middle(ui, ui.theme.px(32));
+  const ImVec2 hi = transport_buttons(ui, {x, y});
   ui.tour.transport = {{x, y}, {hi.x, hi.y}};
   return hi.x;
 }
@@ -131,30 +120,12 @@ float reading(Ui& ui, float x, float end, const char* label, const std::string& 
   return x + width + ui.theme.px(18);
 }
 
-float speed_combo(Ui& ui, float x, float end) {
-  static constexpr double speeds[] = {0.01, 0.03, 0.1, 0.25, 0.5, 1, 2};
-  const float width = ui.theme.px(88), height = ui.theme.px(26);
-  if (x + width > end) return end;
-  ImGui::SetCursorScreenPos({x, bar_middle(ui, height)});
-  const bool slowed = ui.session.pacing.slowed != 1;
-  const std::string hand = slowed ? std::string(icon_or(ui.fonts, icon::hand, "hand")) + " " : "";
-  const std::string shown = hand + short_number(ui.session.pacing.aim()) + (slowed ? "×" : " ×");
-  ImGui::PushStyleColor(ImGuiCol_Text, slowed ? ui.theme.colors.accent : ui.theme.colors.text);
-  const bool open = begin_combo(ui, "##speed", shown.c_str(), width);
-  ImGui::PopStyleColor();
-  if (open) {
-    for (double speed : speeds)
-      if (ImGui::Selectable((short_number(speed) + " ×").c_str(), speed == ui.session.pacing.speed)) {
-        ui.session.pacing.speed = speed;
-        ui.session.pacing.restart_measure();
-      }
-    end_combo();
-  } else {
-    tooltip(
-        ui, gui::item_id(),
-        slowed ? "Slow motion while you grab or cut" : "Speed: simulated time to real time. Below 1 is slow motion.");
-  }
-  return x + width + ui.theme.px(18);
+/// Left out where it has no room, as readings are.
+float speed(Ui& ui, float x, float end) {
+  const ImVec2 size = speed_control_size(ui, end);
+  if (x + size.x > end) return end;
+  speed_control(ui, {x, bar_middle(ui, size.y)}, end);
+  return x + size.x + ui.theme.px(18);
 }
 
 /// How far a step is that takes long; empty where none does.
@@ -174,7 +145,7 @@ void readings(Ui& ui, float x, float end) {
   char text[64];
   const auto time = [&](double t) { return "t = " + time_number(t, ui.session.preset().dt) + " s"; };
   x = reading(ui, x, end, "", time(ui.session.simulation->time()), time(10).c_str(), c.text, "Simulated time");
-  x = speed_combo(ui, x, end);
+  x = speed(ui, x, end);
   const double part = ui.session.pacing.aim() > 0 ? ui.session.pacing.reached() / ui.session.pacing.aim() : 0;
   std::snprintf(text, sizeof text, "%.0f %%", 100 * ui.session.pacing.reached());
   const bool running = ui.session.pacing.playing && !ui.session.simulation->divergence() && !ui.session.asleep();
@@ -199,16 +170,19 @@ void readings(Ui& ui, float x, float end) {
 
 void window_buttons(Ui& ui, float x) {
   ImGui::SetCursorScreenPos({x, bar_middle(ui, ui.theme.px(32))});
-  if (icon_button(ui, "labs", icon::labs, "Labs", "Labs: predict, try, and let the program check", "Ctrl+L",
-                  ui.session.labs.run.has_value()))
+  if (icon_button(
+          ui, {"labs", icon::labs, "Labs", "Labs: predict, try it, check", "Ctrl+L", ui.session.labs.run.has_value()}))
     ui.command("choose_lab");
   const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   ui.tour.labs = {{lo.x, lo.y}, {hi.x, hi.y}};
   ImGui::SameLine(0, ui.theme.px(6));
-  if (icon_button(ui, "screen", ui.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"))
+  if (icon_button(ui, {"present", icon::screen, "Present", "Presentation mode: a large cloth, few controls", "F5"}))
+    ui.command("present");
+  ImGui::SameLine(0, ui.theme.px(6));
+  if (icon_button(ui, {"screen", ui.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"}))
     ui.command("full_screen");
   ImGui::SameLine(0, ui.theme.px(6));
-  if (icon_button(ui, "help", icon::help, "Help", "Mouse and keys", "F1", ui.help)) ui.command("toggle_help");
+  if (icon_button(ui, {"help", icon::help, "Help", "Mouse and keys", "F1", ui.help})) ui.command("toggle_help");
 }
 
 }  // namespace
@@ -221,7 +195,7 @@ void top_bar(Ui& ui, const Region& region) {
   const ImFont& brand = *ui.fonts.brand;
   // In a narrow window, or with large text, the transport keeps its place to the last.
   float room = region.size.x - 2 * margin - 3 * button - 2 * gap - 2 * ui.theme.px(18);
-  const float least_name = ui.theme.px(72), buttons = 3 * button + 2 * gap;
+  const float least_name = ui.theme.px(72), buttons = 4 * button + 3 * gap;
   const bool with_buttons = room > buttons + least_name, with_name = room > least_name;
   if (with_buttons) room -= buttons;
   const float title = text_width(brand, "Tyglab") + ui.theme.px(14);

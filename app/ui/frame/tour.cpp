@@ -43,7 +43,8 @@ constexpr std::array<Stop, 5> stops{
       cloth_place},
      {"The constants",
       "Every constant of the model has a slider; double-click its number to type one. The strip under a slider says "
-      "where the chosen method is stable: green is safe, amber near the limit, red and hatched unstable.",
+      "where the chosen method is stable in any shape of the cloth (green), where that depends on the shape (amber, "
+      "dashed), and where it is unstable in every shape (red, hatched).",
       constants_place},
      {"Run, step, restart",
       "Space runs and pauses. → makes one step of dt, R restarts with the constants as they are. When a motion "

@@ -24,6 +24,7 @@ void Ui::follow() {
     settings.layout.folded.erase(card_name::copies);
     if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;
   }
+  if (counts.lab_steps != seen_.lab_steps && session.labs.run) show_for_lab(*this, session.labs.run->now().show);
   seen_ = counts;
   if (const auto question = std::exchange(session.question, std::nullopt)) {
     const bool unsaved = question->about == Question::About::unsaved_changes;

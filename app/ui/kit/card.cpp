@@ -18,7 +18,7 @@ float card_width(const UiContext& ui) {
   return ImGui::GetWindowWidth() - 2 * ui.theme.px(padding_at_1);
 }
 
-bool begin_card(UiContext& ui, const char* heading, float height) {
+bool begin_card(UiContext& ui, const char* heading, float height, std::string_view note) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::GetWindowDrawList()->AddRectFilled(lo, {lo.x + width, lo.y + height}, ui.theme.colors.panel, ui.theme.px(8));
@@ -28,7 +28,7 @@ bool begin_card(UiContext& ui, const char* heading, float height) {
   ImGui::Indent(ui.theme.px(padding_at_1));
   const float row_width = ui.row_width;
   ui.row_width = card_width(ui);  // a section is as wide as its panel's rows
-  const bool open = section(ui, heading);
+  const bool open = section(ui, heading, note);
   ui.row_width = row_width;
   if (open) ImGui::Dummy({0, ui.theme.px(top_at_1)});
   return open;

@@ -54,11 +54,13 @@ inline constexpr const char* labs = "\xEF\x86\x9D";   // a student's cap
 inline constexpr const char* check = "\xEF\x80\x8C";  // a tick
 inline constexpr const char* picture = "\xEF\x80\xBE";
 inline constexpr const char* circle = "\xEF\x84\x8C";
+inline constexpr const char* screen = "\xEF\x84\x88";  // a display
 inline constexpr const char* unknown = "\xEF\x84\xA8";
 /// Every icon above: only these are drawn into the atlas.
-inline constexpr const char* all[] = {
-    play,  pause, step, restart, undo, redo,  scissors, expand, compress, help, open,  save,    download, warning,
-    error, info,  down, right,   plus, trash, close,    hand,   move,     labs, check, picture, circle,   unknown};
+inline constexpr const char* all[] = {play,     pause,   step,   restart, undo,     redo,    scissors, expand,
+                                      compress, help,    open,   save,    download, warning, error,    info,
+                                      down,     right,   plus,   trash,   close,    hand,    move,     labs,
+                                      check,    picture, circle, screen,  unknown};
 }  // namespace icon
 
 /// The icon, or the word where the icon font is missing.

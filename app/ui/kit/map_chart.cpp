@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/base/numbers.h"
 #include "app/render/color_map.h"
 #include "core/integrators/scheme.h"
+#include "core/theory/zones.h"
 
 namespace tyglab {
 namespace {
@@ -19,6 +21,20 @@ double part_of(double share) {
 
 ImU32 color_of(const Tokens& c, const MapCell& cell) {
   return cell.diverged ? mixed(c.ground, c.danger, 0.75f) : magnitude_color(part_of(cell.share));
+}
+
+/// Where each zone ends, by theory; what lies between the lines depends on the shape.
+void add_borders(Chart& chart, const Tokens& c, Kind kind, const MapBoundary& boundary) {
+  if (boundary.dt.empty()) return;
+  const auto name = [&](Zone zone, const char* side) { return std::string(zone_name(zone, kind)) + " " + side; };
+  chart.series.push_back(
+      {name(Zone::stable, "below"), {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
+  if (kind == Kind::one_weight) return;
+  ChartSeries every{name(Zone::unstable, "above"), {c.text, LineStyle::dashed, 2}, true, 0, {}, {}};
+  for (std::size_t n = 0; n < boundary.every.size(); ++n)
+    if (std::isfinite(boundary.every[n]))
+      every.x.push_back(boundary.stiffness[n]), every.y.push_back(boundary.every[n]);
+  if (!every.x.empty()) chart.series.push_back(std::move(every));
 }
 
 /// A name in the legend with a disc of its color, and nothing in the plot.
@@ -37,9 +53,7 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
   for (const MapCell& cell : cells)
     chart.cells.push_back({grid.stiffness(cell.column), grid.stiffness(cell.column + 1), grid.dt(cell.row),
                            grid.dt(cell.row + 1), color_of(c, cell), cell.diverged});
-  if (!boundary.dt.empty())
-    chart.series.push_back(
-        {"stable dt, by theory", {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
+  add_borders(chart, c, preset.kind, boundary);
   chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
   chart.series.push_back(key("energy error 1e-6", magnitude_color(part_of(1e-6))));

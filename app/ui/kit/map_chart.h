@@ -8,8 +8,8 @@
 
 namespace tyglab {
 
-/// Cells colored by the energy added or removed, or hatched where it diverged; theory's boundary as a line;
-/// the preset's own place as a disc.
+/// Cells colored by the energy added or removed, or hatched where it diverged; theory's borders between
+/// its zones as lines; the preset's own place as a disc.
 Chart map_chart(const Tokens& colors, const Preset& preset, const MapGrid& grid, const MapBoundary& boundary,
                 std::span<const MapCell> cells);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <variant>
 
 #include "app/base/numbers.h"
 #include "app/ui/kit/imgui_compat.h"
@@ -15,13 +16,13 @@ namespace {
 
 constexpr double zero_stretch = 0.04;      ///< of a logarithmic slider that starts at 0
 constexpr double double_click_time = 0.6;  ///< s
-constexpr double decades_below = 1e3;      ///< its smallest value but 0 is max over this
+constexpr double decades_below = 1e3;      ///< its smallest value but 0 is max over this, at first
 
 bool has_zero(const SliderScale& s) {
   return s.scale == Scale::logarithmic && s.min <= 0;
 }
 double lowest(const SliderScale& s) {
-  return has_zero(s) ? s.max / decades_below : s.min;
+  return !has_zero(s) ? s.min : s.low > 0 ? s.low : s.max / decades_below;
 }
 
 /// Places are given to the digits that a pixel can tell apart, never to seventeen.
@@ -216,6 +217,29 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
 }
 
 }  // namespace
+
+SliderScale slider_scale(const PresetRow& row, double preset_value) {
+  const SliderRange range = slider_range(row, preset_value);
+  SliderScale scale{range.min, range.max, row.scale, std::holds_alternative<int Preset::*>(row.field)};
+  if (has_zero(scale)) scale.low = lowest(scale);
+  return scale;
+}
+
+SliderScale grown(SliderScale s, const PresetRow& row, double value) {
+  if (!(value >= row.min && value <= row.max)) return s;
+  if (s.scale == Scale::linear) {
+    while (value > s.max) s.max = std::min(s.max + (s.max - s.min), row.max);
+    while (value < s.min) s.min = std::max(s.min - (s.max - s.min), row.min);
+    return s;
+  }
+  constexpr double decade = 10;
+  while (value > s.max) s.max = std::min(decade * s.max, row.max);
+  if (value <= 0) return s;
+  double low = lowest(s);
+  while (value < low) low = std::max(low / decade, has_zero(s) ? 0.0 : row.min);
+  (has_zero(s) ? s.low : s.min) = low;
+  return s;
+}
 
 double slider_position(const SliderScale& s, double value) {
   if (s.max <= s.min) return 0;

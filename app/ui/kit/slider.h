@@ -11,7 +11,13 @@ struct SliderScale {
   double min, max;
   Scale scale = Scale::linear;
   bool integer = false;
+  double low = 0;  ///< of a logarithmic one that starts at 0: the least other value
 };
+/// The slider of a constant whose preset has that value.
+SliderScale slider_scale(const PresetRow& row, double preset_value);
+/// The same scale, longer at the one side on which `value` lies beyond it, by whole decades (a linear one doubles), but
+/// within the row's limits: what stands at the other end stays there, and 0 at the left.
+SliderScale grown(SliderScale scale, const PresetRow& row, double value);
 /// Place of a value on the slider, 0 to 1.
 double slider_position(const SliderScale& scale, double value);
 /// The value there, rounded to that many significant digits.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,6 +18,12 @@
 #include "app/ui/kit/theme.h"
 
 namespace tyglab {
+
+/// How far a constant's value has gone since it was last the preset's: its slider spans that too.
+struct SliderReach {
+  double preset;  ///< the preset's value; with another one it does not count any more
+  double least, most;
+};
 
 /// The slider or value in use.
 struct SliderState {
@@ -33,6 +40,7 @@ struct SliderState {
   double reset_time = -1;                                ///< s
   std::vector<KeyEvent> keys;                            ///< of this frame, for the focused one
   int order = 0, focused_order = -1, wanted_order = -1;  ///< position in the panel, for Tab and up and down
+  std::map<std::string, SliderReach> reaches;  ///< by the constant's key; of those that went beyond their usual span
   std::string wanted_key;  ///< of the constant whose slider is to take the focus when it is drawn next
 };
 

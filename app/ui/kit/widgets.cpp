@@ -130,23 +130,22 @@ void tooltip(UiContext& ui, ImGuiID id, std::string_view text, std::string_view 
   end_tooltip(ui);
 }
 
-bool icon_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip,
-                 std::string_view keys, bool lit) {
+bool icon_button(UiContext& ui, const IconButton& button) {
   const Tokens& c = ui.theme.colors;
-  const float side = ui.theme.px(32);
-  const char* text = icon_or(ui.fonts, glyph, word);
+  const float side = ui.theme.px(button.side);
+  const char* text = icon_or(ui.fonts, button.glyph, button.word);
   const float width = ui.fonts.icons ? side : std::max(side, text_width(*ui.fonts.text, text) + ui.theme.px(12));
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::InvisibleButton(id, {width, side});
-  report_control(ui, id);
-  const ImU32 ground = lit                      ? c.accent
+  const bool pressed = ImGui::InvisibleButton(button.id, {width, side});
+  report_control(ui, button.id);
+  const ImU32 ground = button.lit               ? c.accent
                        : ImGui::IsItemActive()  ? c.line
                        : ImGui::IsItemHovered() ? c.field_hover
                                                 : c.field;
   const ImVec2 hi{lo.x + width, lo.y + side};
   ImGui::GetWindowDrawList()->AddRectFilled(lo, hi, ground, ui.theme.px(5));
-  centered_text(ui, *ui.fonts.text, lo, hi, lit ? c.on_accent : c.text, text);
-  tooltip(ui, gui::item_id(), tip, keys);
+  centered_text(ui, *ui.fonts.text, lo, hi, button.lit ? c.on_accent : c.text, text);
+  tooltip(ui, gui::item_id(), button.tip, button.keys);
   return pressed;
 }
 
@@ -236,7 +235,7 @@ bool check(UiContext& ui, const char* label, bool value) {
   return clicked;
 }
 
-bool section(UiContext& ui, const char* name) {
+bool section(UiContext& ui, const char* name, std::string_view note) {
   const Tokens& c = ui.theme.colors;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   auto& folded = ui.settings.layout.folded;
@@ -252,8 +251,14 @@ bool section(UiContext& ui, const char* name) {
   const ImFont& font = *ui.fonts.small;
   const float top = std::round(lo.y + (height - font.FontSize) / 2), middle = std::round(lo.y + height / 2);
   draw_text(draw, font, {lo.x, top}, color, capitals);
-  const float from = lo.x + text_width(font, capitals) + ui.theme.px(10), arrow = ui.theme.px(18);
-  draw.AddLine({from, middle}, {lo.x + width - arrow, middle}, c.line);
+  const float arrow = ui.theme.px(18);
+  float from = lo.x + text_width(font, capitals) + ui.theme.px(10);
+  if (open && !note.empty()) {
+    const std::string shown = fitted(font, std::string(note), lo.x + width - arrow - from);
+    draw_text(draw, font, {from, top}, ui.theme.colors.text, shown);
+    from += text_width(font, shown) + ui.theme.px(10);
+  }
+  if (from < lo.x + width - arrow) draw.AddLine({from, middle}, {lo.x + width - arrow, middle}, c.line);
   const float x = lo.x + width - ui.theme.px(7), r = ui.theme.px(3);
   if (open) {
     draw.AddTriangleFilled({x - r, middle - r * 0.6f}, {x + r, middle - r * 0.6f}, {x, middle + r * 0.8f}, color);

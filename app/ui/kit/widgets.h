@@ -23,8 +23,13 @@ void end_tooltip(UiContext& ui);
 void wrapped(UiContext& ui, std::string_view text, ImU32 color);
 
 /// A square button with an icon (or a word where the icon font is missing).
-bool icon_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip,
-                 std::string_view keys = {}, bool lit = false);
+struct IconButton {
+  const char *id, *glyph, *word;
+  std::string_view tip, keys = {};
+  bool lit = false;
+  float side = 32;  ///< at scale 1
+};
+bool icon_button(UiContext& ui, const IconButton& button);
 /// A button with words; `strong` fills it with the accent.
 bool text_button(UiContext& ui, const char* label, bool strong = false, bool enabled = true);
 /// A quiet button without a ground: an icon that shows itself under the pointer.
@@ -39,8 +44,9 @@ ImVec2 segments_size(const UiContext& ui, const char* const* labels, int count, 
 /// A check box of the house's look. Returns whether it was clicked.
 bool check(UiContext& ui, const char* label, bool value);
 
-/// Head of a section: small capitals and a line; a click folds it. Returns whether it is open.
-bool section(UiContext& ui, const char* name);
+/// Head of a section: small capitals, what is to be noted of it, and a line; a click folds it. Returns whether it is
+/// open.
+bool section(UiContext& ui, const char* name, std::string_view note = {});
 
 /// A card of lines under a heading that folds it. Heights at scale 1.
 namespace card {
@@ -48,8 +54,9 @@ inline constexpr float line = 19, head = 36, foot = 10;
 }
 /// Its height, px, with that much (at scale 1) under its heading, or folded.
 float card_height(const UiContext& ui, const char* heading, float content);
-/// Begins a card as wide as its region; returns whether it is open. end_card in any case.
-bool begin_card(UiContext& ui, const char* heading, float height);
+/// Begins a card as wide as its region; returns whether it is open. end_card in any case. The note stands beside the
+/// heading while it is.
+bool begin_card(UiContext& ui, const char* heading, float height, std::string_view note = {});
 void end_card(UiContext& ui);
 /// Width of what stands in a card that has begun, px.
 float card_width(const UiContext& ui);

@@ -35,7 +35,7 @@ const Advice& advice_for(const Preset& then, Ui& ui) {
 
 /// What it was, and the constants that decided it: they may be others by now.
 std::string what_happened(const Divergence& d, const Preset& then, double limit) {
-  const char* unit = d.quantity == "velocity" ? "m/s" : d.quantity == "unexplained energy" ? "J" : "m";
+  const char* unit = d.quantity == "velocity" ? "m/s" : "m";
   char text[256];
   std::snprintf(text, sizeof text, "At t = %s s (step %lld), %s: %s = %s %s.", time_number(d.t, then.dt).c_str(),
                 static_cast<long long>(d.step), d.where().c_str(), d.quantity.c_str(), short_number(d.value).c_str(),
@@ -46,7 +46,7 @@ std::string what_happened(const Divergence& d, const Preset& then, double limit)
                     " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
   if (limit > 0 && std::isfinite(limit))
-    all += ", " + short_number(then.dt / limit, 2) + " times the largest stable dt";
+    all += ", " + short_number(then.dt / limit, 2) + (cloth ? " times the worst-case limit" : " times the limit");
   return all + ".";
 }
 
@@ -87,7 +87,8 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
   if (advice.suggested_fix && advice.suggested_fix->integrator != now.integrator)
     retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what linear theory advises");
   if (advice.slower)
-    retry("dt = " + short_number(advice.slower->dt) + " s", *advice.slower, "0.9 of dt_crit for this method");
+    retry("dt = " + short_number(advice.slower->dt) + " s", *advice.slower,
+          "0.9 of the worst-case limit of this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";
@@ -99,7 +100,8 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
 /// advises. Once constants have changed, to try them.
 std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   std::vector<Way> ways;
-  if (const Preset* before = ui.session.history.last(); before != nullptr && !same_model(*before, ui.session.preset()))
+  if (const HistoryEntry* last = ui.session.history.next(true);
+      last != nullptr && !same_model(last->constants, ui.session.preset()))
     ways.push_back({"Undo and restart", "Undoes the last change of constants and restarts", "Ctrl+Z, then R",
                     [](Ui& u) { u.command("undo_and_restart"); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
@@ -112,6 +114,10 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
     return ways;
   }
   if (!advice.springs_too_weak) add_retries(ui, advice, past, ways);
+  if (nothing_to_replay(ui.session).empty())
+    ways.push_back({"Replay slowly",
+                    "The last 50 steps in some seconds, colored by strain; what breaks first is ringed", "",
+                    [](Ui& u) { u.command("replay"); }});
   if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;

@@ -36,6 +36,21 @@ void spring_arrows(Ui& ui, ImDrawList& draw, ImVec2 from) {
 
 }  // namespace
 
+void divergence_mark(Ui& ui, ImDrawList& draw) {
+  const Session& session = ui.session;
+  const auto& now = session.simulation->divergence();
+  const Divergence* of = session.replay ? &session.replay->of : now ? &*now : nullptr;
+  if (of == nullptr || session.preset().kind != Kind::cloth) return;
+  const Lattice& lattice = session.simulation->lattice();
+  if (!lattice.contains(of->i, of->j) || !lattice.contains(of->i + of->di, of->j + of->dj)) return;
+  const auto from = particle_on_screen(ui, 0, {of->i, of->j});
+  const auto to = particle_on_screen(ui, 0, {of->i + of->di, of->j + of->dj});
+  if (!from || !to) return;
+  const ImVec2 middle{(from->x + to->x) / 2, (from->y + to->y) / 2};
+  const float half = std::hypot(to->x - from->x, to->y - from->y) / 2 / ui.theme.scale;
+  ring(ui, draw, middle, std::clamp(half + 8, 11.f, 40.f), ui.theme.colors.danger, 3);
+}
+
 void picked_overlay(Ui& ui, ImDrawList& draw) {
   if (!ui.session.picked || ui.session.preset().kind != Kind::cloth) return;
   for (int tile = 0; tile < ui.session.copies.tiles(); ++tile) {

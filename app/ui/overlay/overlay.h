@@ -33,6 +33,8 @@ void particle_arrows(Ui& ui, ImDrawList& draw, int tile, ImVec2 from);
 void wind_overlay(Ui& ui, ImDrawList& draw);
 /// The picked particle in every picture, with its arrows.
 void picked_overlay(Ui& ui, ImDrawList& draw);
+/// A ring round what diverges first: while its last steps are replayed, and once it has.
+void divergence_mark(Ui& ui, ImDrawList& draw);
 /// The pointer with its tool, and the particle that it would take.
 void pointer_overlay(Ui& ui, ImDrawList& draw);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.

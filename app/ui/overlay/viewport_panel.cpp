@@ -96,7 +96,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   bare ? ui.placing.back_to("legend") : ui.placing.begin(ui.theme.px(6));
   draw.ChannelsSplit(count);
   draw.ChannelsSetCurrent(fixed);
-  if (!bare && cloth) view_buttons(ui, region);
+  if (!bare && cloth && !ui.presenting) view_buttons(ui, region);
   cloth_names(ui, draw);
   if (!bare) {
     arrow_scales(ui, draw);
@@ -112,7 +112,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   }
   color_legend(ui);
   draw.ChannelsSetCurrent(arrows);
-  if (!bare) wind_overlay(ui, draw), picked_overlay(ui, draw);
+  if (!bare) wind_overlay(ui, draw), picked_overlay(ui, draw), divergence_mark(ui, draw);
   draw.ChannelsMerge();
 }
 
@@ -122,12 +122,13 @@ void viewport_panel(Ui& ui, const Region& region) {
   ui.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}};
   // Buttons stand over a picture, but above several, whose tops they would cover, and above a low one, which they would
   // cover too much of, unless it would become too small.
-  const bool low = ui.session.requested_preset().kind == Kind::cloth && region.size.y < ui.theme.px(low_picture) &&
+  const bool buttons = ui.session.requested_preset().kind == Kind::cloth && !ui.presenting;
+  const bool low = buttons && region.size.y < ui.theme.px(low_picture) &&
                    region.size.y >= ui.theme.px(least_picture + buttons_above);
-  const bool above = ui.session.copies.tiles() > 1 || low;
+  const bool above = !ui.presenting && (ui.session.copies.tiles() > 1 || low);
   if (above) ui.viewport.box.lo.y += ui.theme.px(buttons_above);
-  ui.viewport.buttons = above || ui.session.requested_preset().kind != Kind::cloth ? 0 : ui.theme.px(buttons_above);
-  ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above ? 12 : 52);
+  ui.viewport.buttons = above || !buttons ? 0 : ui.theme.px(buttons_above);
+  ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.divide(ui.session.copies.tiles());
   ui.viewport.covers.clear();
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();

@@ -20,6 +20,9 @@ namespace tyglab {
 struct CommandRow;
 struct Ui;
 
+/// What the card Accuracy shows: error over cost, the order of convergence, or settings for an error.
+enum class AccuracySide { errors, convergence, settings };
+
 /// The column of plots and cards.
 struct Plots {
   bool log = false;
@@ -30,7 +33,8 @@ struct Plots {
   float width = 0;                 ///< of a card, pixels
   std::array<bool, Recorded::forces_count> hidden{true, false, false, false, false, true, true};
   std::array<bool, 4> figure_hidden{};
-  bool convergence = false;  ///< the card Accuracy shows the order of convergence, in place of error over cost
+  AccuracySide accuracy = AccuracySide::errors;
+  char target[32] = "1e-4";  ///< of the settings to be found: the largest error, m, as it is typed
 };
 
 /// A question or a file dialog over everything else.
@@ -75,6 +79,7 @@ struct PaletteEntry {
   std::string also;  ///< words under which it is found too
   std::string help;  ///< sentences under which it is found after all others
   std::function<void(Ui&)> act;
+  std::string number = {}, purpose = {};  ///< of a lab: its place in the list, and what it is for
 };
 
 /// Ctrl+P: a list of all that can be done, narrowed by what is typed.
@@ -120,7 +125,9 @@ struct Ui : UiContext {
   Dialog dialog;
   Advice advice;
   bool help = false;
-  bool panels = true;                                    ///< Tab hides them all
+  bool panels = true;          ///< Tab hides them all
+  bool presenting = false;     ///< a large cloth over a few large controls, and one card, in place of the panels
+  bool presented_card = true;  ///< whether that card is there
   std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are checked, at the picked particle

@@ -191,6 +191,7 @@ bool Band<R, Present>::touches(int i) const {
 template <class R, unsigned Present>
 void Band<R, Present>::collide_row(int i) {
   const double scale = cloth_.velocity_scale();
+  const ContactRule rule{cloth_.dt, cloth_.preset.g, double(std::numeric_limits<R>::epsilon())};
   int next_fixed = cloth_.fixed_begin[i];
   for (int j = 0; j < cloth_.lattice.columns; ++j) {
     if (has(part::pins) && next_fixed < cloth_.fixed_begin[i + 1] && cloth_.fixed_columns[next_fixed] == j) {
@@ -206,7 +207,7 @@ void Band<R, Present>::collide_row(int i) {
     p.v /= scale;
     const ContactStep freely = p;
     collided_ = true;
-    if (!collide(cloth_.preset.bodies, cloth_.dt, double(std::numeric_limits<R>::epsilon()), p)) ++left_inside_;
+    if (!collide(cloth_.preset.bodies, rule, p)) ++left_inside_;
     for (int c = 0; c < 3; ++c) {
       *x[c] = R(p.x[c]), *v[c] = R(p.v[c] * scale);
       cloth_.row(cloth_.seen_velocity, i, c)[j] = *v[c];

@@ -99,6 +99,7 @@ void CpuEngine<R, Present>::take_next_dt() {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_interval(const Tears& tears) {
   left_of_dt_ = cloth_.preset.dt;
+  for (const Contact& contact : inner_contacts_) inner_contact_of_[std::size_t(contact.particle)] = -1;
   inner_contacts_.clear();
   if (!control_.begun()) begin_control(tears);
   take_next_dt();
@@ -137,13 +138,27 @@ void CpuEngine<R, Present>::judge_inner_step() {
   if (!accepted_) take_next_dt();
 }
 
+/// One entry a particle, however many inner steps touch a body.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::add_inner_contacts() {
+  inner_contact_of_.resize(std::size_t(cloth_.lattice.size()), -1);
+  for (const auto& band : bands())
+    for (const Contact& contact : band->contacts()) {
+      int& place = inner_contact_of_[std::size_t(contact.particle)];
+      if (place < 0) {
+        place = int(inner_contacts_.size());
+        inner_contacts_.push_back({contact.particle, glm::dvec3(0), glm::dvec3(0)});
+      }
+      Contact& sum = inner_contacts_[std::size_t(place)];
+      sum.x += contact.x, sum.v += contact.v;
+    }
+}
+
 /// What the end of a step asks for; then the next inner step, or the end of dt.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   const int torn = tears.torn_count();
-  if (cloth_.notes_contacts)
-    for (const auto& band : bands())
-      inner_contacts_.insert(inner_contacts_.end(), band->contacts().begin(), band->contacts().end());
+  if (cloth_.notes_contacts) add_inner_contacts();
   const StepsEnd end = guard_.judge(*this, 1, tears, fault).end;
   if (end != StepsEnd::complete) made_.end = end;
   left_of_dt_ = end == StepsEnd::fault ? 0 : left_of_dt_ - cloth_.dt;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <new>
+#include <utility>
 
 #include "core/cloth/start.h"
 #include "core/model/changes.h"
@@ -48,13 +50,12 @@ constexpr int lines_apart = 23;  // between vectors' places in their pages, of 6
 
 template <class R, unsigned Present>
 CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads)
-    : governor_(useful_threads(lattice, threads)) {
+    : team_(std::make_unique<Team>(useful_threads(lattice, threads))), governor_(team_->capacity()) {
   cloth_.preset = preset;
   cloth_.lattice = lattice;
   cloth_.stride = row_stride<R>(lattice.columns);
   cloth_.sweeps = pair_sweeps<R>();
   cloth_.fixed_begin.assign(std::size_t(lattice.rows) + 1, 0);
-  team_ = std::make_unique<Team>(governor_.threads());
   for (int n = 0; n < team_->size(); ++n)
     bands_.push_back(std::make_unique<Band<R, Present>>(cloth_, band_begin(n), band_begin(n + 1)));
   progress_ = std::vector<Progress>(std::size_t(team_->size()));
@@ -112,15 +113,38 @@ void CpuEngine<R, Present>::resolve() {
       lead += lines_apart;
     }
   }
+  start_ = scheme_->start.empty() ? ResolvedSweep() : resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
+  make_waves();  // the last that takes memory
   cloth_.features = (cloth_.preset.k_b > 0 ? bending : 0u) | (cloth_.preset.k_d > 0 ? damping : 0u) |
                     (cloth_.preset.W != glm::dvec3(0) ? wind : 0u);
-  make_waves();
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,
                     .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_)});
   guard_.set_scene(p, cloth_.lattice, cloth_.held);
   guard_.invalidate();
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::swap(Resolved& other) {
+  std::swap(cloth_.dt, other.dt), sweeps_.swap(other.sweeps), std::swap(start_, other.start);
+  std::swap(estimate_, other.estimate);
+  next_stage_.swap(other.next_stage), accepting_.swap(other.accepting);
+}
+
+template <class R, unsigned Present>
+Preset CpuEngine<R, Present>::exchange(const Preset& preset) {
+  Preset other = preset;
+  Resolved before;
+  swap(before), std::swap(cloth_.preset, other);
+  try {
+    resolve();
+  } catch (const std::bad_alloc&) {
+    // What else it has changed says of both constants the same, or has only become larger.
+    swap(before), std::swap(cloth_.preset, other);
+    throw;
+  }
+  return other;
 }
 
 template <class R, unsigned Present>
@@ -161,9 +185,9 @@ void CpuEngine<R, Present>::make_waves() {
   wave_steps_ = steps_of_wave(team_->size());
   int most = 0;
   for (int threads = 1; threads <= team_->capacity(); ++threads) most = std::max(most, steps_of_wave(threads));
-  waves_.resize(std::size_t(most) * sweeps_.size());
-  for (auto& wave : waves_)
-    if (!wave) wave = std::make_unique<Band<R, Present>>(cloth_, 0, cloth_.lattice.rows);
+  const std::size_t wanted = std::size_t(most) * sweeps_.size();
+  waves_.reserve(wanted);
+  while (waves_.size() < wanted) waves_.push_back(std::make_unique<Band<R, Present>>(cloth_, 0, cloth_.lattice.rows));
   for (auto* list : {&bands_, &waves_})
     for (auto& band : *list) band->allocate(keeps_old_rows());
 }
@@ -178,9 +202,9 @@ bool CpuEngine<R, Present>::keeps_old_rows() const {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   const int columns = cloth_.lattice.columns;
+  rows_.resize(6 * std::size_t(team_->capacity()) * columns);
   team_->run([&](int number) {
-    Array<double> buffer(6 * std::size_t(columns));
-    const auto part = [&](int n) { return buffer.data() + std::ptrdiff_t(n) * columns; };
+    const auto part = [&](int n) { return rows_.data() + (6 * std::ptrdiff_t(number) + n) * columns; };
     const StateRow row{{part(0), part(1), part(2)}, {part(3), part(4), part(5)}};
     for (int i = band_begin(number); i < band_begin(number + 1); ++i) {
       rows(i, row);
@@ -191,49 +215,62 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
     }
   });
   guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1));
+  rows_ = Array<double>();
   if (!scheme_->start.empty()) {
     // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
-    const ResolvedSweep start = resolve(Sweep{vector_x, vector_v, 0, scheme_->start});
     team_->run([&](int number) {
-      bands_[std::size_t(number)]->copy_halo(start);
+      bands_[std::size_t(number)]->copy_halo(start_);
       team_->barrier();
-      bands_[std::size_t(number)]->sweep(start, tears, false);
+      bands_[std::size_t(number)]->sweep(start_, tears, false);
     });
   }
-  set_fixed(std::vector<int>(pinned_), cloth_.held);
+  write_fixed_velocities();
+  springs_changed_ = true;
   restart_control();
   guard_.invalidate();
 }
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears) {
-  assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision);
+  assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision &&
+         preset.integrator == cloth_.preset.integrator);
   const EffectSet changed = changes(cloth_.preset, preset);
-  if (!changed.within(motionless | Effect::start)) restart_control();  // nothing else moves a cloth that is under way
-  guard_.accept_changes(cloth_.preset, preset);
-  // What lags half a step depends on dt, and the velocity must stay.
+  // What lags half a step depends on dt, and the velocity must stay. All that takes memory comes first.
   const bool shifts = scheme_->lags && changed.touches(Effect::dt);
-  if (changed.touches(Effect::integrator) || (shifts && !scheme_->keeps_displacement)) {
-    State state;
-    read(state, tears);
-    cloth_.preset = preset;
-    resolve();
-    load(state, tears);
-    return;
-  }
-  if (shifts) {
-    // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
+  State state;
+  if (shifts && scheme_->keeps_displacement)
     accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
-    const R keep = R(preset.dt / cloth_.preset.dt), add = R(preset.dt * 0.5 * (cloth_.preset.dt - preset.dt));
+  else if (shifts)
+    read(state, tears), prepare(pinned_.size());
+  guard_.accept_changes(cloth_.preset, preset);
+  const Preset before = exchange(preset);
+  if (!changed.within(motionless | Effect::start)) restart_control();  // nothing else moves a cloth that is under way
+  if (shifts && scheme_->keeps_displacement) {
+    // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
+    const R keep = R(preset.dt / before.dt), add = R(preset.dt * 0.5 * (before.dt - preset.dt));
     const std::span<R> d = cloth_.vector(vector_v).all();
     for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
+  } else if (shifts) {
+    load(state, tears);
   }
-  cloth_.preset = preset;
-  resolve();
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::prepare(std::size_t fixed) {
+  pinned_.reserve(fixed), all_fixed_.reserve(fixed + 1), cloth_.fixed_columns.reserve(fixed + 1);
+  cloth_.fixed.reserve(std::size_t(cloth_.lattice.size()) + widest_vector);
+  guards_.reserve(std::size_t(cloth_.lattice.size()));
+  rows_.resize(6 * std::size_t(team_->capacity()) * cloth_.lattice.columns);
 }
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
+  std::vector<int>& all = all_fixed_;
+  const bool any = !pinned.empty() || held.particle >= 0;
+  const std::size_t particles = std::size_t(cloth_.lattice.size());
+  // All the memory first, so that nothing has changed where it fails.
+  pinned_.reserve(pinned.size()), all.reserve(pinned.size() + 1), cloth_.fixed_columns.reserve(pinned.size() + 1);
+  if (any) cloth_.fixed.reserve(particles + widest_vector), guards_.reserve(particles);
   // Who is let go may be inside a body.
   if (lets_go(pinned_, cloth_.held.particle, pinned, held.particle)) guard_.expect_pushes();
   pinned_.assign(pinned.begin(), pinned.end());
@@ -241,23 +278,19 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
   guard_.set_scene(cloth_.preset, cloth_.lattice, held);
   springs_changed_ = true;
   restart_control();
-  std::vector<int> all(pinned_);
-  if (held.particle >= 0) all.push_back(held.particle);
-  std::sort(all.begin(), all.end());
+  all.assign(pinned_.begin(), pinned_.end());
+  if (held.particle >= 0) all.insert(std::upper_bound(all.begin(), all.end(), held.particle), held.particle);
   cloth_.fixed_columns.clear();
   std::fill(cloth_.fixed_begin.begin(), cloth_.fixed_begin.end(), 0);
   for (const int p : all) {
-    const int i = p / cloth_.lattice.columns, j = p % cloth_.lattice.columns;
-    cloth_.fixed_columns.push_back(j);
-    ++cloth_.fixed_begin[std::size_t(i) + 1];
-    const glm::dvec3 v = p == held.particle ? held.velocity : glm::dvec3(0);
-    for (const int vector : {vector_v, seen_velocity(*scheme_)})
-      for (int c = 0; c < 3; ++c) cloth_.row(vector, i, c)[j] = R(v[c] * cloth_.velocity_scale());
+    cloth_.fixed_columns.push_back(p % cloth_.lattice.columns);
+    ++cloth_.fixed_begin[std::size_t(p / cloth_.lattice.columns) + 1];
   }
+  write_fixed_velocities();
   for (std::size_t i = 1; i < cloth_.fixed_begin.size(); ++i) cloth_.fixed_begin[i] += cloth_.fixed_begin[i - 1];
-  cloth_.fixed.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()) + widest_vector, 0);
+  cloth_.fixed.assign(all.empty() ? 0 : particles + widest_vector, 0);
   for (const int p : all) cloth_.fixed[p] = 1;
-  guards_.assign(all.empty() ? 0 : std::size_t(cloth_.lattice.size()), 0);
+  guards_.assign(all.empty() ? 0 : particles, 0);
   for (const int p : all)
     for (int di = -1; di <= 1; ++di)
       for (int dj = -1; dj <= 1; ++dj)
@@ -265,6 +298,17 @@ void CpuEngine<R, Present>::set_fixed(std::span<const int> pinned, Held held) {
             cloth_.lattice.contains(i, j))
           guards_[std::size_t(i) * cloth_.lattice.columns + j] = 1;
   guard_.invalidate();
+}
+
+/// Pinned particles rest, and the held one has the velocity of the hand.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::write_fixed_velocities() {
+  for (const int p : all_fixed_) {
+    const int i = p / cloth_.lattice.columns, j = p % cloth_.lattice.columns;
+    const glm::dvec3 v = p == cloth_.held.particle ? cloth_.held.velocity : glm::dvec3(0);
+    for (const int vector : {vector_v, seen_velocity(*scheme_)})
+      for (int c = 0; c < 3; ++c) cloth_.row(vector, i, c)[j] = R(v[c] * cloth_.velocity_scale());
+  }
 }
 
 template <class R, unsigned Present>
@@ -322,7 +366,8 @@ void CpuEngine<R, Present>::read_raw(State& state, const Tears& tears) {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read_stored(State& state) const {
   const std::size_t n = std::size_t(cloth_.lattice.size());
-  if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
+  // The last array that gets its memory: where an earlier call ran out of it, others may have theirs.
+  if (state.v.z.size() != n) state.x.resize(n), state.v.resize(n);
   const double per_dt = scheme_->keeps_displacement ? cloth_.preset.dt : 1;
   const auto copy = [&](int vector, VectorField<double>& to, double divisor) {
     Array<double>* components[] = {&to.x, &to.y, &to.z};

@@ -49,6 +49,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void load(const StateRows& rows, const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
+  void prepare(std::size_t fixed) override;
   Advance advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override { cloth_.notes_contacts = on; }
   std::vector<Contact> contacts() const override;
@@ -61,7 +62,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   int threads_at_work() const override { return team_->size(); }
   /// For tests: from now on every few steps are made by as many threads as this says, 1 … threads().
   void force_threads(std::function<int()> next) { forced_threads_ = std::move(next); }
-  SolveCounts solves() const override { return solver_.counts(); }
+  SolveCounts solves() const override { return guard_.with_steps(solver_.counts()); }
   InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
@@ -74,8 +75,20 @@ class CpuEngine final : public Engine, private GuardedSteps {
   int array_rows() const { return cloth_.lattice.rows + 3; }
   /// The first row of a thread's band; for the number after the last, the number of rows.
   int band_begin(int number) const;
+  /// What follows from the preset alone.
+  struct Resolved {
+    double dt = 0;
+    std::vector<ResolvedSweep> sweeps;
+    ResolvedSweep start;  ///< the method's own start; without assignments where it has none
+    ResolvedEstimate estimate;
+    std::vector<ResolvedSweep::ResolvedAssignment> next_stage, accepting;
+  };
+  void swap(Resolved& other);
   void resolve();
+  /// Takes other constants, but where memory fails. Returns those before.
+  Preset exchange(const Preset& preset);
   void resolve_estimate();
+  void write_fixed_velocities();
   void make_waves();
   /// How many steps that many threads can make in a wave; 0 where waves do not pay.
   int steps_of_wave(int threads) const;
@@ -104,6 +117,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void begin_control(const Tears& tears);
   void try_inner_step(int number, const Tears& tears);
   void judge_inner_step();
+  void add_inner_contacts();
   void finish_inner_step(Tears& tears, Fault& fault);
   /// Positions and vector 1 as a velocity.
   void read_stored(State& state) const;
@@ -143,6 +157,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   Cloth<R> cloth_;
   const Scheme* scheme_ = nullptr;
   std::vector<ResolvedSweep> sweeps_;
+  ResolvedSweep start_;  ///< the method's own start; without assignments where it has none
   StepControl control_, control_backup_;
   ResolvedEstimate estimate_;
   std::vector<ResolvedSweep::ResolvedAssignment> next_stage_;  ///< of an inner step, whose first a is known
@@ -153,7 +168,11 @@ class CpuEngine final : public Engine, private GuardedSteps {
   Field acceleration_;                ///< used only between steps (readouts, starts)
   std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
   std::vector<int> pinned_;
-  std::vector<Contact> inner_contacts_;  ///< of all inner steps of the last dt
+  std::vector<int> all_fixed_;  ///< the same and the held one, in rising order
+  Array<double> rows_;          ///< of load(): six for each thread; else empty
+  std::vector<Contact>
+      inner_contacts_;                 ///< sums over all inner steps of the last dt, of each particle that was stopped
+  std::vector<int> inner_contact_of_;  ///< where a particle's sum is; -1: it has none
   ImplicitSolver<R> solver_;
   Projector<R> projector_;
   int projected_torn_ = 0;

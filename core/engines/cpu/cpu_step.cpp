@@ -80,6 +80,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
   }
   if (hand && projected) result.hand_force = hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
+  result.residual = solver_.residual_left();
   return result;
 }
 
@@ -87,6 +88,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   Band<R, Present>& band = *bands_[std::size_t(number)];
   band.reset_watch();
+  if (number == 0) solver_.begin_step();
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
     if (sweep.projects) {
@@ -256,7 +258,12 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   control_ = control_backup_, knows_first_a_ = false;
   Fault known{};
   repeating_ = true;
-  run(steps, tears, known, false);
+  try {
+    run(steps, tears, known, false);
+  } catch (...) {
+    repeating_ = false;
+    throw;
+  }
   repeating_ = false;
 }
 

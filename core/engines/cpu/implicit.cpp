@@ -9,12 +9,13 @@ namespace tyglab::cpu {
 template <class R>
 void ImplicitSolver<R>::resize() {
   if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return;
-  rows_ = cloth().lattice.rows, stride_ = cloth().stride;
+  const int rows = cloth().lattice.rows, stride = cloth().stride;
   for (Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
-    field->resize(rows_ + 3, stride_);
-  blocks_.assign(std::size_t(rows_ + 2) * 6 * stride_, R(0));
-  coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), R(0));
+    field->resize(rows + 3, stride);
+  blocks_.assign(std::size_t(rows + 2) * 6 * stride, R(0));
+  coefficients_.assign(std::size_t(rows) * coefficient_pitch(stride), R(0));
+  rows_ = rows, stride_ = stride;  // now that all of the memory is there
 }
 
 template <class R>
@@ -40,7 +41,8 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   stopped_ = false;
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
-  tyglab::solve(*this, {cloth.preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), dt}, counts_);
+  const NewtonRules rules{cloth.preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), dt};
+  residual_left_ = std::max(residual_left_, tyglab::solve(*this, rules, counts_));
   return !stopped_;
 }
 
@@ -72,12 +74,6 @@ ImplicitStage::Trial ImplicitSolver<R>::try_part(double part) {
   for (std::size_t n = 0; n < v.size(); ++n) v[n] = before_.all()[n] + R(part) * step_.all()[n];
   const double norm = evaluate();
   return {norm, inner(residual_, step_)};
-}
-
-template <class R>
-void ImplicitSolver<R>::accept() {
-  const std::span<R> x = position().all(), v = velocity().all();
-  for (std::size_t n = 0; n < v.size(); ++n) v[n] += step_.all()[n], x[n] = start_x_.all()[n] + R(task_.dt) * v[n];
 }
 
 template <class R>

@@ -24,6 +24,10 @@ class ImplicitSolver final : private ImplicitStage {
     std::function<void(double part)> progress;
   };
 
+  /// A step begins, whose stages come next.
+  void begin_step() { residual_left_ = 0; }
+  /// The largest residual that a stage of the step has left, relative to its initial value; 0: all are solved.
+  double residual_left() const { return residual_left_; }
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
   /// Returns false where it was stopped; the vectors may then hold anything.
   bool solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
@@ -48,7 +52,6 @@ class ImplicitSolver final : private ImplicitStage {
   bool solve_directly() override;
   Step step() override;
   Trial try_part(double part) override;
-  void accept() override;
   bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
   void note_progress(double part) override { task_.watch->progress(part); }
 
@@ -66,6 +69,7 @@ class ImplicitSolver final : private ImplicitStage {
 
   Task task_{};
   bool stopped_ = false;
+  double residual_left_ = 0;
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs
   Field start_x_, start_v_;  ///< c_x and c_v

@@ -15,8 +15,8 @@ constexpr double softest = 1e30;                             // m/(k dt²): soft
 template <class R>
 void Projector<R>::prepare(const Cloth<R>& cloth, const Tears& tears, bool changed) {
   if (rows_ == 0) {
+    lambda_.assign(std::size_t(cloth.lattice.rows) * lambdas * cloth.stride + widest_vector / sizeof(R), R(0));
     rows_ = cloth.lattice.rows, stride_ = cloth.stride;
-    lambda_.assign(std::size_t(rows_) * lambdas * stride_ + widest_vector / sizeof(R), R(0));
     changed = true;
   }
   if (!changed) return;

@@ -1,6 +1,8 @@
 #include "core/engines/cpu/team.h"
 
 #include <cassert>
+#include <system_error>
+#include <utility>
 
 #if defined(__x86_64__) || defined(__i386__)
 #include <immintrin.h>
@@ -41,9 +43,17 @@ void Progress::wait_for(int rows) const {
     wait_for_change(rows_, now);
 }
 
-Team::Team(int capacity) : size_(capacity), starts_(std::size_t(capacity) - 1) {
-  assert(capacity >= 1);
-  for (int n = 1; n < size_; ++n) threads_.emplace_back([this, n] { serve(n); });
+// By way of the other constructor, so that threads which have been started are ended where memory fails.
+Team::Team(int most) : Team() {
+  assert(most >= 1);
+  starts_ = std::vector<Start>(std::size_t(most) - 1);
+  threads_.reserve(starts_.size());
+  try {
+    for (int n = 1; n < most; ++n) threads_.emplace_back([this, n] { serve(n); });
+  } catch (const std::system_error&) {
+    // The system gives no more threads: fewer make the same bits.
+  }
+  size_ = capacity();
 }
 
 Team::~Team() {
@@ -63,24 +73,40 @@ void Team::serve(int number) {
   for (int seen = 0;; ++seen) {
     wait_for_change(runs, seen);
     if (closing_) return;
-    (*work_)(number);
+    work(number);
     if (--working_ == 0) ++finished_, finished_.notify_all();
   }
 }
 
-void Team::run(const std::function<void(int)>& work) {
-  if (size_ == 1) return work(0);
-  work_ = &work;
+void Team::work(int number) noexcept {
+  try {
+    call_.function(call_.work, number);
+  } catch (const Failed&) {
+    // Somebody else's failure.
+  } catch (...) {
+    if (failed_.exchange(true)) return;
+    fault_ = std::current_exception();
+    ++passed_, passed_.notify_all();
+  }
+}
+
+void Team::run(const Call& call) {
+  call_ = call;
   working_ = size_ - 1;
   const int turn = finished_.load();
   for (int n = 1; n < size_; ++n) start(n);
   work(0);
   wait_for_change(finished_, turn);
+  if (!failed_) return;
+  failed_ = false, waiting_ = 0;
+  std::rethrow_exception(std::exchange(fault_, nullptr));
 }
 
 void Team::barrier() {
   if (size_ == 1) return;
   const int turn = passed_.load();
+  // Only now: who fails later lets those pass who wait for this turn.
+  if (failed_) throw Failed();
   if (waiting_.fetch_add(1) + 1 == size_) {
     waiting_ = 0;
     passed_ = turn + 1;
@@ -88,6 +114,7 @@ void Team::barrier() {
   } else {
     wait_for_change(passed_, turn);
   }
+  if (failed_) throw Failed();
 }
 
 }  // namespace tyglab::cpu

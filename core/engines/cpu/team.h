@@ -1,11 +1,11 @@
 // A team of threads that runs one function together, with a barrier. Threads sleep between runs, and while the team is
-// smaller than it may be.
+// smaller than it may be. What one of them throws ends the run of all.
 #pragma once
 
 #include <array>
 #include <atomic>
 #include <cassert>
-#include <functional>
+#include <exception>
 #include <memory>
 #include <thread>
 #include <vector>
@@ -26,8 +26,9 @@ class Progress {
 
 class alignas(64) Team {
  public:
-  /// `capacity` threads including the caller's; at least 1. All of them work until resize().
-  explicit Team(int capacity);
+  /// `most` threads including the caller's, at least 1, or as many as the system gives. All of them work until
+  /// resize(). Throws std::bad_alloc.
+  explicit Team(int most);
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
@@ -40,9 +41,15 @@ class alignas(64) Team {
     assert(1 <= size && size <= capacity());
     size_ = size;
   }
-  /// Runs work(0) here and work(1) … work(size - 1) on the others; returns when all are done.
-  void run(const std::function<void(int)>& work);
-  /// Waits until all threads have arrived. Called inside run() by all of them.
+  /// Runs work(0) here and work(1) … work(size - 1) on the others; returns when all are done. Throws what a thread has
+  /// thrown first; the others have then left their work at a barrier, and nobody may wait for a Progress.
+  template <class Work>
+  void run(const Work& work) {
+    if (size_ == 1) return work(0);
+    run({&work, [](const void* which, int number) { (*static_cast<const Work*>(which))(number); }});
+  }
+  /// Waits until all threads have arrived. Called inside run() by all of them. Throws where one never will, since its
+  /// work has thrown something.
   void barrier();
 
  private:
@@ -53,17 +60,30 @@ class alignas(64) Team {
     std::atomic<int> runs{0};
   };
 
+  /// Somebody's work, not copied, since that would take memory.
+  struct Call {
+    const void* work = nullptr;
+    void (*function)(const void* work, int number) = nullptr;
+  };
+  /// Thrown at a barrier where another thread has failed.
+  struct Failed {};
+
+  Team() = default;
+  void run(const Call& call);
   void serve(int number);
   void start(int number);
+  void work(int number) noexcept;
 
-  int size_;
-  const std::function<void(int)>* work_ = nullptr;
+  int size_ = 1;
+  Call call_;
   std::atomic<int> finished_{0};  ///< runs ended
   std::atomic<int> working_{0};   ///< workers still at the present run
   std::atomic<int> waiting_{0};   ///< in the barrier
   std::atomic<int> passed_{0};    ///< barriers passed
   std::atomic<bool> closing_{false};
-  std::vector<Start> starts_;  ///< of all but the caller
+  std::atomic<bool> failed_{false};  ///< in this run
+  std::exception_ptr fault_;         ///< what was thrown first
+  std::vector<Start> starts_;        ///< of all but the caller
   std::vector<std::thread> threads_;
 };
 

@@ -50,14 +50,14 @@ std::vector<DeviceId> ask_drivers(std::string& problem) {
   if (code == no_platform || count == 0) problem = "no OpenCL driver is installed";
   if (code != CL_SUCCESS || count == 0) return {};
   std::vector<cl_platform_id> platforms(count);
-  clGetPlatformIDs(count, platforms.data(), nullptr);
+  if (clGetPlatformIDs(count, platforms.data(), nullptr) != CL_SUCCESS) return {};
   std::vector<DeviceId> found;
   for (cl_platform_id platform : platforms) {
     cl_uint devices = 0;
     // A platform without devices says so by an error; the others still count.
     if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &devices) != CL_SUCCESS || devices == 0) continue;
     std::vector<cl_device_id> ids(devices);
-    clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, devices, ids.data(), nullptr);
+    if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, devices, ids.data(), nullptr) != CL_SUCCESS) continue;
     for (cl_device_id id : ids) found.push_back({platform, id});
   }
   if (found.empty())
@@ -82,6 +82,10 @@ OpenClDevice facts_of(const DeviceId& found) {
   facts.shared_memory = facts.processor || number_of<cl_bool>(found.id, CL_DEVICE_HOST_UNIFIED_MEMORY) != 0;
   return facts;
 }
+
+// Held while drivers are asked for their devices: pocl tells a second thread of devices that it is still starting in a
+// first one, and crashes when that asks for their names.
+std::mutex drivers_mutex;
 
 std::mutex probe_mutex;  // of what follows
 DriverProbe driver_probe;
@@ -248,10 +252,9 @@ Memory Device::in_place(void* memory, std::size_t bytes) const {
 }
 
 std::shared_ptr<Device> open_device(int number) {
-  static std::mutex mutex;
   static std::map<int, std::weak_ptr<Device>> opened;
   std::string problem;
-  const std::lock_guard lock(mutex);
+  const std::lock_guard lock(drivers_mutex);
   const std::vector<DeviceId> found = find_devices(problem);
   if (found.empty()) throw EngineError(no_device_words(problem) + " Or use the CPU engine (--engine cpu)");
   if (number >= int(found.size()))
@@ -288,6 +291,7 @@ void set_driver_probe(DriverProbe probe) {
 
 OpenClInventory opencl_devices() {
   OpenClInventory inventory;
+  const std::lock_guard lock(opencl::drivers_mutex);
   for (const auto& found : opencl::find_devices(inventory.problem))
     inventory.devices.push_back(opencl::facts_of(found));
   return inventory;

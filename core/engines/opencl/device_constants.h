@@ -25,6 +25,7 @@ struct DeviceConstants {
 template <class B>
 struct DeviceBody {
   B c[3], r, y, friction, restitution;
+  B rest_speed;
   B touch;
   std::int32_t plane, unused;
 };

@@ -55,8 +55,8 @@ bool DeviceSolver<R>::solve(const Task& task) {
   stopped_ = false;
   const int position = task.position, velocity = task.velocity;
   state_.copy(state_.vector(position), start_x_.get()), state_.copy(state_.vector(velocity), start_v_.get());
-  tyglab::solve(*this, {task.preset->iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task.h},
-                counts_);
+  const NewtonRules rules{task.preset->iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task.h};
+  residual_left_ = std::max(residual_left_, tyglab::solve(*this, rules, counts_));
   arrive();
   return !stopped_;
 }
@@ -154,11 +154,6 @@ ImplicitStage::Trial DeviceSolver<R>::try_part(double part) {
   task_.residual(state_.vector(task_.position), state_.other(task_.velocity), start_v_.get(), residual_.get());
   const Products products = inner_products(residual_.get(), step_.get());
   return {std::sqrt(products.aa), products.ab};
-}
-
-template <class R>
-void DeviceSolver<R>::accept() {
-  launch_go(1);
 }
 
 template <class R>

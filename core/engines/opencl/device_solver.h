@@ -56,6 +56,9 @@ class DeviceSolver final : private ImplicitStage {
   /// hold anything.
   bool solve(const Task& task);
   const SolveCounts& counts() const { return counts_; }
+  /// As of the CPU engine's solver.
+  void begin_step() { residual_left_ = 0; }
+  double residual_left() const { return residual_left_; }
   std::size_t bytes() const;
 
  private:
@@ -76,7 +79,6 @@ class DeviceSolver final : private ImplicitStage {
   bool solve_directly() override;
   Step step() override;
   Trial try_part(double part) override;
-  void accept() override;
   bool stops() override { return stopped_ = stopped_ || (task_.stop && task_.stop()); }
   void note_progress(double part) override { task_.progress(part); }
 
@@ -113,6 +115,7 @@ class DeviceSolver final : private ImplicitStage {
   DirectSolver direct_;
   Task task_{};
   bool stopped_ = false;
+  double residual_left_ = 0;
   bool away_ = false;  ///< a velocity is being tried
   double start_size_ = 0;
   int last_count_ = 16;  ///< iterations for the last system: about as many are likely again

@@ -130,8 +130,15 @@ void OpenClEngine<R>::upload_bodies_as() {
     const double reach = b.r + contact_tolerance(b, b.c, epsilon);
     const R touch =
         plane ? std::nextafter(R(b.y), std::numeric_limits<R>::max()) : R(reach * reach * (1 + 9 * epsilon));
-    list.push_back(
-        {{B(b.c.x), B(b.c.y), B(b.c.z)}, B(b.r), B(b.y), B(b.friction), B(b.restitution), B(touch), plane, 0});
+    list.push_back({{B(b.c.x), B(b.c.y), B(b.c.z)},
+                    B(b.r),
+                    B(b.y),
+                    B(b.friction),
+                    B(b.restitution),
+                    B(rest_speed(b, preset_.g, preset_.dt)),
+                    B(touch),
+                    plane,
+                    0});
   }
   const std::size_t bytes = list.size() * sizeof list[0];
   cl_int code = CL_SUCCESS;

@@ -69,7 +69,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   glm::dvec3 position(int i, int j) const override { return state_.at(vector_x, i, j); }
   std::size_t bytes() const override;
   int threads() const override { return int(device_->facts().compute_units); }
-  SolveCounts solves() const override { return solver_ ? solver_->counts() : SolveCounts{}; }
+  SolveCounts solves() const override { return guard_.with_steps(solver_ ? solver_->counts() : SolveCounts{}); }
   InnerSteps inner_steps() const override { return {}; }
   std::vector<StepFeature> features() const override;
   std::string name() const override;

@@ -6,7 +6,7 @@ namespace tyglab::opencl {
 template <class R>
 void OpenClEngine<R>::read_stored(State& state) const {
   const std::size_t n = std::size_t(lattice_.size());
-  if (state.x.x.size() != n) state.x.resize(n), state.v.resize(n);
+  if (state.v.z.size() != n) state.x.resize(n), state.v.resize(n);  // the last array that gets its memory
   const auto copy = [&](int vector, VectorField<double>& to, double divisor) {
     const R* from = state_.host(vector);
     Array<double>* components[] = {&to.x, &to.y, &to.z};

@@ -42,6 +42,7 @@ bool OpenClEngine<R>::run(int count, bool tear_each) {
   const int most = tear_each ? 1 : levels_;
   for (int n = 0, levels = 1; n < count; n += levels) {
     levels = std::min(most, count - n);
+    if (solver_) solver_->begin_step();
     for (std::size_t p = 0; p < resolved_.size(); ++p)
       if (resolved_[p].work != Work::solution)
         enqueue_sweep(kernels_.passes[p], resolved_[p], n, levels);
@@ -146,6 +147,7 @@ StepOutcome OpenClEngine<R>::outcome(int step) {
   StepOutcome result;
   result.elongation = max_elongation(report.way), result.dt = preset_.dt;
   result.left_inside = int(report.left_inside);
+  if (solver_) result.residual = solver_->residual_left();
   if (tears_each_) result.tear_budget = tear_slack(report), tears_unread_ |= report.torn != 0;
   if (held_.particle >= 0) {
     const R* f = hand_forces_.data() + 4 * std::size_t(step);
@@ -173,7 +175,12 @@ void OpenClEngine<R>::repeat(int steps, Tears& tears) {
   if (watched) upload_masks(tears);
   if (steps > 0) {
     repeating_ = true;
-    run(steps, watched);
+    try {
+      run(steps, watched);
+    } catch (...) {
+      repeating_ = false;
+      throw;
+    }
     repeating_ = false;
     report_.erase(report_.begin(), report_.end() - 1);
     if (held_.particle >= 0) hand_forces_.erase(hand_forces_.begin(), hand_forces_.end() - 4);

@@ -1,0 +1,96 @@
+#include "app/session/history.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/base/numbers.h"
+#include "core/model/fields.h"
+
+namespace tyglab {
+namespace {
+
+std::size_t state_bytes(const std::vector<HistoryEntry>& list) {
+  std::size_t total = 0;
+  for (const HistoryEntry& entry : list)
+    if (entry.state) total += entry.state->bytes();
+  return total;
+}
+
+/// The value to be read; none where that takes more than a number or a word.
+std::optional<std::string> value_text(const Preset& preset, const PresetField& field) {
+  if (const auto* number = std::get_if<double Preset::*>(&field.member)) return short_number(preset.**number);
+  if (const auto* whole = std::get_if<int Preset::*>(&field.member)) return std::to_string(preset.**whole);
+  if (const auto* word = std::get_if<std::string Preset::*>(&field.member)) return preset.**word;
+  return std::nullopt;
+}
+
+std::string in_words(const PresetField& field, const Preset& before, const Preset& after) {
+  std::string text(field.row != nullptr ? field.row->symbol : field.key);
+  const auto from = value_text(before, field), to = value_text(after, field);
+  if (!from) return text;
+  text += " " + *from + " → " + *to;
+  if (field.row != nullptr && !field.row->unit.empty()) text += " " + std::string(field.row->unit);
+  return text;
+}
+
+}  // namespace
+
+void History::record(HistoryEntry before, unsigned gesture) {
+  redo_.clear();
+  if (!begins(gesture)) return;
+  gesture_ = gesture;
+  undo_.push_back(std::move(before));
+  // Whatever lies before an entry that is gone can no longer be undone in its turn.
+  while (undo_.size() > most || (undo_.size() > 1 && state_bytes(undo_) > most_bytes)) undo_.erase(undo_.begin());
+}
+
+std::string History::what(bool backwards, const Preset& present) const {
+  const HistoryEntry& entry = *next(backwards);
+  if (!entry.what.empty()) return entry.what;
+  return backwards ? change_in_words(entry.constants, present) : change_in_words(present, entry.constants);
+}
+
+HistoryEntry History::take(bool backwards, std::optional<HistoryEntry> now) {
+  auto& from = backwards ? undo_ : redo_;
+  auto& to = backwards ? redo_ : undo_;
+  gesture_ = 0;
+  HistoryEntry entry = std::move(from.back());
+  from.pop_back();
+  now ? to.push_back(*std::move(now)) : to.clear();
+  return entry;
+}
+
+void History::go_back(double t) {
+  std::erase_if(undo_, [&](const HistoryEntry& entry) { return (entry.state || entry.too_large) && entry.t > t; });
+  redo_.clear();
+  gesture_ = 0;
+}
+
+const Preset* History::before(double t) const {
+  const auto first = std::find_if(undo_.begin(), undo_.end(), [&](const HistoryEntry& entry) { return entry.t > t; });
+  return first != undo_.end() ? &first->constants : nullptr;
+}
+
+std::size_t History::bytes() const {
+  std::size_t total = state_bytes(undo_) + state_bytes(redo_);
+  for (const auto* list : {&undo_, &redo_})
+    for (const HistoryEntry& entry : *list) {
+      const Preset& p = entry.constants;
+      total += sizeof entry + p.name.size() + p.description.size() + p.bodies.size() * sizeof(Body) +
+               p.pins.list.size() * sizeof(Pins::Site);
+    }
+  return total;
+}
+
+std::string change_in_words(const Preset& before, const Preset& after) {
+  std::string first;
+  int more = -1;
+  for (const PresetField& field : preset_fields()) {
+    if (std::visit([&](auto member) { return before.*member == after.*member; }, field.member)) continue;
+    if (++more == 0) first = in_words(field, before, after);
+  }
+  if (more <= 0) return first.empty() ? "nothing" : first;
+  return first + " and " + std::to_string(more) + (more == 1 ? " more constant" : " more constants");
+}
+
+}  // namespace tyglab

@@ -1,0 +1,234 @@
+#include "app/session/lab_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/base/numbers.h"
+#include "app/session/lab_condition.h"
+#include "app/session/observables.h"
+#include "app/session/session.h"
+#include "core/model/changes.h"
+#include "core/model/fields.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+constexpr double equal_within = 1e-4;  // of a value: what "=" counts as equal; sliders give three digits
+
+bool related(double left, Relation relation, double right) {
+  const bool equal = std::abs(left - right) <= equal_within * std::max(std::abs(left), std::abs(right));
+  switch (relation) {
+    case Relation::less:
+      return left < right;
+    case Relation::at_most:
+      return left <= right || equal;
+    case Relation::equal:
+      return equal;
+    case Relation::unlike:
+      return !equal;
+    case Relation::at_least:
+      return left >= right || equal;
+    case Relation::greater:
+      return left > right;
+  }
+  return false;
+}
+
+/// At this moment, whatever the check's span.
+CheckState judge_now(Session& session, const Condition& check) {
+  if (is_word(check.name)) {
+    const bool same = observe_word(session, check.name) == check.right.word;
+    return same == (check.relation == Relation::equal) ? CheckState::holds : CheckState::open;
+  }
+  const auto left = observe(session, check.name), right = value_of(session, check.right);
+  if (!left || !right) return CheckState::unknown;
+  return related(*left, check.relation, *right) ? CheckState::holds : CheckState::open;
+}
+
+std::string with_unit(double value, std::string_view unit) {
+  return short_number(value) + (unit.empty() ? "" : " " + std::string(unit));
+}
+
+/// "50 N/m", "Euler"; empty where it is not known.
+std::string value_in_words(Session& session, const std::string& name) {
+  if (name == "untouched") return touched_by(session);
+  if (is_word(name)) return shown_word(name, observe_word(session, name));
+  const auto value = observe(session, name);
+  return value ? with_unit(*value, unit_of(name)) : std::string();
+}
+
+void remember(Session& session, const Condition& check, bool holds, CheckMemory& memory) {
+  memory = {true, holds, session.simulation->time(), value_in_words(session, check.name)};
+}
+
+CheckState judge_throughout(Session& session, const Condition& check, CheckState now, CheckMemory& memory) {
+  if (memory.set) return CheckState::broken;
+  if (session.simulation->steps() == 0 || now == CheckState::holds) return now;
+  remember(session, check, false, memory);
+  return CheckState::broken;
+}
+
+CheckState judge_once(Session& session, const Condition& check, CheckState now, CheckMemory& memory) {
+  if (!memory.set && now == CheckState::holds) remember(session, check, true, memory);
+  return memory.set ? CheckState::holds : now;
+}
+
+/// While the cloth sleeps simulated time stands still, and so does all that is asked of it.
+CheckState judge_lasting(Session& session, const Condition& check, CheckState now, CheckMemory& memory) {
+  if (now != CheckState::holds) {
+    memory = {};
+    return now;
+  }
+  if (!memory.set) remember(session, check, true, memory);
+  const double lasted = session.simulation->time() - memory.t;
+  return lasted >= check.seconds - 1e-9 || session.asleep() ? CheckState::holds : CheckState::open;
+}
+
+CheckState judge_when(Session& session, const Condition& check, CheckState now, CheckMemory& memory) {
+  if (!memory.set && judge_now(session, check.when[0]) == CheckState::holds)
+    remember(session, check, now == CheckState::holds, memory);
+  if (!memory.set) return CheckState::open;
+  return memory.holds ? CheckState::holds : CheckState::broken;
+}
+
+/// "at 180 N/m or more", "below 215 N/m", "Verlet": what is to be kept to.
+std::string goal_in_words(Session& session, const Condition& check) {
+  if (is_word(check.name)) {
+    const std::string word = shown_word(check.name, check.right.word);
+    return check.relation == Relation::equal ? word : "anything but " + word;
+  }
+  const auto value = value_of(session, check.right);
+  const std::string number = value ? with_unit(*value, unit_of(check.name)) : check.right.name;
+  switch (check.relation) {
+    case Relation::less:
+      return "below " + number;
+    case Relation::at_most:
+      return "at " + number + " or less";
+    case Relation::equal:
+      return "at " + number;
+    case Relation::unlike:
+      return "away from " + number;
+    case Relation::at_least:
+      return "at " + number + " or more";
+    case Relation::greater:
+      return "above " + number;
+  }
+  return number;
+}
+
+std::string subject(const Condition& check) {
+  const Observable* row = find_observable(check.name);
+  return row != nullptr && !row->label.empty() ? std::string(row->label) : check.name;
+}
+
+/// Why the present motion no longer counts, and what to do.
+std::string broken_in_words(Session& session, const Condition& check, const CheckMemory& memory) {
+  const std::string at = " at t = " + time_number(memory.t, session.preset().dt) + " s";
+  if (check.name == "untouched")
+    return (memory.was.empty() ? "Something else was changed" : memory.was) + at +
+           ": restart, and change only what the task names";
+  const std::string was = subject(check) + " was " + (memory.was.empty() ? "not known" : memory.was);
+  const std::string goal = goal_in_words(session, check);
+  if (check.span == Span::when)
+    return was + at + ", when " + words_of(check.when[0]) + " came true: restart, and have it " + goal + " then";
+  if (is_word(check.name)) return was + at + ": choose " + goal + ", and restart";
+  return was + at + ": restart, and keep it " + goal + " from the beginning";
+}
+
+/// The first constant that differs and that no check of the step names, in words.
+std::string other_constant(const LabRun& run, const Preset& now) {
+  constexpr EffectSet ignored = motionless | Effect::engine | Effect::device;
+  for (const PresetField& field : preset_fields()) {
+    if (std::visit([&](auto member) { return run.begun.*member == now.*member; }, field.member)) continue;
+    if (effects_of(field, now).within(ignored)) continue;
+    const auto names = [&](const Condition& check) {
+      return check.name == field.key || (check.name.size() == field.key.size() + 2 &&
+                                         check.name.starts_with(field.key) && check.name[field.key.size()] == '.');
+    };
+    const auto& checks = run.now().checks;
+    if (std::any_of(checks.begin(), checks.end(), names)) continue;
+    const std::string symbol(field.row != nullptr && !field.row->symbol.empty() ? field.row->symbol : field.key);
+    const auto* number = std::get_if<double Preset::*>(&field.member);
+    if (number == nullptr) return symbol + " was changed";
+    return symbol + " was changed from " + short_number(run.begun.**number) + " to " +
+           with_unit(now.**number, field.row != nullptr ? field.row->unit : "");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<double> value_of(Session& session, const Operand& operand) {
+  if (operand.name.empty()) return operand.factor;
+  if (!operand.before) {
+    const auto value = observe(session, operand.name);
+    return value ? std::optional(operand.factor * *value) : std::nullopt;
+  }
+  const LabRun& run = *session.labs.run;
+  if (run.step == 0) return std::nullopt;
+  const auto& values = run.records[run.step - 1].outcome.values;
+  const auto then = values.find(operand.name);
+  return then != values.end() ? std::optional(operand.factor * then->second) : std::nullopt;
+}
+
+MotionChange follow_motion(const Session& session, MotionWatch& watch) {
+  const std::int64_t steps = session.simulation->steps(), before = std::exchange(watch.steps, steps);
+  // Where the cloth has diverged its copies make steps without it.
+  const bool stands = steps == before && !session.copies.lockstep.empty();
+  if (steps == 0 || (steps <= session.steps_made && !stands)) {
+    watch.touches = session.counts.touches;
+    return MotionChange::begun;
+  }
+  if (stands || steps == before + session.steps_made) return MotionChange::none;
+  return steps < before + session.steps_made ? MotionChange::back : MotionChange::taken_up;
+}
+
+CheckState judge(Session& session, const Condition& check, MotionChange change, CheckMemory& memory) {
+  if (change == MotionChange::begun) memory = {};
+  if (change == MotionChange::back && memory.t > session.simulation->time()) memory = {};
+  if (change == MotionChange::taken_up && check.span == Span::throughout && !memory.set)
+    remember(session, check, false, memory);
+  const CheckState now = judge_now(session, check);
+  switch (check.span) {
+    case Span::now:
+      return now;
+    case Span::throughout:
+      return judge_throughout(session, check, now, memory);
+    case Span::once:
+      return judge_once(session, check, now, memory);
+    case Span::lasting:
+      return judge_lasting(session, check, now, memory);
+    case Span::when:
+      return judge_when(session, check, now, memory);
+  }
+  return now;
+}
+
+std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory) {
+  if (state == CheckState::broken) return broken_in_words(session, check, memory);
+  const std::string asked = words_of(check), now = value_in_words(session, check.name);
+  if (check.name == "untouched") return now.empty() ? asked : asked + " · " + now + ": set it back, and restart";
+  if (is_word(check.name) && state == CheckState::holds) return asked;
+  std::string text = asked + " · ";
+  if (now.empty()) {
+    const Observable* row = find_observable(check.name);
+    text += row != nullptr && !row->hint.empty() ? std::string(row->hint) : "not known yet";
+  } else {
+    text += subject(check) + " is " + now + " now";
+  }
+  const std::string place = place_of(check.name);
+  return place.empty() || now.empty() ? text : text + " · " + place;
+}
+
+std::string touched_by(const Session& session) {
+  if (!session.labs.run) return {};
+  const LabRun& run = *session.labs.run;
+  if (std::string other = other_constant(run, session.requested_preset()); !other.empty()) return other;
+  if (session.simulation->held()) return "The cloth was held by hand";
+  if (session.counts.touches != run.watch.touches) return "The cloth was pulled or cut by hand";
+  return {};
+}
+
+}  // namespace tyglab

@@ -1,0 +1,58 @@
+// Whether a lab's checks hold, over the part of the motion that each is about, and what the card says of them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/session/lab.h"
+
+namespace tyglab {
+
+struct Session;
+
+enum class CheckState {
+  unknown,  ///< a quantity is not known yet
+  open,     ///< it does not hold, or not yet
+  holds,
+  broken  ///< of the present motion it can no longer hold: only a restart helps
+};
+
+/// What a check remembers of the motion since its beginning.
+struct CheckMemory {
+  bool set = false;      ///< it broke, came true or was decided …
+  bool holds = false;    ///< … and this is what came of it,
+  double t = 0;          ///< s, at this moment,
+  std::string was = {};  ///< at which its quantity was this, in words
+};
+
+/// What is watched of the motion, to tell its beginning.
+struct MotionWatch {
+  std::int64_t steps = 0;     ///< when it was looked at last
+  std::uint64_t touches = 0;  ///< SessionCounts::touches when it began
+};
+
+/// What has become of the motion since the last look.
+enum class MotionChange {
+  none,
+  begun,     ///< it has begun again: nothing is remembered
+  back,      ///< to an earlier moment: what came after it has not happened
+  taken_up,  ///< at a later moment: what lies between was not seen
+};
+MotionChange follow_motion(const Session& session, MotionWatch& watch);
+
+/// The number on the right of a condition; none while it is not known.
+std::optional<double> value_of(Session& session, const Operand& operand);
+
+/// Judges a check at the present moment, with what it remembers. To be called in every update.
+CheckState judge(Session& session, const Condition& check, MotionChange change, CheckMemory& memory);
+
+/// The check as the card says it: what is asked, which number is looked at now and where it is seen, and of a broken
+/// one why it is broken and what to do.
+std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory);
+
+/// What was changed beside what the step's checks name, or touched by hand: "k_d is 0.02 N s/m instead of 0"; empty:
+/// nothing.
+std::string touched_by(const Session& session);
+
+}  // namespace tyglab

@@ -1,0 +1,40 @@
+// "Find settings": which methods and dt keep an error in the motion from now on, and what they cost; searched for
+// beside the frames once somebody asks, and dropped when nobody wants to see it any more.
+#pragma once
+
+#include <optional>
+
+#include "app/studies/job.h"
+#include "app/studies/moment.h"
+#include "core/analysis/settings_search.h"
+
+namespace tyglab {
+
+class SettingsWatch {
+ public:
+  static constexpr double window = 1;  ///< s of motion
+
+  /// Asks for settings with that error, m. What an earlier search measured answers it where it went as far; otherwise
+  /// a new one begins with the next poll.
+  void ask(double tolerance, const Preset& preset);
+  /// Called in every frame in which it is wanted.
+  void poll(StudyMoment& moment);
+  /// What is running is stopped, and everything is forgotten.
+  void drop();
+
+  /// The error asked for, m; none before it was.
+  std::optional<double> tolerance() const { return tolerance_; }
+  /// A copy of what is known; none while nothing is.
+  std::optional<SettingsSearch> search() const { return work_.findings(); }
+  /// Whether what is known is about these constants, whatever the method, its dt and the precision.
+  static bool is_about(const SettingsSearch& search, const Preset& preset);
+
+ private:
+  using Work = Study<SettingsSearch>;
+
+  Work work_;
+  std::optional<double> tolerance_;
+  bool asked_ = false;  ///< and not begun yet
+};
+
+}  // namespace tyglab

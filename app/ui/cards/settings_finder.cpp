@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/base/numbers.h"
+#include "app/ui/cards/accuracy_card.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
+#include "core/analysis/tolerance.h"
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+namespace {
+
+constexpr float finder_field_at_1 = 92, finder_row_at_1 = 21, finder_gap_at_1 = 8;  // pixels at scale 1
+
+/// What a refusal says, and what can be promised in its place.
+struct Refusal {
+  std::string words;
+  std::optional<double> tightest;  ///< m
+};
+
+std::optional<Refusal> refusal_of(const SettingsSearch& search, double tolerance) {
+  try {
+    reached_or_refused(search, tolerance);
+    return std::nullopt;
+  } catch (const ToleranceError& error) {
+    return Refusal{sentence(error.what()), error.tightest};
+  }
+}
+
+/// Asks for the error that is typed, or says what is wrong with it.
+void ask_for_settings(Ui& ui) {
+  if (const auto target = target_error(ui)) return ui.session.studies.settings.ask(*target, ui.session.preset());
+  ui.session.messages.error(std::string("“") + ui.plots.target +
+                            "” is not an error from 1e-12 to 1 m. Type one such as 1e-4.");
+}
+
+void type_target(Ui& ui, double tolerance) {
+  std::snprintf(ui.plots.target, sizeof ui.plots.target, "%s", short_number(tolerance, 2).c_str());
+  ask_for_settings(ui);
+}
+
+void target_row(Ui& ui) {
+  const Tokens& c = ui.theme.colors;
+  const float gap = ui.theme.px(finder_gap_at_1);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(gap, 0));
+  ImGui::AlignTextToFramePadding();
+  wrapped(ui, "Error at most", c.text);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(ui.theme.px(finder_field_at_1));
+  const bool enter =
+      ImGui::InputText("##target", ui.plots.target, sizeof ui.plots.target, ImGuiInputTextFlags_EnterReturnsTrue);
+  report_control(ui, "target");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  wrapped(ui, "m", c.quiet);
+  ImGui::SameLine();
+  if (text_button(ui, "Find", true) || enter) ask_for_settings(ui);
+  ImGui::PopStyleVar();
+  ImGui::Dummy({0, ui.theme.px(6)});
+}
+
+/// Where the columns of numbers end, pixels from the left.
+struct FinderColumns {
+  float dt, error, cost, whole;
+};
+
+FinderColumns finder_columns(const Ui& ui) {
+  const float whole = card_width(ui), number = ui.theme.px(64), cost = whole - ui.theme.px(2);
+  return {cost - 2 * number, cost - number, cost, whole};
+}
+
+void finder_number(Ui& ui, const ImFont& font, float right, float middle, ImU32 color, const std::string& text) {
+  draw_on_baseline(*ImGui::GetWindowDrawList(), font, {right - text_width(font, text), baseline_at(ui.fonts, middle)},
+                   color, text);
+}
+
+void finder_head(Ui& ui, bool relative) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const FinderColumns at = finder_columns(ui);
+  const float middle = lo.y + ui.theme.px(card::line) / 2;
+  const ImU32 color = ui.theme.colors.quiet;
+  finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, s");
+  finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
+  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color, relative ? "cost, × now" : "cost, s/s");
+  ImGui::Dummy({at.whole, ui.theme.px(card::line)});
+}
+
+std::string two_digits_of(double value) {
+  return short_number(rounded(value, 2));
+}
+
+/// The present settings' cost, processor seconds for a simulated second; none where it is not known.
+std::optional<double> present_cost(const SettingsSearch& search) {
+  if (!search.present || search.present->given_up || !(search.present->cost > 0)) return std::nullopt;
+  return search.present->cost;
+}
+
+void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& point) {
+  const Tokens& c = ui.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const FinderColumns at = finder_columns(ui);
+  const float height = ui.theme.px(finder_row_at_1), middle = std::round(lo.y + height / 2);
+  const Preset with = with_setting(ui.session.requested_preset(), point);
+  ImGui::PushID(n);
+  if (ImGui::InvisibleButton("setting", {at.whole, height}))
+    ui.session.request(request::Apply{.edit = edit::Change{with}});
+  report_control(ui, "setting" + std::to_string(n + 1));
+  const bool hovered = ImGui::IsItemHovered();
+  const bool own = point.tolerance > 0;
+  const std::string step =
+      own ? "tolerance " + two_digits_of(with.tolerance) + " m" : "dt = " + two_digits_of(with.dt) + " s";
+  tooltip(ui, gui::item_id(),
+          "Click to use " + std::string(scheme(point.integrator).title) + " with " + step + ": " +
+              two_digits_of(point.cost) + " s of CPU time per simulated second.");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (hovered) draw.AddRectFilled(lo, {lo.x + at.whole, lo.y + height}, c.field, ui.theme.px(4));
+  const float number = ui.theme.px(64);
+  draw_on_baseline(
+      draw, *ui.fonts.small, {lo.x + ui.theme.px(4), baseline_at(ui.fonts, middle)}, c.text,
+      fitted(*ui.fonts.small, std::string(scheme(point.integrator).title), at.dt - number + ui.theme.px(10)));
+  finder_number(ui, *ui.fonts.mono, lo.x + at.dt, middle, c.text, own ? "own" : two_digits_of(with.dt));
+  finder_number(ui, *ui.fonts.mono, lo.x + at.error, middle, c.text, two_digits_of(point.error_rms_m));
+  const auto present = present_cost(search);
+  finder_number(ui, *ui.fonts.mono, lo.x + at.cost, middle, c.text,
+                two_digits_of(present ? point.cost / *present : point.cost));
+  ImGui::PopID();
+  ImGui::SetCursorScreenPos({lo.x, lo.y + height});
+}
+
+void finder_text(Ui& ui, const std::string& words) {
+  ImGui::PushFont(ui.fonts.small);
+  wrapped(ui, in_lines(*ui.fonts.small, words, card_width(ui)), ui.theme.colors.text);
+  ImGui::PopFont();
+  ImGui::Dummy({0, ui.theme.px(6)});
+}
+
+/// What was found, or what can be.
+void finder_answer(Ui& ui, const SettingsSearch& search, double tolerance) {
+  if (!SettingsWatch::is_about(search, ui.session.preset()))
+    return finder_text(ui, "The constants have changed since these settings were measured. Press Find again.");
+  finder_text(ui, finder_words(search, tolerance));
+  if (search.done)
+    if (const auto refusal = refusal_of(search, tolerance)) {
+      if (refusal->tightest && text_button(ui, ("Use " + two_digits_of(*refusal->tightest) + " m").c_str(), true))
+        ui.act([tightest = *refusal->tightest](Ui& later) { type_target(later, tightest); });
+      return;
+    }
+  const std::vector<ErrorPoint> reached = settings_for(search, tolerance);
+  if (reached.empty()) return;
+  finder_head(ui, present_cost(search).has_value());
+  for (std::size_t n = 0; n < reached.size(); ++n) finder_line(ui, int(n), search, reached[n]);
+}
+
+}  // namespace
+
+std::optional<double> target_error(const Ui& ui) {
+  const auto typed = typed_number(ui.plots.target, "m");
+  return typed && *typed >= 1e-12 && *typed <= 1 ? typed : std::nullopt;
+}
+
+std::string finder_words(const SettingsSearch& search, double tolerance) {
+  if (!search.done) {
+    if (search.methods == 0) return "Following the motion from t = " + short_number(search.t) + " s finely…";
+    return "Trying methods: " + std::to_string(search.methods_done) + " of " + std::to_string(search.methods) + "…";
+  }
+  if (const auto refusal = refusal_of(search, tolerance)) return refusal->words;
+  std::string words = "Largest errors over the " + two_digits_of(search.seconds) +
+                      " s from t = " + short_number(search.t) + " s. Click a setting to use it.";
+  if (search.seconds < 0.99 * search.goal.seconds)
+    words += " Fine runs of a whole second of this cloth would take too long; nothing new happens in the rest of it.";
+  if (search.present && std::isfinite(search.present->error_rms_m))
+    words += " Now: error " + two_digits_of(search.present->error_rms_m) + " m, " +
+             two_digits_of(search.present->cost) + " s of CPU time per second.";
+  return words;
+}
+
+void settings_finder(Ui& ui, float) {
+  target_row(ui);
+  const SettingsWatch& watch = ui.session.studies.settings;
+  if (!watch.tolerance())
+    return finder_text(
+        ui,
+        "Tries methods and dt on the next second of this motion, and ranks those that keep this error by "
+        "their cost.");
+  if (ui.session.simulation->divergence() && !watch.search())
+    return finder_text(ui, "The motion has diverged; restart it first.");
+  const auto search = watch.search();
+  if (!search) return finder_text(ui, "It begins once nothing is held and the cloth can be read.");
+  finder_answer(ui, *search, *watch.tolerance());
+}
+
+}  // namespace tyglab

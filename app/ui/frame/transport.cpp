@@ -1,0 +1,92 @@
+#include "app/ui/frame/transport.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/base/numbers.h"
+#include "app/ui/frame/commands.h"
+#include "app/ui/frame/panels.h"
+#include "app/ui/kit/imgui_compat.h"
+#include "app/ui/kit/widgets.h"
+
+namespace tyglab {
+namespace {
+
+constexpr float between_buttons_at_1 = 6;  // between buttons
+constexpr float beside_label_at_1 = 6;     // beside a speed's label
+
+struct Speed {
+  double value;
+  const char* label;
+};
+constexpr std::array<Speed, 4> offered_speeds{{{1, "1"}, {1.0 / 4, "1/4"}, {1.0 / 20, "1/20"}, {1.0 / 100, "1/100"}}};
+
+/// Those, and the present one where it is another; while the hand slows time down, that speed.
+struct SpeedLabels {
+  std::vector<std::string> texts;
+  std::vector<const char*> labels;
+  int chosen = 0;
+};
+
+SpeedLabels speed_labels(const Ui& ui) {
+  const double now = ui.session.pacing.aim();
+  SpeedLabels all;
+  for (const Speed& speed : offered_speeds) all.texts.emplace_back(speed.label);
+  const auto known =
+      std::find_if(offered_speeds.begin(), offered_speeds.end(), [&](const Speed& s) { return s.value == now; });
+  all.chosen = int(known - offered_speeds.begin());
+  if (known == offered_speeds.end())
+    all.texts.push_back(now < 1 ? "1/" + short_number(std::round(1 / now), 3) : short_number(now, 2));
+  for (const std::string& text : all.texts) all.labels.push_back(text.c_str());
+  return all;
+}
+
+}  // namespace
+
+ImVec2 transport_size(const Ui& ui, float side) {
+  return {3 * ui.theme.px(side) + 2 * ui.theme.px(between_buttons_at_1), ui.theme.px(side)};
+}
+
+ImVec2 transport_buttons(Ui& ui, ImVec2 at, float side) {
+  const float gap = ui.theme.px(between_buttons_at_1);
+  ImGui::SetCursorScreenPos(at);
+  if (icon_button(ui, {"restart", icon::restart, "Restart", "Restart the motion and keep the constants",
+                       "R or Backspace", false, side}))
+    ui.command("restart");
+  ImGui::SameLine(0, gap);
+  const std::string why = why_not(ui, row_of("toggle_play"));
+  const bool playing = ui.session.pacing.playing && why.empty();
+  const char* const run = playing ? "Pause" : "Run";
+  if (icon_button(ui,
+                  {"play", playing ? icon::pause : icon::play, run, why.empty() ? run : why, "Space", playing, side}))
+    ui.command("toggle_play");
+  ImGui::SameLine(0, gap);
+  if (icon_button(ui, {"step", icon::step, "Step", "One step of dt, then pause",
+                       ui.slider.focused != 0 ? "O (→ moves the slider until Esc)" : "→ or O", false, side}))
+    ui.command("step");
+  return ImGui::GetItemRectMax();
+}
+
+ImVec2 speed_control_size(const Ui& ui, float width) {
+  const SpeedLabels all = speed_labels(ui);
+  return segments_size(ui, all.labels.data(), int(all.labels.size()), beside_label_at_1, width);
+}
+
+void speed_control(Ui& ui, ImVec2 at, float width) {
+  Pacing& pacing = ui.session.pacing;
+  const SpeedLabels all = speed_labels(ui);
+  ImGui::SetCursorScreenPos(at);
+  const int k = segments(ui, "speed", all.labels.data(), int(all.labels.size()), all.chosen, beside_label_at_1, width);
+  tooltip(ui, gui::item_id(),
+          pacing.slowed != 1 ? "Slow motion while you grab or cut (H)"
+                             : "Speed: simulated seconds per real second. Below 1 is slow motion; → makes single "
+                               "steps.");
+  if (k < 0 || k >= int(offered_speeds.size())) return;
+  pacing.speed = offered_speeds[std::size_t(k)].value;
+  pacing.restart_measure();
+}
+
+}  // namespace tyglab

@@ -1,0 +1,19 @@
+// Run, step, restart, and how fast time runs: in the top bar and, large, in presentation mode.
+#pragma once
+
+#include <imgui.h>
+
+namespace tyglab {
+
+struct Ui;
+
+/// The three buttons from there on, each `side` wide (at scale 1). Returns their lower right corner.
+ImVec2 transport_buttons(Ui& ui, ImVec2 at, float side = 32);
+/// What they take, px.
+ImVec2 transport_size(const Ui& ui, float side = 32);
+
+/// The speeds to choose from, in one row or, where that is wider than `width` (px), in more.
+void speed_control(Ui& ui, ImVec2 at, float width);
+ImVec2 speed_control_size(const Ui& ui, float width);
+
+}  // namespace tyglab

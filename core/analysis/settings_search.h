@@ -1,0 +1,65 @@
+// Which methods and steps reach an error in the motion at hand, and what they cost: short runs of many settings, held
+// against a fine reference. What `--tolerance` and "Find settings" of the card Accuracy choose from.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/analysis/error_study.h"
+
+namespace tyglab {
+
+/// What is given and therefore not to be chosen.
+struct SettingsKeeps {
+  bool integrator = false, precision = false;
+};
+
+/// What a search is to find.
+struct SettingsGoal {
+  double tolerance = 1e-4;  ///< m
+  double seconds = 1;       ///< of motion
+  SettingsKeeps keeps = {};
+  bool present = false;  ///< measure the present settings too
+};
+
+/// What is known so far. Errors are root mean squares over the particles at the time of comparison at which they are
+/// largest.
+struct SettingsSearch {
+  Preset of;     ///< the constants
+  double t = 0;  ///< s, where the motion begins
+  SettingsGoal goal;
+  double seconds = 0;  ///< of motion that is compared: less than asked for only where nothing new happens afterwards
+  bool rough = false;  ///< with bodies or tearing: errors do not fall evenly with dt
+  double agreement_rms_m = 0;           ///< how far references of it differ
+  std::string references;               ///< what they are
+  std::optional<ErrorPoint> present;    ///< the present settings, where they were asked for
+  std::vector<ErrorPoint> points = {};  ///< a method's one after the other, coarsest first
+  int methods = 0, methods_done = 0;
+  bool done = false;
+  std::string problem;  ///< a sentence: why nothing can be found
+};
+
+/// Measures settings until the goal is reached by each method that can; tells `found` what it knows after every step of
+/// the search. What goes wrong becomes the search's problem. It takes some seconds of processor time: at most about
+/// ten for the references of a large cloth, and about ten for the settings. Throws Stopped.
+SettingsSearch search_settings(const StudyStart& start, const SettingsGoal& goal, const Stop& stop,
+                               const std::function<void(const SettingsSearch&)>& found);
+
+/// The cheapest setting of each method whose error is at most half the tolerance (m), cheapest first: half, since
+/// errors were looked at a few times only. Where errors do not fall evenly, a setting counts only if the finer ones
+/// measured, and there is one, reach it too. Nothing where the references differ by more than a tenth of the tolerance,
+/// or a twentieth where there are bodies or tears.
+/// From one search a looser tolerance never costs more than a tighter one.
+std::vector<ErrorPoint> settings_for(const SettingsSearch& search, double tolerance);
+
+/// The tightest tolerance for which there is a setting, m, in two digits; infinite where there is none.
+double tightest_tolerance(const SettingsSearch& search);
+
+/// The preset with a setting: its integrator, precision, and dt (in two digits, at most what was measured) or
+/// tolerance.
+Preset with_setting(const Preset& preset, const ErrorPoint& point);
+
+}  // namespace tyglab
