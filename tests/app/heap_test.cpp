@@ -24,6 +24,10 @@ TEST_CASE("a large block stands for itself, also when one of its size was freed 
   if (test::sanitized) return test::skip("the sanitizers bring a heap of their own", test::Missing::of_machine);
   return_large_blocks();
   const std::size_t before = mapped();
+  // Earlier tests may have left holes of that size in the heap: they are filled first.
+  std::vector<std::vector<char>> blocks;
+  while (mapped() == before && blocks.size() < 32) blocks.emplace_back(2 * large_block);
+  blocks.pop_back();
   for (int n = 0; n < 3; ++n) {
     CAPTURE(n);
     const std::vector<char> block(2 * large_block);
