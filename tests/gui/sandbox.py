@@ -40,7 +40,8 @@ class Sandbox:
                            **(settings or {})}, file)
         self.environment = dict(os.environ, DISPLAY=screen.display, TYGLAB_CONFIG_DIR=self.config, **(environment or {}))
         self.environment.pop("WAYLAND_DISPLAY", None)
-        self.xdotool("mousemove", screen.width - 1, screen.height - 1)
+        self.client = XClient(screen.display)
+        self.client.move_mouse(screen.width - 1, screen.height - 1)
         report = ["--session-report", self.report_file] if reported else []
         self.process = subprocess.Popen([tyglab, "--effects", effects, *arguments, *report], stderr=self.errors,
                                         env=self.environment, cwd=self.own.name, preexec_fn=end_with_parent)
@@ -123,8 +124,10 @@ class Sandbox:
 
     def move(self, x, y):
         x, y = round(x), round(y)
-        self.xdotool("mousemove", x, y)
-        self.wait(lambda r: [round(v) for v in r["pointer"]] == [x, y], f"the pointer to come to ({x}, {y})")
+        self.client.move_mouse(x, y)
+        at = self.client.mouse()
+        self.wait(lambda r: [round(v) for v in r["pointer"]] == [x, y],
+                  f"the pointer to come to ({x}, {y}); the X server has it at {at}")
 
     def press(self, button=LEFT):
         self.acted(f"the press of button {button}", "mousedown", button)
@@ -219,9 +222,7 @@ class Sandbox:
     # Its end.
 
     def press_close_button(self):
-        client = XClient(self.screen.display)
-        client.close_window(self.window)
-        client.close()
+        self.client.close_window(self.window)
 
     def ended(self):
         """Waits for the end; returns the exit code."""
@@ -236,6 +237,7 @@ class Sandbox:
             return file.read()
 
     def close(self):
+        self.client.close()
         if self.process.poll() is None:
             self.process.kill()
             self.process.wait()

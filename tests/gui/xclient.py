@@ -1,4 +1,4 @@
-"""As much of the X protocol as a close button, a file manager and a monitor's settings take."""
+"""As much of the X protocol as a mouse, a close button, a file manager and a monitor's settings take."""
 
 import socket
 import struct
@@ -22,6 +22,7 @@ class XClient:
         if accepted != 1:
             raise RuntimeError(f"the X server of {display} refused the connection")
         self.id, vendor, formats = struct.unpack("<4xI8xH3xB", setup[:22])
+        self.xtest = None
         self.root, = struct.unpack_from("<I", setup, 32 + len(padded(b" " * vendor)) + 8 * formats)
 
     def receive(self, count):
@@ -38,6 +39,28 @@ class XClient:
         text = name.encode()
         self.socket.sendall(struct.pack("<BBHHxx", 16, 0, 2 + len(padded(text)) // 4, len(text)) + padded(text))
         return struct.unpack("<8xI20x", self.answer(1))[0]
+
+    def extension(self, name):
+        """QueryExtension: the opcode of its requests."""
+        text = name.encode()
+        self.socket.sendall(struct.pack("<BxHHxx", 98, 2 + len(padded(text)) // 4, len(text)) + padded(text))
+        present, opcode = struct.unpack("<8xBB22x", self.answer(1))
+        if not present:
+            raise RuntimeError(f"the X server has no {name}")
+        return opcode
+
+    def move_mouse(self, x, y):
+        """The mouse itself goes there (FakeInput of XTEST). After XWarpPointer, which xdotool uses, a window on
+        a loaded machine was twice never told, though the cursor stood there."""
+        if self.xtest is None:
+            self.xtest = self.extension("XTEST")
+        motion, absolute = 6, 0
+        self.socket.sendall(struct.pack("<BBHBBxxII8xhh8x", self.xtest, 2, 9, motion, absolute, 0, self.root, x, y))
+
+    def mouse(self):
+        """QueryPointer: where the server has it."""
+        self.socket.sendall(struct.pack("<BxHI", 38, 2, self.root))
+        return struct.unpack("<16xhh12x", self.answer(1))
 
     def answer(self, code):
         """The next reply (1) or event of that code; others are passed over."""
