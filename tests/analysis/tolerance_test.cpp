@@ -190,8 +190,8 @@ Preset random_sphere(unsigned seed) {
 TEST_CASE("on a sphere the error after the impact is what was promised, or nothing was") {
   for (unsigned seed = 1; seed <= unsigned(test::fewer(5, 1)); ++seed) {
     CAPTURE(seed);
-    keeps_its_word(random_sphere(seed), 1e-5);
     keeps_its_word(random_sphere(seed), 1e-3);
+    if (!test::sanitized) keeps_its_word(random_sphere(seed), 1e-5);
   }
 }
 
@@ -206,7 +206,7 @@ TEST_CASE("the shipped presets, with fewer particles: what is promised holds") {
   const std::vector<std::string> names{"sphere",  "hanging",       "one_weight", "denim",     "flag",
                                        "tearing", "fold_with_k_b", "rubber_mat", "taut_sheet"};
   int promised = 0, tried = 0;
-  for (; tried < test::fewer(int(names.size()), 3); ++tried) {
+  for (; tried < test::fewer(int(names.size()), 2); ++tried) {
     const std::string& name = names[std::size_t(tried)];
     CAPTURE(name);
     Preset preset = load_preset(TYGLAB_SOURCE_DIR "/app/presets/" + name + ".json");
