@@ -383,15 +383,14 @@ void Simulation::diverge(const Advance& part) {
             : part.quantity == "distance from x_0"
                 ? "the mass is farther from x_0 than 1000 times L (or than its offset, if that is larger)"
                 : "a " + part.quantity + " is no longer a finite number";
-  const std::string title(scheme(preset_.integrator).title);
-  const std::string dt = "at dt = " + short_number(preset_.dt) + " s";
   if (!runaway && springs_too_weak(preset_)) {
     d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight and wind; "
                                            : ": the spring is too weak for m·g; ";
-    d.cause += title + " is stable here " + dt;
+    d.cause +=
+        std::string(scheme(preset_.integrator).title) + " is stable here at dt = " + short_number(preset_.dt) + " s";
     d.advice = advice_for_weak_springs(preset_);
   } else {
-    d.cause += ": " + title + " is unstable here " + dt;
+    d.cause += ": " + method_to_blame(preset_);
     d.advice = advice(preset_);
   }
   diverged_preset_ = preset_;

@@ -8,6 +8,7 @@
 
 #include "core/model/readable.h"
 #include "core/theory/modes.h"
+#include "core/theory/zones.h"
 
 namespace tyglab {
 namespace {
@@ -84,6 +85,22 @@ std::string advice_on_dt(const Preset& p, double own, double verlet, const std::
 }
 
 }  // namespace
+
+std::string method_to_blame(const Preset& p) {
+  const Scheme& method = scheme(p.integrator);
+  const std::string title(method.title), at_dt = "at dt = " + short_number(p.dt) + " s";
+  switch (zone_of(p)) {
+    case Zone::unstable:
+      return title + " is unstable here " + at_dt;
+    case Zone::depends:
+      return at_dt + ", above the worst-case limit of " + seconds(stable_dt(p, p.integrator)) + ", " + title +
+             " is stable in some shapes of the cloth, but not in this one";
+    case Zone::stable:
+      break;
+  }
+  return "linear theory has " + title + " stable " + at_dt + ", but leaves out bodies, springs that switch or tear" +
+         (is_implicit(method) ? ", and solves that do not converge" : "");
+}
 
 std::string advice(const Preset& p) {
   const Mode fastest = any_configuration(p);

@@ -25,6 +25,10 @@ std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 /// Whether steps of an implicit method did not converge, and what to do, likewise.
 std::string solves_missed(const SolveCounts& solves);
 
+/// What linear theory says of the method at the preset's dt, as the cause of a divergence (zones.h): words that go on
+/// after a colon.
+std::string method_to_blame(const Preset& preset);
+
 /// What to change so that the preset does not diverge again.
 std::string advice(const Preset& preset);
 

@@ -7,6 +7,7 @@
 
 #include "core/integrators/names.h"
 #include "core/theory/advice.h"
+#include "core/theory/zones.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
 
@@ -269,6 +270,25 @@ TEST_CASE("where weight and wind are more than the springs can hold, the method 
   }
   CHECK_FALSE(springs_too_weak(explosive("verlet", Precision::double_)));
   CHECK_FALSE(springs_too_weak(Preset{}));
+}
+
+TEST_CASE("the method is called unstable only where it is in every shape of the cloth") {
+  Preset p = test::cloth(8, 8, "verlet");
+  const auto blames = [&](double dt, Zone zone, const char* words) {
+    p.dt = dt;
+    CAPTURE(dt);
+    CAPTURE(method_to_blame(p));
+    CHECK(zone_of(p) == zone);
+    CHECK(method_to_blame(p).find(words) != std::string::npos);
+    CHECK((method_to_blame(p).find("is unstable here") != std::string::npos) == (zone == Zone::unstable));
+  };
+  const double any = stable_dt(p, p.integrator), every = every_shape_limit(p);
+  REQUIRE(every > 1.1 * any);
+  blames(0.9 * any, Zone::stable, "linear theory has Verlet stable");
+  blames((any + every) / 2, Zone::depends, "above the worst-case limit");
+  blames(1.1 * every, Zone::unstable, "Verlet is unstable here");
+  p.integrator = "implicit_euler";
+  blames(0.1, Zone::stable, "solves that do not converge");
 }
 
 TEST_CASE("the cure makes the change that the remedy names first, and heals") {
