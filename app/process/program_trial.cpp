@@ -106,7 +106,7 @@ void use_all_kernels(const Preset& preset, bool contacts) {
   Simulation simulation(preset);
   if (contacts) simulation.enable_ledger(true);
   simulation.advance(2);
-  const int i = preset.rows - 1, j = preset.columns / 2;
+  const int i = simulation.lattice().rows - 1, j = simulation.lattice().columns / 2;
   if (preset.kind == Kind::cloth) simulation.apply(edit::Grab{i, j});
   simulation.apply(edit::MoveHand{simulation.position(i, j) + glm::dvec3(0, 0, 1e-3), 1});
   simulation.advance(1);

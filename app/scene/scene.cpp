@@ -2,9 +2,20 @@
 
 namespace tyglab {
 
+namespace {
+
+/// Height and width of the cloth at rest, m.
+glm::dvec2 extent(const Preset& preset) {
+  return preset.L * glm::dvec2(preset.rows - 1, preset.columns - 1);
+}
+
+}  // namespace
+
 void Scene::follow() {
   const SessionCounts& now = session.counts;
   if (now.documents != seen_.documents) wants_framing = true;
+  if (now.lattices != seen_.lattices && extent(session.preset()) != extent_) wants_framing = true;
+  extent_ = extent(session.preset());
   if (now.copies != seen_.copies) views.forget_copies();
   if (now.labs_begun != seen_.labs_begun) colors.choose(std::nullopt);  // the next session has the user's choice again
   if (now.lab_steps != seen_.lab_steps && session.labs.run) {

@@ -39,6 +39,7 @@ struct Scene {
 
  private:
   SessionCounts seen_;
+  glm::dvec2 extent_{0};     ///< of the cloth that was seen last, m
   bool lab_colors_ = false;  ///< a step of a lab has colored the cloth
 };
 

@@ -8,6 +8,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/ui/frame/frame.h"
 #include "core/analysis/convergence.h"
+#include "tests/support/sanitized.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::cards_test {
@@ -173,8 +174,14 @@ TEST_CASE("every evaluation of Runge-Kutta's step is told") {
   CHECK(window.session.inspector.shown()->stages.size() == 4);
 }
 
+/// A square cloth; a sixth as wide where sanitizers slow its studies down.
+test::UiOptions cloth_of(int side) {
+  if (test::sanitized) side = std::max(side / 6, 3);
+  return {.with = [side](Preset& preset) { preset.rows = preset.columns = side; }};
+}
+
 TEST_CASE("the accuracy card measures the present settings beside the frames, anew when a constant changes") {
-  test::NullUi window;
+  test::NullUi window(cloth_of(32));
   const auto study = [&] { return studies(window).accuracy.study(); };
   window.frames(10);
   CHECK_FALSE(study().has_value());  // nothing is measured while nobody looks
@@ -193,7 +200,7 @@ TEST_CASE("the accuracy card measures the present settings beside the frames, an
 }
 
 TEST_CASE("settings for an error are found beside the frames, ranked by their cost, and used with a click") {
-  test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 5; }});
+  test::NullUi window(cloth_of(5));
   const auto search = [&] { return studies(window).settings.search(); };
   window.find("settings for an error");
   CHECK(window.drew("Error at most"));
@@ -232,7 +239,7 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
 }
 
 TEST_CASE("an error that cannot be promised is refused, and the tightest that can be is a click away") {
-  test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 4; }});
+  test::NullUi window(cloth_of(4));
   const auto search = [&] { return studies(window).settings.search(); };
   window.pause();
   window.find("settings for an error");
@@ -251,7 +258,7 @@ TEST_CASE("an error that cannot be promised is refused, and the tightest that ca
 }
 
 TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work") {
-  test::NullUi window({.with = [](Preset& preset) { preset.rows = preset.columns = 13; }});
+  test::NullUi window(cloth_of(13));
   const auto cells = [&] {
     const auto map = studies(window).map.findings();
     return map ? map->cells.size() : 0;

@@ -6,6 +6,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/session/requests.h"
 #include "core/io/preset_io.h"
+#include "core/model/resolution.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::constants_test {
@@ -125,17 +126,46 @@ TEST_CASE("a double click on a slider brings the preset's value back, Ctrl+R tho
   CHECK_FALSE(unsaved(window.session));
 }
 
-TEST_CASE("rows typed anew, where the wheel scrolls to them, build the cloth anew and keep the rest") {
-  test::NullUi window({.with = [](Preset& preset) { preset.k_s = 77; }});
-  window.scroll_to("constants.rows.value", "constants.k_s.value");
-  window.type_value("rows", "20");
-  CHECK(window.preset().rows == 20);
-  CHECK(window.preset().k_s == 77);
-  CHECK(window.cloth().lattice().rows == 20);
-  window.type_value("rows", "1");
-  CHECK(window.preset().rows == 20);
-  const std::int64_t steps = window.steps();
-  window.until([&] { return window.steps() > steps; }, "the cloth to go on moving");
+TEST_CASE("what rows that are typed mean is asked; the rest of the constants stays, and one undo takes it back") {
+  test::NullUi window({.with = [](Preset& preset) { preset.k_s = 77, preset.rows = preset.columns = 16; }});
+  window.pause();
+  const Preset before = window.preset();
+  const double far = window.scene.camera.distance;
+  const auto type_rows = [&](const char* text) {
+    if (!window.sees("constants.rows.value")) window.scroll_to("constants.rows.value", "constants.k_s.value");
+    window.type_value("rows", text);
+  };
+  type_rows("31");
+  CHECK(window.drew("16 × 16 → 31 × 16: what is meant?"));
+  CHECK(window.preset() == before);  // nothing is built before the answer
+
+  window.click("constants.Same_size_finer");
+  window.until([&] { return window.preset().rows == 31; }, "the finer cloth");
+  CHECK(window.preset() == with_resolution(before, 2));
+  CHECK(window.cloth().lattice().columns == 31);
+  CHECK(window.scene.camera.distance == doctest::Approx(far));
+  window.rest();
+  window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
+  window.until([&] { return window.preset() == before; }, "one undo to take it back");
+
+  type_rows("31");
+  window.type_value("columns", "61");
+  CHECK(window.drew("31 × 61"));
+  CHECK_FALSE(window.drew("Same size"));  // the cloth has other proportions
+  window.key(GLFW_KEY_ENTER, GLFW_MOD_SHIFT);
+  window.until([&] { return window.preset().columns == 61; }, "more cloth");
+  Preset more = before;
+  more.rows = 31, more.columns = 61;
+  CHECK(window.preset() == more);
+  CHECK(window.scene.camera.distance > 1.5 * far);  // all of it is seen
+
+  type_rows("16");
+  CHECK(window.drew("Less cloth"));
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(2);
+  CHECK_FALSE(window.drew("what is meant?"));
+  type_rows("1");
+  CHECK(window.preset() == more);
 }
 
 TEST_CASE("a slider in use takes the arrow keys for itself; once left, → steps again") {

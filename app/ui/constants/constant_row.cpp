@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/base/numbers.h"
+#include "app/ui/constants/resolution_row.h"
 #include "app/ui/constants/zones.h"
 #include "app/ui/kit/slider.h"
 #include "app/ui/kit/symbol.h"
@@ -277,13 +278,15 @@ RowColumns row_columns(const Ui& ui) {
 void constant_row(Ui& ui, const PresetRow& row) {
   Line line = describe(row);
   classify(row.field, line);
-  read(row.field, ui.session.requested_preset(), line.value);
+  const bool counts = row.key == "rows" || row.key == "columns";
+  const auto question = counts ? resolution_question(ui) : std::nullopt;
+  read(row.field, question ? question->more : ui.session.requested_preset(), line.value);
   read(row.field, ui.session.document.saved, line.saved);
   read(row.field, Preset{}, line.standard);
-  line.set = [&ui, &row](const double* value, unsigned gesture) {
-    Preset next = ui.session.requested_preset();
+  line.set = [&](const double* value, unsigned gesture) {
+    Preset next = question ? question->more : ui.session.requested_preset();
     write(row.field, next, value);
-    ui.session.propose(std::move(next), gesture);
+    counts ? ask_resolution(ui, next) : ui.session.propose(std::move(next), gesture);
   };
   line.differing = [&row](double value) { return Difference(row, value); };
   ImGui::PushID(row.key.data(), row.key.data() + row.key.size());

@@ -10,6 +10,7 @@
 #include "app/base/numbers.h"
 #include "app/ui/constants/constant_row.h"
 #include "app/ui/constants/constants_panel.h"
+#include "app/ui/constants/resolution_row.h"
 #include "app/ui/constants/stability_row.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
@@ -17,7 +18,6 @@
 #include "app/ui/kit/widgets.h"
 #include "core/forces/gust.h"
 #include "core/integrators/scheme.h"
-#include "core/model/resolution.h"
 
 namespace tyglab {
 namespace {
@@ -75,35 +75,6 @@ void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle,
   style.width = 3;
   const ImVec2 ends[] = {{left, std::round(middle)}, {left + theme.px(20), std::round(middle)}};
   draw_styled_line(draw, ends, 2, style, theme.scale);
-}
-
-void scale_resolution(Ui& ui, double q) {
-  ui.session.propose(with_resolution(ui.session.requested_preset(), q));
-}
-
-void resolution_row(Ui& ui) {
-  static constexpr const char* tip =
-      "Makes the lattice finer or coarser and keeps the size, mass and stretch behavior: R−1 and C−1 times q, "
-      "L/q, F_max/q, W/q², dt/q, m·RC/(R'C'). Resistance to folding falls as the cloth gets finer, since k_b stays. "
-      "Tears are repaired.";
-  labeled_row(ui, "divide", [&](float) {
-    const Preset& preset = ui.session.requested_preset();
-    const float gap = ui.theme.px(6);
-    const bool coarser = preset.rows >= 3 && (preset.columns >= 3 || preset.columns == 1);
-    if (text_button(ui, "÷ 2", false, coarser)) scale_resolution(ui, 0.5);
-    tooltip(ui, gui::item_id(), tip);
-    ImGui::SameLine(0, gap);
-    const bool finer = preset.rows * 2 - 1 <= 4096 && preset.columns * 2 - 1 <= 4096;
-    if (text_button(ui, "× 2", false, finer)) scale_resolution(ui, 2);
-    tooltip(ui, gui::item_id(), tip);
-    ImGui::SameLine(0, ui.theme.px(12));
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    char text[64];
-    std::snprintf(text, sizeof text, "%d particles", preset.rows * preset.columns);
-    draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,
-                     {at.x, baseline_at(ui.fonts, at.y + ui.theme.px(15))}, ui.theme.colors.quiet, text);
-    ImGui::Dummy({text_width(*ui.fonts.small, text), ui.theme.px(30)});
-  });
 }
 
 std::string pins_text(const Pins& pins) {

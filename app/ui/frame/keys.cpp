@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/ui/constants/resolution_row.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/kit/imgui_compat.h"
 
@@ -57,6 +58,15 @@ bool dialog_takes(Ui& ui, const KeyEvent& event) {
   if (event.key == GLFW_KEY_ESCAPE) ui.dialog.kind = Dialog::Kind::none;
   ui.dialog.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
   return true;
+}
+
+/// What rows and columns that were typed mean is answered by a key too.
+bool resolution_takes(Ui& ui, const KeyEvent& event) {
+  if (!resolution_question(ui) || (event.mods & counted & ~GLFW_MOD_SHIFT) != 0) return false;
+  const bool enter = event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  if (enter) answer_resolution(ui, (event.mods & GLFW_MOD_SHIFT) == 0);
+  if (event.key == GLFW_KEY_ESCAPE) ui.asked_lattice.reset();
+  return enter || event.key == GLFW_KEY_ESCAPE;
 }
 
 bool slider_takes(Ui& ui, const KeyEvent& event) {
@@ -118,8 +128,8 @@ void command_for(Ui& ui, const KeyEvent& event) {
 
 void take_key(Ui& ui, const KeyEvent& event) {
   const bool taken = dialog_takes(ui, event) || palette_takes(ui, event) || help_takes(ui, event) ||
-                     list_takes(ui, event) || typing_takes(ui, event) || slider_takes(ui, event) ||
-                     tour_takes(ui, event);
+                     list_takes(ui, event) || typing_takes(ui, event) || resolution_takes(ui, event) ||
+                     slider_takes(ui, event) || tour_takes(ui, event);
   if (!taken) command_for(ui, event);
 }
 

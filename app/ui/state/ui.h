@@ -106,6 +106,14 @@ struct Tour {
   Place transport, labs;  ///< where the top bar drew them
 };
 
+/// Rows and columns (x, y) that were typed, until it is said what they mean (resolution_row.h).
+struct AskedLattice {
+  glm::ivec2 of;  ///< of which cloth
+  double L;
+  glm::ivec2 wanted;
+  bool shown = false;  ///< the question has been brought into sight
+};
+
 /// A PNG of the window, or of the viewport with what its colors mean and without buttons.
 struct PictureOrder {
   std::filesystem::path file;
@@ -133,10 +141,11 @@ struct Ui : UiContext {
   bool arrows = true;                    ///< of the variables that are checked, at the picked particle
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
   bool constants_to_top = false;         ///< another preset was taken: its constants are shown from the first one on
-  bool lab_enter = false;                ///< Enter was pressed in the field of a lab's prediction
-  float viewport_left = 0;               ///< pixels
-  bool side_plots = false;               ///< where both columns have no room, the plots stand in the constants' place
-  bool side_cloth = true;  ///< where not even one has room beside the cloth: the cloth is shown, and neither
+  std::optional<AskedLattice> asked_lattice;
+  bool lab_enter = false;   ///< Enter was pressed in the field of a lab's prediction
+  float viewport_left = 0;  ///< pixels
+  bool side_plots = false;  ///< where both columns have no room, the plots stand in the constants' place
+  bool side_cloth = true;   ///< where not even one has room beside the cloth: the cloth is shown, and neither
 
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
   bool full_screen = false;             ///< as the window is

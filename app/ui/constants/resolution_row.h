@@ -1,0 +1,27 @@
+// How many particles the cloth has: halved and doubled, or typed. What was typed may mean the same cloth with finer
+// springs, or more of the same cloth: that is asked, beside the constants, before anything is built.
+#pragma once
+
+#include <optional>
+
+#include "app/ui/state/ui.h"
+
+namespace tyglab {
+
+/// Other rows or columns than the cloth's, until it is said what they mean.
+struct ResolutionQuestion {
+  Preset more;                      ///< L and m stay: another size
+  std::optional<Preset> same_size;  ///< where the cloth's proportions allow it: as large and as heavy as now
+};
+
+/// Asks what the change of rows or columns from the present preset means.
+void ask_resolution(Ui& ui, const Preset& wanted);
+/// The question, while it waits for its answer and still belongs to the present cloth.
+std::optional<ResolutionQuestion> resolution_question(const Ui& ui);
+/// Answers it, in one change that one undo takes back.
+void answer_resolution(Ui& ui, bool same_size);
+
+/// "÷ 2", "× 2", and the question.
+void resolution_row(Ui& ui);
+
+}  // namespace tyglab
