@@ -137,10 +137,10 @@ Chart chart_of(const AccuracyResult& result) {
       if (!single) chart.series.push_back(series_of(method, curve->title, style));
     } else if (is_integrator(row.integrator) && (!single || row.integrator.ends_with("verlet"))) {
       // Two methods show where float's rounding ends them; it is the same for all.
-      CurveStyle style = integrator_style(colors, row.integrator);
-      if (single) style.line = LineStyle::dotted;
       const std::string title(scheme(row.integrator).title);
-      chart.series.push_back(series_of(method, single ? title + ", float" : title, style));
+      chart.series.push_back(
+          series_of(method, single ? title + ", float" : title, integrator_style(colors, row.integrator)));
+      chart.series.back().hollow = single;
     }
   }
   std::erase_if(chart.series, [](const ChartSeries& series) { return series.x.empty(); });

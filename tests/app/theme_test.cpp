@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "app/ui/cards/accuracy_card.h"
 #include "app/ui/constants/zones.h"
+#include "app/ui/kit/curves.h"
 #include "app/ui/kit/theme.h"
+#include "core/integrators/names.h"
 
 namespace tyglab::theme_test {
 
@@ -92,6 +97,50 @@ TEST_CASE("the colors of the zones of stability are told apart in every theme, a
       CHECK(difference(depends, unstable, vision) > plainly);
       CHECK(difference(stable, unstable, vision) > plainly);
     }
+}
+
+TEST_CASE("methods are told apart by color, by the color-blind also by the line, and can be seen on every ground") {
+  std::vector<std::string_view> names(integrator_names().begin(), integrator_names().end());
+  names.push_back("exact");
+  constexpr double plainly = 15, by_color_alone = 20;  // 2.3 can just be seen
+  for (const Look& look : looks()) {
+    CAPTURE(std::string(look.name));
+    const Tokens c = look.tokens();
+    const auto unnamed = integrator_style(c, "no method");
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      CAPTURE(std::string(names[n]));
+      const CurveStyle one = integrator_style(c, names[n]);
+      CHECK(one.color != unnamed.color);
+      for (const ImU32 ground : {c.ground, c.panel, c.field}) CHECK(contrast(one.color, ground) >= 3);
+      for (std::size_t k = 0; k < n; ++k) {
+        CAPTURE(std::string(names[k]));
+        const CurveStyle other = integrator_style(c, names[k]);
+        CHECK(difference(one.color, other.color, visions[0]) > by_color_alone);
+        for (const Vision& vision : std::span(visions).first(3)) {
+          CAPTURE(std::string(vision.name));
+          CHECK((one.line != other.line || difference(one.color, other.color, vision) > plainly));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a method looks the same in every chart") {
+  for (const std::string_view name : integrator_names()) {
+    CAPTURE(std::string(name));
+    const Tokens c = dark_tokens();
+    const CurveStyle style = integrator_style(c, name);
+    StabilityLimits limits;
+    limits.of.integrator = name;
+    limits.damped = {{0.1, 0.2}, {1, 1}}, limits.undamped = limits.damped;
+    AccuracyStudy study;
+    study.points = {{std::string(name), Precision::double_, 0.001, 0, 1e-4, 0.1, true}};
+    for (const Chart& chart : {stability_chart(c, limits), accuracy_chart(c, study)}) {
+      REQUIRE_FALSE(chart.series.empty());
+      CHECK(chart.series.front().style.color == style.color);
+      CHECK(chart.series.front().style.line == style.line);
+    }
+  }
 }
 
 TEST_CASE("an unknown theme is the first one") {

@@ -79,7 +79,8 @@ Chart weight_chart(const std::vector<WeightRun>& runs) {
     const auto run = std::find_if(runs.begin(), runs.end(), [&](const auto& r) { return r.preset.integrator == name; });
     if (run == runs.end()) continue;
     if (chart.series.empty()) {
-      chart.series.push_back({"exact", {colors.vermilion, LineStyle::solid, 4.5f}, true, 0, run->t, run->exact});
+      chart.series.push_back({"exact", integrator_style(colors, "exact"), true, 0, run->t, run->exact});
+      chart.series.back().style.width = 4.5f;
       std::array<char, 128> note;
       std::snprintf(note.data(), note.size(), "dt = %g s, ω·dt = %.3g, k_d = %g Ns/m", run->preset.dt,
                     run->preset.dt * std::sqrt(run->preset.k / run->preset.m), run->preset.k_d);

@@ -79,7 +79,7 @@ Chart drift_chart(const std::vector<DriftRow>& rows, const std::string& scene, b
   for (const DriftRow& row : rows) {
     if (row.of.scene != scene || row.diverged_at > 0) continue;
     ChartSeries series{name_of(row), integrator_style(dark_tokens(), row.of.preset.integrator), true, 0, {}, {}};
-    if (row.of.part_of_limit != 0.5) series.style.line = LineStyle::dotted;
+    if (row.of.part_of_limit != 0.5) series.style.width = 0.9f;
     for (std::size_t n = 1; n < row.t.size(); ++n) {
       const double part = row.energy[n] / row.motion;
       if (!rise && std::abs(part) > shown) break;

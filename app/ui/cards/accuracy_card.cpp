@@ -78,16 +78,15 @@ Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
   chart.x.title = "ω·dt", chart.y.title = "growth per step (spectral radius)";
   chart.x.from_zero = true;
   double least = 1, most = 0, hi = 1;
-  const auto curve = [&](const std::string& name, LineStyle line, const GrowthCurve& of) {
-    ChartSeries series{name, integrator_style(c, method.name), true, 0, of.h, of.radius};
-    series.style.line = line;
+  const auto curve = [&](const std::string& name, const CurveStyle& style, const GrowthCurve& of) {
+    ChartSeries series{name, style, true, 0, of.h, of.radius};
     for (const double radius : of.radius) least = std::min(least, radius), hi = std::max(hi, radius);
     if (!of.h.empty()) most = std::max(most, of.h.back());
     chart.series.push_back(std::move(series));
   };
   const bool damped = !limits.undamped.h.empty();
-  curve(std::string(method.title) + (damped ? ", damped" : ""), LineStyle::solid, limits.damped);
-  if (damped) curve("undamped", LineStyle::dotted, limits.undamped);
+  curve(std::string(method.title) + (damped ? ", damped" : ""), integrator_style(c, method.name), limits.damped);
+  if (damped) curve("undamped", {c.quiet, LineStyle::dotted, 1.8f}, limits.undamped);
   most = std::max({most, now, bound});
   chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
   if (limits.now) chart.series.push_back(mark_at("this cloth", now, c.text, LineStyle::solid, least, hi));

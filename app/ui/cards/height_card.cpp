@@ -24,7 +24,7 @@ void figure_legend(Ui& ui, const Region& place) {
   Plots& plots = ui.plots;
   const Tokens& c = ui.theme.colors;
   const ImFont& font = *ui.fonts.small;
-  const float sample = ui.theme.px(14), gap = ui.theme.px(10);
+  const float sample = ui.theme.px(18), gap = ui.theme.px(10);
   float x = place.at.x;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (std::size_t k = 0; k < ReferenceCurves::curves.size(); ++k) {

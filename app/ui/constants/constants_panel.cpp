@@ -73,7 +73,7 @@ std::string label_of(const Scheme& scheme) {
 void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle, const Scheme& scheme) {
   CurveStyle style = integrator_style(theme.colors, scheme.name);
   style.width = 3;
-  const ImVec2 ends[] = {{left, std::round(middle)}, {left + theme.px(20), std::round(middle)}};
+  const ImVec2 ends[] = {{left, std::round(middle)}, {left + theme.px(24), std::round(middle)}};
   draw_styled_line(draw, ends, 2, style, theme.scale);
 }
 

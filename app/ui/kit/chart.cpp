@@ -68,7 +68,7 @@ float legend(const PlotPaint& paint, ImVec2 at, float width, const Chart& chart,
       const std::array<ImVec2, 2> ends{from, to};
       if (series.line) draw_styled_line(paint.draw, ends.data(), 2, series.style, theme.scale);
       if (series.marks > 0)
-        paint.draw.AddCircleFilled({(from.x + to.x) / 2, from.y}, series.marks * theme.scale, series.style.color, 16);
+        draw_mark(paint, {(from.x + to.x) / 2, from.y}, series.marks, series.style.color, series.hollow);
       draw_on_baseline(paint.draw, *paint.fonts.text, {to.x + gap, baseline_at(paint.fonts, from.y)}, theme.colors.text,
                        series.name);
     }
@@ -116,8 +116,8 @@ PlotAxes draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart&
                           {axes.hi.x + theme.px(4), axes.hi.y + theme.px(4)}, true);
   for (const ChartCell& cell : chart.cells) draw_cell(paint, axes, cell);
   for (const ChartSeries& series : chart.series)
-    draw_curve(paint, axes, {series.name, series.style, series.x, series.y, series.line, series.marks}, 0,
-               series.x.size());
+    draw_curve(paint, axes, {series.name, series.style, series.x, series.y, series.line, series.marks, series.hollow},
+               0, series.x.size());
   paint.draw.PopClipRect();
   legend(paint, {lo.x, hi.y - legend_height}, hi.x - lo.x, chart, true);
   return axes;

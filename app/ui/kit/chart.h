@@ -33,6 +33,7 @@ struct ChartSeries {
   bool line = true;
   float marks = 3;  ///< radius of the discs, at scale 1; 0: none
   std::vector<double> x, y;
+  bool hollow = false;  ///< rings in place of discs
 };
 
 struct Chart {

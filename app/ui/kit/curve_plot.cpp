@@ -35,7 +35,7 @@ class CurveDrawer {
     const ImVec2 at{axes_.px(x), axes_.py(y)};
     if (y > axes_.y.hi * (1 + 1e-9)) flag(at.x, true);
     if (y < axes_.y.lo - 1e-9 * std::abs(axes_.y.lo)) flag(at.x, false);
-    if (curve_.marks > 0) paint_.draw.AddCircleFilled(at, curve_.marks * paint_.theme.scale, curve_.style.color, 16);
+    if (curve_.marks > 0) draw_mark(paint_, at, curve_.marks, curve_.style.color, curve_.hollow);
     // Samples closer than half a pixel add nothing to see unless they swing.
     if (!points_.empty() && std::abs(at.x - points_.back().x) < 0.5f && std::abs(at.y - points_.back().y) < 1) return;
     points_.push_back(at);
@@ -72,6 +72,12 @@ std::vector<PlotTick> labeled(std::span<const double> ticks) {
   std::vector<PlotTick> out;
   for (const double tick : ticks) out.push_back({tick, short_number(rounded(tick, 6))});
   return out;
+}
+
+void draw_mark(const PlotPaint& paint, ImVec2 at, float radius, ImU32 color, bool hollow) {
+  const float scale = paint.theme.scale;
+  if (hollow) return paint.draw.AddCircle(at, radius * scale, color, 16, 1.2f * scale);
+  paint.draw.AddCircleFilled(at, radius * scale, color, 16);
 }
 
 void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> y_ticks) {

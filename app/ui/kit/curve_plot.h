@@ -50,6 +50,7 @@ struct PlotCurve {
   std::span<const double> x, y;
   bool line = true;
   float marks = 0;                             ///< radius of a disc at each point, at scale 1; 0: none
+  bool hollow = false;                         ///< rings in place of discs
   std::size_t from = 0, to = std::size_t(-1);  ///< only the samples [from, to) are drawn
   std::span<const std::size_t> gaps = {};      ///< samples that no line leads to, ascending
 };
@@ -71,6 +72,8 @@ PlotRange linear_range(double least, double most, bool from_zero);
 /// With labels as short as they can be.
 std::vector<PlotTick> labeled(std::span<const double> ticks);
 
+/// A disc, or a ring, of that radius at scale 1.
+void draw_mark(const PlotPaint& paint, ImVec2 at, float radius, ImU32 color, bool hollow);
 /// Ground and horizontal lines, their labels to the left of it.
 void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> y_ticks);
 /// Vertical lines with labels below; those that would touch the one before go without.

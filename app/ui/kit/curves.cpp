@@ -17,25 +17,25 @@ CurveStyle curve_style(const Tokens& c, std::string_view key) {
 CurveStyle integrator_style(const Tokens& c, std::string_view name) {
   struct Style {
     std::string_view name;
-    ImU32 Tokens::*color;
+    unsigned dark, light;  ///< its color in dark and in light themes
     LineStyle line;
   };
-  // Implicit methods are dashed.
-  static constexpr Style styles[] = {{"verlet", &Tokens::blue, LineStyle::solid},
-                                     {"improved_euler", &Tokens::green, LineStyle::solid},
-                                     {"euler", &Tokens::magenta, LineStyle::solid},
-                                     {"semi_implicit_euler", &Tokens::orange, LineStyle::solid},
-                                     {"velocity_verlet", &Tokens::sky, LineStyle::solid},
-                                     {"rk4", &Tokens::yellow, LineStyle::solid},
-                                     {"rkn4", &Tokens::text, LineStyle::solid},
-                                     {"dopri5", &Tokens::yellow, LineStyle::long_dash},
-                                     {"xpbd", &Tokens::orange, LineStyle::dotted},
-                                     {"implicit_euler", &Tokens::magenta, LineStyle::dashed},
-                                     {"implicit_midpoint", &Tokens::sky, LineStyle::dashed},
-                                     {"tr_bdf2", &Tokens::green, LineStyle::dashed},
-                                     {"exact", &Tokens::vermilion, LineStyle::solid}};
+  // The colors of two methods with the same line are far apart for the color-blind too (tests/app/theme_test.cpp).
+  static constexpr Style styles[] = {{"exact", 0xD55E00, 0xB84300, LineStyle::solid},
+                                     {"verlet", 0x4A90D9, 0x1F5FA8, LineStyle::solid},
+                                     {"improved_euler", 0x009E73, 0x0A8A4A, LineStyle::solid},
+                                     {"euler", 0xCC79A7, 0x9A2F6A, LineStyle::solid},
+                                     {"semi_implicit_euler", 0xE69F00, 0xA27179, LineStyle::dashed},
+                                     {"velocity_verlet", 0x73DFFF, 0x4589A5, LineStyle::long_dash},
+                                     {"rk4", 0xF0E442, 0x4C3C00, LineStyle::dash_dot},
+                                     {"rkn4", 0xA1B058, 0x114D30, LineStyle::dash_dot_dot},
+                                     {"dopri5", 0x00FFE8, 0x281747, LineStyle::dash_dot_dot},
+                                     {"implicit_euler", 0xD23E52, 0x440802, LineStyle::dashed},
+                                     {"implicit_midpoint", 0x6C68E4, 0x916DDE, LineStyle::dotted},
+                                     {"tr_bdf2", 0xF4C7A8, 0x550073, LineStyle::dash_dot},
+                                     {"xpbd", 0xA5FF80, 0x06232C, LineStyle::dotted}};
   for (const Style& style : styles)
-    if (style.name == name) return {c.*style.color, style.line, 1.8f};
+    if (style.name == name) return {rgb(c.light ? style.light : style.dark), style.line, 1.8f};
   return {c.quiet, LineStyle::solid, 1.8f};
 }
 

@@ -8,10 +8,6 @@
 namespace tyglab {
 namespace {
 
-constexpr ImU32 rgb(unsigned hex) {
-  return IM_COL32(hex >> 16 & 255, hex >> 8 & 255, hex & 255, 255);
-}
-
 ImVec4 vec(ImU32 color, float opacity = 1) {
   return ImGui::ColorConvertU32ToFloat4(faded(color, opacity));
 }
@@ -20,6 +16,7 @@ ImVec4 vec(ImU32 color, float opacity = 1) {
 std::span<const float> pattern(LineStyle style) {
   static constexpr std::array<float, 2> dashed{8, 4}, dotted{2, 3}, long_dash{14, 5}, sparse{2, 7};
   static constexpr std::array<float, 4> dash_dot{8, 3, 2, 3};
+  static constexpr std::array<float, 6> dash_dot_dot{8, 3, 2, 3, 2, 3};
   switch (style) {
     case LineStyle::dashed:
       return dashed;
@@ -27,6 +24,8 @@ std::span<const float> pattern(LineStyle style) {
       return dotted;
     case LineStyle::dash_dot:
       return dash_dot;
+    case LineStyle::dash_dot_dot:
+      return dash_dot_dot;
     case LineStyle::long_dash:
       return long_dash;
     case LineStyle::sparse_dots:
@@ -120,7 +119,8 @@ Tokens dark_tokens() {
           .yellow = rgb(0xF0E442),
           .vermilion = rgb(0xD55E00),
           .orange = rgb(0xE69F00),
-          .sky = rgb(0x56B4E9)};
+          .sky = rgb(0x56B4E9),
+          .light = false};
 }
 
 Tokens light_tokens() {
@@ -142,7 +142,8 @@ Tokens light_tokens() {
           .yellow = rgb(0x7A6A00),
           .vermilion = rgb(0xB84300),
           .orange = rgb(0xA05F00),
-          .sky = rgb(0x0B78B5)};
+          .sky = rgb(0x0B78B5),
+          .light = true};
 }
 
 std::span<const Look> looks() {

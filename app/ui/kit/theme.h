@@ -10,11 +10,17 @@
 
 namespace tyglab {
 
+/// A color from its hexadecimal digits, red first.
+constexpr ImU32 rgb(unsigned hex) {
+  return IM_COL32(hex >> 16 & 255, hex >> 8 & 255, hex & 255, 255);
+}
+
 /// Colors by what they mean. Data colors are Okabe and Ito's, safe for the color-blind.
 struct Tokens {
   ImU32 ground, panel, field, field_hover, line, text, quiet, accent, on_accent;
   ImU32 danger, warning, good;
   ImU32 blue, green, magenta, yellow, vermilion, orange, sky;
+  bool light;  ///< dark curves on a light ground
 };
 Tokens dark_tokens();
 /// With data colors of their own that read on white.
@@ -47,7 +53,7 @@ ImU32 faded(ImU32 color, float opacity);
 /// Between two colors, t from 0 to 1.
 ImU32 mixed(ImU32 a, ImU32 b, float t);
 
-enum class LineStyle { solid, dashed, dotted, dash_dot, long_dash, sparse_dots };
+enum class LineStyle { solid, dashed, dotted, dash_dot, dash_dot_dot, long_dash, sparse_dots };
 
 /// How a quantity is drawn wherever it appears: curve, legend, read-out, arrow.
 struct CurveStyle {
