@@ -131,8 +131,12 @@ std::string broken_in_words(Session& session, const Condition& check, const Chec
            ": restart, and change only what the task names";
   const std::string was = subject(check) + " was " + (memory.was.empty() ? "not known" : memory.was);
   const std::string goal = goal_in_words(session, check);
+  if (check.span == Span::when && memory.was.empty())
+    return words_of(check.when[0]) + " was true before this step began: restart, and reach it with " + subject(check) +
+           " " + goal;
   if (check.span == Span::when)
-    return was + at + ", when " + words_of(check.when[0]) + " came true: restart, and have it " + goal + " then";
+    return was + at + ", when " + words_of(check.when[0]) + " became true: restart, and reach it with " +
+           subject(check) + " " + goal;
   if (is_word(check.name)) return was + at + ": choose " + goal + ", and restart";
   return was + at + ": restart, and keep it " + goal + " from the beginning";
 }
@@ -183,6 +187,11 @@ MotionChange follow_motion(const Session& session, MotionWatch& watch) {
   }
   if (stands || steps == before + session.steps_made) return MotionChange::none;
   return steps < before + session.steps_made ? MotionChange::back : MotionChange::taken_up;
+}
+
+CheckMemory begun_late(Session& session, const Condition& check) {
+  if (check.span != Span::when || judge_now(session, check.when[0]) != CheckState::holds) return {};
+  return {true, false, session.simulation->time(), {}};
 }
 
 CheckState judge(Session& session, const Condition& check, MotionChange change, CheckMemory& memory) {

@@ -44,6 +44,10 @@ MotionChange follow_motion(const Session& session, MotionWatch& watch);
 /// The number on the right of a condition; none while it is not known.
 std::optional<double> value_of(Session& session, const Operand& operand);
 
+/// What a check remembers of a motion that is already under way when the step begins: a moment that the check is about
+/// (`when`) and that has passed was not seen, so the check is broken.
+CheckMemory begun_late(Session& session, const Condition& check);
+
 /// Judges a check at the present moment, with what it remembers. To be called in every update.
 CheckState judge(Session& session, const Condition& check, MotionChange change, CheckMemory& memory);
 

@@ -75,6 +75,24 @@ void keep_outcome(Session& session, LabRun& run) {
   }
 }
 
+/// What must be known at the moment at which the step is done: the answer, and what the next step compares with.
+std::vector<Operand> wanted_values(const LabRun& run) {
+  std::vector<Operand> wanted;
+  const auto& asked = run.now().prediction;
+  if (asked && asked->choices.empty() && !asked->answer.before) wanted.push_back(asked->answer);
+  if (run.step + 1 >= run.lab.steps.size()) return wanted;
+  const LabStep& next = run.lab.steps[run.step + 1];
+  const auto keep = [&](Operand operand) {
+    if (operand.before) operand.before = false, wanted.push_back(std::move(operand));
+  };
+  if (next.prediction) keep(next.prediction->answer);
+  for (const Condition& check : next.checks) {
+    keep(check.right);
+    for (const Condition& moment : check.when) keep(moment.right);
+  }
+  return wanted;
+}
+
 /// Whether what was predicted is right; asked at the moment at which the step is done.
 void judge_prediction(Session& session, LabRun& run) {
   if (!run.now().prediction) return;
@@ -108,6 +126,14 @@ void begin_watching(Session& session, LabRun& run) {
   run.watch = {session.simulation->steps(), session.counts.touches};
   run.begun = session.requested_preset();
   if (run.now().open) run.begun = opening_preset(run.now()).value_or(run.begun);
+  for (std::size_t k = 0; k < record.seen.size(); ++k) record.seen[k] = begun_late(session, run.now().checks[k]);
+}
+
+/// The first of those values that is not known yet but can become known; empty where none is missing.
+std::string awaited_value(Session& session, const LabRun& run) {
+  for (const Operand& operand : wanted_values(run))
+    if (is_measured(operand.name) && !value_of(session, operand)) return operand.name;
+  return {};
 }
 
 void complete(Session& session, LabRun& run) {
@@ -314,7 +340,8 @@ void watch_lab(Session& session) {
     record.checks[k] = judge(session, step.checks[k], change, record.seen[k]);
     all &= record.checks[k] == CheckState::holds;
   }
-  if (all) complete(session, run);
+  run.awaited = all ? awaited_value(session, run) : std::string();
+  if (all && run.awaited.empty()) complete(session, run);
 }
 
 Wants lab_wants(const Session& session) {
@@ -325,7 +352,7 @@ Wants lab_wants(const Session& session) {
     const Observable* row = find_observable(name);
     if (row != nullptr && row->needs != nullptr) wants.*row->needs = true;
   };
-  if (step.prediction) need(step.prediction->answer.name);
+  for (const Operand& operand : wanted_values(*session.labs.run)) need(operand.name);
   for (const Condition& check : step.checks) {
     need(check.name), need(check.right.name);
     for (const Condition& moment : check.when) need(moment.name), need(moment.right.name);

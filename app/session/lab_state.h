@@ -49,6 +49,7 @@ struct LabRun {
   Lab lab;
   std::size_t step = 0;
   std::vector<StepRecord> records;
+  std::string awaited;            ///< all checks hold, and this quantity's value is waited for; empty: none is
   bool show_explanation = false;  ///< it has just come: the card scrolls to it
   Preset begun;                   ///< the constants with which the present step began
   MotionWatch watch;

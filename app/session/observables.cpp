@@ -43,12 +43,17 @@ Known crit(Session& session) {
   const StabilityLimits* limits = present_limits(session);
   return limits != nullptr ? Known(limits->any) : std::nullopt;
 }
-Known crit_now(Session& session) {
+/// The same, once they have been worked out for the cloth as it is at this moment.
+const StabilityLimits* limits_of_moment(const Session& session) {
   const StabilityLimits* limits = present_limits(session);
+  return limits != nullptr && limits->at == session.study_moment().mark() ? limits : nullptr;
+}
+Known crit_now(Session& session) {
+  const StabilityLimits* limits = limits_of_moment(session);
   return limits != nullptr ? limits->now : std::nullopt;
 }
 Known fastest_omega(Session& session) {
-  const StabilityLimits* limits = present_limits(session);
+  const StabilityLimits* limits = limits_of_moment(session);
   return limits != nullptr && limits->now ? Known(limits->omega) : std::nullopt;
 }
 /// Where the zone of a constant begins in which not every shape of the cloth is stable any more.
@@ -141,6 +146,7 @@ Known time_of_divergence(Session& session) {
 
 constexpr std::string_view
     limits_hint = "It is computed in a moment.",
+    moment_hint = "Pause: it is then computed in a moment, for cloths of up to 128 × 128 particles.",
     study_hint = "Pause, and open the card Accuracy: it measures for a few seconds from the present moment on.",
     pick_hint = "Right-click a particle to pick it.", readings = "below the constants";
 
@@ -206,8 +212,8 @@ const std::array rows{
                .measured = true},
     Observable{.name = "dt_crit_now",
                .unit = "s",
-               .meaning = "The same of the cloth as it hangs now.",
-               .hint = limits_hint,
+               .meaning = "The same for the cloth as it hangs at this moment.",
+               .hint = moment_hint,
                .place = "gauge under dt",
                .number = crit_now,
                .needs = &Wants::stability,
@@ -230,8 +236,8 @@ const std::array rows{
                .measured = true},
     Observable{.name = "omega",
                .unit = "1/s",
-               .meaning = "The cloth's fastest angular frequency as it hangs now.",
-               .hint = limits_hint,
+               .meaning = "The cloth's fastest angular frequency as it hangs at this moment.",
+               .hint = moment_hint,
                .place = "card Stability",
                .number = fastest_omega,
                .needs = &Wants::stability,

@@ -25,9 +25,9 @@ void add_curves(StabilityLimits& limits, const Scheme& method) {
   if (zeta_over_h > 0) limits.undamped = growth_curve(method, most, 0);
 }
 
-StabilityLimits work_out(const Preset& preset, const std::optional<Linearisation>& cloth) {
+StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::optional<Linearisation>& cloth) {
   const Scheme& method = scheme(preset.integrator);
-  StabilityLimits limits{.of = preset, .now = {}, .damped = {}, .undamped = {}, .zones = {}};
+  StabilityLimits limits{.of = preset, .at = at, .now = {}, .damped = {}, .undamped = {}, .zones = {}};
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
   const auto add_zones = [&](const ZonedConstant& constant) {
@@ -69,14 +69,15 @@ void StabilityWatch::poll(StudyMoment& moment) {
       limits_ = std::move(*limits);
   const Simulation& simulation = moment.simulation;
   const bool new_constants = !looked_for_ || !changes(*looked_for_, simulation.preset()).within(motionless),
-             moved = looked_at_ != simulation.time();
-  if (!new_constants && (!moved || moment.now < begun_ + between_looks)) return;
-  begun_ = moment.now, looked_at_ = simulation.time(), looked_for_ = simulation.preset();
+             moved = looked_at_ != moment.mark();
+  if (!new_constants && !moved) return;
+  if (!new_constants && moment.now < begun_ + between_looks)
+    return moment.moving ? void() : moment.ask_again_in(begun_ + between_looks - moment.now);
+  begun_ = moment.now, looked_at_ = moment.mark(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;
   if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);
-  work_.start(Priority::normal, [preset = simulation.preset(), cloth = std::move(cloth)](const JobControl&) {
-    return work_out(preset, cloth);
-  });
+  work_.start(Priority::normal, [preset = simulation.preset(), at = *looked_at_,
+                                 cloth = std::move(cloth)](const JobControl&) { return work_out(preset, at, cloth); });
   moment.ask_again_in(soon);
 }
 

@@ -29,6 +29,7 @@ GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h
 /// where none is too large.
 struct StabilityLimits {
   Preset of;       ///< the constants they belong to
+  MotionMark at;   ///< the moment that `now`, `omega` and `fastest` belong to
   double any = 0;  ///< worst-case limit: dt_crit in any configuration of the springs
   std::optional<double>
       now;           ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
@@ -49,8 +50,8 @@ class StabilityWatch {
  private:
   Job<StabilityLimits> work_;
   std::optional<StabilityLimits> limits_;
-  double begun_ = -1;      ///< s on the session's clock; when the last look began
-  double looked_at_ = -1;  ///< simulated time of it
+  double begun_ = -1;                    ///< s on the session's clock; when the last look began
+  std::optional<MotionMark> looked_at_;  ///< the moment of it
   std::optional<Preset> looked_for_;
 };
 

@@ -1,15 +1,19 @@
 // Labs as files: what they say, and how a wrong one is refused.
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include "app/session/edits.h"
 #include "app/session/lab_state.h"
 #include "app/session/observables.h"
 #include "app/session/session.h"
 #include "tests/support/files.h"
+#include "tests/support/scenes.h"
 
 namespace tyglab::lab_file_test {
 
@@ -295,6 +299,61 @@ TEST_CASE("progress is kept, and a lab goes on at a step that opens its preset")
   CHECK(session.labs.run->step == 0);
   begin_lab(session, "99_none");
   CHECK(session.messages.list().size() == 1);
+}
+
+/// Updates until the limits of the present constants and the present moment are there.
+void wait_for_limits(Session& session) {
+  for (int n = 0; n < 20000; ++n) {
+    session.wants.stability = true;
+    session.update(0.05, {});
+    const auto& limits = session.studies.stability.limits();
+    if (limits && limits->of == session.preset() && limits->at == session.study_moment().mark()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  FAIL("no limits came");
+}
+
+TEST_CASE("what belongs to the cloth as it hangs is known only for the moment at which it was measured") {
+  Session session;
+  session.simulation = std::make_shared<Simulation>(test::cloth(12, 12));
+  session.pacing.playing = false;
+  wait_for_limits(session);
+  REQUIRE(observe(session, "dt_crit_now").has_value());
+  REQUIRE(observe(session, "omega").has_value());
+  session.simulation->advance(200);
+  CHECK_FALSE(observe(session, "dt_crit_now").has_value());  // it has moved
+  CHECK_FALSE(observe(session, "omega").has_value());
+  CHECK(observe(session, "dt_crit").has_value());  // which is that of every shape
+  wait_for_limits(session);
+  REQUIRE(observe(session, "omega").has_value());
+  session.simulation->apply(edit::Cut{{{5, 5}}});
+  CHECK_FALSE(observe(session, "omega").has_value());  // it was cut, and no time has passed
+  wait_for_limits(session);
+  CHECK(observe(session, "omega").has_value());
+}
+
+TEST_CASE("a step is not done before its answer is known") {
+  Session session;
+  session.simulation = std::make_shared<Simulation>(test::cloth(12, 12));
+  session.pacing.playing = false;
+  session.labs.looked = true;
+  session.labs.list.push_back(
+      parse_lab(head + "predict: What is it?\nanswer: dt_crit_now within 10 %\ncheck: k_s > 0 N/m\n```\n", "my.md"));
+  begin_lab(session, session.labs.list[0].label);
+  StepRecord& record = session.labs.run->record();
+  std::snprintf(record.typed, sizeof record.typed, "1e-9");
+  REQUIRE(predict(session));
+  session.update(0, {});
+  CHECK_FALSE(record.done);
+  CHECK(session.labs.run->awaited == "dt_crit_now");
+  for (int n = 0; n < 20000 && !record.done; ++n) {
+    session.wants = {};
+    session.update(0.05, {});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  REQUIRE(record.done);
+  CHECK(record.answer > 0);
+  CHECK_FALSE(record.right);
 }
 
 }  // namespace tyglab::lab_file_test

@@ -432,6 +432,66 @@ TEST_CASE("lab: tearing a cloth on purpose") {
   finish(play);
 }
 
+TEST_CASE("lab: tearing, done wrongly") {
+  LabPlayer play("09_tearing");
+  play.predict("0.115");
+  play.run(30);
+  finish(play);
+  play.set("F_max=0.02");
+  play.session().pacing.playing = true;
+  for (int n = 0; n < 12; ++n) play.update(1.0 / 60);  // the step is done, and the motion goes on
+  play.session().pacing.playing = false;
+  CHECK(*observe(play.session(), "torn") >= 100);
+  play.set("F_max=0.08");
+  play.next();
+  play.predict("0.08");
+  play.run(0.1);
+  CHECK_FALSE(play.done());  // it tore before the step began
+  CHECK(play.card(1) == "torn ≥ 100 was true before this step began: restart, and reach it with F_max above 0.06 N");
+  play.restart();
+  play.set("F_max=0");
+  play.run(2.5);
+  play.set("F_max=0.02");
+  play.run(0.2);
+  CHECK(*observe(play.session(), "torn") >= 100);
+  play.set("F_max=0.08");
+  play.run(0.2);
+  CHECK_FALSE(play.done());  // it tore at another F_max
+  CHECK(play.card(1).starts_with("F_max was 0.02 N at t = 2."));
+  play.set("F_max=0.085");
+  play.restart();
+  play.run(3);
+  CHECK(*observe(play.session(), "torn") >= 100);
+  CHECK_FALSE(play.done());  // the fall tore it
+  play.restart();
+  play.set("F_max=0");
+  play.run(2.5);
+  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max *= 0.97) {
+    play.set("F_max=" + std::to_string(F_max));
+    play.run(0.3);
+  }
+  finish(play);
+}
+
+TEST_CASE("lab: kinks, compared with another motion" * doctest::test_suite("slow")) {
+  LabPlayer play("05_order");
+  for (int step = 0; step < 4; ++step) play.skip();
+  play.accuracy_open = true;
+  play.run(1);
+  play.look();
+  finish(play);
+  play.next();
+  play.choose(1);
+  play.set("integrator=euler");
+  play.restart();
+  play.run(1);
+  play.set("integrator=rk4");
+  play.set("dt=0.0005");
+  play.look();
+  CHECK(play.session().simulation->time() == doctest::Approx(0.5));
+  CHECK_FALSE(play.done());  // the error of another state, which Euler has led to
+}
+
 TEST_CASE("a lab begins with the cloth's own look, and what colored it before is remembered") {
   test::Desk desk;
   desk.scene.colors.choose(ParticleField::speed);

@@ -102,7 +102,7 @@ void LabPlayer::skip() {
 void LabPlayer::look() {
   const auto limits = [&] {
     const auto& known = session_.studies.stability.limits();
-    return known && known->of == session_.preset();
+    return known && known->of == session_.preset() && known->at == session_.study_moment().mark();
   };
   const auto study = [&] {
     if (!accuracy_open) return true;

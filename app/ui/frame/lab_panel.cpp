@@ -8,6 +8,7 @@
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
 #include "app/session/lab_check.h"
+#include "app/session/observables.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
@@ -165,6 +166,9 @@ void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   for (std::size_t k = 0; k < step.checks.size(); ++k)
     if (k < record.checks.size() && k < record.seen.size())
       check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
+  const std::string& awaited = ui.session.labs.run->awaited;
+  if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
+    marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
 }
 
 void explanation_part(Ui& ui, LabRun& run) {
