@@ -16,6 +16,11 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
+void go_on_from(Session& session, const Resumption& where) {
+  if (where.state && session.simulation->fits(*where.state)) session.simulation->restore(*where.state);
+  session.history = where.history;
+}
+
 /// The middle of the cloth, so that there is something to read at once.
 std::optional<Pins::Site> first_pick(const Session& session) {
   const Lattice& lattice = session.simulation->lattice();
@@ -50,21 +55,25 @@ void take_built(Session& session, std::unique_ptr<Simulation> simulation, const 
   settle(session);
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));
-  if (order.document) return begin_document(session, *order.document);
+  if (order.document) {
+    begin_document(session, *order.document);
+    return order.resumption ? go_on_from(session, *order.resumption) : void();
+  }
   follow_up(session, before);
   if (!order.fresh) return;
   session.recorded.clear();
   session.pacing.restart_measure();
 }
 
-void reopen_document(Session& session, const Preset& preset, const Document& document) {
-  if (takes_long(session, preset) && preset.engine == EngineKind::cpu)
-    return session.rebuild.order(session, {preset, true, false, document}, session.history);
+void reopen_document(Session& session, const Preset& preset, const Document& document,
+                     std::optional<Resumption> resumption) {
+  BuildOrder order{.target = preset, .document = document, .resumption = std::move(resumption)};
+  if (takes_long(session, preset)) return session.rebuild.order(session, std::move(order), session.history);
   std::string fallback;
   auto simulation = make_simulation(preset, session.threads, fallback);
   if (!fallback.empty()) session.messages.warning(fallback);
   session.rebuild.drop();
-  take_built(session, std::move(simulation), {preset, true, false, document});
+  take_built(session, std::move(simulation), order);
 }
 
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,10 @@ struct Session;
 /// Opens a preset, with these settings made in it; what goes wrong becomes a message and leaves everything as it was.
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,
                    const std::vector<std::string>& settings = {});
-/// Opens these constants, which may differ from what the document has saved. Throws as Simulation does.
-void reopen_document(Session& session, const Preset& preset, const Document& document);
+/// Opens these constants, which may differ from what the document has saved, beside the frames where that takes long.
+/// Throws as Simulation does.
+void reopen_document(Session& session, const Preset& preset, const Document& document,
+                     std::optional<Resumption> resumption = {});
 /// Takes what has been built as the present cloth; what follows belongs to an edit, or to a preset that is opened.
 void take_built(Session& session, std::unique_ptr<Simulation> simulation, const BuildOrder& order);
 /// Why a preset could not be saved.

@@ -291,10 +291,7 @@ void back_to_experiment(Session& session) {
   labs.kept.pop_back();
   if (labs.run) labs.run.reset(), session.pacing.speed = labs.own_speed;
   session.pacing.playing = false;
-  reopen_document(session, kept.constants, kept.document);
-  if (kept.state && session.simulation->fits(*kept.state) && !session.rebuild.busy())
-    session.simulation->restore(*kept.state);
-  session.history = kept.history;
+  reopen_document(session, kept.constants, kept.document, Resumption{kept.state, kept.history});
 }
 
 bool predict(Session& session) {

@@ -7,6 +7,7 @@
 #include "app/session/session.h"
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -80,12 +81,19 @@ void BackgroundRebuild::start(const Session& session) {
   work_.start(
       Priority::normal,
       [prepare = prepare_programs, unbuilt = std::move(unbuilt), ledger, order = *making_, present = std::move(present),
-       before = before_reading, threads = session.threads](const JobControl&) -> std::unique_ptr<Simulation> {
+       before = before_reading, threads = session.threads](const JobControl&) -> BuiltCloth {
         for (const Preset& preset : unbuilt) prepare(preset, ledger);
-        if (order.programs) return nullptr;
-        if (order.fresh) return std::make_unique<Simulation>(order.target, threads);
-        if (before) before();
-        return present->rebuilt(edit::Change{order.target});
+        BuiltCloth built;
+        if (order.programs) return built;
+        if (order.document) {
+          built.simulation = make_simulation(order.target, threads, built.fallback);
+        } else if (order.fresh) {
+          built.simulation = std::make_unique<Simulation>(order.target, threads);
+        } else {
+          if (before) before();
+          built.simulation = present->rebuilt(edit::Change{order.target});
+        }
+        return built;
       });
 }
 
@@ -104,7 +112,7 @@ void BackgroundRebuild::poll(Session& session) {
     give_up(session, *failure);
   } else {
     try {
-      finish(session, std::move(std::get<0>(outcome)));
+      finish(session, std::get<BuiltCloth>(std::move(outcome)));
     } catch (const std::bad_alloc&) {
       give_up(session, {.what = {}, .out_of_memory = true});
     } catch (const std::exception& error) {
@@ -118,11 +126,12 @@ void BackgroundRebuild::poll(Session& session) {
 }
 
 void BackgroundRebuild::give_up(Session& session, const JobError& why) {
+  const bool stays = making_->target.engine != EngineKind::cpu && session.preset().engine == EngineKind::cpu;
   making_.reset(), next_.reset();
   session.history = std::move(before_);
   session.messages.error(
       why.out_of_memory ? "There is not enough memory for that cloth. Nothing was changed; try fewer rows and columns."
-                        : why.what);
+                        : sentence(why.what) + (stays ? " The CPU engine continues." : ""));
 }
 
 /// Whether what has been made is what is wanted, or on the way to it.
@@ -133,12 +142,12 @@ bool BackgroundRebuild::available(const BuildOrder& made) const {
   return alike && !made.document && !next_->document && (made.fresh || !next_->fresh);
 }
 
-void BackgroundRebuild::finish(Session& session, std::unique_ptr<Simulation> made) {
+void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
   const BuildOrder order = *std::exchange(making_, std::nullopt);
   const bool use = available(order);
   dropped_ = false;
   if (!use) {
-    dispose(std::move(made));
+    dispose(std::move(made.simulation));
     if (next_) start(session);
     return;
   }
@@ -146,16 +155,18 @@ void BackgroundRebuild::finish(Session& session, std::unique_ptr<Simulation> mad
   if (next_) go_on(session);
 }
 
-void BackgroundRebuild::take(Session& session, std::unique_ptr<Simulation> made, const BuildOrder& order) {
-  const edit::Change change{order.target};
+void BackgroundRebuild::take(Session& session, BuiltCloth made, const BuildOrder& order) {
+  edit::Change change{order.target};
   if (order.programs) {
     const Preset before = session.preset();
     apply_to_all(session, change);
     follow_up(session, before);
     return;
   }
-  if (!(order.target == made->preset())) made->apply(change);  // it has been renamed
-  take_built(session, std::move(made), order);
+  change.preset.engine = made.simulation->preset().engine;  // the CPU's, where the device failed
+  if (!(change.preset == made.simulation->preset())) made.simulation->apply(change);  // it has been renamed
+  if (!made.fallback.empty()) session.messages.warning(std::move(made.fallback));
+  take_built(session, std::move(made.simulation), order);
 }
 
 /// From what has just been taken to what has been asked for since.

@@ -8,7 +8,8 @@
 // cloth with the old one's state (another precision while it moves) is read from the old one, which therefore stands
 // still until then; cuts, pins and releases are kept and made afterwards. With --frames everything is built at once, so
 // that the same frames come on every machine. Programs of OpenCL devices are built by a child process
-// (app/process/program_trial.h), of small cloths too: a feature that is switched on counts once its program is there.
+// (app/process/program_trial.h), of small cloths too: a feature that is switched on counts once its program is there,
+// and a preset that is opened on a device comes once it can run. Where the device fails, the CPU engine opens it.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/session/history.h"
@@ -33,6 +35,12 @@ struct Document {
   std::filesystem::path file;  ///< the user's file, empty for a shipped preset
 };
 
+/// Where an experiment that is gone back to goes on.
+struct Resumption {
+  std::shared_ptr<const Snapshot> state;  ///< null: it begins at its start
+  History history;
+};
+
 /// What is to be built.
 struct BuildOrder {
   Preset target;
@@ -40,6 +48,12 @@ struct BuildOrder {
   bool restarts = false;             ///< a restart asked for it
   std::optional<Document> document;  ///< of a preset that is opened
   bool programs = false;  ///< the present cloth is to have these constants, once programs have been built for them
+  std::optional<Resumption> resumption = {};  ///< of a document
+};
+
+struct BuiltCloth {
+  std::unique_ptr<Simulation> simulation;  ///< null where programs alone were built
+  std::string fallback;                    ///< why it runs on another engine than it asks for; empty: it does not
 };
 
 class BackgroundRebuild {
@@ -86,8 +100,8 @@ class BackgroundRebuild {
   const BuildOrder* wish() const { return next_ ? &*next_ : making_ && !dropped_ ? &*making_ : nullptr; }
   bool available(const BuildOrder& made) const;
   void start(const Session& session);
-  void finish(Session& session, std::unique_ptr<Simulation> made);
-  void take(Session& session, std::unique_ptr<Simulation> made, const BuildOrder& order);
+  void finish(Session& session, BuiltCloth made);
+  void take(Session& session, BuiltCloth made, const BuildOrder& order);
   void go_on(Session& session);
   void give_up(Session& session, const JobError& why);
 
@@ -96,7 +110,7 @@ class BackgroundRebuild {
   std::vector<Edit> deferred_;
   History before_;
   std::int64_t frames_beside_ = 0;
-  Job<std::unique_ptr<Simulation>> work_;
+  Job<BuiltCloth> work_;
   Job<std::monostate> disposal_, ledger_programs_;
 };
 

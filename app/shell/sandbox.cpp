@@ -104,9 +104,8 @@ void Sandbox::begin() {
   session_.costs.started(StartPart::settings);
   if (!options_.session_report.empty()) report_ = std::make_unique<SessionReport>(options_.session_report);
   if (report_) ui_.controls = &report_->places();
-  first_.start(Priority::normal, [preset = first_preset(), threads = options_.threads](const JobControl&) {
-    return build_first(preset, threads);
-  });
+  first_.start(Priority::normal, [preset = first_preset(), threads = options_.threads, whole = session_.scripted](
+                                     const JobControl&) { return build_first(preset, threads, whole); });
 }
 
 First Sandbox::take_first() {
@@ -133,6 +132,9 @@ void Sandbox::start_preset() {
   begin_document(session_, first_document());
   session_.show_texture = [this](const std::string& texture) { return show_texture(texture); };
   if (options_.auto_dt) session_.auto_dt.emplace();
+  // On its device once that can run it.
+  if (!session_.scripted && first_preset().engine != session_.preset().engine)
+    session_.rebuild.order(session_, {.target = first_preset(), .fresh = false}, session_.history);
   follow_session(ui_);
   if (!session_.scripted && !options_.explicit_preset && !settings_.tour_seen) start_tour(ui_);
 }
@@ -154,7 +156,7 @@ Document Sandbox::first_document() {
   } catch (const std::exception& error) {
     session_.messages.warning(std::string(error.what()) +
                               " The state of the last session is shown; save it under a name.");
-    return {session_.preset(), session.label, {}};
+    return {first_preset(), session.label, {}};
   }
 }
 

@@ -55,7 +55,7 @@ void remember_session(Ui& ui) {
     return;
   }
   // Who quit with unsaved changes has said that they may go; a session that was interrupted brings them back.
-  Preset last = session.quit ? session.document.saved : session.preset();
+  Preset last = session.quit ? session.document.saved : session.requested_preset();
   last.mode = session.preset().mode;
   const Document& document = session.document;
   settings.session = LastSession{std::move(last), document.saved, document.label, document.file};
@@ -69,14 +69,20 @@ FoundPicture find_picture(const std::string& texture) {
   }
 }
 
-First build_first(const Preset& preset, int threads) {
+First build_first(const Preset& preset, int threads, bool whole) {
   First first;
+  first.picture = find_picture(preset.texture);
+  if (!whole && preset.engine != EngineKind::cpu) {
+    Preset shown = preset;
+    shown.engine = EngineKind::cpu;
+    first.simulation = make_simulation(shown, threads, first.fallback);
+    return first;
+  }
   const bool needs_window = preset.engine == EngineKind::opencl && opencl_offers_gl_sharing(preset.device);
   if (!needs_window) {
     first.simulation = make_simulation(preset, threads, first.fallback);
     run_programs_once(first.simulation->preset(), false);  // the first frames do not wait
   }
-  first.picture = find_picture(preset.texture);
   return first;
 }
 

@@ -31,8 +31,9 @@ struct First {
   std::string fallback;  ///< why it runs on another engine than it asks for; empty: it does not
   FoundPicture picture;
 };
-/// Builds it while the window opens. A device that shares buffers with OpenGL needs the window first: then there is no
-/// simulation yet.
-First build_first(const Preset& preset, int threads);
+/// Builds it while the window opens. `whole`: on the preset's own engine; a device that shares buffers with OpenGL
+/// needs the window first, and then there is no simulation yet. Otherwise the CPU engine shows what is to run on a
+/// device.
+First build_first(const Preset& preset, int threads, bool whole);
 
 }  // namespace tyglab

@@ -262,6 +262,55 @@ TEST_CASE("who takes the feature back meanwhile waits for nothing, and two featu
   CHECK(session.simulation->steps() == 3);
 }
 
+TEST_CASE("a preset that a device is to run is opened once its programs have been built beside the frames") {
+  if (test::skipped_without_device()) return;
+  const Preset before = test::cloth(20, 20);
+  SlowCompiler slow(before);
+  Session& session = slow.session;
+  Preset opened = test::cloth(12, 12);
+  opened.engine = EngineKind::opencl;
+  reopen_document(session, opened, {opened, "opened", {}});
+  CHECK(session.rebuild.busy());
+  CHECK(session.preset() == before);
+  session.simulation->advance(1);  // the present cloth goes on
+  slow.may_go_on = true;
+  wait(session);
+  CHECK(slow.builds == 1);
+  CHECK(session.preset() == opened);
+  CHECK(session.document.label == "opened");
+  CHECK(session.simulation->steps() == 0);
+}
+
+TEST_CASE("a preset whose device is not there is opened on the CPU, beside the frames too") {
+  Session session = session_with(test::cloth(20, 20));
+  Preset opened = test::cloth(12, 12);
+  opened.engine = EngineKind::opencl, opened.device = 99;
+  reopen_document(session, opened, {opened, "opened", {}});
+  CHECK(session.rebuild.busy());
+  wait(session);
+  opened.engine = EngineKind::cpu;
+  CHECK(session.preset() == opened);
+  CHECK(session.document.label == "opened");
+  REQUIRE(session.messages.list().size() == 1);
+  CHECK(session.messages.list().front().text.ends_with("The CPU engine runs it instead."));
+}
+
+TEST_CASE("an experiment that is built beside the frames is gone back to with its motion and its past") {
+  const Preset preset = test::cloth(large, large);
+  Session session = session_with(preset);
+  session.simulation->advance(5);
+  History history;
+  history.record({preset, 0, "earlier"}, 0);
+  const Resumption then{std::make_shared<const Snapshot>(session.simulation->snapshot()), history};
+  session.simulation = std::make_shared<Simulation>(test::cloth(20, 20));
+  reopen_document(session, preset, {preset, "large", {}}, then);
+  REQUIRE(session.rebuild.busy());
+  wait(session);
+  CHECK(session.simulation->steps() == 5);
+  REQUIRE(session.history.next(true) != nullptr);
+  CHECK(session.history.next(true)->what == "earlier");
+}
+
 TEST_CASE("a change is carried over to other constants alone") {
   const Preset before = test::cloth(8, 8);
   Preset after = before, present = before;

@@ -65,7 +65,15 @@ void LabPlayer::restart() {
 
 void LabPlayer::set_up_again() {
   set_up_step(session_);
+  open();
+}
+
+void LabPlayer::open() {
   update();
+  while (session_.rebuild.busy()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    update();
+  }
 }
 
 void LabPlayer::cut(const std::vector<Pins::Site>& sites) {
@@ -96,7 +104,7 @@ std::string LabPlayer::card(std::size_t check) {
 
 void LabPlayer::skip() {
   enter_step(session_, lab().step + 1);
-  update();
+  open();
 }
 
 void LabPlayer::look() {
@@ -123,7 +131,7 @@ void LabPlayer::look() {
 void LabPlayer::next() {
   REQUIRE(done());
   enter_step(session_, lab().step + 1);
-  update();
+  open();
 }
 
 }  // namespace tyglab::test

@@ -42,6 +42,9 @@ class LabPlayer {
   void update(double seconds = 0);
 
  private:
+  /// Updates until what was opened is there: on a device it is built beside the frames.
+  void open();
+
   Session session_;
 };
 
