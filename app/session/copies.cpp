@@ -138,9 +138,9 @@ void add_copy(Session& session, const std::vector<Difference>& differences, bool
   if (session.rebuild.busy())
     return session.messages.note("Another cloth is being built; add a copy when it is ready.");
   if (session.copies.awaited)
-    return session.messages.note("Programs for another copy are being built; add this one when it is there.");
+    return session.messages.note("Programs for another copy are being built; add this one when that is done.");
   if (awaits_programs(session, differences, as_reference))
-    return session.messages.note("OpenCL builds its programs; then the copy is there.");
+    return session.messages.note("OpenCL is building its programs; the copy appears when they are ready.");
   add_now(session, differences, as_reference);
 }
 

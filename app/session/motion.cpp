@@ -73,7 +73,8 @@ void take_from_history(Session& session, bool backwards) {
   const Preset present = session.requested_preset();
   const std::string what = session.history.what(backwards, present);
   if (entry->too_large)
-    return session.messages.note("The " + what + " cannot be undone: of so large a cloth no earlier state is kept.");
+    return session.messages.note("The " + what +
+                                 " cannot be undone: no earlier states are kept of a cloth this large.");
   if (entry->state && session.rebuild.holds_present())
     return session.messages.note("Wait until the cloth has been built, then undo the " + what + ".");
   History history = session.history;

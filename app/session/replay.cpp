@@ -20,7 +20,7 @@ std::string nothing_to_replay(const Session& session) {
   const double back = Replay::steps * session.preset().dt;
   return session.rewind.before(*session.simulation, session.simulation->time(), back) != nullptr
              ? ""
-             : "Of so large a cloth no earlier state is kept.";
+             : "No earlier states are kept of a cloth this large.";
 }
 
 void begin_replay(Session& session) {

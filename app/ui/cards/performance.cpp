@@ -179,7 +179,7 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   facts.push_back({"per particle and step", text("%.2f ns", 1e9 * step / particles)});
   if (const SolveCounts solves = engine.solves(); solves.newton > 0) {
     const auto steps = double(std::max<std::int64_t>(1, ui.session.simulation->steps()));
-    facts.push_back({"Newton, CG a step",
+    facts.push_back({"Newton, CG per step",
                      text("%.1f, ", double(solves.newton) / steps) + text("%.0f", double(solves.linear) / steps)});
     facts.push_back({"solves unconverged", std::to_string(solves.unconverged)});
   }

@@ -171,10 +171,12 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
   std::string words = "Largest errors over the " + two_digits_of(search.seconds) +
                       " s from t = " + short_number(search.t) + " s. Click a setting to use it.";
   if (search.seconds < 0.99 * search.goal.seconds)
-    words += " Fine runs of a whole second of this cloth would take too long; nothing new happens in the rest of it.";
+    words +=
+        " No more is compared: fine runs of a whole second of this cloth would take too long, and no contact or tear "
+        "follows in the rest of it.";
   if (search.present && std::isfinite(search.present->error_rms_m))
     words += " Now: error " + two_digits_of(search.present->error_rms_m) + " m, " +
-             two_digits_of(search.present->cost) + " s of CPU time per second.";
+             two_digits_of(search.present->cost) + " s of CPU time per simulated second.";
   return words;
 }
 

@@ -137,8 +137,8 @@ std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
     marks.push_back({"this cloth", *own,
                      "Dot: this cloth's own limit, as it hangs now: " + seconds(*own) +
                          ", from its fastest mode, ω = " + short_number(rounded(limits.omega, 3)) +
-                         " 1/s. It changes with the shape and promises nothing: without damping, slack cloths have "
-                         "diverged from 0.63 of it on."});
+                         " 1/s. It changes with the shape and promises nothing: slack cloths without damping have "
+                         "diverged at 63 % of it."});
   marks.push_back({"worst case", limits.any,
                    cloth ? "Line: the worst-case limit, " + seconds(limits.any) + ". Up to it, " + method +
                                " is stable in any shape of the cloth."
