@@ -219,7 +219,8 @@ std::string check_in_words(Session& session, const Condition& check, CheckState 
   if (state == CheckState::broken) return broken_in_words(session, check, memory);
   const std::string asked = words_of(check), now = value_in_words(session, check.name);
   if (check.name == "untouched") return now.empty() ? asked : asked + " · " + now + ": set it back, and restart";
-  if (is_word(check.name) && state == CheckState::holds) return asked;
+  const bool says_all = is_word(check.name) || (check.relation == Relation::equal && check.span == Span::now);
+  if (says_all && state == CheckState::holds) return asked;
   std::string text = asked + " · ";
   if (now.empty()) {
     const Observable* row = find_observable(check.name);

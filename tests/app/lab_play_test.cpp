@@ -482,14 +482,14 @@ TEST_CASE("lab: kinks, compared with another motion" * doctest::test_suite("slow
   finish(play);
   play.next();
   play.choose(1);
-  play.set("integrator=euler");
+  play.set("integrator=verlet");
   play.restart();
   play.run(1);
   play.set("integrator=rk4");
   play.set("dt=0.0005");
   play.look();
   CHECK(play.session().simulation->time() == doctest::Approx(0.5));
-  CHECK_FALSE(play.done());  // the error of another state, which Euler has led to
+  CHECK_FALSE(play.done());  // the error of another state, to which Verlet has led
 }
 
 TEST_CASE("a lab begins with the cloth's own look, and what colored it before is remembered") {

@@ -117,6 +117,7 @@ void LabPlayer::look() {
     const auto known = session_.studies.accuracy.study();
     return known && known->present && known->of == session_.preset() && known->at == session_.study_moment().mark();
   };
+  REQUIRE_FALSE(session_.simulation->divergence());  // of which no study is made
   const auto begun = std::chrono::steady_clock::now();
   const bool playing = std::exchange(session_.pacing.playing, false);
   while (!limits() || !study()) {

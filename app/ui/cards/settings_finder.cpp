@@ -47,6 +47,8 @@ void target_row(Ui& ui) {
   const Tokens& c = ui.theme.colors;
   const float gap = ui.theme.px(finder_gap_at_1);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(gap, 0));
+  // The field is as high as the button beside it.
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
   ImGui::AlignTextToFramePadding();
   wrapped(ui, "Error at most", c.text);
   ImGui::SameLine();
@@ -57,6 +59,7 @@ void target_row(Ui& ui) {
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   wrapped(ui, "m", c.quiet);
+  ImGui::PopStyleVar();
   ImGui::SameLine();
   if (text_button(ui, "Find", true) || enter) ask_for_settings(ui);
   ImGui::PopStyleVar();

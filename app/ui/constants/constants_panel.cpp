@@ -18,6 +18,7 @@
 #include "app/ui/kit/widgets.h"
 #include "core/forces/gust.h"
 #include "core/integrators/scheme.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -125,7 +126,7 @@ void integrator_row(Ui& ui) {
   const Scheme& now = scheme(ui.session.requested_preset().integrator);
   const float width = ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string room = "         ", label = room + label_of(now);
+  const std::string room = "           ", label = room + label_of(now);
   const bool open = begin_combo(ui, "##integrator", label.c_str(), width);
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -135,7 +136,7 @@ void integrator_row(Ui& ui) {
     const float x = lo.x + width - ui.theme.px(34) - text_width(*ui.fonts.small, order);
     if (x > lo.x + text_width(*ui.fonts.text, label) + ui.theme.px(16))
       draw_text(draw, *ui.fonts.small, {x, middle - ui.fonts.small->FontSize / 2}, c.quiet, order);
-    tooltip(ui, gui::item_id(), order_text(now) + ". " + std::string(now.note), now.source);
+    tooltip(ui, gui::item_id(), sentence(order_text(now)) + " " + std::string(now.note), now.source);
     return;
   }
   for (const Scheme& choice : schemes()) {
@@ -150,7 +151,7 @@ void integrator_row(Ui& ui) {
       ui.session.propose(std::move(next));
     }
     report_control(ui, choice.name);
-    tooltip(ui, gui::item_id(), order_text(choice) + ". " + std::string(choice.note));
+    tooltip(ui, gui::item_id(), sentence(order_text(choice)) + " " + std::string(choice.note));
   }
   end_combo();
 }
