@@ -139,7 +139,7 @@ def dying_driver(stage):
         os.symlink(shutil.which("xdotool"), os.path.join(folder, "xdotool"))
         own = {"PATH": folder, "HOME": folder, "XDG_CACHE_HOME": folder, "POCL_CACHE_DIR": os.path.join(folder, "pocl")}
         sandbox = stage.start("hanging", "--engine", "opencl", environment=own)
-        report = sandbox.wait(lambda r: r["t"] > 0.1, "it to move")
+        report = sandbox.wait(lambda r: r["t"] > 0.1 and r["building"] is None, "it to move, on what can run it")
         if report["preset"]["solver"]["engine"] == "opencl":
             skip("this OpenCL driver needs no linker")
         said = sandbox.stderr().splitlines()
