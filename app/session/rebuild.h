@@ -45,8 +45,8 @@ struct Resumption {
 struct BuildOrder {
   Preset target;
   bool fresh = true;  ///< at its start; otherwise with the state of the present cloth, which must not change meanwhile
-  bool restarts = false;             ///< a restart asked for it
-  std::optional<Document> document;  ///< of a preset that is opened
+  bool restarts = false;                  ///< a restart asked for it
+  std::optional<Document> document = {};  ///< of a preset that is opened
   bool programs = false;  ///< the present cloth is to have these constants, once programs have been built for them
   std::optional<Resumption> resumption = {};  ///< of a document
 };

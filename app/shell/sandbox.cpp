@@ -18,7 +18,6 @@
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/state/ui.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"

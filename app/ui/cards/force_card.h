@@ -1,9 +1,9 @@
 // The forces of the picked particle, their sums or their largest, over time.
 #pragma once
 
-#include "app/ui/state/ui.h"
-
 namespace tyglab {
+
+struct Ui;
 
 /// The card, and the height below which its curves could not be read (px, of a card of that width).
 void force_card(Ui& ui, float height);

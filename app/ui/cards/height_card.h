@@ -1,9 +1,9 @@
 // The height of the mass on a spring over time, beside the curves of figure 3.2.
 #pragma once
 
-#include "app/ui/state/ui.h"
-
 namespace tyglab {
+
+struct Ui;
 
 /// The card, and the height below which its curves could not be read (px, of a card of that width).
 void height_card(Ui& ui, float height);

@@ -4,9 +4,11 @@
 
 #include <optional>
 
-#include "app/ui/state/ui.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
+
+struct Ui;
 
 /// Other rows or columns than the cloth's, until it is said what they mean.
 struct ResolutionQuestion {
