@@ -1,6 +1,7 @@
 #include "app/base/settings.h"
 
 #include <algorithm>
+#include <concepts>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -74,13 +75,15 @@ class Section {
     if (node.type != JsonNode::Type::text) wrong(node, path, "a string");
     value = node.text;
   }
-  static void convert(const JsonNode& node, const std::string& path, std::set<std::string>& value) {
+  template <class Strings>
+  requires std::same_as<typename Strings::value_type, std::string>
+  static void convert(const JsonNode& node, const std::string& path, Strings& value) {
     if (node.type != JsonNode::Type::list) wrong(node, path, "a list of strings");
     value.clear();
     for (const JsonNode& item : node.items) {
       std::string text;
       convert(item, path, text);
-      value.insert(text);
+      value.insert(value.end(), text);
     }
   }
   static void convert(const JsonNode& node, const std::string& path, std::map<std::string, int>& value) {
@@ -152,6 +155,7 @@ Settings settings_from(const JsonNode& root) {
   all.take("color", settings.color);
   all.take("all_effects", settings.all_effects);
   all.take("tour_seen", settings.tour_seen);
+  all.take("recent", settings.recent);
   all.take("labs", settings.labs);
   section("layout", [&](const Section& layout) { settings.layout = layout_from(layout); });
   section("handling", [&](const Section& handling) { settings.handling = handling_from(handling); });
@@ -208,6 +212,7 @@ Json to_json(const Settings& settings) {
   json["color"] = settings.color;
   json["all_effects"] = settings.all_effects;
   json["tour_seen"] = settings.tour_seen;
+  json["recent"] = settings.recent;
   json["labs"] = settings.labs;
   const Layout& layout = settings.layout;
   json["layout"] = {{"left_width", layout.left_width},

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/model/preset.h"
 
@@ -46,9 +47,10 @@ struct Settings {
   Layout layout;
   ToolSettings handling;
   bool plot_log = false;
-  bool all_effects = false;  ///< however slow they are to draw
-  std::string color;         ///< name of the field that colors the cloth; empty: none
-  bool tour_seen = false;
+  bool all_effects = false;         ///< however slow they are to draw
+  std::string color;                ///< name of the field that colors the cloth; empty: none
+  bool tour_seen = false;           ///< or the start page, which leads to it
+  std::vector<std::string> recent;  ///< files of presets that were opened or saved, the newest first
   std::map<std::string, int> labs;  ///< by its name: how many of a lab's steps are done
   std::optional<LastSession> session;
   bool operator==(const Settings&) const = default;

@@ -135,7 +135,7 @@ void Sandbox::start_preset() {
   if (!session_.scripted && first_preset().engine != session_.preset().engine)
     session_.rebuild.order(session_, {.target = first_preset(), .fresh = false}, session_.history);
   follow_session(ui_);
-  if (!session_.scripted && !options_.explicit_preset && !settings_.tour_seen) start_tour(ui_);
+  if (!session_.scripted && !options_.explicit_preset && !settings_.tour_seen) ui_.command("start_page");
 }
 
 /// Returns what is wrong with it; the present one stays then.

@@ -111,13 +111,14 @@ TEST_CASE("what is found does what it says") {
 TEST_CASE("every command has one row, and no two share a key") {
   std::set<std::pair<int, int>> taken;
   std::set<std::string_view> seen;
-  for (const CommandRow& row : command_rows()) {
-    CAPTURE(std::string(row.name));
-    CHECK(seen.insert(row.id).second);
-    CHECK((*row.keys != 0) == !row.chords.empty());
-    CHECK((*row.keys != 0) == (*row.help != 0));
-    for (const Chord& chord : row.chords) CHECK(taken.insert({chord.key, chord.mods}).second);
-  }
+  for (const CommandTopic& topic : command_topics())
+    for (const CommandRow& row : topic.rows) {
+      CAPTURE(std::string(row.name));
+      CHECK(seen.insert(row.id).second);
+      CHECK((*row.keys != 0) == !row.chords.empty());
+      CHECK((*row.keys != 0) == (*row.help != 0));
+      for (const Chord& chord : row.chords) CHECK(taken.insert({chord.key, chord.mods}).second);
+    }
   CHECK_THROWS_AS(row_of("no such command"), std::logic_error);
 }
 

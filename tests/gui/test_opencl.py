@@ -17,7 +17,7 @@ def costs(sandbox, engine, **environment):
     with open(out) as file:
         report = json.load(file)
     if engine == "opencl" and "OpenCL" not in report["engine"]:
-        skip("there is no OpenCL device")
+        skip(f"there is no OpenCL device: {done.stderr}")
     return report
 
 

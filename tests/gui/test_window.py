@@ -105,10 +105,12 @@ def text_scale(stage):
 
 @case
 def start_and_end(stage):
-    """the first start shows the tour once; closing is clean: exit code 0, nothing on stderr, all of it remembered"""
+    """the first start shows the start page once, and the tour from there; closing is clean: exit code 0, nothing on stderr, all of it remembered"""
     first = stage.start(with_settings=False)
-    first.wait(lambda r: r["tour"] == 0, "the tour")
+    first.wait(lambda r: r["dialog"] == "start", "the start page")
     check_filled(stage.keep("first"), "a part of the first window is black")
+    first.click_control("dialog.Take_the_tour")
+    first.wait(lambda r: r["tour"] == 0, "the tour")
     first.click_control("tour.Next")
     first.wait(lambda r: r["tour"] == 1, "its second card")
     first.click_control("tour.Skip_the_tour")
@@ -122,12 +124,12 @@ def start_and_end(stage):
     check(settings["tour_seen"], "that it was seen is remembered")
     check(settings["session"]["label"] == first.report()["label"], "so is the preset")
     again = stage.start(config=first.config)
-    check(again.later(6)["tour"] == -1, "it was seen before")
+    check(again.later(6)["dialog"] == "none", "it was seen before")
     again.key("ctrl+q")
     check(again.ended() == 0, "Ctrl+Q ends it too")
     named = stage.start("one_weight", tour_seen=False)
     report = named.wait(lambda r: r["steps"] > 20, "the motion")
-    check(report["tour"] == -1, "who names a preset gets no tour")
+    check(report["dialog"] == "none", "who names a preset gets no start page")
     named.press_close_button()
     check(named.ended() == 0 and named.stderr() == "", f"it ends well: {named.process.returncode}, {named.stderr()}")
 

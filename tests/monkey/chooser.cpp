@@ -112,8 +112,9 @@ Action Chooser::control(Player& player) {
 /// By its keys, or through the palette.
 Action Chooser::command(Player&) {
   std::vector<std::string> ids;
-  for (const CommandRow& row : command_rows())
-    if (std::string_view(row.id) != "quit" || !one_cloth_) ids.emplace_back(row.id);
+  for (const CommandTopic& topic : command_topics())
+    for (const CommandRow& row : topic.rows)
+      if (std::string_view(row.id) != "quit" || !one_cloth_) ids.emplace_back(row.id);
   const CommandRow& row = tyglab::row_of(seldom(ids, commands_));
   if (!row.chords.empty() && !one_in(3)) {
     const Chord& chord = one_of(row.chords);
@@ -189,8 +190,10 @@ std::string Chooser::coverage() const {
   const auto used = [](const std::map<std::string, int>& of) {
     return std::to_string(std::count_if(of.begin(), of.end(), [](const auto& one) { return one.second > 0; }));
   };
+  std::size_t commands = 0;
+  for (const CommandTopic& topic : command_topics()) commands += topic.rows.size();
   return used(controls_) + " of " + std::to_string(controls_.size()) + " controls that were seen, " + used(commands_) +
-         " of " + std::to_string(command_rows().size()) + " commands, " + used(entries_) + " entries of the palette";
+         " of " + std::to_string(commands) + " commands, " + used(entries_) + " entries of the palette";
 }
 
 }  // namespace tyglab::monkey

@@ -77,7 +77,7 @@ TEST_CASE("a shipped preset is opened from the list; saving over it is refused")
   test::NullUi window;
   open_dialog(window, Kind::open);
   window.click("dialog.entry.denim");
-  window.click("dialog.Open");
+  window.frames(2);
   CHECK(window.session.document.label == "denim");
   CHECK(window.ui.dialog.kind == Kind::none);
   CHECK(window.session.document.file.empty());
@@ -91,6 +91,63 @@ TEST_CASE("a shipped preset is opened from the list; saving over it is refused")
   CHECK(fs::last_write_time(file) == before);
   window.key(GLFW_KEY_ESCAPE);
   CHECK(window.ui.dialog.kind == Kind::none);
+}
+
+TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is typed, and what one worked on") {
+  test::NullUi window;
+  const fs::path file = window.config / "presets/soft.json";
+  open_dialog(window, Kind::save);
+  save_as(window, "Soft and slow", file);
+  CHECK(window.settings.recent == std::vector<std::string>{file.string()});
+  window.click("top.brand");
+  window.frames(2);
+  REQUIRE(window.ui.dialog.kind == Kind::start);
+  CHECK(window.drew("Recent work"));
+  CHECK(window.sees("dialog.entry.Soft_and_slow"));
+  CHECK(window.sees("dialog.entry.hanging"));
+  CHECK_FALSE(window.drew(data_folder().string()));
+  window.until([&] { return !window.ui.sketches.poll(); }, "all pictures");
+  window.click("dialog.sections.3");
+  window.frames(2);
+  CHECK_FALSE(window.sees("dialog.entry.hanging"));
+  window.until([&] { return window.sees("dialog.find"); }, "the field");
+  window.click("dialog.find");
+  window.until([&] { return window.typing(); }, "the field to take keys");
+  window.type("hooke");
+  window.frames(2);
+  CHECK_FALSE(window.sees("dialog.entry.hanging"));
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK(window.ui.dialog.kind == Kind::none);
+  REQUIRE(window.session.labs.run.has_value());
+  CHECK(window.session.labs.run->lab.label == "01_hooke");
+  CHECK(window.settings.recent.size() == 1);  // a lab's cloth is no work of the user's
+}
+
+TEST_CASE("cards are gone through by keys; a preset with errors says what is wrong and opens nothing") {
+  test::NullUi window;
+  fs::create_directories(window.config / "presets");
+  test::write_file(window.config / "presets/wrong.json", "{\"tyglab_preset\": 1,\n \"forces\": {\"k_z\": 3}}\n");
+  open_dialog(window, Kind::open);
+  window.until([&] { return window.typing(); }, "the field to take keys");
+  window.type("wrong");
+  window.key(GLFW_KEY_ENTER);
+  window.frames(2);
+  CHECK(window.ui.dialog.kind == Kind::open);
+  CHECK(window.drew("k_z"));
+  window.key(GLFW_KEY_A, ctrl);
+  window.type("zzz");
+  window.frames(2);
+  CHECK(window.drew("Nothing has that name"));
+  window.key(GLFW_KEY_A, ctrl);
+  window.type("strip");
+  window.frames(2);
+  window.key(GLFW_KEY_DOWN);
+  window.key(GLFW_KEY_DOWN);  // beyond the last
+  window.key(GLFW_KEY_UP);
+  window.key(GLFW_KEY_ENTER);
+  window.frames(3);
+  CHECK(window.session.document.label == "fold_with_k_b");
 }
 
 TEST_CASE("a shipped preset's name typed into the dialog opens it; its constants begin at the top") {

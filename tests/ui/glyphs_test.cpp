@@ -93,11 +93,12 @@ void check_tables(GlyphCheck& glyphs) {
     for (const std::string_view text : {scheme.title, scheme.note, scheme.source, scheme.equation})
       glyphs(text, scheme.name);
   for (const FieldInfo& field : particle_fields()) glyphs(field.title, field.name), glyphs(field.unit, field.name);
-  for (const CommandRow& row : command_rows()) {
-    glyphs(row.name, row.id);
-    glyphs(row.keys, row.id);
-    glyphs(row.help, row.id);
-  }
+  for (const CommandTopic& topic : command_topics())
+    for (const CommandRow& row : topic.rows) {
+      glyphs(row.name, row.id);
+      glyphs(row.keys, row.id);
+      glyphs(row.help, row.id);
+    }
 }
 
 /// The strings of a source file; of those with escapes, such as icons, nothing is said.

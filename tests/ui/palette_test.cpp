@@ -1,7 +1,12 @@
 // Ctrl+P, the tour, and the help that leads to both.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cctype>
+
 #include "app/base/glfw_keys.h"
+#include "app/ui/frame/commands.h"
+#include "app/ui/frame/palette.h"
 #include "app/ui/frame/tour.h"
 #include "tests/ui/null_ui.h"
 
@@ -53,6 +58,38 @@ TEST_CASE("a click beside the palette closes it and does nothing to the cloth") 
   window.click(glm::vec2{(box.lo.x + box.hi.x) / 2, box.hi.y - 60});
   CHECK_FALSE(window.ui.palette.open);
   CHECK(window.torn() == 0);
+}
+
+TEST_CASE("menu, palette and help have every command: they read the same rows") {
+  test::NullUi window;
+  window.pause();
+  const auto entries = palette_entries(window.ui);
+  const auto palette_has = [&](std::string_view name) {
+    return std::any_of(entries.begin(), entries.end(), [&](const PaletteEntry& entry) { return entry.title == name; });
+  };
+  const auto control_of = [](std::string_view name) {
+    std::string control = "menu.";
+    for (const char letter : name)
+      if (const auto byte = static_cast<unsigned char>(letter); byte < 0x80)
+        control += std::isalnum(byte) ? letter : '_';
+    return control;
+  };
+  window.click("top.menu");
+  for (const CommandTopic& topic : command_topics()) {
+    CAPTURE(topic.name);
+    window.click(control_of(topic.name));
+    window.frames(3);
+    CHECK(window.middle("top.play").x > 0);  // the transport is not hidden
+    for (const CommandRow& row : topic.rows) {
+      CAPTURE(row.name);
+      CHECK(window.drew(row.name));
+      CHECK(palette_has(row.name) == why_not(window.ui, row).empty());
+    }
+  }
+  window.click("menu.View");
+  window.click("menu.Views_of_the_cloth");
+  window.click("menu.Outlines");
+  window.until([&] { return window.preset().mode == 4; }, "the view");
 }
 
 TEST_CASE("the tour is walked through, skipped and seen again, and that it was seen is remembered") {

@@ -1,5 +1,5 @@
 // The commands: one row each, with its name, its keys, what it does and when it can be done. Keys, help, menus and the
-// palette read it; a new command is one row here, and nothing else.
+// palette read it; a new command is one row in its topic's file (…_commands.cpp), and nothing else.
 #pragma once
 
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/base/glfw_keys.h"
 #include "app/ui/state/ui.h"
 
 namespace tyglab {
@@ -38,12 +39,40 @@ struct CommandRow {
   void (*action)(Ui& ui);                          ///< null where it writes a file
   std::string (*why_not)(const Ui& ui) = nullptr;  ///< a sentence where it cannot be done now; empty or null: it can
   std::optional<Export> writes = {};
+  bool (*on)(const Ui& ui) = nullptr;  ///< of what is on or off; null: it is neither
 };
 
-/// All of them, in the order of the palette and of the list of keys.
-std::span<const CommandRow> command_rows();
-/// Those that write a file.
-std::vector<CommandRow> export_rows();
+/// Of the keys of rows.
+inline constexpr int ctrl = GLFW_MOD_CONTROL, ctrl_shift = GLFW_MOD_CONTROL | GLFW_MOD_SHIFT;
+
+// What many rows do.
+template <void (*action)(Session&)>
+void of_session(Ui& ui) {
+  action(ui.session);
+}
+template <bool Ui::*flag>
+void toggle(Ui& ui) {
+  ui.*flag = !(ui.*flag);
+}
+
+/// Commands that belong together: a submenu, a table of the list of keys.
+struct CommandTopic {
+  const char* name;
+  std::vector<CommandRow> rows;
+};
+/// All of them, in the order of menu, palette and help.
+std::span<const CommandTopic> command_topics();
+
+// The rows of each topic.
+std::vector<CommandRow> file_rows();
+std::vector<CommandRow> export_rows();  ///< those that write a file
+std::vector<CommandRow> edit_rows();
+std::vector<CommandRow> motion_rows();
+std::vector<CommandRow> cloth_rows();
+std::vector<CommandRow> card_rows();
+std::vector<CommandRow> view_rows();
+std::vector<CommandRow> help_rows();
+
 /// Throws std::logic_error where there is no such command.
 const CommandRow& row_of(std::string_view id);
 /// Why it cannot be done now, a sentence; empty: it can.

@@ -10,6 +10,7 @@
 #include "app/base/preset_files.h"
 #include "app/session/document.h"
 #include "app/ui/frame/commands.h"
+#include "app/ui/frame/gallery.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
@@ -32,25 +33,6 @@ fs::path path_of(const char* typed) {
   const char* home = std::getenv("HOME");
   if (text.rfind("~/", 0) == 0 && home != nullptr) return fs::path(home) / text.substr(2);
   return text;
-}
-
-void list_folder(Dialog& dialog, const fs::path& folder, bool shipped) {
-  std::error_code ignored;
-  std::vector<Dialog::Entry> found;
-  for (const auto& file : fs::directory_iterator(folder, ignored)) {
-    if (file.path().extension() != ".json") continue;
-    Dialog::Entry entry;
-    entry.file = file.path(), entry.label = file.path().stem().string(), entry.shipped = shipped;
-    try {
-      const Preset preset = load_preset(file.path());
-      entry.name = preset.name, entry.description = preset.description;
-    } catch (const std::exception& error) {
-      entry.name = entry.label, entry.problem = error.what();
-    }
-    found.push_back(std::move(entry));
-  }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-  dialog.entries.insert(dialog.entries.end(), found.begin(), found.end());
 }
 
 std::string file_name_for(const std::string& name) {
@@ -118,38 +100,6 @@ void problem(Ui& ui) {
   if (!ui.dialog.problem.empty()) wrapped(ui, ui.dialog.problem, ui.theme.colors.warning);
 }
 
-void entry_line(Ui& ui, int k, bool& open) {
-  Dialog& dialog = ui.dialog;
-  const Dialog::Entry& entry = dialog.entries[k];
-  const Tokens& c = ui.theme.colors;
-  const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, padding = ui.theme.px(10);
-  const std::string& below = entry.problem.empty() ? entry.description : entry.problem;
-  const ImFont& small = *ui.fonts.small;
-  const float text_height =
-      below.empty() ? 0
-                    : small.CalcTextSizeA(small.FontSize, 1e9f, width - 2 * padding, below.c_str()).y + ui.theme.px(3);
-  const float height = ui.fonts.title->FontSize + text_height + ui.theme.px(14);
-  ImGui::PushID(k);
-  if (ImGui::InvisibleButton("entry", {width, height})) {
-    dialog.selected = k;
-    set(dialog.path, entry.file.string());
-  }
-  if (ImGui::IsItemHovered() && ui.input.double_click) open = true;
-  report_control(ui, "entry." + entry.label);
-  ImGui::PopID();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const bool chosen = dialog.selected == k;
-  if (chosen || ImGui::IsItemHovered())
-    draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, chosen ? mixed(c.field, c.accent, 0.25f) : c.field,
-                       ui.theme.px(5));
-  draw_text(draw, *ui.fonts.title, {lo.x + padding, lo.y + ui.theme.px(7)}, c.text, entry.name);
-  const float label_width = text_width(small, entry.label);
-  draw_text(draw, small, {lo.x + width - padding - label_width, lo.y + ui.theme.px(9)}, c.quiet, entry.label);
-  draw.AddText(&small, small.FontSize, {lo.x + padding, lo.y + ui.theme.px(10) + ui.fonts.title->FontSize},
-               entry.problem.empty() ? c.quiet : c.warning, below.c_str(), nullptr, width - 2 * padding);
-}
-
 bool is_shipped(const fs::path& file) {
   std::error_code ignored;
   return fs::equivalent(file.parent_path(), data_folder() / "presets", ignored);
@@ -158,19 +108,12 @@ bool is_shipped(const fs::path& file) {
 void open_presets(Ui& ui) {
   Dialog& dialog = ui.dialog;
   title(ui, "Open a preset");
-  bool open = false;
-  gui::begin_child("list", {0, std::min(ui.theme.px(420), ImGui::GetIO().DisplaySize.y - ui.theme.px(260))});
-  for (int k = 0; k < int(dialog.entries.size()); ++k) {
-    const bool shipped = dialog.entries[k].shipped;
-    if (k == 0 || dialog.entries[k - 1].shipped != shipped) label(ui, shipped ? "SHIPPED" : "YOURS");
-    entry_line(ui, k, open);
-  }
-  ImGui::EndChild();
-  label(ui, "File");
-  if (path_field(ui, ImGui::IsWindowAppearing())) dialog.problem.clear();
+  gallery(ui, ImGui::GetIO().DisplaySize.y - ui.theme.px(236));
+  if (dialog.kind != DialogKind::open) return;
+  label(ui, "Or a file, by its path");
+  if (path_field(ui)) dialog.problem.clear();
   problem(ui);
-  open |= dialog.enter;
-  open |= text_button(ui, "Open", true, dialog.path[0] != 0);
+  const bool open = text_button(ui, "Open", true, dialog.path[0] != 0) || dialog.enter;
   ImGui::SameLine();
   if (text_button(ui, "Cancel")) return close(ui);
   if (!open || dialog.path[0] == 0) return;
@@ -332,8 +275,24 @@ void large_dialog(Ui& ui) {
   close(ui);
 }
 
+void start_page(Ui& ui) {
+  title(ui, "Tyglab");
+  wrapped(ui,
+          "A cloth to take in your hands: change every constant of the model while it moves, and see where numerical "
+          "methods work and where they fail.",
+          ui.theme.colors.text);
+  ImGui::Dummy({0, ui.theme.px(2)});
+  gallery(ui, ImGui::GetIO().DisplaySize.y - ui.theme.px(218));
+  if (ui.dialog.kind != DialogKind::start) return;
+  if (text_button(ui, "Continue with the cloth", true)) return close(ui);
+  ImGui::SameLine();
+  if (text_button(ui, "Take the tour")) close(ui), ui.command("start_tour");
+}
+
 void contents(Ui& ui) {
   switch (ui.dialog.kind) {
+    case DialogKind::start:
+      return start_page(ui);
     case DialogKind::open:
       return open_presets(ui);
     case DialogKind::save:
@@ -362,13 +321,11 @@ void open_dialog(Ui& ui, DialogKind kind) {
   dialog.overwrite = dialog.enter = dialog.path_follows = dialog.refused = dialog.selecting = false;
   dialog.problem.clear();
   dialog.then.reset();
-  dialog.entries.clear();
-  dialog.selected = -1;
   set(dialog.path, "");
   const fs::path own = user_preset_folder();
-  if (kind == DialogKind::open) {
-    list_folder(dialog, data_folder() / "presets", true);
-    if (!own.empty()) list_folder(dialog, own, false);
+  if (kind == DialogKind::open || kind == DialogKind::start) {
+    fill_gallery(ui, kind == DialogKind::start);
+    ui.settings.tour_seen |= kind == DialogKind::start;
   } else if (kind == DialogKind::save) {
     set(dialog.name, ui.session.preset().name);
     const fs::path file =
@@ -405,7 +362,9 @@ void dialogs(Ui& ui) {
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   const bool question = dialog.kind == DialogKind::unsaved || dialog.kind == DialogKind::large_cloth;
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(ui.theme.px(question ? 460 : 620), window.x - ui.theme.px(24)), 0});
+  const bool cards = dialog.kind == DialogKind::open || dialog.kind == DialogKind::start;
+  const float width = ui.theme.px(question ? 460 : cards ? 960 : 620);
+  ImGui::SetNextWindowSize({std::min(width, window.x - ui.theme.px(24)), 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(24), ui.theme.px(20)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);

@@ -1,7 +1,6 @@
 // What the window writes to files: a row each.
 #include <array>
 
-#include "app/base/glfw_keys.h"
 #include "app/session/recorded.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/kit/curves.h"
@@ -133,7 +132,7 @@ std::vector<CommandRow> export_rows() {
                          "that are not torn.",
                          "cloth.obj", text_file<mesh>},
                         no_mesh);
-  obj.keys = "Ctrl+E", obj.chords = {{GLFW_KEY_E, GLFW_MOD_CONTROL}}, obj.help = "exports the cloth as a mesh";
+  obj.keys = "Ctrl+E", obj.chords = {{GLFW_KEY_E, ctrl}}, obj.help = "exports the cloth as a mesh";
   add("export_state", "Export state as CSV…", "write every particle's position velocity coordinates",
       {"Export state as CSV", "One row per particle as it is now: x and ẋ, with all significant digits.", "state.csv",
        text_file<state>});

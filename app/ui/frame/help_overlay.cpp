@@ -1,5 +1,6 @@
 // F1: what mouse and keys do.
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -63,21 +64,23 @@ void table(Ui& ui, const char* title, std::span<const Entry> entries, const Colu
   ImGui::SetCursorPos({column.left, y + ui.theme.px(8)});
 }
 
-/// Every command that has keys, in two tables that are about as long as those of the mouse make them; the views have
-/// theirs.
-struct KeyEntries {
-  std::vector<Entry> cloth, window;
+struct Table {
+  const char* title;
+  std::vector<Entry> entries;
 };
 
-KeyEntries key_entries() {
-  KeyEntries entries;
-  std::vector<Entry>* to = &entries.cloth;
-  for (const CommandRow& row : command_rows()) {
-    if (std::string_view(row.id) == "larger_text") to = &entries.window;
-    if (*row.keys != 0) to->push_back({row.keys, row.help});
+/// What the mouse does, and every command that has keys, topic by topic; the views have theirs.
+std::vector<Table> all_tables() {
+  std::vector<Table> all{{"In the viewport", {std::begin(mouse_entries), std::end(mouse_entries)}},
+                         {"On sliders", {std::begin(sliders), std::end(sliders)}}};
+  for (const CommandTopic& topic : command_topics()) {
+    Table table{topic.name, {}};
+    for (const CommandRow& row : topic.rows)
+      if (*row.keys != 0) table.entries.push_back({row.keys, row.help});
+    if (std::string_view(topic.name) == "View") table.entries.push_back({"1 to 5", "the five views"});
+    all.push_back(std::move(table));
   }
-  entries.cloth.push_back({"1 to 5", "the five views"});
-  return entries;
+  return all;
 }
 
 void tables(Ui& ui, float width) {
@@ -86,15 +89,22 @@ void tables(Ui& ui, float width) {
   const bool two = width > ui.theme.px(640);
   const float column = two ? (width - gap) / 2 : width, key_width = std::min(ui.theme.px(180), 0.42f * column);
   const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
-  table(ui, "In the viewport", mouse_entries, left);
-  table(ui, "On sliders", sliders, left);
-  const KeyEntries keys = key_entries();
-  table(ui, "Window", keys.window, left);
-  const float half = ImGui::GetCursorPosY();
-  if (two) ImGui::SetCursorPosY(start.y);
-  table(ui, "Keys", keys.cloth, right);
+  const std::vector<Table> all = all_tables();
+  const auto lines = [](int sum, const Table& table) { return sum + int(table.entries.size()) + 2; };  // its heading
+  const int total = std::accumulate(all.begin(), all.end(), 0, lines);
+  const Column* now = &left;
+  int shown = 0;
+  float half = 0;
+  for (const Table& each : all) {
+    if (two && now == &left && 2 * shown >= total) {
+      now = &right, half = ImGui::GetCursorPosY();
+      ImGui::SetCursorPosY(start.y);
+    }
+    table(ui, each.title, each.entries, *now);
+    shown = lines(shown, each);
+  }
   text_between(ui, "An active slider or text field keeps its keys; Esc releases them.",
-               {right.left, ImGui::GetCursorPosY()}, right.left + column, ui.theme.colors.quiet);
+               {now->left, ImGui::GetCursorPosY()}, now->left + column, ui.theme.colors.quiet);
   ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + ui.theme.px(4)});
 }
 

@@ -57,6 +57,7 @@ bool dialog_takes(Ui& ui, const KeyEvent& event) {
   if (ui.dialog.kind == Dialog::Kind::none) return false;
   if (event.key == GLFW_KEY_ESCAPE) ui.dialog.kind = Dialog::Kind::none;
   ui.dialog.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  ui.gallery.go += (event.key == GLFW_KEY_DOWN ? 1 : 0) - (event.key == GLFW_KEY_UP ? 1 : 0);
   return true;
 }
 
@@ -120,10 +121,11 @@ void command_for(Ui& ui, const KeyEvent& event) {
     ui.session.propose(std::move(next));
     return;
   }
-  for (const CommandRow& row : command_rows())
-    for (const Chord& chord : row.chords)
-      if (chord.key == event.key && chord.mods == (event.mods & counted) && (chord.repeats || !event.repeat))
-        return ui.command(row.id);
+  for (const CommandTopic& topic : command_topics())
+    for (const CommandRow& row : topic.rows)
+      for (const Chord& chord : row.chords)
+        if (chord.key == event.key && chord.mods == (event.mods & counted) && (chord.repeats || !event.repeat))
+          return ui.command(row.id);
 }
 
 void take_key(Ui& ui, const KeyEvent& event) {

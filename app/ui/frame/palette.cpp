@@ -27,9 +27,10 @@ std::string lower(std::string_view text) {
 }
 
 void add_commands(const Ui& ui, std::vector<PaletteEntry>& list) {
-  for (const CommandRow& row : command_rows())
-    if (why_not(ui, row).empty())
-      list.push_back({"Command", row.name, row.keys, row.also, row.help, [id = row.id](Ui& u) { u.command(id); }});
+  for (const CommandTopic& topic : command_topics())
+    for (const CommandRow& row : topic.rows)
+      if (why_not(ui, row).empty())
+        list.push_back({"Command", row.name, row.keys, row.also, row.help, [id = row.id](Ui& u) { u.command(id); }});
 }
 
 std::string progress(const Ui& ui, const Lab& lab) {
@@ -54,17 +55,12 @@ std::string all_of(const Paragraphs& text) {
 }
 
 void add_labs(Ui& ui, std::vector<PaletteEntry>& list) {
-  for (const Lab& lab : find_labs(ui.session))
-    list.push_back({"Lab", lab.title, progress(ui, lab), lab.label, all_of(lab.summary),
-                    [label = lab.label](Ui& u) { begin_lab(u.session, label); }, number_of(lab),
-                    lab.summary.empty() ? "" : lab.summary.front()});
+  for (const Lab& lab : find_labs(ui.session)) list.push_back(lab_entry(ui, lab));
 }
 
 void add_presets(std::vector<PaletteEntry>& list, const std::filesystem::path& file, bool shipped) {
   try {
-    const Preset preset = load_preset(file);
-    list.push_back({"Preset", preset.name, file.stem().string(), file.stem().string() + " open", preset.description,
-                    [file, shipped](Ui& u) { u.session.request(request::Open{.file = file, .shipped = shipped}); }});
+    list.push_back(preset_entry(load_preset(file), file, shipped));
   } catch (const PresetError&) {
     // The dialog that opens files says what is wrong with one.
   }
@@ -237,6 +233,24 @@ std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::strin
 }
 
 }  // namespace
+
+PaletteEntry lab_entry(const Ui& ui, const Lab& lab) {
+  return {"Lab",
+          lab.title,
+          progress(ui, lab),
+          lab.label,
+          all_of(lab.summary),
+          [label = lab.label](Ui& u) { begin_lab(u.session, label); },
+          number_of(lab),
+          lab.summary.empty() ? "" : lab.summary.front()};
+}
+
+PaletteEntry preset_entry(const Preset& preset, const std::filesystem::path& file, bool shipped) {
+  const std::string label = file.stem().string();
+  return {"Preset", preset.name, label, label + " open", preset.description, [file, shipped](Ui& u) {
+            u.session.request(request::Open{.file = file, .shipped = shipped});
+          }};
+}
 
 std::vector<PaletteEntry> palette_entries(Ui& ui) {
   std::vector<PaletteEntry> list;

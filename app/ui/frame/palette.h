@@ -1,6 +1,7 @@
 // Ctrl+P: commands, presets, integrators, labs, constants and views, found by what is typed.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,9 @@ void palette(Ui& ui);
 
 /// All that it finds now.
 std::vector<PaletteEntry> palette_entries(Ui& ui);
+/// A lab, and a preset, as it finds them.
+PaletteEntry lab_entry(const Ui& ui, const Lab& lab);
+PaletteEntry preset_entry(const Preset& preset, const std::filesystem::path& file, bool shipped);
 /// Indices of the entries that hold every word typed, those whose title begins with it first.
 std::vector<int> matching(std::span<const PaletteEntry> entries, std::string_view typed);
 

@@ -9,6 +9,8 @@ namespace tyglab {
 void top_bar(Ui& ui, const Region& region);
 void status_bar(Ui& ui, const Region& region);
 void help_overlay(Ui& ui);
+/// Everything that can be done, while the popup of that name is open.
+void application_menu(Ui& ui, const char* id);
 /// The current lab, below the viewport; its height is 0 where there is none.
 void lab_panel(Ui& ui, const Region& region);
 float lab_panel_height(const Ui& ui, float available);

@@ -199,7 +199,7 @@ std::string_view name_of(Tool::Kind kind) {
 }
 
 std::string_view name_of(Dialog::Kind kind) {
-  static constexpr std::string_view names[] = {"none",    "open",    "save",    "write_export",
+  static constexpr std::string_view names[] = {"none",    "start",   "open",    "save",       "write_export",
                                                "texture", "picture", "unsaved", "large_cloth"};
   return names[std::size_t(kind)];
 }

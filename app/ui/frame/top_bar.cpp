@@ -18,63 +18,57 @@ float bar_middle(Ui& ui, float height) {
   return std::round((ui.theme.px(48) - height) / 2);
 }
 
-void document_menu(Ui& ui) {
-  if (!begin_menu(ui, "document")) return;
-  const auto item = [&](const char* id) {
-    const CommandRow& row = row_of(id);
-    const bool enabled = why_not(ui, row).empty();
-    if (ImGui::MenuItem(row.name, *row.keys != 0 ? row.keys : nullptr, false, enabled)) ui.command(id);
-    report_control(ui, row.name);
-  };
-  item("open_dialog");
-  item("save");
-  item("save_as");
-  ImGui::Separator();
-  item("undo");
-  item("redo");
-  ImGui::Separator();
-  item("restart");
-  item("reset_constants");
-  item("reset_everything");
-  ImGui::Separator();
-  item("open_palette");
-  item("choose_lab");
-  item("start_tour");
-  ImGui::Separator();
-  item("larger_text");
-  item("smaller_text");
-  item("normal_text");
-  item("next_theme");
-  ImGui::Separator();
-  if (ImGui::MenuItem("Constants", nullptr, ui.settings.layout.left))
-    ui.settings.layout.left = !ui.settings.layout.left;
-  if (ImGui::MenuItem("Plots", nullptr, ui.settings.layout.right)) ui.settings.layout.right = !ui.settings.layout.right;
-  const auto shown = [&](const char* id, bool is) {
-    if (ImGui::MenuItem(row_of(id).name, row_of(id).keys, is)) ui.command(id);
-    report_control(ui, row_of(id).name);
-  };
-  shown("present", ui.presenting);
-  shown("toggle_map", ui.settings.layout.map);
-  shown("toggle_inside", ui.settings.layout.inside);
-  if (ImGui::MenuItem("Hints", nullptr, ui.settings.layout.status))
-    ui.settings.layout.status = !ui.settings.layout.status;
-  item("toggle_panels");
-  item("full_screen");
-  ImGui::Separator();
-  item("quit");
-  end_menu();
+/// The program's name, which leads to the start page. Returns where it ends.
+float brand(Ui& ui, float x) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont& font = *ui.fonts.brand;
+  const float height = ui.theme.px(32), y = bar_middle(ui, height), padding = ui.theme.px(8);
+  const float width = text_width(font, "Tyglab") + 2 * padding;
+  ImGui::SetCursorScreenPos({x - padding, y});
+  if (ImGui::InvisibleButton("brand", {width, height})) ui.command("start_page");
+  report_control(ui, "brand");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (ImGui::IsItemHovered())
+    draw.AddRectFilled({x - padding, y}, {x - padding + width, y + height}, c.field, ui.theme.px(5));
+  tooltip(ui, gui::item_id(), "Scenes, labs and recent work", ui.keys_of("start_page"));
+  draw_text(draw, font, {x, bar_middle(ui, font.FontSize)}, c.text, "Tyglab");
+  return x - padding + width;
 }
 
-/// Name of the preset, with a dot while it is not saved; opens the menu. Returns where it ends.
+float menu_width(const Ui& ui) {
+  return text_width(*ui.fonts.text, "Menu") + ui.theme.px(10 + 18 + 6);
+}
+
+/// Everything that can be done. Returns where it ends.
+float menu_button(Ui& ui, float x) {
+  const Tokens& c = ui.theme.colors;
+  const float height = ui.theme.px(32), y = bar_middle(ui, height), width = menu_width(ui);
+  ImGui::SetCursorScreenPos({x, y});
+  if (ImGui::InvisibleButton("menu", {width, height})) ImGui::OpenPopup("application");
+  report_control(ui, "menu");
+  const bool open = ImGui::IsPopupOpen("application");
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (open || ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + width, y + height}, c.field, ui.theme.px(5));
+  tooltip(ui, gui::item_id(), "Everything that can be done", ui.keys_of("open_palette"));
+  draw_text(draw, *ui.fonts.text, {x + ui.theme.px(10), std::round(y + (height - ui.fonts.text->FontSize) / 2)}, c.text,
+            "Menu");
+  const float tip = x + width - ui.theme.px(13), middle = y + height / 2, r = ui.theme.px(3.5f);
+  draw.AddTriangleFilled({tip - r, middle - r * 0.5f}, {tip + r, middle - r * 0.5f}, {tip, middle + r * 0.8f}, c.quiet);
+  ImGui::SetNextWindowPos({x, y + height + ui.theme.px(4)});
+  application_menu(ui, "application");
+  return x + width;
+}
+
+/// Name of the preset, with a dot while it is not saved; leads to others. Returns where it ends.
 float document_name(Ui& ui, float x, float width) {
   const Tokens& c = ui.theme.colors;
   const float height = ui.theme.px(32), y = bar_middle(ui, height);
-  const float dot = unsaved(ui.session) ? ui.theme.px(18) : 0, padding = ui.theme.px(10), arrow = ui.theme.px(18);
-  const std::string name = fitted(*ui.fonts.text, ui.session.preset().name, width - dot - 2 * padding - arrow);
+  const float dot = unsaved(ui.session) ? ui.theme.px(18) : 0, padding = ui.theme.px(8);
+  const std::string name = fitted(*ui.fonts.text, ui.session.preset().name, width - dot - 2 * padding);
   const float text = text_width(*ui.fonts.text, name);
   ImGui::SetCursorScreenPos({x, y});
-  const float whole = text + dot + 2 * padding + arrow;
-  if (ImGui::InvisibleButton("name", {whole, height})) ImGui::OpenPopup("document");
+  const float whole = text + dot + 2 * padding;
+  if (ImGui::InvisibleButton("name", {whole, height})) ui.command("open_dialog");
   report_control(ui, "name");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + whole, y + height}, c.field, ui.theme.px(5));
@@ -83,12 +77,8 @@ float document_name(Ui& ui, float x, float width) {
               ui.session.preset().description,
           "Open Ctrl+O · save Ctrl+S");
   const ImVec2 at{x + padding, std::round(y + (height - ui.fonts.text->FontSize) / 2)};
-  draw_text(draw, *ui.fonts.text, at, c.text, name);
-  const float middle = y + height / 2;
-  if (dot > 0) draw.AddCircleFilled({at.x + text + ui.theme.px(10), middle}, ui.theme.px(3.5f), c.warning, 16);
-  const float tip = at.x + text + dot + ui.theme.px(10), r = ui.theme.px(3.5f);
-  draw.AddTriangleFilled({tip - r, middle - r * 0.5f}, {tip + r, middle - r * 0.5f}, {tip, middle + r * 0.8f}, c.quiet);
-  document_menu(ui);
+  draw_text(draw, *ui.fonts.text, at, c.quiet, name);
+  if (dot > 0) draw.AddCircleFilled({at.x + text + ui.theme.px(10), y + height / 2}, ui.theme.px(3.5f), c.warning, 16);
   return x + whole;
 }
 
@@ -191,21 +181,18 @@ void top_bar(Ui& ui, const Region& region) {
   const Tokens& c = ui.theme.colors;
   if (!begin_region("top", region, c.panel, {0, 0})) return end_region();
   const float margin = ui.theme.px(16), button = ui.theme.px(32), gap = ui.theme.px(6), combo = ui.theme.px(124);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImFont& brand = *ui.fonts.brand;
-  // In a narrow window, or with large text, the transport keeps its place to the last.
-  float room = region.size.x - 2 * margin - 3 * button - 2 * gap - 2 * ui.theme.px(18);
+  // In a narrow window, or with large text, transport and menu keep their places to the last.
+  float room = region.size.x - 2 * margin - 3 * button - 2 * gap - 2 * ui.theme.px(18) - menu_width(ui);
   const float least_name = ui.theme.px(72), buttons = 4 * button + 3 * gap;
-  const bool with_buttons = room > buttons + least_name, with_name = room > least_name;
+  const bool with_buttons = room > buttons;
   if (with_buttons) room -= buttons;
-  const float title = text_width(brand, "Tyglab") + ui.theme.px(14);
+  const float title = text_width(*ui.fonts.brand, "Tyglab") + ui.theme.px(14);
   float x = margin;
-  if (room > title + least_name) {
-    draw_text(draw, brand, {x, bar_middle(ui, brand.FontSize)}, c.text, "Tyglab");
-    x += title, room -= title;
-  }
+  if (room > title) x = brand(ui, x) + ui.theme.px(2), room -= title;
+  x = menu_button(ui, x);
   const float name_width = std::min({ui.theme.px(240), std::max(region.size.x * 0.2f, least_name), room});
-  if (with_name) x = document_name(ui, x, name_width) + ui.theme.px(16);
+  if (room > least_name) x = document_name(ui, x, name_width);
+  x += ui.theme.px(16);
   // Over the viewport's left edge where there is room, as if it belonged to it.
   const float left = ui.settings.layout.left && ui.panels ? ui.viewport_left + ui.theme.px(12) : x;
   x = transport(ui, left > x && left < region.size.x * 0.4f ? left : x) + ui.theme.px(18);

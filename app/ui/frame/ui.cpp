@@ -1,5 +1,6 @@
 #include "app/ui/state/ui.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/ui/cards/cards.h"
@@ -17,9 +18,21 @@ void Ui::color_by(std::optional<ParticleField> field) {
   settings.color = field ? info(*field).name : "";
 }
 
+/// A file of the user's that is open; a lab's cloth is none.
+void Ui::remember_recent() {
+  constexpr std::size_t most = 8;
+  const std::string file = session.document.file.string();
+  std::vector<std::string>& recent = settings.recent;
+  if (file.empty() || session.labs.run || (!recent.empty() && recent.front() == file)) return;
+  std::erase(recent, file);
+  recent.insert(recent.begin(), file);
+  recent.resize(std::min(recent.size(), most));
+}
+
 void Ui::follow() {
   const SessionCounts& counts = session.counts;
   if (counts.documents != seen_.documents) slider = SliderState{}, constants_to_top = true;
+  remember_recent();
   if (counts.copies_added != seen_.copies_added) {
     settings.layout.folded.erase(card_name::copies);
     if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;

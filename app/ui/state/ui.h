@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/scene/sketch.h"
 #include "app/tools/tools.h"
 #include "app/ui/kit/ui_context.h"
 
@@ -37,9 +38,40 @@ struct Plots {
   char target[32] = "1e-4";  ///< of the settings to be found: the largest error, m, as it is typed
 };
 
+/// A line of the palette: what it is called, and what it does.
+struct PaletteEntry {
+  std::string group, title;
+  std::string keys;  ///< at the right: keys, units, progress
+  std::string also;  ///< words under which it is found too
+  std::string help;  ///< sentences under which it is found after all others
+  std::function<void(Ui&)> act;
+  std::string number = {}, purpose = {};  ///< of a lab: its place in the list, and what it is for
+};
+
+/// A scene or a lab that can be opened, with its picture.
+struct GalleryCard {
+  const char* section;  ///< "Scenes"
+  PaletteEntry entry;
+  std::string name;  ///< of its picture
+  Preset preset;
+  std::string problem;  ///< why it cannot be opened
+};
+
+/// The start page, and what opens presets: cards, narrowed by what is typed.
+struct Gallery {
+  enum class Only { all, scenes, labs };
+  std::vector<GalleryCard> cards;
+  char find[128] = "";
+  Only only = Only::all;
+  bool focus = true;     ///< its field is to take keys
+  std::string narrowed;  ///< the text for which `selected` counts
+  int selected = -1;     ///< among those that are found; -1: none
+  int go = 0;            ///< cards to go on, by the keys of this frame
+};
+
 /// A question or a file dialog over everything else.
 struct Dialog {
-  enum class Kind { none, open, save, write_export, texture, picture, unsaved, large_cloth };
+  enum class Kind { none, start, open, save, write_export, texture, picture, unsaved, large_cloth };
   Kind kind = Kind::none;
   bool opening = false;  ///< to be opened in this frame
   char path[1024] = "";
@@ -54,13 +86,6 @@ struct Dialog {
   const CommandRow* exporting = nullptr;  ///< of write_export
   std::optional<Request> then;            ///< of a question: what follows a yes
   std::string question;
-  struct Entry {
-    std::filesystem::path file;
-    std::string label, name, description, problem;
-    bool shipped = false;
-  };
-  std::vector<Entry> entries;
-  int selected = -1;
 };
 
 /// What linear theory says of a divergence and of the ways out (advice.h): kept, since it takes milliseconds and is
@@ -70,16 +95,6 @@ struct Advice {
   double largest_dt = 0;            ///< s, that was stable then
   bool springs_too_weak = false;    ///< now
   std::optional<Preset> suggested_fix, slower;
-};
-
-/// A line of the palette: what it is called, and what it does.
-struct PaletteEntry {
-  std::string group, title;
-  std::string keys;  ///< at the right: keys, units, progress
-  std::string also;  ///< words under which it is found too
-  std::string help;  ///< sentences under which it is found after all others
-  std::function<void(Ui&)> act;
-  std::string number = {}, purpose = {};  ///< of a lab: its place in the list, and what it is for
 };
 
 /// Ctrl+P: a list of all that can be done, narrowed by what is typed.
@@ -128,9 +143,12 @@ struct Ui : UiContext {
   Scene& scene;
   Tools& tools;
   CommandPalette palette;
+  std::vector<PaletteEntry> menu;  ///< what the menu holds beside commands, since it was opened
   Tour tour;
   Plots plots;
   Dialog dialog;
+  Gallery gallery;
+  SceneSketches sketches;
   Advice advice;
   bool help = false;
   bool panels = true;          ///< Tab hides them all
@@ -167,6 +185,7 @@ struct Ui : UiContext {
   void follow();
 
  private:
+  void remember_recent();
   SessionCounts seen_;
 };
 

@@ -1,0 +1,57 @@
+// Small pictures of presets: how a scene looks a moment after its start, as triangles that Dear ImGui can draw. Made
+// beside the frames, of any preset, so that no image files go with them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/studies/job.h"
+#include "core/model/preset.h"
+#include "core/model/stop.h"
+
+namespace tyglab {
+
+/// Places are parts of the picture's width and height, from its upper left corner.
+struct SceneSketch {
+  static constexpr float aspect = 1.6f;  ///< width to height
+  struct Corner {
+    glm::vec2 at;
+    float light;  ///< 0 to 1
+  };
+  struct Ball {
+    glm::vec2 at;
+    float radius;        ///< part of the height
+    std::size_t behind;  ///< so many triangles are farther away
+  };
+  std::vector<Corner> corners;
+  std::vector<std::array<std::uint16_t, 3>> triangles;  ///< the farthest first
+  std::vector<Ball> balls;
+  std::vector<glm::vec2> line;  ///< of a spring with its weight at the end
+};
+
+/// Runs the preset for a moment on the CPU, coarsened where it is large; where it diverges, until then. Throws
+/// EngineError, std::bad_alloc.
+SceneSketch sketch_of(const Preset& preset, const Stop& stop);
+
+/// The sketches of presets that were asked for, made one after the other.
+class SceneSketches {
+ public:
+  /// Null until it is made; `name` tells presets apart.
+  const SceneSketch* of(const std::string& name, const Preset& preset);
+  /// Takes what is made, and goes on; returns whether there is more to come.
+  bool poll();
+
+ private:
+  std::map<std::string, SceneSketch> made_;
+  std::vector<std::pair<std::string, Preset>> waiting_;
+  std::string making_;
+  Job<SceneSketch> work_;
+};
+
+}  // namespace tyglab

@@ -1,0 +1,66 @@
+// The cloth in the viewport: where it is seen from, its colors, knife and wind.
+#include "app/tools/wind_arrow.h"
+#include "app/ui/frame/commands.h"
+
+namespace tyglab {
+namespace {
+
+void toggle_cut_path(Ui& ui) {
+  bool& along = ui.settings.handling.cut_along_path;
+  along = !along;
+  ui.messages.note(along ? "A left drag cuts every spring that its path crosses."
+                         : "A left drag cuts the springs above the particles near it, as in the report.");
+}
+
+void toggle_wind_arrow(Ui& ui) {
+  ui.tools.wind_arrow = !wind_arrow_shown(ui.tools);
+}
+
+void frame_cloth(Ui& ui) {
+  ui.scene.wants_framing = true;
+}
+
+std::string no_cloth(const Ui& ui) {
+  return ui.session.preset().kind == Kind::cloth ? "" : "Only a cloth can be colored; this is a mass on a spring.";
+}
+
+void next_color(Ui& ui) {
+  ui.color_by(next_field(ui.scene));
+}
+
+}  // namespace
+
+std::vector<CommandRow> cloth_rows() {
+  return {
+      {"frame_cloth", "Frame the cloth", "F", {{GLFW_KEY_F, 0}}, "frames the cloth", "camera zoom view", frame_cloth},
+      {"next_color",
+       "Next coloring of the cloth",
+       "K",
+       {{GLFW_KEY_K, 0}},
+       "colors the cloth by tension, strain, speed, …",
+       "colors heat map",
+       next_color,
+       no_cloth},
+      {"toggle_cut_path",
+       "Cut along the path, or upward",
+       "C",
+       {{GLFW_KEY_C, 0}},
+       "cuts along the pointer's path, or upward",
+       "knife scissors tool mode springs",
+       toggle_cut_path,
+       nullptr,
+       {},
+       [](const Ui& ui) { return ui.settings.handling.cut_along_path; }},
+      {"toggle_wind_arrow",
+       "Wind arrow",
+       "W",
+       {{GLFW_KEY_W, 0}},
+       "shows the wind as an arrow to drag",
+       "gust blow",
+       toggle_wind_arrow,
+       nullptr,
+       {},
+       [](const Ui& ui) { return wind_arrow_shown(ui.tools); }}};
+}
+
+}  // namespace tyglab

@@ -1,0 +1,85 @@
+// Presets, and what else goes in and out.
+#include <imgui.h>
+
+#include "app/session/document.h"
+#include "app/ui/frame/commands.h"
+#include "app/ui/frame/dialogs.h"
+#include "core/model/notation.h"
+#include "core/model/words.h"
+
+namespace tyglab {
+namespace {
+
+template <Dialog::Kind kind>
+void dialog(Ui& ui) {
+  open_dialog(ui, kind);
+}
+
+void save(Ui& ui) {
+  const Document& document = ui.session.document;
+  if (document.file.empty()) return open_dialog(ui, Dialog::Kind::save);
+  save_document_as(ui.session, document.file, ui.session.preset().name);
+}
+
+/// "--set k_s=80" for each constant, so that a command line gives the same scene.
+void copy_as_options(Ui& ui) {
+  const Preset preset = ui.session.requested_preset();
+  std::string text;
+  const auto add = [&](std::string_view key, const std::string& value) {
+    text += (text.empty() ? "--set " : " --set ") + std::string(key) + "=" + value;
+  };
+  for (const PresetRow& row : notation()) {
+    if (row.effect == Effect::view || (row.only_one_kind && row.only != preset.kind)) continue;
+    if (const auto* number = std::get_if<double Preset::*>(&row.field)) add(row.key, shortest_number(preset.**number));
+    if (const auto* count = std::get_if<int Preset::*>(&row.field)) add(row.key, std::to_string(preset.**count));
+    if (const auto* word = std::get_if<std::string Preset::*>(&row.field)) add(row.key, preset.**word);
+    if (const auto* vector = std::get_if<glm::dvec3 Preset::*>(&row.field)) {
+      const glm::dvec3& v = preset.**vector;
+      add(row.key, "[" + shortest_number(v.x) + "," + shortest_number(v.y) + "," + shortest_number(v.z) + "]");
+    }
+  }
+  ImGui::SetClipboardText(text.c_str());
+  ui.messages.note("Copied the constants as --set options.");
+}
+
+void request_quit(Ui& ui) {
+  ui.session.request(request::Quit{});
+}
+
+}  // namespace
+
+std::vector<CommandRow> file_rows() {
+  return {{"open_dialog",
+           "Open…",
+           "Ctrl+O",
+           {{GLFW_KEY_O, ctrl}},
+           "opens a preset",
+           "file load",
+           dialog<Dialog::Kind::open>},
+          {"save", "Save", "Ctrl+S", {{GLFW_KEY_S, ctrl}}, "saves the preset", "file write", save},
+          {"save_as",
+           "Save as…",
+           "Ctrl+Shift+S",
+           {{GLFW_KEY_S, ctrl_shift}},
+           "saves the preset under another name",
+           "file write",
+           dialog<Dialog::Kind::save>},
+          {"save_picture",
+           "Save an image…",
+           "Ctrl+Shift+P",
+           {{GLFW_KEY_P, ctrl_shift}},
+           "saves an image of the cloth",
+           "png screenshot picture export",
+           dialog<Dialog::Kind::picture>},
+          {"load_texture_dialog", "Use image as texture…", "", {}, "", "picture cloth", dialog<Dialog::Kind::texture>},
+          {"copy_options",
+           "Copy the constants as --set options",
+           "",
+           {},
+           "",
+           "command line clipboard share export",
+           copy_as_options},
+          {"quit", "Quit", "Ctrl+Q", {{GLFW_KEY_Q, ctrl}}, "quits", "end close exit", request_quit}};
+}
+
+}  // namespace tyglab
