@@ -31,9 +31,14 @@ double SteadyTop::look(double greatest) {
   return top_;
 }
 
-void FieldColors::look(const std::optional<FieldSpan>& span) {
+void FieldColors::look(const std::optional<FieldSpan>& span, bool wreck) {
   seen = span;
   if (!span) return;
+  if (wreck) {
+    automatic.forget();
+    automatic.look(span->middle > 0 ? double(span->middle) : double(span->usual));
+    return;
+  }
   const double most = std::max(std::abs(double(span->least)), std::abs(double(span->most)));
   // Where hardly anything is not 0, that is what is to be seen.
   automatic.look(span->usual > 1e-3 * most ? double(span->usual) : most);

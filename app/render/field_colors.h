@@ -37,8 +37,9 @@ struct FieldColors {
   ColorMap map(bool on_light) const { return {info(field).is_signed, on_light}; }
   /// Whether a value is beyond the scale, and has the color of its end.
   bool beyond() const;
-  /// The values have changed to those with that span.
-  void look(const std::optional<FieldSpan>& span);
+  /// The values have changed to those with that span. Of a cloth that has diverged (`wreck`) they lie decades apart:
+  /// the scale ends where half of them have the colors in between.
+  void look(const std::optional<FieldSpan>& span, bool wreck = false);
 };
 
 /// Of the renderer's color map.

@@ -1,5 +1,7 @@
 #include "app/scene/cloth_colors.h"
 
+#include <utility>
+
 #include "app/scene/scene.h"
 
 namespace tyglab {
@@ -40,7 +42,11 @@ void ClothColors::update(Scene& scene, int tile, int every) {
   picture.sites = {cloth.lattice(), every};
   read_field(chosen->field, cloth, reference, picture.sites, picture.values);
   picture.version = ++versions_;
-  if (!cloth.divergence()) chosen->look(span_of(picture.values));  // what is left of it would take all of the scale
+  // Where another cloth shares the scale, what is left of one that has diverged would take all of it.
+  const bool wreck = cloth.divergence().has_value();
+  if (wreck && !scene.session.copies.lockstep.empty()) return;
+  if (std::exchange(picture.wreck, wreck) && !wreck) chosen->automatic.forget();
+  chosen->look(span_of(picture.values), wreck);
 }
 
 void ClothColors::give(Scene& scene, int tile, ClothRenderer& renderer) {

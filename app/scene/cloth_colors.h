@@ -56,6 +56,7 @@ class ClothColors {
     std::uint64_t version = 0;
     const ClothRenderer* given_to = nullptr;
     std::uint64_t given = 0;
+    bool wreck = false;  ///< its cloth had diverged
   };
 
   std::vector<Picture> pictures_;

@@ -122,17 +122,20 @@ void read_distance(Simulation& cloth, Simulation& reference, const DrawnSites& s
   });
 }
 
-float usual_size(std::span<const float> values) {
+void take_sizes(std::span<const float> values, FieldSpan& span) {
   constexpr std::size_t most_samples = 5000;
-  constexpr double share = 0.98;
+  constexpr double nearly_all = 0.98, half = 0.5;
   std::vector<float> sizes;
   // An odd step, so that a sample does not stay in a few columns.
   for (std::size_t p = 0, step = values.size() / most_samples | 1; p < values.size(); p += step)
     if (std::isfinite(values[p])) sizes.push_back(std::abs(values[p]));
-  if (sizes.empty()) return 0;
-  const auto at = sizes.begin() + std::ptrdiff_t(share * double(sizes.size() - 1));
-  std::nth_element(sizes.begin(), at, sizes.end());
-  return *at;
+  const auto below = [&](double share) {
+    if (sizes.empty()) return 0.f;
+    const auto at = sizes.begin() + std::ptrdiff_t(share * double(sizes.size() - 1));
+    std::nth_element(sizes.begin(), at, sizes.end());
+    return *at;
+  };
+  span.usual = below(nearly_all), span.middle = below(half);
 }
 
 }  // namespace
@@ -177,14 +180,14 @@ void read_field(ParticleField field, Simulation& cloth, Simulation* reference, c
 
 std::optional<FieldSpan> span_of(std::span<const float> values) {
   constexpr float most = std::numeric_limits<float>::max();
-  FieldSpan span{most, -most, 0};
+  FieldSpan span{most, -most, 0, 0};
   for (const float value : values) {
     const bool finite = std::abs(value) <= most;  // false for NaN too
     span.least = finite && value < span.least ? value : span.least;
     span.most = finite && value > span.most ? value : span.most;
   }
   if (span.least > span.most) return std::nullopt;
-  span.usual = usual_size(values);
+  take_sizes(values, span);
   return span;
 }
 

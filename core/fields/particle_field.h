@@ -40,9 +40,10 @@ void read_field(ParticleField field, Simulation& cloth, Simulation* reference, c
                 std::vector<float>& values);
 
 /// Between what the values that are numbers lie, and a size that all but two in a hundred of them stay below, by a
-/// sample of some thousands: what is far beyond (a pinned corner) is not to decide a scale.
+/// sample of some thousands: what is far beyond (a pinned corner) is not to decide a scale. Half of them are below the
+/// middle.
 struct FieldSpan {
-  float least, most, usual;
+  float least, most, usual, middle;
 };
 /// None where no value is a number.
 std::optional<FieldSpan> span_of(std::span<const float> values);

@@ -72,11 +72,11 @@ TEST_CASE("the scale grows at once to a round number and shrinks only after a wh
 
 TEST_CASE("a fixed scale stays, and a signed one is symmetric") {
   FieldColors colors{ParticleField::strain};
-  colors.look(FieldSpan{-0.07f, 0.01f, 0.07f});
+  colors.look(FieldSpan{-0.07f, 0.01f, 0.07f, 0.02f});
   CHECK_FALSE(colors.beyond());
   CHECK(colors.range() == ValueRange{-0.1f, 0.1f});
   colors.fixed = 0.25;
-  colors.look(FieldSpan{-2, 2, 2});
+  colors.look(FieldSpan{-2, 2, 2, 1});
   CHECK(colors.beyond());
   CHECK(colors.range() == ValueRange{-0.25f, 0.25f});
   CHECK(FieldColors{ParticleField::speed}.range() == ValueRange{0, 1});
@@ -180,6 +180,34 @@ TEST_CASE("colors are skipped where nothing is colored, and distance asks for a 
   desk.session.copies.lockstep.add(*desk.session.simulation, {});
   CHECK(shown_colors(desk.scene) != nullptr);
   CHECK_FALSE(next_field(desk.scene).has_value());
+}
+
+TEST_CASE("what is left of a cloth that has diverged has a scale that tells its parts apart; the next motion its own") {
+  Preset preset = test::cloth(12, 12);
+  test::Desk desk(preset);
+  Simulation& cloth = *desk.session.simulation;
+  desk.scene.colors.choose(ParticleField::tension);
+  const auto top = [&] {
+    desk.scene.colors.update(desk.scene, 0, 1);
+    return desk.scene.colors.chosen->top();
+  };
+  cloth.advance(5);
+  const double before = top();
+  preset.integrator = "euler", preset.dt = 0.01, preset.k_s = 500;
+  cloth.apply(edit::Change{preset});
+  cloth.advance(1000);
+  REQUIRE(cloth.divergence());
+  const double of_wreck = top();
+  CHECK(of_wreck > 10 * before);
+  int graded = 0;
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j) graded += *desk.scene.colors.value(0, {i, j}) <= of_wreck;
+  CHECK(graded >= 72);  // half of the cloth
+  CHECK(graded < 140);  // nor do a few springs take all of the scale
+  cloth.apply(edit::Change{test::cloth(12, 12)});
+  cloth.apply(edit::Restart{});
+  cloth.advance(5);
+  CHECK(top() == before);
 }
 
 TEST_CASE("values are worked out once for a state, and again when it moves or a constant changes") {

@@ -57,6 +57,32 @@ TEST_CASE("the preset that explodes stops, says when, where and why, and starts 
   CHECK(window.cloth().divergence()->step == why.step);
 }
 
+TEST_CASE("in a small window the banner is one line; its details come and go with a click") {
+  test::NullUi window(
+      {.preset = "explodes", .size = {900, 600}, .settings = [](Settings& settings) { settings.ui_scale = 1.5; }});
+  explode(window);
+  const auto covered = [&] {
+    const Box box = *window.ui.placing.find("banner");
+    return (box.hi.y - box.lo.y) / window.ui.viewport.size().y;
+  };
+  CHECK(covered() < 0.2);
+  CHECK(window.sees("viewport.Verlet"));
+  CHECK_FALSE(window.sees("viewport.Restart"));
+  window.click("viewport.Details");
+  window.frames(2);
+  CHECK(window.sees("viewport.Restart"));
+  CHECK(covered() > 0.5);
+  window.click("viewport.fold");
+  window.frames(2);
+  CHECK(covered() < 0.2);
+  window.key(GLFW_KEY_R);
+  window.resize({1280, 900});
+  window.key(GLFW_KEY_0, GLFW_MOD_CONTROL);
+  window.key(GLFW_KEY_SPACE);
+  explode(window);
+  CHECK(window.sees("viewport.Restart"));  // there is room, and what was wanted once is forgotten
+}
+
 TEST_CASE("the banner makes the change that it names, a second back: the cloth then moves on") {
   test::NullUi window({.preset = "explodes"});
   explode(window);

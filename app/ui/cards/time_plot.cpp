@@ -2,8 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyglab {
+
+namespace {
+
+/// s; once nothing moves after a divergence, the time in which it happened, so that its growth is seen.
+double blow_up_span(const Ui& ui, double length) {
+  constexpr double steps = 250, least = 0.25;  // that growth takes; s
+  const Session& session = ui.session;
+  if (!session.simulation->divergence() || session.copies.lockstep.alive())
+    return std::numeric_limits<double>::infinity();
+  return std::min(length, std::max(steps * session.preset().dt, least));
+}
+
+}  // namespace
 
 const char* why_empty(const Ui& ui) {
   if (ui.session.simulation->divergence()) return "Restart to see curves";
@@ -13,7 +27,8 @@ const char* why_empty(const Ui& ui) {
 PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
   const double now = series.empty() ? ui.session.simulation->time() : series.t().back();
   const double length = series.empty() ? 0 : now - series.t().front();
-  const double window = ui.plots.window_s.value_or(length <= 2 ? 2 : length <= 5 ? 5 : 10);
+  const double usual = length <= 2 ? 2 : length <= 5 ? 5 : 10;
+  const double window = ui.plots.window_s.value_or(length > 0 ? std::min(usual, blow_up_span(ui, length)) : usual);
   const double end = std::max(now, window);
   return {.x_min = end - window,
           .x_max = end,

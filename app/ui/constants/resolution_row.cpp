@@ -46,6 +46,11 @@ bool answer(Ui& ui, const char* label, const std::string& result, bool strong) {
   return clicked;
 }
 
+/// Once this frame, which still shows the question, is drawn.
+void answer_later(Ui& ui, bool same_size) {
+  ui.act([same_size](Ui& u) { answer_resolution(u, same_size); });
+}
+
 void question_part(Ui& ui, const ResolutionQuestion& question) {
   const Preset& now = ui.session.requested_preset();
   const Preset& more = question.more;
@@ -55,11 +60,11 @@ void question_part(Ui& ui, const ResolutionQuestion& question) {
     const std::string result = count_of(*same) + ", " + size_of(now) +
                                " as now; L = " + short_number(rounded(same->L, 3)) +
                                " m, dt = " + short_number(rounded(same->dt, 3)) + " s";
-    if (answer(ui, grows ? "Same size, finer" : "Same size, coarser", result, true)) answer_resolution(ui, true);
+    if (answer(ui, grows ? "Same size, finer" : "Same size, coarser", result, true)) answer_later(ui, true);
     tooltip(ui, gui::item_id(), "The same cloth of other springs: mass and stretch behavior stay", "Enter");
   }
   const std::string result = count_of(more) + ", " + size_of(more) + "; L, m and dt stay";
-  if (answer(ui, grows ? "More cloth" : "Less cloth", result, !question.same_size)) answer_resolution(ui, false);
+  if (answer(ui, grows ? "More cloth" : "Less cloth", result, !question.same_size)) answer_later(ui, false);
   tooltip(ui, gui::item_id(),
           grows ? "More of the same springs and weights: a larger cloth"
                 : "Fewer of the same springs and weights: a smaller cloth",

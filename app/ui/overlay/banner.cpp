@@ -155,11 +155,41 @@ Box place_of_banner(const Ui& ui, glm::vec2 picture, glm::vec2 size) {
   return free.value_or(Box{{left, foot - size.y}, {left + size.x, foot}});
 }
 
+/// All in a line, where the whole would hide what happened: the first way out, and the rest on demand.
+void folded_banner(Ui& ui, const std::vector<Way>& ways, glm::vec2 picture) {
+  const Tokens& c = ui.theme.colors;
+  const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
+  const ImFont& font = *ui.fonts.title;
+  const float most = picture.x - ui.theme.px(32), frame = 2 * ImGui::GetStyle().FramePadding.x;
+  const float buttons =
+      text_width(*ui.fonts.text, ways.front().label) + text_width(*ui.fonts.text, "Details") + 2 * frame + gap;
+  float words = 0;
+  const char* shown = "";
+  for (const char* text : {"The simulation diverged", "Diverged"}) {
+    const float width = text_width(font, text) + 2 * gap;
+    if (2 * padding + icon + width + buttons <= most && words == 0) words = width, shown = text;
+  }
+  const Box box = place_of_banner(ui, picture, {2 * padding + icon + words + buttons, line + 2 * gap});
+  const ImVec2 lo = {box.lo.x, box.lo.y}, hi = {box.hi.x, box.hi.y};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(8));
+  draw.AddRect(lo, hi, c.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
+  const float baseline = baseline_at(ui.fonts, (lo.y + hi.y) / 2);
+  draw_on_baseline(draw, *ui.fonts.text, {lo.x + padding, baseline}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
+  draw_on_baseline(draw, font, {lo.x + padding + icon, baseline}, c.text, shown);
+  way_buttons(ui, {ways.front()}, {{0, 0}}, {lo.x + padding + icon + words, lo.y + gap});
+  ImGui::SameLine(0, gap);
+  if (text_button(ui, "Details")) ui.banner_whole = true;
+  tooltip(ui, gui::item_id(), "What happened, why, and every way out");
+  cover_viewport(ui, lo, hi);
+  ui.placing.take("banner", box);
+}
+
 }  // namespace
 
 void banner(Ui& ui) {
   const auto& divergence = ui.session.simulation->divergence();
-  if (!divergence) return;
+  if (!divergence) return ui.banner_whole.reset();
   const Tokens& c = ui.theme.colors;
   // In the original's picture where it has room for it, so that its copies can still be seen.
   const bool roomy = ui.viewport.size().x >= ui.theme.px(least_banner);
@@ -180,6 +210,8 @@ void banner(Ui& ui) {
   const float happened_height = height_of(text, happened), why_height = height_of(text, why);
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + ui.theme.px(12) + buttons;
+  constexpr float most_covered = 0.4f;  // of the picture's height
+  if (!ui.banner_whole.value_or(height <= most_covered * size.y)) return folded_banner(ui, ways, size);
   const Box box = place_of_banner(ui, size, {width, height});
   const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -195,6 +227,9 @@ void banner(Ui& ui) {
   draw_text(draw, text, {x, y}, c.quiet, why);
   y += why_height + ui.theme.px(12);
   way_buttons(ui, ways, places, {x, y});
+  ImGui::SetCursorScreenPos({hi.x - ui.theme.px(34), lo.y + ui.theme.px(8)});
+  if (quiet_button(ui, "fold", icon::close, "x", "Only one line, so that more of the cloth is seen"))
+    ui.banner_whole = false;
   cover_viewport(ui, lo, hi);
   ui.placing.take("banner", box);
 }

@@ -151,9 +151,10 @@ struct Ui : UiContext {
   SceneSketches sketches;
   Advice advice;
   bool help = false;
-  bool panels = true;          ///< Tab hides them all
-  bool presenting = false;     ///< a large cloth over a few large controls, and one card, in place of the panels
-  bool presented_card = true;  ///< whether that card is there
+  bool panels = true;                ///< Tab hides them all
+  bool presenting = false;           ///< a large cloth over a few large controls, and one card, in place of the panels
+  bool presented_card = true;        ///< whether that card is there
+  std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
   std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are checked, at the picked particle
