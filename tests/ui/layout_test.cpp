@@ -1,4 +1,4 @@
-// Cards at the right that have little room: tabs, scrolling, commands that open them; and the cloth in its picture.
+// Cards at the right that have little room: scrolling, commands that open them; and the cloth in its picture.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,26 +17,6 @@ test::UiOptions options(const std::string& preset, double scale = 1, const char*
   return {.preset = preset, .size = size, .settings = [=](Settings& settings) {
             settings.ui_scale = scale, settings.theme = theme;
           }};
-}
-
-bool has_tab(const test::NullUi& window, const std::string& name) {
-  const auto& tabs = window.ui.plots.cards;
-  return std::find(tabs.begin(), tabs.end(), name) != tabs.end();
-}
-
-/// By its tab, or in the list of tabs.
-void choose_tab(test::NullUi& window, const std::string& name) {
-  window.frames(4);
-  const auto& tabs = window.ui.plots.cards;
-  const auto place = std::find(tabs.begin(), tabs.end(), name) - tabs.begin() + 1;
-  const std::string tab = "plots.cards." + std::to_string(place);
-  if (window.sees(tab)) {
-    window.click(tab);
-  } else {
-    window.click("plots.cards");
-    window.click("menu." + name);
-  }
-  window.frames(4);
 }
 
 /// Whether a control is there, within the window, and at least so high.
@@ -80,51 +60,44 @@ TEST_CASE("with large text the plots keep a height at which they are read, and t
     window.scroll_to("plots.curve.F_ext", "plots.force_plot");
     window.key(GLFW_KEY_M);
     window.frames(4);
-    CHECK(window.ui.plots.tab == "Map");
     if (!window.sees("plots.map")) window.scroll_to("plots.map", "plots.close_map");
     CHECK(whole(window, "plots.map", 60));
   }
 }
 
-TEST_CASE("every card is reached by its tab, which unfolds it, and by the palette") {
-  for (const double scale : {1.5, 2.6}) {
+TEST_CASE("every card is opened by its heading and found by the palette, comes into sight, and hides no other") {
+  const std::vector<std::string> names{"Copies", "Stability", "Accuracy", "Energy", "Performance"};
+  for (const double scale : {1.0, 1.5, 2.6}) {
     CAPTURE(scale);
     test::NullUi window(options("hanging", scale));
-    window.key(GLFW_KEY_M);
-    window.key(GLFW_KEY_I);
     window.find("forces card");
-    for (const std::string name :
-         {"Copies", "Stability", "Accuracy", "Energy", "Performance", "Map", "Step", "Forces"}) {
-      if (!has_tab(window, name)) continue;
-      CAPTURE(name);
-      choose_tab(window, name);
-      CHECK(window.ui.plots.tab == name);
-    }
-    for (const std::string name : {"Copies", "Stability", "Accuracy", "Energy", "Performance"}) {
+    for (const std::string& name : names) {
       CAPTURE(name);
       window.find(name + " card");
       window.frames(4);
-      CHECK((!has_tab(window, name) || window.ui.plots.tab == name));
       CHECK(window.sees("plots." + name));
+      CHECK(window.session.wants.forces);  // the plot stays, seen or scrolled to
       if (name == "Energy") CHECK(window.cloth().ledger().has_value());
     }
+    CHECK(window.cloth().ledger().has_value());  // it is open still
+    CHECK(window.session.wants.accuracy);
   }
-}
-
-TEST_CASE("a tab that is clicked shows what its card holds; folding it goes back to the plots") {
-  test::NullUi window(options("hanging", 2));
-  window.find("forces card");
-  REQUIRE(has_tab(window, "Energy"));
-  choose_tab(window, "Energy");
-  CHECK(window.cloth().ledger().has_value());
-  choose_tab(window, "Accuracy");
-  window.until([&] { return window.session.studies.accuracy.study().has_value(); }, "the errors");
-  window.click("plots.Accuracy");
+  test::NullUi window(options("hanging", 1, "dark", {1280, 1000}));
+  window.click("plots.Energy");
   window.frames(4);
+  float above = 0;
+  for (const std::string& name : names) {
+    const Box heading = window.control("plots." + name);
+    if (name == "Copies" || name == "Stability") above = heading.hi.y;
+    if (name == "Accuracy") CHECK(heading.lo.y >= above);  // the order stays
+  }
   CHECK(window.sees("plots.force_plot"));
+  window.click("plots.Energy");
+  window.frames(4);
+  CHECK_FALSE(window.cloth().ledger().has_value());
 }
 
-TEST_CASE("Copies are a tab where they have no room, and its button is reached with none and with four of them") {
+TEST_CASE("the button of Copies is reached with none and with four of them, beside map and step") {
   for (const auto& [scale, theme] : {std::pair{1.0, "projector"}, {2.0, "light"}}) {
     CAPTURE(scale);
     test::NullUi window(options("flag", scale, theme));
@@ -134,36 +107,39 @@ TEST_CASE("Copies are a tab where they have no room, and its button is reached w
     window.find("copies card");
     for (std::size_t count = 1; count < 5; ++count) {
       CAPTURE(count);
-      if (has_tab(window, "Copies") && window.ui.plots.tab != "Copies") choose_tab(window, "Copies");
+      if (count > 1) window.find("copies card");
+      window.frames(4);
+      if (!window.sees("plots.add")) window.scroll_to("plots.add", "plots.Copies");
       const Box button = window.control("plots.add");
       CHECK(button.hi.y - button.lo.y >= 29 * scale);  // it is seen whole
       window.add_copy("Equal_copy");
       CHECK(window.session.copies.lockstep.size() == count);
       window.frames(4);
     }
-    if (!window.sees("plots.add") && has_tab(window, "Copies")) choose_tab(window, "Copies");
     if (!window.sees("plots.add")) window.scroll_to("plots.add", "plots.Copies");
     CHECK(window.sees("plots.add"));
   }
 }
 
-TEST_CASE("M and I bring their card to the front, and close it only where it stands there") {
+TEST_CASE("M and I open their card in its place, in sight, and close it again") {
   test::NullUi window(options("hanging"));
   window.key(GLFW_KEY_M);
-  window.frames(2);
-  CHECK(window.ui.plots.tab == "Map");
+  window.frames(4);
+  CHECK(whole(window, "plots.map", 100));
+  CHECK(whole(window, "plots.close_map", 10));
+  window.until([&] { return window.session.studies.map.findings().has_value(); }, "the map");
   window.key(GLFW_KEY_I);
   window.frames(4);
-  CHECK(window.ui.plots.tab == "Step");
+  CHECK(window.sees("plots.close_inside"));
+  CHECK(window.session.wants.map);
   window.key(GLFW_KEY_M);
   window.frames(4);
-  CHECK(window.ui.plots.tab == "Map");
-  window.until([&] { return window.sees("plots.map"); }, "the map");  // not closed, but begun anew
-  window.key(GLFW_KEY_M);
-  window.frames(4);
-  CHECK_FALSE(has_tab(window, "Map"));
+  CHECK_FALSE(window.sees("plots.map"));
   CHECK_FALSE(window.session.studies.map.findings().has_value());
-  CHECK(has_tab(window, "Step"));
+  CHECK(window.sees("plots.close_inside"));
+  window.key(GLFW_KEY_I);
+  window.frames(4);
+  CHECK_FALSE(window.sees("plots.close_inside"));
 }
 
 TEST_CASE("the cloth is framed anew for each size of its picture, below the buttons, until the camera is in hand") {
@@ -206,7 +182,7 @@ TEST_CASE("where the text leaves no room beside the cloth, constants, plots and 
   window.click("side.columns.1");
   CHECK((window.sees("constants.k_s.slider") || window.sees("constants.dt.slider")));
   window.find("forces card");
-  CHECK(window.sees("plots.cards"));
+  CHECK(window.sees("plots.source.1"));
   window.click("side.columns.3");
   CHECK(window.ui.viewport.whole().x == 900);
 }
@@ -222,8 +198,7 @@ TEST_CASE("where a lab's strip would leave the plots too low, they take its plac
     CHECK(window.sees("lab.leave"));
     window.find("accuracy card");
     window.frames(4);
-    CHECK(window.ui.plots.tab == "Accuracy");
-    CHECK(window.sees("plots.cards"));
+    CHECK(window.sees("plots.Accuracy"));
     CHECK_FALSE(window.sees("lab.leave"));
     CHECK(window.session.labs.run.has_value());
     window.click("side.columns.1");

@@ -1,11 +1,13 @@
-// The column of cards at the right: plots, and below them cards of lines under headings. What has no room becomes a
-// tab, and where not even one card has, the column scrolls.
+// The column of cards at the right: plots, and below them tools under headings, always in the same order. A tool that
+// is opened takes room from the plots as long as these can still be read; then the tools scroll, and where not even the
+// plots have room, the whole column. Plots without room for all of them take turns behind tabs.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/ui/cards/accuracy_card.h"
@@ -28,6 +30,8 @@ namespace {
 
 constexpr float margin_at_1 = 12, under_tabs_at_1 = 8, tabs_at_1 = 26;  // pixels at scale 1
 constexpr float tabs_stay_at_1 = 150, stacked_at_1 = 240;               // in a lower column they scroll with their card
+constexpr float least_part = 0.34f;                                     // of the column, for plots
+constexpr float least_tools_at_1 = 160;                                 // lower they would hardly be seen
 
 void copies_plot_card(Ui& ui, float height) {
   const bool energy = ui.session.copies.plotted == Copies::Quantity::energy;
@@ -78,61 +82,46 @@ std::vector<Card> plot_cards(const Ui& ui) {
   cards.push_back({card_name::forces, force_card, force_card_least, &Wants::forces});
   if (!session.copies.lockstep.empty())
     cards.push_back({card_name::distances, copies_plot_card, least_of<160>, &Wants::copies});
-  if (ui.settings.layout.map) cards.push_back({card_name::map, map_plot_card, least_of<270>, &Wants::map});
-  if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<70>, &Wants::step});
   return cards;
 }
 
-/// A card at the foot: its heading, and under it what it holds unless it is folded. It is never cut.
-struct FootCard {
-  Card card;
-  float height = 0;  ///< px; 0 once it has become a tab
-};
-using Foot = std::array<FootCard, 5>;
-
-/// The lowest first.
-Foot foot_cards(const Ui& ui) {
+/// Under headings that fold them, but for the map and the step, which come and go.
+std::vector<Card> tool_cards(const Ui& ui) {
   const bool small = ui.session.simulation->lattice().size() <= AccuracyWatch::largest;
   static constexpr std::array sides{&Wants::accuracy, &Wants::convergence, &Wants::settings};
   const auto accuracy = sides[std::size_t(ui.plots.accuracy)];
-  return {{{{card_name::performance, performance_card, performance_card_height}},
-           {{card_name::energy, energy_card, energy_card_height, &Wants::ledger}},
-           {{card_name::accuracy, accuracy_card, accuracy_card_height, small ? accuracy : nullptr}},
-           {{card_name::stability, stability_card, stability_card_height, &Wants::stability}},
-           {{card_name::copies, copies_card, copies_card_height, &Wants::copies}}}};
+  std::vector<Card> cards{{card_name::copies, copies_card, copies_card_height, &Wants::copies},
+                          {card_name::stability, stability_card, stability_card_height, &Wants::stability}};
+  if (ui.settings.layout.map) cards.push_back({card_name::map, map_plot_card, least_of<330>, &Wants::map});
+  cards.push_back({card_name::accuracy, accuracy_card, accuracy_card_height, small ? accuracy : nullptr});
+  cards.push_back({card_name::energy, energy_card, energy_card_height, &Wants::ledger});
+  if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<200>, &Wants::step});
+  cards.push_back({card_name::performance, performance_card, performance_card_height});
+  return cards;
 }
 
 /// What of the column is seen, and how high: known before any of it is drawn.
 struct ColumnPlan {
-  std::vector<Card> cards;       ///< above the foot: one above the other, or behind tabs
-  Foot foot;                     ///< what stands below them
-  float available = 0;           ///< px, height above the foot
-  bool tabs = false;             ///< one of the cards is seen
-  std::size_t chosen = 0;        ///< which one
-  std::vector<float> heights{};  ///< of those above each other, px
+  std::vector<Card> plots, tools;
+  float plots_height = 0, tools_height = 0;  ///< px, of what is seen of them
+  bool scrolls = false;                      ///< both together
+  bool tabs = false;                         ///< one of the plots is seen
+  std::size_t chosen = 0;                    ///< which one
+  std::vector<float> heights{};              ///< px, of plots above each other
+  std::vector<float> tool_heights{};         ///< px
 };
 
-/// Heights of the cards at the foot, where the plots can spare that much room (px). What has no room, a heading or an
-/// open card, joins the plots. Returns the height of those that stay, with their gaps.
-float place_at_foot(const Ui& ui, float width, float room, Foot& foot, std::vector<Card>& plots) {
-  const float gap = ui.theme.px(margin_at_1), head = ui.theme.px(card::head);
-  room -= float(foot.size()) * (head + gap);
-  float all = 0;
-  std::size_t joined = 0;  // of the lowest, where not even all headings have room
-  for (; joined < foot.size() && room < 0; ++joined) room += head + gap;
-  for (std::size_t k = foot.size(); k-- > 0;) {
-    FootCard& card = foot[k];
-    const float more = std::ceil(card.card.least(ui, width) - head);
-    if (k < joined || more > room) {
-      plots.push_back(card.card);
-      if (k >= joined) room += head + gap;
-    } else {
-      card.height = head + more;
-      room -= more;
-      all += card.height + gap;
-    }
-  }
-  return all;
+/// Cards above each other, with the gaps between them, px.
+float total(const Ui& ui, std::span<const float> heights) {
+  float sum = heights.empty() ? 0 : -ui.theme.px(margin_at_1);
+  for (const float height : heights) sum += height + ui.theme.px(margin_at_1);
+  return sum;
+}
+
+std::vector<float> least_heights(const Ui& ui, std::span<const Card> cards, float width) {
+  std::vector<float> heights;
+  for (const Card& card : cards) heights.push_back(std::ceil(card.least(ui, width)));
+  return heights;
 }
 
 /// Index of the card whose tab is chosen: the one that is to come to the front, the one that is there, or the first.
@@ -144,32 +133,38 @@ std::size_t chosen_tab(const Plots& plots, std::span<const Card> cards) {
   return 0;
 }
 
+/// Of the plots above each other what is left over is shared out alike. One alone does not need the whole column: a
+/// plot much taller than wide is hard to read.
+std::vector<float> shared_out(const Ui& ui, std::vector<float> heights, float room) {
+  if (heights.size() == 1) return {std::floor(std::max({heights[0], 0.6f * room, std::min(room, ui.theme.px(420))}))};
+  const float spare = (room - total(ui, heights)) / float(heights.size());
+  for (float& height : heights) height = std::floor(height + spare);
+  return heights;
+}
+
 ColumnPlan plan_column(const Ui& ui, ImVec2 column) {
   const float gap = ui.theme.px(margin_at_1), tabs = ui.theme.px(tabs_at_1) + ui.theme.px(under_tabs_at_1);
-  ColumnPlan plan{plot_cards(ui), foot_cards(ui)};
+  ColumnPlan plan{plot_cards(ui), tool_cards(ui)};
   if (ui.presenting) {
-    for (const FootCard& card : plan.foot) plan.cards.push_back(card.card);
-    plan.available = column.y, plan.tabs = true, plan.chosen = chosen_tab(ui.plots, plan.cards);
+    for (const Card& card : std::exchange(plan.tools, {})) plan.plots.push_back(card);
+    plan.plots_height = column.y, plan.tabs = true, plan.chosen = chosen_tab(ui.plots, plan.plots);
     return plan;
   }
-  float stacked = 0, tallest = 0;
-  for (const Card& card : plan.cards) {
-    const float least = card.least(ui, column.x);
-    plan.heights.push_back(std::max(least, ui.theme.px(stacked_at_1)));
-    stacked += plan.heights.back() + gap;
-    tallest = std::max(tallest, least);
-  }
-  const float alone = float(plan.cards.size());
-  plan.available = column.y - place_at_foot(ui, column.x, column.y - tallest - tabs - gap, plan.foot, plan.cards);
-  const float spare = plan.available - stacked + gap;
-  plan.tabs = plan.cards.size() > plan.heights.size() || (plan.cards.size() > 1 && spare < 0);
-  plan.chosen = chosen_tab(ui.plots, plan.cards);
-  // What is left over is shared out alike; one alone does not need the whole column: a plot much taller than wide is
-  // hard to read.
-  for (float& height : plan.heights) height = std::floor(height + spare / alone);
-  if (plan.heights.size() == 1)
-    plan.heights[0] =
-        std::floor(std::max({tallest, 0.6f * plan.available, std::min(plan.available, ui.theme.px(420))}));
+  std::vector<float> least = least_heights(ui, plan.plots, column.x);
+  const float tallest = *std::max_element(least.begin(), least.end());
+  const float least_plots = std::max(tallest, std::floor(least_part * column.y)) + (least.size() > 1 ? tabs : 0);
+  plan.tool_heights = least_heights(ui, plan.tools, column.x);
+  const float room = column.y - least_plots - gap;
+  if (total(ui, plan.tool_heights) > room)  // beside a scroll bar
+    plan.tool_heights = least_heights(ui, plan.tools, column.x - ImGui::GetStyle().ScrollbarSize);
+  const float wanted = total(ui, plan.tool_heights);
+  plan.scrolls = wanted > room && room < ui.theme.px(least_tools_at_1);
+  plan.tools_height = plan.scrolls ? wanted : std::min(wanted, room);
+  plan.plots_height = plan.scrolls ? least_plots : column.y - plan.tools_height - gap;
+  for (float& height : least) height = std::max(height, ui.theme.px(least.size() > 1 ? stacked_at_1 : 0));
+  plan.tabs = least.size() > 1 && total(ui, least) > plan.plots_height;
+  plan.chosen = chosen_tab(ui.plots, plan.plots);
+  plan.heights = shared_out(ui, std::move(least), plan.plots_height);
   return plan;
 }
 
@@ -179,17 +174,7 @@ ImVec2 column_size(const Ui& ui, ImVec2 region) {
   return {region.x - margins, region.y - margins};
 }
 
-void draw_stacked(Ui& ui, std::span<const Card> cards, std::span<const float> heights) {
-  const float left = ImGui::GetCursorScreenPos().x;
-  float top = ImGui::GetCursorScreenPos().y;
-  for (std::size_t k = 0; k < cards.size(); ++k) {
-    ImGui::SetCursorScreenPos({left, top});
-    cards[k].draw(ui, heights[k]);
-    top += heights[k] + ui.theme.px(margin_at_1);
-  }
-}
-
-/// A card that its heading has opened comes to the front where it becomes a tab; one that was folded makes room.
+/// A card that its heading has opened comes into sight; one that was folded makes room.
 void draw_foldable(Ui& ui, const Card& card, float height) {
   const std::set<std::string>& folded = ui.settings.layout.folded;
   const bool before = folded.count(card.name) != 0;
@@ -205,16 +190,33 @@ void begin_scrolling(Ui& ui, const char* id, ImVec2 size, float content) {
   gui::begin_child(id, size);
 }
 
+/// Cards above each other; scrolls so that the one that is wanted is seen.
+void draw_stacked(Ui& ui, std::span<const Card> cards, std::span<const float> heights, float seen) {
+  const float left = ImGui::GetCursorScreenPos().x;
+  float top = ImGui::GetCursorScreenPos().y;
+  for (std::size_t k = 0; k < cards.size(); ++k) {
+    ImGui::SetCursorScreenPos({left, top});
+    const float from = ImGui::GetCursorPosY(), to = from + heights[k];
+    const bool wanted = ui.plots.wanted == cards[k].name;
+    draw_foldable(ui, cards[k], heights[k]);
+    if (wanted && (from < ImGui::GetScrollY() || heights[k] >= seen)) {
+      ImGui::SetScrollFromPosY(from - ImGui::GetScrollY(), 0);
+    } else if (wanted && to > ImGui::GetScrollY() + seen) {
+      ImGui::SetScrollFromPosY(to - ImGui::GetScrollY(), 1);
+    }
+    top += heights[k] + ui.theme.px(margin_at_1);
+  }
+}
+
 /// One card, and tabs for all.
-void draw_tabbed(Ui& ui, const ColumnPlan& plan, float width) {
+void draw_tabbed(Ui& ui, std::span<const Card> cards, std::size_t chosen, ImVec2 size) {
   Plots& plots = ui.plots;
   std::vector<const char*> names;
-  for (const Card& card : plan.cards) names.push_back(card.name);
+  for (const Card& card : cards) names.push_back(card.name);
   plots.cards.assign(names.begin(), names.end());
-  const Card& card = plan.cards[plan.chosen];
+  const Card& card = cards[chosen];
   if (card.name == plots.wanted) plots.tab = plots.wanted;
   ui.settings.layout.folded.erase(card.name);  // who chooses a tab wants to see what it holds
-  const ImVec2 size{width, plan.available};
   const CardTabs tabs(ui, names, size);
   const float above = tabs.height() + ui.theme.px(under_tabs_at_1), least = card.least(ui, plots.width);
   const bool stay = size.y >= ui.theme.px(tabs_stay_at_1);
@@ -222,7 +224,7 @@ void draw_tabbed(Ui& ui, const ColumnPlan& plan, float width) {
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   if (!stay) begin_scrolling(ui, card.name, size, above + height);
   const ImVec2 top = ImGui::GetCursorScreenPos();
-  const int clicked = tabs.draw(ui, int(plan.chosen));
+  const int clicked = tabs.draw(ui, int(chosen));
   ImGui::SetCursorScreenPos({top.x, top.y + above});
   if (stay)
     ImGui::SetCursorScreenPos({corner.x, corner.y + above}),
@@ -230,6 +232,11 @@ void draw_tabbed(Ui& ui, const ColumnPlan& plan, float width) {
   draw_foldable(ui, card, height);
   ImGui::EndChild();
   if (clicked >= 0) plots.tab = names[std::size_t(clicked)];
+}
+
+void draw_plots(Ui& ui, const ColumnPlan& plan, float width) {
+  if (plan.tabs) return draw_tabbed(ui, plan.plots, plan.chosen, {width, plan.plots_height});
+  draw_stacked(ui, plan.plots, plan.heights, plan.plots_height);
 }
 
 }  // namespace
@@ -242,22 +249,25 @@ void plots_panel(Ui& ui, const Region& region) {
   plots.width = column.x;
   plots.cards.clear();
   const ColumnPlan plan = plan_column(ui, column);
-  if (plan.tabs) {
-    draw_tabbed(ui, plan, column.x);
+  const std::string wanted = plots.wanted;
+  const float below = plan.plots_height + margin;
+  if (plan.scrolls) {
+    begin_scrolling(ui, "column", column, below + plan.tools_height);
+    const ImVec2 top = ImGui::GetCursorScreenPos();
+    draw_plots(ui, plan, ImGui::GetContentRegionAvail().x);
+    ui.wheel_scrolls = true;
+    ImGui::SetCursorScreenPos({top.x, top.y + below});
+    draw_stacked(ui, plan.tools, plan.tool_heights, column.y);
+    ImGui::EndChild();
   } else {
-    begin_scrolling(ui, "column", {column.x, plan.available},
-                    plan.heights.size() == 1 ? plan.heights[0] : plan.available);
-    draw_stacked(ui, plan.cards, plan.heights);
+    ui.wheel_scrolls = false;
+    draw_plots(ui, plan, column.x);
+    ImGui::SetCursorScreenPos({corner.x, corner.y + below});
+    begin_scrolling(ui, "tools", {column.x, plan.tools_height}, total(ui, plan.tool_heights));
+    draw_stacked(ui, plan.tools, plan.tool_heights, plan.tools_height);
     ImGui::EndChild();
   }
-  plots.wanted.clear();
-  float lowest = corner.y + column.y;
-  for (const FootCard& card : plan.foot) {
-    if (card.height <= 0) continue;
-    ImGui::SetCursorScreenPos({corner.x, lowest - card.height});
-    draw_foldable(ui, card.card, card.height);
-    lowest -= card.height + margin;
-  }
+  if (plots.wanted == wanted) plots.wanted.clear();  // what a heading has opened is high enough in the next frame
   end_region();
 }
 
@@ -267,10 +277,10 @@ Wants plots_want(const Ui& ui, ImVec2 size) {
   const auto add = [&](const Card& card) {
     if (card.wants != nullptr) wants.*card.wants = true;
   };
-  for (std::size_t k = 0; k < plan.cards.size(); ++k)
-    if (!plan.tabs || k == plan.chosen) add(plan.cards[k]);
-  for (const FootCard& card : plan.foot)
-    if (card.height > 0 && ui.settings.layout.folded.count(card.card.name) == 0) add(card.card);
+  for (std::size_t k = 0; k < plan.plots.size(); ++k)
+    if (!plan.tabs || k == plan.chosen) add(plan.plots[k]);
+  for (const Card& card : plan.tools)
+    if (ui.settings.layout.folded.count(card.name) == 0) add(card);
   return wants;
 }
 
