@@ -50,13 +50,13 @@ std::string History::what(bool backwards, const Preset& present) const {
   return backwards ? change_in_words(entry.constants, present) : change_in_words(present, entry.constants);
 }
 
-HistoryEntry History::take(bool backwards, std::optional<HistoryEntry> now) {
+HistoryEntry History::take(bool backwards, HistoryEntry now) {
   auto& from = backwards ? undo_ : redo_;
   auto& to = backwards ? redo_ : undo_;
   gesture_ = 0;
   HistoryEntry entry = std::move(from.back());
   from.pop_back();
-  now ? to.push_back(*std::move(now)) : to.clear();
+  to.push_back(std::move(now));
   return entry;
 }
 

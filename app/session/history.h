@@ -43,9 +43,8 @@ class History {
   }
   /// How the action is called that an undo or a redo is about, while these are the constants; there must be one.
   std::string what(bool backwards, const Preset& present) const;
-  /// Takes the newest entry out, and puts what stands now in its place on the other side; there must be one. Where
-  /// `now` is none, what is taken cannot be brought back again.
-  HistoryEntry take(bool backwards, std::optional<HistoryEntry> now);
+  /// Takes the newest entry out, and puts what stands now in its place on the other side; there must be one.
+  HistoryEntry take(bool backwards, HistoryEntry now);
   /// The motion has gone back to `t`, s: actions since then that changed it have been undone with it.
   void go_back(double t);
   /// The constants before the first action since `t`, s; null: there was none.

@@ -78,11 +78,8 @@ void take_from_history(Session& session, bool backwards) {
   if (entry->state && session.rebuild.holds_present())
     return session.messages.note("Wait until the cloth has been built, then undo the " + what + ".");
   History history = session.history;
-  std::optional<HistoryEntry> now = HistoryEntry{present, session.simulation->time(), entry->what};
-  if (entry->state) {
-    now.reset();
-    if (!session.simulation->divergence()) now = motion_entry(session, entry->what);
-  }
+  HistoryEntry now{present, session.simulation->time(), entry->what};
+  if (entry->state) now = motion_entry(session, entry->what);  // after a divergence, of the last whole step
   const HistoryEntry then = history.take(backwards, std::move(now));
   Preset next = then.constants;
   next.mode = present.mode;  // the view is not a change to undo

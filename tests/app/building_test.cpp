@@ -69,7 +69,7 @@ TEST_CASE("what is changed meanwhile is felt at once and by the cloth in work") 
   CHECK(session.requested_preset() == stiff);
   wait(session);
   CHECK(session.preset() == stiff);
-  CHECK(session.history.take(true, std::nullopt).constants.rows == large);
+  CHECK(session.history.take(true, {}).constants.rows == large);
   CHECK(session.history.next(true)->constants.rows == 20);
 }
 

@@ -129,6 +129,24 @@ TEST_CASE("a restart before anything moved, and one after a divergence, are no a
   CHECK(said(session, "Undone: k_s 50"));
 }
 
+TEST_CASE("what led to a divergence can be undone and done again") {
+  Session session = moving_cloth();
+  restart(session);
+  set_k_s(session, 1e6);
+  session.simulation->advance(2000);
+  REQUIRE(session.simulation->divergence());
+  const double t = session.simulation->time();
+  take_from_history(session, true);
+  take_from_history(session, true);  // the restart, whose motion has diverged
+  CHECK(session.preset().k_s == 50);
+  take_from_history(session, false);
+  CHECK(session.simulation->time() == t);  // the last whole step
+  take_from_history(session, false);
+  CHECK(session.preset().k_s == 1e6);
+  session.simulation->advance(1);
+  CHECK(session.simulation->divergence());
+}
+
 TEST_CASE("rewinding past a change says that it stays, and Ctrl+Z takes it back") {
   Session session = moving_cloth();
   const auto go_on = [&](int steps) {
@@ -159,7 +177,7 @@ TEST_CASE("states are kept within their memory, and what is too large says so") 
   for (int n = 0; n < fit + 5; ++n) history.record({simulation.preset(), 0, "cut", state}, 0);
   CHECK(history.bytes() <= History::most_bytes + 1000 * std::size_t(fit));
   int kept = 0;
-  for (; history.can_undo(); ++kept) history.take(true, std::nullopt);
+  for (; history.can_undo(); ++kept) history.take(true, {});
   CHECK(kept == fit);
 
   Session session = moving_cloth();

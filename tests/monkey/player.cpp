@@ -313,7 +313,8 @@ void Player::undo_redo() {
   for (; undone > 0; --undone) ui.command("redo"), window_->frame();
   before.mode = session.requested_preset().mode;
   if (!(session.requested_preset() == before) && !session.rebuild.busy())
-    throw Finding("what was undone and done again is not as before");
+    throw Finding("what was undone and done again is not as before: " +
+                  change_in_words(before, session.requested_preset()));
 }
 
 void Player::after_frame(double seconds) {
