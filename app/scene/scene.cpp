@@ -23,6 +23,7 @@ void Scene::follow() {
     if (!field.empty() || lab_colors_) colors.choose(field_called(field));
     lab_colors_ = !field.empty();
   }
+  if (lab_colors_ && !session.labs.run) lab_colors_ = false, colors.choose(std::nullopt);
   if (now.cloths != seen_.cloths) redraw = true;
   seen_ = now;
 }

@@ -120,17 +120,18 @@ void force_controls(Ui& ui, const Region& inner) {
                            : ImVec2(inner.at.x + inner.size.x - right_controls_width(ui), inner.at.y));
 }
 
-const char* force_title(const Ui& ui) {
-  if (ui.session.preset().kind == Kind::one_weight) return "Forces on the mass";
-  switch (force_source(ui.session)) {
-    case Source::sum:
-      return "Forces, summed over the cloth";
-    case Source::maximum:
-      return "Forces, largest on the cloth";
-    case Source::particle:
-      break;
-  }
-  return "Forces on the picked particle";
+/// The longest that the width has room for beside the unit.
+std::string force_title(const Ui& ui, float width) {
+  const bool weight = ui.session.preset().kind == Kind::one_weight;
+  const Source source = force_source(ui.session);
+  const std::string subject = weight                      ? "the mass"
+                              : source == Source::sum     ? "the cloth, summed"
+                              : source == Source::maximum ? "the cloth, largest"
+                                                          : "the picked particle";
+  const float unit = ui.theme.px(48);
+  for (const std::string& title : {"Forces on " + subject, weight ? "Forces" : "On " + subject})
+    if (text_width(*ui.fonts.title, title) + unit <= width) return title;
+  return "Forces";
 }
 
 }  // namespace
@@ -143,7 +144,7 @@ float force_card_least(const Ui& ui, float width) {
 
 void force_card(Ui& ui, float height) {
   Plots& plots = ui.plots;
-  const PlotCard card(ui, "forces", force_title(ui),
+  const PlotCard card(ui, "forces", force_title(ui, plot_card_inner_width(ui, ImGui::GetContentRegionAvail().x)),
                       ui.session.recorded.paused ? "held"
                       : plots.log                ? "N, log"
                                                  : "N",
