@@ -95,7 +95,7 @@ std::vector<Card> tool_cards(const Ui& ui) {
   if (ui.settings.layout.map) cards.push_back({card_name::map, map_plot_card, least_of<330>, &Wants::map});
   cards.push_back({card_name::accuracy, accuracy_card, accuracy_card_height, small ? accuracy : nullptr});
   cards.push_back({card_name::energy, energy_card, energy_card_height, &Wants::ledger});
-  if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<200>, &Wants::step});
+  if (ui.settings.layout.inside) cards.push_back({card_name::step, inside_card, least_of<330>, &Wants::step});
   cards.push_back({card_name::performance, performance_card, performance_card_height});
   return cards;
 }
