@@ -39,7 +39,7 @@ SceneSketch weight_sketch() {
   return sketch;
 }
 
-/// Every so many particles one is drawn; the last always.
+/// At equal distances, at most as many as are drawn; the last always.
 std::vector<int> drawn_along(int count) {
   const int step = std::max(1, (count - 1 + most_quads - 1) / most_quads);
   std::vector<int> drawn;

@@ -27,7 +27,7 @@ struct SceneSketch {
   struct Ball {
     glm::vec2 at;
     float radius;        ///< part of the height
-    std::size_t behind;  ///< so many triangles are farther away
+    std::size_t behind;  ///< triangles that are farther away
   };
   std::vector<Corner> corners;
   std::vector<std::array<std::uint16_t, 3>> triangles;  ///< the farthest first

@@ -63,7 +63,7 @@ GalleryCard lab_card(const Ui& ui, const Lab& lab) {
   return card;
 }
 
-/// As much of the text as so many lines hold.
+/// As much of the text as that many lines hold.
 std::string in_some_lines(const ImFont& font, const std::string& text, float width, int most) {
   const std::string lines = in_lines(font, text, width);
   std::size_t end = 0;
