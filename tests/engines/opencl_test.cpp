@@ -276,7 +276,7 @@ TEST_CASE("drivers that do not survive the probe count as none, and it is said w
     CHECK(inventory.devices.empty());
     CHECK(inventory.problem.find("crashes while listing its devices") != std::string::npos);
   }
-  CHECK(probed == 1);
+  CHECK(probed == 2);  // once more, in case it was bad luck, and never again
   set_driver_probe([&](const std::function<void()>& ask) { return ask(), true; });
   CHECK(opencl_devices().devices.size() == trusted);
   test::probe_drivers_in_child();

@@ -235,6 +235,7 @@ int main(int argc, char** argv) {
   context.setAssertHandler([](const doctest::AssertData& data) {
     throw tyglab::monkey::Finding(std::string("required in vain: ") + data.m_expr);
   });
+  tyglab::test::probe_drivers_in_child();
   try {
     return tyglab::monkey::run(argc, argv);
   } catch (const std::exception& error) {

@@ -1,5 +1,5 @@
 // The commands: one row each, with its name, its keys, what it does and when it can be done. Keys, help, menus and the
-// palette read it; a new command is one row in its topic's file (…_commands.cpp), and nothing else.
+// palette read it; a new command is one row in its topic's file (motion_commands.cpp and the like), and nothing else.
 #pragma once
 
 #include <filesystem>

@@ -94,11 +94,12 @@ std::optional<bool> probed_crash;
 /// Whether asking the drivers for their devices crashes, as it does with pocl where /sys is not mounted.
 bool drivers_crash() {
   const std::lock_guard lock(probe_mutex);
-  if (!probed_crash)
-    probed_crash = driver_probe && !driver_probe([] {
-                     std::string problem;
-                     for (const DeviceId& found : ask_drivers(problem)) facts_of(found);
-                   });
+  const auto ask = [] {
+    std::string problem;
+    for (const DeviceId& found : ask_drivers(problem)) facts_of(found);
+  };
+  // Twice: a child that is forked while another thread holds a lock of a library can fail though the drivers are well.
+  if (!probed_crash) probed_crash = driver_probe && !driver_probe(ask) && !driver_probe(ask);
   return *probed_crash;
 }
 
