@@ -8,13 +8,13 @@
 #include <memory>
 #include <optional>
 
+#include "app/process/driver_probe.h"
 #include "app/render/graphics_error.h"
 #include "app/render/headless_context.h"
 #include "tests/monkey/child.h"
 #include "tests/monkey/chooser.h"
 #include "tests/monkey/player.h"
 #include "tests/monkey/shrink.h"
-#include "tests/support/devices.h"
 
 namespace tyglab::monkey {
 namespace {
@@ -235,7 +235,7 @@ int main(int argc, char** argv) {
   context.setAssertHandler([](const doctest::AssertData& data) {
     throw tyglab::monkey::Finding(std::string("required in vain: ") + data.m_expr);
   });
-  tyglab::test::probe_drivers_in_child();
+  tyglab::probe_drivers_in_child();
   try {
     return tyglab::monkey::run(argc, argv);
   } catch (const std::exception& error) {
