@@ -127,27 +127,26 @@ SceneSketch sketch_of(const Preset& preset, const Stop& stop) {
   return projected(simulation, grid);
 }
 
-const SceneSketch* SceneSketches::of(const std::string& name, const Preset& preset) {
-  if (const auto made = made_.find(name); made != made_.end()) return &made->second;
-  const auto same = [&](const auto& waiting) { return waiting.first == name; };
-  if (making_ != name && std::none_of(waiting_.begin(), waiting_.end(), same)) waiting_.emplace_back(name, preset);
-  return nullptr;
+const SceneSketch* SceneSketches::of(const Preset& preset) {
+  auto found = std::find_if(all_.begin(), all_.end(), [&](const Made& made) { return made.preset == preset; });
+  if (found == all_.end()) found = all_.insert(all_.end(), {preset, {}});
+  return found->sketch ? &*found->sketch : nullptr;
 }
 
 bool SceneSketches::poll() {
   if (work_.ready()) {
     auto outcome = work_.take();
-    made_[std::exchange(making_, {})] =
-        std::holds_alternative<SceneSketch>(outcome) ? std::get<SceneSketch>(std::move(outcome)) : SceneSketch{};
+    auto* sketch = std::get_if<SceneSketch>(&outcome);
+    std::exchange(making_, nullptr)->sketch = sketch != nullptr ? std::move(*sketch) : SceneSketch{};
   }
-  if (!work_.busy() && !waiting_.empty()) {
-    making_ = waiting_.front().first;
-    work_.start(Priority::below_frames, [preset = std::move(waiting_.front().second)](const JobControl& control) {
-      return sketch_of(preset, [&] { return control.cancelled(); });
-    });
-    waiting_.erase(waiting_.begin());
-  }
-  return work_.busy() || !waiting_.empty();
+  if (work_.busy()) return true;
+  const auto next = std::find_if(all_.begin(), all_.end(), [](const Made& made) { return !made.sketch; });
+  if (next == all_.end()) return false;
+  making_ = &*next;
+  work_.start(Priority::below_frames, [preset = next->preset](const JobControl& control) {
+    return sketch_of(preset, [&] { return control.cancelled(); });
+  });
+  return true;
 }
 
 }  // namespace tyglab

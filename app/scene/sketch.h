@@ -5,10 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <map>
+#include <list>
 #include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "app/studies/job.h"
@@ -42,15 +40,18 @@ SceneSketch sketch_of(const Preset& preset, const Stop& stop);
 /// The sketches of presets that were asked for, made one after the other.
 class SceneSketches {
  public:
-  /// Null until it is made; `name` tells presets apart.
-  const SceneSketch* of(const std::string& name, const Preset& preset);
+  /// Null until it is made.
+  const SceneSketch* of(const Preset& preset);
   /// Takes what is made, and goes on; returns whether there is more to come.
   bool poll();
 
  private:
-  std::map<std::string, SceneSketch> made_;
-  std::vector<std::pair<std::string, Preset>> waiting_;
-  std::string making_;
+  struct Made {
+    Preset preset;
+    std::optional<SceneSketch> sketch;  ///< once it is there
+  };
+  std::list<Made> all_;  ///< in the order that they are made; what is handed out stays where it is
+  Made* making_ = nullptr;
   Job<SceneSketch> work_;
 };
 

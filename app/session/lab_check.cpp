@@ -219,12 +219,15 @@ std::string check_in_words(Session& session, const Condition& check, CheckState 
   if (state == CheckState::broken) return broken_in_words(session, check, memory);
   const std::string asked = words_of(check), now = value_in_words(session, check.name);
   if (check.name == "untouched") return now.empty() ? asked : asked + " · " + now + ": set it back, and restart";
-  const bool says_all = is_word(check.name) || (check.relation == Relation::equal && check.span == Span::now);
+  const bool of_now = check.span == Span::now || check.span == Span::throughout;
+  const bool says_all = of_now && (is_word(check.name) || check.relation == Relation::equal);
   if (says_all && state == CheckState::holds) return asked;
   std::string text = asked + " · ";
   if (now.empty()) {
     const Observable* row = find_observable(check.name);
     text += row != nullptr && !row->hint.empty() ? std::string(row->hint) : "not known yet";
+  } else if (is_word(check.name)) {
+    text += "now: " + now;
   } else {
     text += subject(check) + " is " + now + " now";
   }

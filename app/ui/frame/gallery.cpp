@@ -24,7 +24,7 @@ constexpr float least_card = 206, narrow_card = 160, between_at_1 = 12, inset = 
                 lines_below = 2;  // sizes at scale 1
 
 GalleryCard preset_card(const char* section, const fs::path& file, bool shipped) {
-  GalleryCard card{section, {}, file.string(), {}, {}};
+  GalleryCard card{section, {}, {}, {}};
   try {
     card.preset = load_preset(file);
     card.entry = preset_entry(card.preset, file, shipped);
@@ -50,7 +50,7 @@ void add_folder(std::vector<GalleryCard>& cards, const char* section, const fs::
 
 /// With the picture of the first scene that it opens.
 GalleryCard lab_card(const Ui& ui, const Lab& lab) {
-  GalleryCard card{labs, lab_entry(ui, lab), "lab " + lab.label, {}, {}};
+  GalleryCard card{labs, lab_entry(ui, lab), {}, {}};
   for (const LabStep& step : lab.steps) {
     if (!step.open) continue;
     try {
@@ -95,7 +95,7 @@ void draw_card(Ui& ui, const GalleryCard& card, ImVec2 lo, const CardSize& size,
   draw.AddRectFilled(lo, hi, lit ? c.field_hover : c.field, round);
   const ImVec2 corner{hi.x, lo.y + size.picture};
   draw.AddRectFilled(lo, corner, c.ground, round, ImDrawFlags_RoundCornersTop);
-  if (const SceneSketch* sketch = card.problem.empty() ? ui.sketches.of(card.name, card.preset) : nullptr)
+  if (const SceneSketch* sketch = card.problem.empty() ? ui.sketches.of(card.preset) : nullptr)
     draw_scene(draw, ui.theme, *sketch, lo, corner);
   if (lit) draw.AddRect(lo, hi, c.accent, round, 0, ui.theme.px(2));
   const ImFont &title = *ui.fonts.title, &small = *ui.fonts.small;

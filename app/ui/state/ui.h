@@ -52,7 +52,6 @@ struct PaletteEntry {
 struct GalleryCard {
   const char* section;  ///< "Scenes"
   PaletteEntry entry;
-  std::string name;  ///< of its picture
   Preset preset;
   std::string problem;  ///< why it cannot be opened
 };
