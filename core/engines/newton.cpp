@@ -62,7 +62,7 @@ double solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts
   bool solved = first == 0;
   double norm = first;
   for (int n = 0; n < rules.most && !solved && std::isfinite(norm); ++n) {
-    stage.note_progress(double(n) / rules.most);
+    stage.begin_iteration(n, rules.most);
     stage.linearize();
     const bool found = find_step(stage, direct);
     if (stage.stops()) return 0;

@@ -55,6 +55,18 @@ class ImplicitStage {
   virtual bool stops() = 0;
   /// Tells how much of the stage is done, 0 to 1, if the iterations that are allowed are all needed.
   virtual void note_progress(double part) = 0;
+  /// Newton iteration `n` of at most `most` begins.
+  void begin_iteration(int n, int most) {
+    done_ = double(n) / most, share_ = 1.0 / most;
+    note_progress(done_);
+  }
+
+ protected:
+  /// gradients() has made this part of the iterations that it may make.
+  void note_gradients(double part) { note_progress(done_ + part * share_); }
+
+ private:
+  double done_ = 0, share_ = 1;  // of the stage
 };
 
 struct NewtonRules {

@@ -181,6 +181,7 @@ bool ImplicitSolver<R>::conjugate_gradients() {
     before = now.preconditioned;
     now = update(before / multiply());
     ++counts_.linear;
+    note_gradients(double(n + 1) / most);
     if (!std::isfinite(now.squared)) return false;
   }
   return now.squared <= enough;

@@ -227,6 +227,7 @@ typename DeviceSolver<R>::Left DeviceSolver<R>::make_gradients_in_launches(int m
     }
     for (end = std::min(end, most); n < end; ++n) launch_step(n, most);
     left = read_left(progress_[std::size_t(n % 2)], groups_);
+    note_gradients(double(n) / most);
     if (left.count < n || left.squared <= left.enough || !std::isfinite(left.squared)) break;
   }
   last_count_ = left.count;
