@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tyglab {
 namespace {
@@ -14,12 +15,12 @@ Matrix identity(int size) {
   return one;
 }
 
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix c{a.size, std::vector<double>(a.elements.size(), 0)};
+/// `out`, of the same size, is another matrix: a search for a limit squares ten thousands of them.
+void square(const Matrix& a, Matrix& out) {
+  std::fill(out.elements.begin(), out.elements.end(), 0.0);
   for (int i = 0; i < a.size; ++i)
     for (int k = 0; k < a.size; ++k)
-      for (int j = 0; j < a.size; ++j) c.at(i, j) += a.at(i, k) * b.at(k, j);
-  return c;
+      for (int j = 0; j < a.size; ++j) out.at(i, j) += a.at(i, k) * a.at(k, j);
 }
 
 bool stable(const Scheme& scheme, double h, double zeta) {
@@ -32,10 +33,10 @@ Matrix amplification(const Scheme& scheme, double h, double zeta) {
   assert(zeta >= 0);
   const int n = scheme.vectors;
   Matrix now = identity(n);  // row: a vector's coefficients in terms of the vectors at the beginning of the step
-  std::vector<double> force(std::size_t(n), 0);
+  std::vector<double> force(std::size_t(n), 0), sum(std::size_t(n), 0);
   const auto assign = [&](const std::vector<Assignment>& assignments) {
     for (const Assignment& assignment : assignments) {
-      std::vector<double> sum(std::size_t(n), 0);
+      std::fill(sum.begin(), sum.end(), 0.0);
       for (const Term& term : assignment.terms)  // dt = 1: no powers of it
         for (int k = 0; k < n; ++k)
           sum[std::size_t(k)] +=
@@ -60,7 +61,7 @@ Matrix amplification(const Scheme& scheme, double h, double zeta) {
 
 double spectral_radius(const Matrix& matrix) {
   constexpr int squarings = 48;
-  Matrix power = matrix;
+  Matrix power = matrix, squared = matrix;
   double log_radius = 0, weight = 1;
   for (int n = 0; n < squarings; ++n) {
     double norm = 0;
@@ -68,7 +69,8 @@ double spectral_radius(const Matrix& matrix) {
     if (norm == 0) return 0;
     for (double& e : power.elements) e /= norm;
     log_radius += weight * std::log(norm);
-    power = product(power, power);
+    square(power, squared);
+    std::swap(power, squared);
     weight /= 2;
   }
   return std::exp(log_radius);

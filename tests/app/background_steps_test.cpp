@@ -41,7 +41,8 @@ struct Under {
 
 }  // namespace
 
-TEST_CASE("while a step is being made, the session shows the cloth before it, and goes on") {
+TEST_CASE("while a step is being made, the session shows the cloth before it, and goes on" *
+          doctest::test_suite("slow")) {
   Under under(long_steps(48));
   Session& session = under.desk.session;
   const State start = Simulation(session.preset()).read();
@@ -112,7 +113,7 @@ TEST_CASE("the hand, the knife, pins, restart and rewind stop the step") {
   check([](Session& session) { restart(session); });
 }
 
-TEST_CASE("a pause lets the step end, a single step is made beside the frames too") {
+TEST_CASE("a pause lets the step end, a single step is made beside the frames too" * doctest::test_suite("slow")) {
   Under under(long_steps(48));
   Session& session = under.desk.session;
   session.pacing.playing = false;
@@ -125,7 +126,8 @@ TEST_CASE("a pause lets the step end, a single step is made beside the frames to
   CHECK(session.simulation->steps() == 2);
 }
 
-TEST_CASE("copies whose steps take long are made beside the frames with the cloth's own") {
+TEST_CASE("copies whose steps take long are made beside the frames with the cloth's own" *
+          doctest::test_suite("slow")) {
   Preset preset = long_steps(48);
   preset.integrator = "verlet", preset.dt = 1e-5;
   test::Desk desk(preset);

@@ -65,7 +65,8 @@ TEST_CASE("an output device that takes nothing ends a run with code 6") {
   report("tyglab run to /dev/full", "write", tried, survived);
 }
 
-TEST_CASE("a limit of memory ends a run with code 5 and a sentence, whatever the limit is") {
+TEST_CASE("a limit of memory ends a run with code 5 and a sentence, whatever the limit is" *
+          doctest::test_suite("slow")) {
   if (test::sanitized) return test::skip("a sanitizer takes more memory than any limit", test::Missing::of_machine);
   int tried = 0, survived = 0;
   const test::TemporaryFolder folder;

@@ -134,7 +134,7 @@ Moving::Act changed(const std::function<void(Preset&)>& change) {
 
 }  // namespace
 
-TEST_CASE("a cloth that is built") {
+TEST_CASE("a cloth that is built" * doctest::test_suite("slow")) {
   const auto build = [](const char* name, const Preset& preset, int threads = 1) {
     test::inject({.operation = name, .kind = Fault::allocation, .dense = 60, .lasts = true},
                  [&] { return std::make_unique<Building>(preset, threads); });
@@ -205,7 +205,7 @@ TEST_CASE("a hand, pins and cuts") {
   edit_of("switching the ledger on", busy(), [](Simulation& cloth) { cloth.enable_ledger(true); });
 }
 
-TEST_CASE("steps: what is whole when memory fails stays, and is the same as ever") {
+TEST_CASE("steps: what is whole when memory fails stays, and is the same as ever" * doctest::test_suite("slow")) {
   const auto steps = [](const char* name, const Preset& preset, int threads = 1, bool ledger = false) {
     test::inject({.operation = name, .kind = Fault::allocation, .dense = threads > 1 ? 10 : 40, .lasts = true},
                  [&] { return std::make_unique<Stepping>(preset, threads, ledger); });

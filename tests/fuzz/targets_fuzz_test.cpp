@@ -35,7 +35,7 @@ std::string mutated(Random& random, std::string text, const std::vector<std::str
   return text;
 }
 
-TEST_CASE("targets without a generator of their own answer a few thousand inputs") {
+TEST_CASE("targets without a generator of their own answer a few thousand inputs" * doctest::test_suite("slow")) {
   for (const fuzz::Target& target : fuzz::targets()) {
     if (target.name == "presets" || target.name == "settings" || target.name == "pictures") continue;
     CAPTURE(std::string(target.name));

@@ -27,7 +27,8 @@ double largest_growth(double k_s, int iterations, int steps) {
   return most / simulation.ledger()->scale;
 }
 
-TEST_CASE("its energy never grows by more than its solves leave, however stiff the springs") {
+TEST_CASE("its energy never grows by more than its solves leave, however stiff the springs" *
+          doctest::test_suite("slow")) {
   const int steps = test::fewer(200);
   CHECK(largest_growth(50, 100, steps) < 1e-8);
   CHECK(largest_growth(1e5, 100, steps) < 1e-8);

@@ -48,7 +48,8 @@ void check_bound(Simulation& simulation, int steps) {
   CHECK_FALSE(simulation.divergence().has_value());
 }
 
-TEST_CASE("stretched, thrown, falling and blown cloths are within the bound by every method") {
+TEST_CASE("stretched, thrown, falling and blown cloths are within the bound by every method" *
+          doctest::test_suite("slow")) {
   const std::function<void(Preset&)> scenes[] = {
       [](Preset& p) { p.initial_stretch = 1.4, p.g = 0; },
       [](Preset& p) { p.initial_stretch = 1.4, p.F_max = 0.3, p.g = 0, p.k_d = 0; },

@@ -33,7 +33,7 @@ void same_as_single_steps(const Preset& preset, int steps, int threads) {
   CHECK(test::identical(waves.read(), single.read()));
 }
 
-TEST_CASE("waves give the bits of single steps, with every integrator") {
+TEST_CASE("waves give the bits of single steps, with every integrator" * doctest::test_suite("slow")) {
   for (const char* integrator :
        {"verlet", "euler", "improved_euler", "semi_implicit_euler", "velocity_verlet", "rk4", "rkn4"}) {
     CAPTURE(std::string(integrator));
@@ -46,7 +46,7 @@ TEST_CASE("waves give the bits of single steps, with every integrator") {
   }
 }
 
-TEST_CASE("waves give the bits of single steps, with whatever a scene has") {
+TEST_CASE("waves give the bits of single steps, with whatever a scene has" * doctest::test_suite("slow")) {
   Preset preset = threads_worth("verlet");
   SUBCASE("wind and pins") {
     preset.W = {0, 1e-4, 2e-3}, preset.pins.mode = Pins::Mode::left_column;
@@ -89,7 +89,8 @@ TEST_CASE("the hand's force and its release are those of single steps") {
   }
 }
 
-TEST_CASE("divergence is found in the very step, and the steps since the last backup are made again") {
+TEST_CASE("divergence is found in the very step, and the steps since the last backup are made again" *
+          doctest::test_suite("slow")) {
   // From not far above the limit of stability, where motion grows so little in a step that waves are begun, which it
   // then overtakes, to where every step is looked at.
   for (const char* integrator : {"verlet", "euler", "rk4"})
