@@ -41,8 +41,7 @@ struct Under {
 
 }  // namespace
 
-TEST_CASE("while a step is being made, the session shows the cloth before it, and goes on" *
-          doctest::test_suite("slow")) {
+TEST_CASE("while a step is being made, the session shows the cloth before it, and goes on") {
   Under under(long_steps(48));
   Session& session = under.desk.session;
   const State start = Simulation(session.preset()).read();
@@ -113,7 +112,7 @@ TEST_CASE("the hand, the knife, pins, restart and rewind stop the step") {
   check([](Session& session) { restart(session); });
 }
 
-TEST_CASE("a pause lets the step end, a single step is made beside the frames too" * doctest::test_suite("slow")) {
+TEST_CASE("a pause lets the step end, a single step is made beside the frames too") {
   Under under(long_steps(48));
   Session& session = under.desk.session;
   session.pacing.playing = false;
@@ -126,8 +125,7 @@ TEST_CASE("a pause lets the step end, a single step is made beside the frames to
   CHECK(session.simulation->steps() == 2);
 }
 
-TEST_CASE("copies whose steps take long are made beside the frames with the cloth's own" *
-          doctest::test_suite("slow")) {
+TEST_CASE("copies whose steps take long are made beside the frames with the cloth's own") {
   Preset preset = long_steps(48);
   preset.integrator = "verlet", preset.dt = 1e-5;
   test::Desk desk(preset);

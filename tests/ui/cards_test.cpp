@@ -23,7 +23,8 @@ double dt_over_limit(test::NullUi& window) {
   return limits && limits->any > 0 ? window.preset().dt / limits->any : std::nan("");
 }
 
-TEST_CASE("the other side of the accuracy card measures the order beside the frames, and writes it as CSV") {
+TEST_CASE("the other side of the accuracy card measures the order beside the frames, and writes it as CSV" *
+          doctest::test_suite("slow")) {
   test::NullUi window({.preset = "taut_sheet",
                        .with = [](Preset& preset) { preset.integrator = "rk4", preset.rows = preset.columns = 9; }});
   window.pause();  // while nothing moves the frames leave the processors to what is measured
@@ -94,7 +95,7 @@ TEST_CASE("what an open card needs is wanted in the frame that opens it, whether
   CHECK_FALSE(window.cloth().ledger().has_value());
 }
 
-TEST_CASE("what Euler makes of energy is seen, before it is a divergence") {
+TEST_CASE("what Euler makes of energy is seen, before it is a divergence" * doctest::test_suite("slow")) {
   test::NullUi window({.with = [](Preset& preset) { preset.integrator = "euler", preset.dt = 5e-5; }});
   window.pause();
   window.click("plots.Energy");
@@ -103,7 +104,7 @@ TEST_CASE("what Euler makes of energy is seen, before it is a divergence") {
   CHECK_FALSE(window.diverged());
 }
 
-TEST_CASE("dt follows the constants while it is automatic, until it is typed") {
+TEST_CASE("dt follows the constants while it is automatic, until it is typed" * doctest::test_suite("slow")) {
   test::NullUi window;
   window.click("constants.auto");
   window.until([&] { return window.session.auto_dt.has_value(); }, "dt to become automatic");
@@ -182,7 +183,8 @@ TEST_CASE("the accuracy card measures the present settings beside the frames, an
   CHECK_FALSE(study().has_value());  // the work ends with the card
 }
 
-TEST_CASE("settings for an error are found beside the frames, ranked by their cost, and used with a click") {
+TEST_CASE("settings for an error are found beside the frames, ranked by their cost, and used with a click" *
+          doctest::test_suite("slow")) {
   test::NullUi window(cloth_of(5));
   const auto search = [&] { return studies(window).settings.search(); };
   window.find("settings for an error");
@@ -221,7 +223,8 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
   window.until([&] { return !search().has_value(); }, "the search to end with the sight of it");
 }
 
-TEST_CASE("an error that cannot be promised is refused, and the tightest that can be is a click away") {
+TEST_CASE("an error that cannot be promised is refused, and the tightest that can be is a click away" *
+          doctest::test_suite("slow")) {
   test::NullUi window(cloth_of(4));
   const auto search = [&] { return studies(window).settings.search(); };
   window.pause();
@@ -240,7 +243,8 @@ TEST_CASE("an error that cannot be promised is refused, and the tightest that ca
   CHECK(*studies(window).settings.tolerance() == doctest::Approx(tightest));
 }
 
-TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work") {
+TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it; M closes it and ends the work" *
+          doctest::test_suite("slow")) {
   test::NullUi window(cloth_of(13));
   const auto cells = [&] {
     const auto map = studies(window).map.findings();

@@ -341,7 +341,8 @@ TEST_CASE("a click on a variable in the read-out shows or hides its arrow; a pos
   CHECK(window.ui.placing.find("scale m/s") != nullptr);
 }
 
-TEST_CASE("a mat on the ground comes to rest and falls asleep: no more steps; a restart wakes it") {
+TEST_CASE("a mat on the ground comes to rest and falls asleep: no more steps; a restart wakes it" *
+          doctest::test_suite("slow")) {
   test::NullUi window({.preset = "rubber_mat"});
   window.until([&] { return window.session.asleep(); }, "the cloth to fall asleep");
   const std::int64_t steps = window.steps();

@@ -22,7 +22,8 @@ glm::ivec2 pictures(const test::NullUi& window) {
   return {window.ui.viewport.columns, window.ui.viewport.rows};
 }
 
-TEST_CASE("equal copies stay equal under the hand; another method parts from them; all are seen beside each other") {
+TEST_CASE("equal copies stay equal under the hand; another method parts from them; all are seen beside each other" *
+          doctest::test_suite("slow")) {
   test::NullUi window;
   Session& session = window.session;
   window.pause();

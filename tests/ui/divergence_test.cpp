@@ -132,7 +132,7 @@ TEST_CASE("the banner offers 0.9 of dt_crit, from a second back") {
   run_to(window, t);
 }
 
-TEST_CASE("the banner offers implicit Euler, which goes on with the same dt") {
+TEST_CASE("the banner offers implicit Euler, which goes on with the same dt" * doctest::test_suite("slow")) {
   test::NullUi window;
   const double t = push_over(window);
   window.click("viewport.Implicit_Euler");
