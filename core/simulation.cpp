@@ -9,6 +9,7 @@
 #include "core/engines/still_engine.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
+#include "core/io/text.h"
 #include "core/model/changes.h"
 #include "core/model/readable.h"
 #include "core/theory/advice.h"
@@ -50,6 +51,14 @@ std::string cause_of_runaway(const Advance& part, const Preset& preset) {
 std::string Divergence::where() const {
   const auto site = [](int row, int column) { return "(" + std::to_string(row) + ", " + std::to_string(column) + ")"; };
   return di == 0 && dj == 0 ? "particle " + site(i, j) : "spring " + site(i, j) + "–" + site(i + di, j + dj);
+}
+
+std::string Divergence::in_words() const {
+  std::string text = "diverged at t = ";
+  append_number(text, t, 6);
+  text += " s (step " + std::to_string(step) + "), " + where() + ": " + quantity + " = ";
+  text += std::isfinite(value) ? printed("%.4g", value) : short_number(value);
+  return text + "; " + cause + ". " + advice;
 }
 
 Simulation::Simulation(const Preset& preset, int threads) : threads_(threads) {

@@ -5,7 +5,21 @@
 namespace tyglab {
 namespace fs = std::filesystem;
 
+namespace {
+
+fs::path& given_folder() {
+  static fs::path folder;
+  return folder;
+}
+
+}  // namespace
+
+void set_data_folder(const fs::path& folder) {
+  given_folder() = folder;
+}
+
 const fs::path& data_folder() {
+  if (!given_folder().empty()) return given_folder();
   static const fs::path folder = [] {
     std::error_code error;
     const fs::path executable = fs::read_symlink("/proc/self/exe", error);

@@ -14,9 +14,11 @@ class DataFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The folder with presets/, labs/, shaders/ and textures/: ../share/tyglab beside the folder of the executable, in
-/// the build tree as after `cmake --install`.
+/// The folder with presets/, labs/, shaders/ and textures/: the one that was set, or else ../share/tyglab beside the
+/// folder of the executable, in the build tree as after `cmake --install`.
 const std::filesystem::path& data_folder();
+/// Of a program that is not Tyglab's own, as a Python interpreter is: before anything asks for the folder.
+void set_data_folder(const std::filesystem::path& folder);
 
 /// A file (or folder) of the program, as "shaders/cloth.vert". Throws DataFileError if it is missing.
 std::filesystem::path data_file(std::string_view name);

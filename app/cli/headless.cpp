@@ -80,8 +80,7 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
     out << "Wrote " << output_name(options.time_report) << '.' << std::endl;
   }
   if (simulation.divergence())
-    std::cerr << "tyglab: " << in_one_line(options.preset_label) << ' ' << divergence_text(*simulation.divergence())
-              << '\n';
+    std::cerr << "tyglab: " << in_one_line(options.preset_label) << ' ' << simulation.divergence()->in_words() << '\n';
   if (!stepper.interrupted()) return exit_done;
   std::cerr << "tyglab: Interrupted; the files named above are complete.\n";
   return exit_interrupted;

@@ -118,12 +118,4 @@ void Stepper::look_at_ledger() {
   std::cerr << text << " s from here on.\n";
 }
 
-std::string divergence_text(const Divergence& d) {
-  std::string text = "diverged at t = ";
-  append_number(text, d.t, 6);
-  text += " s (step " + std::to_string(d.step) + "), " + d.where() + ": " + d.quantity + " = ";
-  text += std::isfinite(d.value) ? printed("%.4g", d.value) : short_number(d.value);
-  return text + "; " + d.cause + ". " + d.advice;
-}
-
 }  // namespace tyglab

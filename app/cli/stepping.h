@@ -81,7 +81,4 @@ class Stepper {
   bool interrupted_ = false;
 };
 
-/// When, where and why a run diverged, and what to do, as sentences.
-std::string divergence_text(const Divergence& divergence);
-
 }  // namespace tyglab

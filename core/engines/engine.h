@@ -46,6 +46,8 @@ struct Divergence {
   std::string advice;     ///< a sentence
   /// "particle (3, 4)" or "spring (3, 4)–(4, 5)".
   std::string where() const;
+  /// "diverged at t = 0.01 s (step 12), particle (3, 4): …", with cause and advice.
+  std::string in_words() const;
 };
 
 /// Result of Engine::advance().

@@ -394,6 +394,20 @@ TEST_CASE("in a small window with large text presentation mode keeps the step an
   CHECK(whole(window, "podium.play", 20));
 }
 
+// Where the parts of the interface have no room they are cut off; that asks for nothing impossible, which the standard
+// library's assertions would tell.
+TEST_CASE("windows of any size are drawn, in presentation mode and out of it") {
+  test::NullUi window(options("hanging", 1, "dark", {900, 600}));
+  for (const bool presenting : {false, true}) {
+    if (presenting) window.key(GLFW_KEY_F5);
+    for (const glm::ivec2 size : {glm::ivec2{377, 1125}, {320, 240}, {200, 1400}, {1600, 200}}) {
+      window.resize(size);
+      window.frames(3);
+    }
+  }
+  CHECK(window.session.simulation->time() > 0);
+}
+
 TEST_CASE("slow motion is chosen by what one sees") {
   test::NullUi window;
   window.click("top.speed.3");

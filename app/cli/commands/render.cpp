@@ -88,7 +88,7 @@ int render(const RenderOptions& options) {
   if (sequence) out << " (" << counted(frame, "image") << ", " << plan.fps() << " per second)";
   out << '.' << std::endl;
   if (simulation.divergence()) {
-    std::cerr << "tyglab: " << in_one_line(label) << ' ' << divergence_text(*simulation.divergence()) << '\n';
+    std::cerr << "tyglab: " << in_one_line(label) << ' ' << simulation.divergence()->in_words() << '\n';
     return exit_diverged;
   }
   if (!stepper.interrupted()) return exit_done;

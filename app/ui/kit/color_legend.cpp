@@ -139,7 +139,8 @@ ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const C
     const float x = place(tick.at), half = text_width(mono, tick.label) / 2;
     paint.draw.AddLine({x, hi.y}, {x, hi.y + theme.px(3)}, c.quiet);
     if (&tick == &ticks.back() && !legend.top_is_drawn) continue;
-    const float left = std::clamp(x - half, lo.x - pad / 2, hi.x + pad / 2 - 2 * half);
+    // At the left end where the strip is narrower than the number.
+    const float left = std::max(std::min(x - half, hi.x + pad / 2 - 2 * half), lo.x - pad / 2);
     draw_on_baseline(paint.draw, mono, {left, baseline}, c.text, tick.label);
   }
   if (legend.marked) {

@@ -88,7 +88,8 @@ void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const P
   for (const auto& [tick, label] : y_ticks) {
     const float y = std::round(axes.py(tick));
     paint.draw.AddLine({axes.lo.x, y}, {axes.hi.x, y}, faded(c.line, tick == 0 ? 1.f : 0.7f));
-    const float top = std::clamp(y - font.FontSize / 2, axes.lo.y - font.FontSize / 2, axes.hi.y - font.FontSize + 2);
+    const float top =
+        std::max(std::min(y - font.FontSize / 2, axes.hi.y - font.FontSize + 2), axes.lo.y - font.FontSize / 2);
     if (std::abs(top - last) < font.FontSize) continue;
     last = top;
     draw_text(paint.draw, font, {axes.lo.x - paint.theme.px(6) - text_width(font, label), std::round(top)}, c.quiet,

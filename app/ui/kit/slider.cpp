@@ -178,7 +178,7 @@ void draw_track(UiContext& ui, const SliderScale& scale, double value, ImVec2 lo
   if (focused)
     draw.AddRect({a.x - 2, a.y - 2}, {b.x + 2, b.y + 2}, c.accent, round + 2, 0, std::max(1.f, ui.theme.px(1.5f)));
   const float thick = ui.theme.px(2), tall = ui.theme.px(10);
-  const float at = std::clamp(x, lo.x + thick, hi.x - thick);
+  const float at = std::max(std::min(x, hi.x - thick), lo.x + thick);
   draw.AddRectFilled({at - thick, middle - tall}, {at + thick, middle + tall}, c.text, ui.theme.px(2));
   // The value lies beyond the slider's own range: an arrow at the end says so.
   const float r = ui.theme.px(4);

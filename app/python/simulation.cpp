@@ -1,0 +1,346 @@
+#include "core/simulation.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/python/bindings.h"
+#include "core/analysis/frequency.h"
+#include "core/integrators/scheme.h"
+#include "core/io/destination.h"
+#include "core/io/preset_io.h"
+#include "core/output/state_csv.h"
+#include "core/theory/modes.h"
+
+namespace tyglab::python {
+namespace {
+
+using Vector = std::array<double, 3>;
+using Site = std::pair<int, int>;
+
+glm::dvec3 from(const Vector& v) {
+  return {v[0], v[1], v[2]};
+}
+py::array_t<double> to_array(const glm::dvec3& v) {
+  const std::array<double, 3> values{v.x, v.y, v.z};
+  return py::array_t<double>(3, values.data());
+}
+
+/// What the arrays of positions and velocities show, particle by particle; it lives as long as one of them does.
+struct Values {
+  std::vector<double> x, v;
+};
+
+class Motion {
+ public:
+  Motion(const Preset& preset, int threads) {
+    if (const std::string problem = check_preset(preset); !problem.empty()) throw PresetError(problem);
+    if (threads < 1) throw py::value_error("threads must be at least 1");
+    simulation_ = std::make_unique<Simulation>(preset, threads);
+  }
+
+  const Simulation& at_rest() const {
+    if (stepping_) throw std::runtime_error("This simulation is making steps in another thread; wait for it.");
+    return *simulation_;
+  }
+  Simulation& at_rest() { return const_cast<Simulation&>(std::as_const(*this).at_rest()); }
+
+  int step(int count) {
+    Simulation& simulation = at_rest();
+    if (count < 0) throw py::value_error("the number of steps must not be negative");
+    if (simulation.divergence()) raise_diverged(*simulation.divergence());
+    Interrupt interrupt;
+    simulation.stop_when(interrupt.stop());
+    const int made = make_steps(count);
+    simulation.stop_when({});
+    follow();
+    interrupt.raise();
+    if (simulation.divergence()) raise_diverged(*simulation.divergence());
+    return made;
+  }
+
+  void apply(const Edit& edit) {
+    at_rest().apply(edit);
+    follow();
+  }
+  void restore(const Snapshot& then) {
+    if (!at_rest().fits(then)) throw py::value_error("the snapshot is of a cloth with other rows or columns");
+    at_rest().restore(then);
+    follow();
+  }
+  void load(const py::array_t<double, py::array::c_style | py::array::forcecast>& x,
+            const py::array_t<double, py::array::c_style | py::array::forcecast>& v) {
+    State state = at_rest().read();
+    take(x, "positions", state.x);
+    take(v, "velocities", state.v);
+    at_rest().load(state);
+    follow();
+  }
+
+  py::array positions() { return array_of(&Values::x); }
+  py::array velocities() { return array_of(&Values::v); }
+
+  void check(int i, int j) const {
+    if (!at_rest().lattice().contains(i, j))
+      throw py::index_error("there is no particle (" + std::to_string(i) + ", " + std::to_string(j) + ")");
+  }
+
+ private:
+  int make_steps(int count) {
+    struct Stepping {
+      explicit Stepping(bool& flag) : on(flag) { on = true; }
+      ~Stepping() { on = false; }
+      Stepping(const Stepping&) = delete;
+      Stepping& operator=(const Stepping&) = delete;
+      bool& on;
+    } const stepping(stepping_);
+    const py::gil_scoped_release unlocked;
+    return simulation_->advance(count).steps;
+  }
+
+  /// Arrays that somebody still has show the present; those of a cloth with other rows or columns stay as they were.
+  void follow() {
+    if (!values_) return;
+    if (values_.use_count() == 1 || values_->x.size() != 3 * std::size_t(simulation_->lattice().size()))
+      values_.reset();
+    else
+      fill();
+  }
+  void fill() {
+    const State& state = simulation_->read();
+    for (std::size_t p = 0; p < state.x.x.size(); ++p) {
+      double* x = &values_->x[3 * p];
+      double* v = &values_->v[3 * p];
+      x[0] = state.x.x[p], x[1] = state.x.y[p], x[2] = state.x.z[p];
+      v[0] = state.v.x[p], v[1] = state.v.y[p], v[2] = state.v.z[p];
+    }
+  }
+  py::array array_of(std::vector<double> Values::*field) {
+    const Lattice& lattice = at_rest().lattice();
+    if (!values_) {
+      auto fresh = std::make_shared<Values>();
+      fresh->x.resize(3 * lattice.size()), fresh->v.resize(3 * lattice.size());
+      values_ = std::move(fresh);
+      fill();
+    }
+    auto* kept = new std::shared_ptr<Values>(values_);
+    const py::capsule owner(kept, [](void* p) { delete static_cast<std::shared_ptr<Values>*>(p); });
+    py::array_t<double> array({lattice.rows, lattice.columns, 3}, ((*values_).*field).data(), owner);
+    array.attr("flags").attr("writeable") = false;
+    return array;
+  }
+  void take(const py::array_t<double, py::array::c_style | py::array::forcecast>& from, const char* what,
+            VectorField<double>& to) const {
+    const Lattice& lattice = at_rest().lattice();
+    if (from.ndim() != 3 || from.shape(0) != lattice.rows || from.shape(1) != lattice.columns || from.shape(2) != 3)
+      throw py::value_error(std::string(what) + " must have the shape (" + std::to_string(lattice.rows) + ", " +
+                            std::to_string(lattice.columns) + ", 3)");
+    const double* value = from.data();
+    for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p, value += 3) {
+      for (int c = 0; c < 3; ++c)
+        if (!std::isfinite(value[c])) throw py::value_error(std::string(what) + " must be finite");
+      to.x[p] = value[0], to.y[p] = value[1], to.z[p] = value[2];
+    }
+  }
+
+  std::unique_ptr<Simulation> simulation_;
+  std::shared_ptr<Values> values_;
+  bool stepping_ = false;  ///< guarded by the interpreter's lock
+};
+
+py::dict energy(Motion& motion) {
+  const Energy now = motion.at_rest().energy().energy;
+  py::dict all;
+  all["kinetic"] = now.kinetic, all["stretch"] = now.stretch, all["bending"] = now.bending;
+  all["gravity"] = now.gravity, all["total"] = now.total();
+  return all;
+}
+
+py::object ledger(Motion& motion) {
+  const auto now = motion.at_rest().ledger();
+  if (!now) return py::none();
+  py::dict all;
+  all["began"] = now->began, all["start"] = now->start, all["total"] = now->energy.total();
+  all["damping"] = now->works.damping, all["contact"] = now->works.contact, all["tearing"] = now->works.tearing;
+  all["wind"] = now->works.wind, all["hand"] = now->works.hand, all["edits"] = now->works.edits;
+  all["unexplained"] = now->unexplained();
+  return all;
+}
+
+py::dict particle(const Motion& motion, int i, int j) {
+  motion.check(i, j);
+  const ParticleReadout r = motion.at_rest().particle(i, j);
+  py::dict all;
+  all["F"] = to_array(r.F), all["F_s"] = to_array(r.F_s), all["F_b"] = to_array(r.F_b), all["F_d"] = to_array(r.F_d);
+  all["F_g"] = to_array(r.F_g), all["F_int"] = to_array(r.F_int), all["F_ext"] = to_array(r.F_ext);
+  all["x"] = to_array(r.x), all["v"] = to_array(r.v), all["a"] = to_array(r.a);
+  all["pinned"] = r.pinned, all["held"] = r.held;
+  return all;
+}
+
+double own_limit(const Motion& motion) {
+  const Simulation& simulation = motion.at_rest();
+  const std::vector<Mode> modes = extreme_modes(Linearisation(simulation), exact_tolerance);
+  return dt_crit(scheme(simulation.preset().integrator), modes);
+}
+
+void cut(Motion& motion, const std::vector<Site>& particles) {
+  edit::Cut cut;
+  for (const auto& [i, j] : particles) {
+    motion.check(i, j);
+    cut.sites.push_back({i, j});
+  }
+  motion.apply(cut);
+}
+
+void grab(Motion& motion, int i, int j) {
+  motion.check(i, j);
+  if (motion.at_rest().preset().kind == Kind::one_weight) throw py::value_error("a mass on a spring cannot be grabbed");
+  if (motion.at_rest().pinned(i, j)) throw py::value_error("a pinned particle cannot be grabbed; free it first");
+  motion.apply(edit::Grab{i, j});
+}
+
+void move_hand(Motion& motion, const Vector& to, int steps) {
+  if (!motion.at_rest().held()) throw py::value_error("the hand holds nothing; grab a particle first");
+  if (steps < 1) throw py::value_error("the hand needs at least one step");
+  motion.apply(edit::MoveHand{from(to), steps});
+}
+
+void move_body(Motion& motion, int index, const Vector& c) {
+  const std::size_t count = motion.at_rest().preset().bodies.size();
+  if (index < 0 || std::size_t(index) >= count)
+    throw py::index_error("there are " + std::to_string(count) + " bodies; their numbers begin at 0");
+  motion.apply(edit::MoveBody{index, from(c)});
+}
+
+void add_divergence(py::module_& module) {
+  py::class_<Divergence>(module, "Divergence", "When, where and why a run diverged.")
+      .def_readonly("t", &Divergence::t, "End of the step that diverged, s.")
+      .def_readonly("step", &Divergence::step, "Number of that step, from 1.")
+      .def_property_readonly("where", &Divergence::where, "The particle or the spring.")
+      .def_readonly("quantity", &Divergence::quantity)
+      .def_readonly("value", &Divergence::value, "Of that quantity, in its SI unit; may be infinite or not a number.")
+      .def_readonly("cause", &Divergence::cause)
+      .def_readonly("advice", &Divergence::advice)
+      .def("__str__", &Divergence::in_words);
+}
+
+}  // namespace
+
+void add_simulation(py::module_& module) {
+  add_divergence(module);
+  py::class_<Snapshot>(module, "Snapshot", "The motion at a moment, to go back to.")
+      .def_readonly("time", &Snapshot::t, "s");
+
+  using Class = py::class_<Motion>;
+  Class motion(
+      module, "Simulation",
+      "One cloth, or a mass on a spring, in motion: the same steps to the last bit as `tyglab run` makes, for any "
+      "number of threads. One Python thread at a time may use it; other threads go on while it makes steps.");
+  motion.def(py::init<const Preset&, int>(), py::arg("preset") = Preset{}, py::arg("threads") = 1)
+      .def("step", &Motion::step, py::arg("steps") = 1,
+           "Makes that many steps of dt and returns how many it made: fewer after Ctrl-C alone. Raises Diverged.")
+      .def(
+          "run",
+          [](Motion& m, double seconds) {
+            const double steps = seconds / m.at_rest().preset().dt;
+            if (!(steps >= 0 && steps <= 2e9)) throw py::value_error("seconds must be a time that steps can reach");
+            return m.step(int(std::lround(steps)));
+          },
+          py::arg("seconds"), "Makes the whole steps that come nearest to that much simulated time. As step().")
+      .def(
+          "restart", [](Motion& m) { m.apply(edit::Restart{}); },
+          "Back to the start with the present constants; tears are mended.")
+      .def(
+          "change",
+          [](Motion& m, const py::kwargs& constants) {
+            m.apply(edit::Change{with_constants(m.at_rest().preset(), constants)});
+          },
+          "Changes constants while the cloth moves: simulation.change(k_s=200). Those that count at the start wait for "
+          "a "
+          "restart. Raises PresetError.")
+      .def_property(
+          "preset", [](const Motion& m) { return m.at_rest().preset(); },
+          [](Motion& m, const Preset& preset) { m.apply(edit::Change{preset}); },
+          "The present constants: a copy. To assign one changes those that differ.")
+      .def_property_readonly(
+          "time", [](const Motion& m) { return m.at_rest().time(); }, "Simulated time, s.")
+      .def_property_readonly(
+          "steps", [](const Motion& m) { return m.at_rest().steps(); }, "Steps made since the start.")
+      .def_property_readonly(
+          "engine", [](const Motion& m) { return m.at_rest().engine().name(); }, "What makes the steps, in words.")
+      .def_property_readonly(
+          "divergence", [](const Motion& m) { return m.at_rest().divergence(); },
+          "When, where and why it diverged, or None.");
+  motion
+      .def_property_readonly(
+          "positions", &Motion::positions,
+          "Positions, m: (rows, columns, 3), read-only. It shares the simulation's memory and shows the "
+          "present after every step; copy() it to keep a moment. After a change of rows or columns it "
+          "keeps the old cloth.")
+      .def_property_readonly("velocities", &Motion::velocities,
+                             "Velocities at the time of the positions, m/s: (rows, columns, 3), as positions.")
+      .def("load", &Motion::load, py::arg("positions"), py::arg("velocities"),
+           "Puts positions (m) and velocities (m/s), both (rows, columns, 3), in place of the present ones; time, "
+           "tears and "
+           "constants stay.")
+      .def(
+          "particle", &particle, py::arg("i"), py::arg("j"),
+          "What table B.1 says of a particle: the forces F, F_s, F_b, F_d, F_g, F_int, F_ext (N), x (m), v (m/s) and a "
+          "(m/s^2), each an array (3,); and whether it is pinned or held.")
+      .def_property_readonly("energy", &energy, "J: kinetic, stretch, bending, gravity (0 at y = 0) and total.")
+      .def(
+          "enable_ledger", [](Motion& m, bool on) { m.at_rest().enable_ledger(on); }, py::arg("on") = true,
+          "Keeps the energy ledger from now on. Each step then takes several times as long, and is the same.")
+      .def_property_readonly(
+          "ledger", &ledger,
+          "Where the energy went since the ledger began, J, or None: work of damping, contact, tearing, "
+          "wind, hand and edits; unexplained is what the method made (above 0) or removed.")
+      .def_property_readonly("dt_crit", &own_limit,
+                             "Largest stable dt of the cloth as it hangs now, by linear theory, s: advice, no promise.")
+      .def_property_readonly(
+          "torn", [](const Motion& m) { return m.at_rest().tears().torn_count(); },
+          "Stretch springs that are torn or cut.");
+  motion.def("grab", &grab, py::arg("i"), py::arg("j"), "The hand takes that particle, which must not be pinned.")
+      .def("move_hand", &move_hand, py::arg("to"), py::arg("steps") = 1,
+           "The hand goes there (m), evenly over the next steps.")
+      .def(
+          "release", [](Motion& m) { m.apply(edit::Release{}); }, "The hand lets go.")
+      .def_property_readonly(
+          "held",
+          [](const Motion& m) -> std::optional<Site> {
+            const auto held = m.at_rest().held();
+            return held ? std::optional(Site{held->i, held->j}) : std::nullopt;
+          },
+          "The particle (i, j) in the hand, or None.")
+      .def("cut", &cut, py::arg("particles"),
+           "These particles, [(i, j), ...], lose their springs upward (section 2.3.4).")
+      .def(
+          "pin",
+          [](Motion& m, int i, int j, bool pinned) {
+            m.check(i, j), m.apply(edit::Pin{i, j, pinned});
+          },
+          py::arg("i"), py::arg("j"), py::arg("pinned") = true, "Pins that particle where it is, or frees it.")
+      .def("move_body", &move_body, py::arg("index"), py::arg("c"),
+           "Moves a body: a sphere's center, or c[1] as a plane's height, m.");
+  motion
+      .def(
+          "snapshot", [](Motion& m) { return m.at_rest().snapshot(); }, "The present motion, to go back to.")
+      .def("restore", &Motion::restore, py::arg("snapshot"),
+           "Goes back to a snapshot, with the present constants; a divergence is forgotten.")
+      .def(
+          "save_state",
+          [](Motion& m, const std::filesystem::path& file) { write_output(file, state_csv(m.at_rest())); },
+          py::arg("file"), "Writes the state file that `tyglab run --state` writes. Raises OSError.");
+}
+
+}  // namespace tyglab::python

@@ -1,0 +1,265 @@
+"""The Python module: the steps of `tyglab run` to the last bit, arrays that follow, errors that say what is wrong."""
+
+import argparse
+import ast
+import copy
+import csv
+import inspect
+import pathlib
+import pickle
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+import tyglab
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+PROGRAM = None
+
+
+def state_of_run(preset, steps, folder, *settings):
+    """Positions and velocities that `tyglab run` ends with."""
+    file = pathlib.Path(folder) / "state.csv"
+    options = [word for setting in settings for word in ("--set", setting)]
+    subprocess.run([PROGRAM, "run", preset, "--steps", str(steps), "--state", file, *options], check=True,
+                   capture_output=True)
+    with open(file) as lines:
+        rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    return [{key: float(value) for key, value in row.items()} for row in rows], file.read_bytes()
+
+
+class Presets(unittest.TestCase):
+    def test_constants_are_read_and_set_by_their_keys(self):
+        preset = tyglab.Preset(k_s=200, integrator="rk4", W=(0, 0, 0.01), pins=[[0, 0], [0, 5]])
+        self.assertEqual(preset["k_s"], 200)
+        self.assertEqual(preset["integrator"], "rk4")
+        self.assertEqual(preset["W"], [0, 0, 0.01])
+        preset["dt"] = np.float64(0.0005)
+        self.assertEqual(preset["dt"], 0.0005)
+        preset["W"] = np.array([0.0, 0.1, 0.0])
+        self.assertEqual(preset["W"], [0, 0.1, 0])
+        self.assertEqual(preset.but(m=0.001)["m"], 0.001)
+        self.assertNotEqual(preset.but(m=0.001), preset)
+        for key in tyglab.Preset.keys():
+            if key not in ("device",):
+                preset[key]
+
+    def test_a_wrong_one_is_named_and_changes_nothing(self):
+        preset = tyglab.Preset()
+        with self.assertRaisesRegex(tyglab.PresetError, "k_s.*0 and|did you mean|k_s"):
+            preset["k_s"] = -1
+        with self.assertRaisesRegex(tyglab.PresetError, "did you mean k_s"):
+            preset["k_S"] = 1
+        with self.assertRaises(tyglab.PresetError):
+            tyglab.Preset(dt="fast")
+        with self.assertRaises(KeyError):
+            preset["k_z"]
+        with self.assertRaises(ValueError):
+            tyglab.Preset.load("hangin")
+        self.assertEqual(preset, tyglab.Preset())
+
+    def test_files_text_and_pickles_give_the_same_preset_back(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in tyglab.presets():
+                preset = tyglab.Preset.load(name)
+                self.assertEqual(tyglab.Preset.from_json(preset.to_json()), preset)
+                self.assertEqual(pickle.loads(pickle.dumps(preset)), preset)
+                self.assertEqual(copy.copy(preset), preset)
+            file = pathlib.Path(folder) / "mine.json"
+            tyglab.Preset(name="Mine", k_s=70).save(file)
+            self.assertEqual(tyglab.Preset.load(str(file))["k_s"], 70)
+            with self.assertRaises(OSError):
+                preset.save(pathlib.Path(folder) / "none" / "mine.json")
+
+
+class Simulations(unittest.TestCase):
+    def test_states_are_those_of_the_command_line_to_the_last_bit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("hanging", "flag", "sphere"):
+                for settings in (("precision=double",), ("precision=float", "integrator=rk4")):
+                    rows, text = state_of_run(name, 60, folder, *settings)
+                    preset = tyglab.Preset.load(name)
+                    for setting in settings:
+                        key, value = setting.split("=")
+                        preset[key] = value
+                    simulation = tyglab.Simulation(preset, threads=2)
+                    self.assertEqual(simulation.step(60), 60)
+                    for row in rows:
+                        at = simulation.positions[int(row["i"]), int(row["j"])]
+                        self.assertEqual(list(at), [row["x"], row["y"], row["z"]])
+                    own = pathlib.Path(folder) / "own.csv"
+                    simulation.save_state(own)
+                    self.assertEqual(own.read_bytes(), text)
+
+    def test_arrays_share_the_memory_and_follow_the_steps(self):
+        simulation = tyglab.Simulation(tyglab.Preset(rows=5, columns=7))
+        x, v = simulation.positions, simulation.velocities
+        self.assertEqual((x.shape, x.dtype, x.flags.owndata), ((5, 7, 3), np.float64, False))
+        self.assertEqual(simulation.positions.ctypes.data, x.ctypes.data)
+        before = x.copy()
+        simulation.step(10)
+        self.assertFalse(np.array_equal(x, before))
+        self.assertTrue(np.array_equal(x, simulation.positions) and np.array_equal(v, simulation.velocities))
+        with self.assertRaises(ValueError):
+            x[0, 0, 0] = 1
+        simulation.change(rows=9)
+        self.assertEqual(simulation.positions.shape, (9, 7, 3))
+        kept = x.copy()
+        simulation.step(3)
+        self.assertTrue(np.array_equal(x, kept))
+        del simulation
+        self.assertTrue(np.array_equal(x, kept))
+
+    def test_energy_and_forces_add_up(self):
+        simulation = tyglab.Simulation(tyglab.Preset.load("one_weight"))
+        simulation.run(0.2)
+        r = simulation.particle(0, 0)
+        np.testing.assert_allclose(r["F"], r["F_int"] + r["F_ext"], atol=1e-12)
+        energy = simulation.energy
+        self.assertAlmostEqual(energy["total"], sum(energy[k] for k in ("kinetic", "stretch", "bending", "gravity")))
+        y, v = tyglab.exact_motion(simulation.preset, simulation.time)
+        self.assertAlmostEqual(r["x"][1], float(y), delta=1e-3)
+
+    def test_hand_knife_pins_and_going_back(self):
+        simulation = tyglab.Simulation(tyglab.Preset(rows=8, columns=8, integrator="rk4"))
+        simulation.grab(7, 3)
+        self.assertEqual(simulation.held, (7, 3))
+        goal = simulation.positions[7, 3] + [0.05, 0, 0.05]
+        simulation.move_hand(goal, 50)
+        simulation.step(50)
+        np.testing.assert_allclose(simulation.positions[7, 3], goal, atol=1e-6)
+        simulation.release()
+        then, x = simulation.snapshot(), simulation.positions.copy()
+        simulation.cut([(4, 2), (4, 3)])
+        self.assertGreater(simulation.torn, 0)
+        simulation.pin(7, 7)
+        simulation.step(20)
+        simulation.restore(then)
+        self.assertTrue(np.array_equal(simulation.positions, x))
+        self.assertEqual(simulation.torn, 0)
+        simulation.load(x, np.zeros_like(x))
+        self.assertEqual(np.abs(simulation.velocities).max(), 0)
+        simulation.restart()
+        self.assertEqual((simulation.steps, simulation.time), (0, 0))
+        for wrong in (lambda: simulation.grab(0, 0), lambda: simulation.move_hand([0, 0, 0]),
+                      lambda: simulation.load(x[:2], x), lambda: simulation.step(-1), lambda: simulation.run(-1),
+                      lambda: simulation.load(x * np.nan, x), lambda: tyglab.Simulation(threads=0)):
+            self.assertRaises(ValueError, wrong)
+        for wrong in (lambda: simulation.particle(8, 0), lambda: simulation.pin(-1, 0),
+                      lambda: simulation.move_body(0, [0, 0, 0])):
+            self.assertRaises(IndexError, wrong)
+
+    def test_a_divergence_is_an_exception_that_says_when_where_and_why(self):
+        simulation = tyglab.Simulation(tyglab.Preset.load("explodes"))
+        with self.assertRaisesRegex(tyglab.Diverged, "diverged at t = ") as caught:
+            simulation.run(2)
+        divergence = caught.exception.divergence
+        self.assertEqual(divergence.step, simulation.divergence.step)
+        self.assertEqual(simulation.steps, divergence.step - 1)
+        self.assertTrue(np.isfinite(simulation.positions).all())
+        self.assertRaises(tyglab.Diverged, simulation.step)
+        simulation.restart()
+        self.assertIsNone(simulation.divergence)
+        simulation.step()
+
+    def test_the_ledger_closes(self):
+        simulation = tyglab.Simulation(tyglab.Preset(precision="double", dt=0.0002, rows=8, columns=8))
+        self.assertIsNone(simulation.ledger)
+        simulation.enable_ledger()
+        simulation.run(0.2)
+        ledger = simulation.ledger
+        works = sum(ledger[k] for k in ("damping", "contact", "tearing", "wind", "hand", "edits"))
+        self.assertAlmostEqual(ledger["total"], ledger["start"] + works + ledger["unexplained"], places=12)
+
+    def test_other_threads_go_on_and_may_not_interfere(self):
+        simulation = tyglab.Simulation(tyglab.Preset(rows=200, columns=200, precision="double"))
+        worker = threading.Thread(target=lambda: simulation.step(300))
+        worker.start()
+        refused = False
+        while worker.is_alive() and not refused:
+            try:
+                simulation.energy
+            except RuntimeError as error:
+                refused = "another thread" in str(error)
+        worker.join()
+        self.assertTrue(refused)
+        self.assertEqual(simulation.steps, 300)
+
+    def test_ctrl_c_ends_the_steps(self):
+        simulation = tyglab.Simulation(tyglab.Preset(rows=100, columns=100))
+        threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.step(100_000_000)
+        made = simulation.steps
+        self.assertGreater(made, 0)
+        simulation.step(2)
+        self.assertEqual(simulation.steps, made + 2)
+
+
+class Studies(unittest.TestCase):
+    def test_stability_is_what_the_theory_says(self):
+        one = tyglab.Preset.load("one_weight").but(k_d=0, integrator="verlet")
+        limit = 2 * np.sqrt(one["m"] / one["k"])
+        self.assertAlmostEqual(tyglab.stability(one)["worst_case_limit"], limit, delta=1e-3 * limit)
+        self.assertEqual(tyglab.stability(one.but(integrator="implicit_euler"))["every_shape_limit"], np.inf)
+        self.assertEqual(tyglab.stability(one.but(dt=1.1 * limit))["zone"], "unstable")
+        cloth = tyglab.Simulation(tyglab.Preset(rows=6, columns=6))
+        self.assertGreaterEqual(cloth.dt_crit, tyglab.stability(cloth.preset)["worst_case_limit"] * 0.999)
+
+    def test_errors_are_measured_and_settings_found(self):
+        small = tyglab.Preset(rows=6, columns=6)
+        found = tyglab.error_study(small, seconds=0.2)
+        self.assertGreater(found["error"], 0)
+        half = tyglab.error_study(small.but(dt=0.0005), seconds=0.2)
+        self.assertLess(half["error"], found["error"])
+        points = tyglab.work_precision(small, ["verlet", "rk4"], seconds=0.1)
+        self.assertEqual({p["integrator"] for p in points}, {"verlet", "rk4"})
+        best = tyglab.find_settings(small, error=1e-4, seconds=0.2)
+        self.assertEqual(best, sorted(best, key=lambda p: p["cost"]))
+        self.assertLessEqual(tyglab.error_study(best[0]["preset"], seconds=0.2)["error"], 1e-4)
+        with self.assertRaises(tyglab.ToleranceError) as caught:
+            tyglab.find_settings(small, error=1e-15, seconds=0.2)
+        self.assertTrue(caught.exception.tightest is None or caught.exception.tightest > 1e-15)
+        with self.assertRaises(tyglab.PresetError):
+            tyglab.work_precision(small, ["verlot"])
+
+
+class Stubs(unittest.TestCase):
+    """tyglab.pyi names what the module has, and nothing else."""
+
+    def setUp(self):
+        self.tree = ast.parse((ROOT / "app" / "python" / "tyglab.pyi").read_text())
+
+    @staticmethod
+    def names(body):
+        for node in body:
+            if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+                yield node.name, node
+            elif isinstance(node, ast.AnnAssign):
+                yield node.target.id, node
+
+    def test_names(self):
+        stubs = dict(self.names(self.tree.body))
+        public = {name for name in vars(tyglab) if not name.startswith("_")}
+        self.assertEqual(set(stubs) - {"ErrorPoint", "__version__"}, public)
+        for name, node in stubs.items():
+            if isinstance(node, ast.ClassDef) and not issubclass(getattr(tyglab, name, Exception), Exception):
+                own = {n for n in vars(getattr(tyglab, name)) if not n.startswith("_")}
+                self.assertEqual({n for n, _ in self.names(node.body) if not n.startswith("_")}, own, name)
+
+    def test_everything_says_what_it_is(self):
+        for name, thing in vars(tyglab).items():
+            if callable(thing):
+                self.assertTrue(inspect.getdoc(thing), name)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tyglab", required=True)
+    options, rest = parser.parse_known_args()
+    PROGRAM = options.tyglab
+    unittest.main(argv=[sys.argv[0], *rest])
