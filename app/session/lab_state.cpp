@@ -228,10 +228,8 @@ void enter_step(Session& session, std::size_t step) {
 }
 
 void back_step(Session& session) {
-  LabRun& run = *session.labs.run;
-  if (run.step > 0) --run.step;
-  run.show_explanation = false;
-  if (!run.record().done) begin_watching(session, run);
+  const std::size_t step = session.labs.run->step;
+  if (step > 0) enter_step(session, step - 1);
 }
 
 void set_up_step(Session& session) {

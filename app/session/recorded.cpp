@@ -1,7 +1,9 @@
 #include "app/session/recorded.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <stdexcept>
 
 #include "app/session/session.h"
@@ -31,14 +33,14 @@ void sample_forces(Session& session) {
   }
 }
 
-void sample_height(Session& session) {
+void sample_height(Session& session, std::int64_t made) {
   Recorded& to = session.recorded;
   const double t = session.simulation->time(), y = session.simulation->position(0, 0).y;
   const bool fresh = to.height.empty() || t <= to.height.t().back();
   if (fresh) to.height_methods.clear();
   if (fresh || to.height_methods.back().second != session.preset().integrator)
     to.height_methods.emplace_back(t, session.preset().integrator);
-  const ReferenceCurves::Heights others = session.curves.follow(*session.simulation, session.steps_made);
+  const ReferenceCurves::Heights others = session.curves.follow(*session.simulation, made);
   const std::array row{y, others[0], others[1], others[2], others[3]};
   to.height.add(t, row);
 }
@@ -84,7 +86,9 @@ Source force_source(const Session& session) {
 void sample(Session& session) {
   Recorded& to = session.recorded;
   const Wants& wants = session.wants;
-  if (session.steps_made == 0) return;
+  const std::int64_t made = session.steps_made - to.sampled;
+  to.sampled = session.steps_made;
+  if (made == 0) return;
   if (to.paused || !wants.forces) to.forces.interrupt();
   if (to.paused || !wants.height) to.height.interrupt();
   if (to.paused || !wants.copies) session.copies.distance.interrupt(), session.copies.energy.interrupt();
@@ -92,7 +96,16 @@ void sample(Session& session) {
   const FrameCosts::Timer timer(session.costs, Part::sample);
   if (wants.forces) sample_forces(session);
   if (wants.copies) sample_copies(session);
-  if (wants.height) sample_height(session);
+  if (wants.height) sample_height(session, made);
+}
+
+int steps_between_samples(const Session& session) {
+  constexpr double apart = 1.0 / 240;  // s, simulated
+  const Wants& wants = session.wants;
+  const bool particle = wants.forces && force_source(session) == Source::particle;
+  const bool cheap = session.preset().engine == EngineKind::cpu && session.copies.lockstep.empty();
+  if (session.recorded.paused || !cheap || !(particle || wants.height)) return std::numeric_limits<int>::max();
+  return int(std::clamp(std::round(apart / session.preset().dt), 1.0, 1e9));
 }
 
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@ struct Recorded {
   static constexpr int forces_count = 7;
   Source chosen = Source::particle;  ///< force_source() is what it follows
   bool paused = false;
+  std::int64_t sampled = 0;                                    ///< of Session::steps_made, those with a sample
   Series forces{forces_count};                                 ///< N, by force_keys
   Series height{5};                                            ///< m, of the weight, then by ReferenceCurves::curves
   std::vector<std::pair<double, std::string>> height_methods;  ///< from which t on (s) which method moved the weight
@@ -43,5 +45,8 @@ struct Session;
 Source force_source(const Session& session);
 /// Takes the samples that are wanted of the steps just made.
 void sample(Session& session);
+/// How many steps apart samples are taken within a frame, so that what is plotted does not depend on how often pictures
+/// are drawn; more than there are in a frame where a sample costs much, as on a device or of a sum over the cloth.
+int steps_between_samples(const Session& session);
 
 }  // namespace tyglab

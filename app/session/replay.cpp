@@ -28,7 +28,9 @@ void begin_replay(Session& session) {
   Simulation& simulation = *session.simulation;
   const Divergence of = *simulation.divergence();
   const double dt = session.preset().dt, cost = session.pacing.step_cost_s();
-  Replay replay{of, 0, Replay::steps * dt / Replay::lasts, session.pacing.speed};
+  // What diverged at once has fewer steps to show, and shows them as long.
+  const double shown = double(std::clamp<std::int64_t>(of.step - 1, 1, Replay::steps));
+  Replay replay{of, 0, shown * dt / Replay::lasts, session.pacing.speed};
   if (session.replay) replay.former_speed = session.replay->former_speed;
   go_back(session, Replay::steps * dt);
   // States are kept every tenth of a second.

@@ -28,7 +28,7 @@ class Series {
   std::string csv(std::span<const std::string> names, std::string_view comment) const;
 
  private:
-  static constexpr std::size_t most = 20000;
+  static constexpr std::size_t most = 40000;
   std::vector<double> t_;
   std::vector<std::vector<double>> columns_;
   std::vector<std::size_t> gaps_;

@@ -62,7 +62,7 @@ void Session::update(double real_seconds, const SessionInput& input) {
         "There is not enough memory to go on, so the motion is paused; the cloth is as it was. Use fewer rows and "
         "columns, or end other programs.");
   }
-  steps_made = 0;
+  steps_made = recorded.sampled = 0;
 }
 
 void Session::go_on(double real_seconds, const SessionInput& input) {
@@ -119,12 +119,15 @@ void Session::make_steps(int due, const SessionInput& input) {
   const auto start = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const double dt = preset().dt;
+  const int samples = steps_between_samples(*this);
   int made = 0;
   double stepping_s = 0;
   while (made < due && !simulation->divergence() && (made == 0 || pacing.patient || spent() < pacing.budget_s)) {
     const double cost = pacing.step_cost_s();
-    const int piece =
-        cost > 0 && !input.after_steps ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, due - made) : 1;
+    const int to_sample = std::max(samples - int(steps_made - recorded.sampled), 1);
+    const int piece = cost > 0 && !input.after_steps
+                          ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, std::min(due - made, to_sample))
+                          : 1;
     const double before = spent();
     Advance advance;
     if (BackgroundSteps::wanted(*this)) {
@@ -138,7 +141,8 @@ void Session::make_steps(int due, const SessionInput& input) {
       copies_follow(*this, spent() - before);
     }
     stepping_s = spent();
-    made += advance.steps;
+    made += advance.steps, steps_made += advance.steps;
+    if (steps_made - recorded.sampled >= samples) sample(*this);
     if (input.after_steps) input.after_steps();
     warn_of(advance);
     if (advance.steps < piece) break;
@@ -151,12 +155,12 @@ void Session::take_steps() {
   const StepsMadeBeside beside = background_steps.take(*this);
   copies_note(*this, beside.t, beside.seconds);
   warn_of(beside.advance);
+  steps_made += beside.steps;
   made_steps(beside.steps, beside.seconds, dt);
 }
 
 void Session::made_steps(int steps, double seconds, double dt) {
   pacing.made(steps, dt, seconds);
-  steps_made += steps;
   pause_at_stop(*this);
   if (auto_dt && !simulation->divergence()) watch_dt(*this);
 }

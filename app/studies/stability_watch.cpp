@@ -52,11 +52,22 @@ StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::
 GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h) {
   constexpr int points = 160;
   constexpr double most_growth = 1.25;
+  const auto growth_at = [&](double h) { return spectral_radius(amplification(method, h, zeta_over_h * h)); };
   GrowthCurve curve;
   for (int n = 1; n <= points; ++n) {
-    const double h = most_h * n / points, radius = spectral_radius(amplification(method, h, zeta_over_h * h));
-    if (radius > most_growth) break;
-    curve.h.push_back(h), curve.radius.push_back(radius);
+    const double h = most_h * n / points, radius = growth_at(h);
+    if (radius <= most_growth) {
+      curve.h.push_back(h), curve.radius.push_back(radius);
+      continue;
+    }
+    // However steep, the curve is seen to rise: it ends where it leaves the chart.
+    double below = most_h * (n - 1) / points, above = h;
+    for (int halvings = 0; halvings < 30; ++halvings) {
+      const double middle = (below + above) / 2;
+      (growth_at(middle) > most_growth ? above : below) = middle;
+    }
+    curve.h.push_back(below), curve.radius.push_back(growth_at(below));
+    break;
   }
   return curve;
 }

@@ -112,6 +112,11 @@ TEST_CASE("the stability chart rises above 1 where the method breaks") {
   const auto above = std::find_if(curve.y.begin(), curve.y.end(), [](double radius) { return radius > 1 + 1e-6; });
   REQUIRE(above != curve.y.end());
   CHECK(curve.x[std::size_t(above - curve.y.begin())] == doctest::Approx(2).epsilon(0.02));
+  for (const double most : {3.0, 30.0, 300.0}) {  // however far beyond it the cloth is
+    const GrowthCurve steep = growth_curve(scheme("verlet"), most, 0);
+    CHECK(steep.radius.back() == doctest::Approx(1.25).epsilon(1e-3));
+    CHECK(steep.h.back() == doctest::Approx(2.0125).epsilon(1e-3));
+  }
   const auto mark = std::find_if(chart.series.begin(), chart.series.end(),
                                  [](const ChartSeries& series) { return series.name == "worst case"; });
   REQUIRE(mark != chart.series.end());

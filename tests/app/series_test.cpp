@@ -32,12 +32,12 @@ TEST_CASE("gaps stay with their samples when the oldest are dropped") {
   Series series(1);
   add(series, 0, 5);
   series.interrupt();
-  add(series, 100, 14995);
+  add(series, 100, 34995);
   series.interrupt();
-  add(series, 20000, 5000);
-  REQUIRE(series.size() == 20000);
-  const double behind = series.t()[15000];
-  add(series, 30000, 1);
+  add(series, 40000, 5000);
+  REQUIRE(series.size() == 40000);
+  const double behind = series.t()[35000];
+  add(series, 50000, 1);
   REQUIRE(gaps(series).size() == 1);
   CHECK(series.t()[gaps(series)[0]] == behind);
 }

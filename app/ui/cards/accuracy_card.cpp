@@ -52,8 +52,10 @@ std::string stability_sentence(const StabilityLimits& limits) {
   const double radius = spectral_radius(amplification(method, h, zeta));
   const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
   const std::string size = short_number(rounded(100 * radius, 4)) + " % each step.";
+  const std::string times = short_number(rounded(radius, 3)) + " times their size in each step.";
   return of + short_number(h, 3) +
-         (radius > 1 + 1e-9   ? ": oscillations grow to " + size
+         (radius >= 2         ? ": oscillations grow to " + times
+          : radius > 1 + 1e-9 ? ": oscillations grow to " + size
           : radius < 1 - 1e-9 ? ": oscillations shrink to " + size
                               : ": oscillations keep their size.");
 }
@@ -88,6 +90,8 @@ Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
   curve(std::string(method.title) + (damped ? ", damped" : ""), integrator_style(c, method.name), limits.damped);
   if (damped) curve("undamped", {c.quiet, LineStyle::dotted, 1.8f}, limits.undamped);
   most = std::max({most, now, bound});
+  constexpr double flattest = 0.02;  // growth that the axis spans at least: a line at 1 is no news of its last digits
+  if (hi - least < flattest) least = hi - flattest;
   chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
   if (limits.now) chart.series.push_back(mark_at("this cloth", now, c.text, LineStyle::solid, least, hi));
   chart.series.push_back(mark_at("worst case", bound, c.warning, LineStyle::dashed, least, hi));

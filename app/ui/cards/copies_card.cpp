@@ -32,6 +32,16 @@ bool costs_shown(const Ui& ui) {
   return plot_card_inner_width(ui, ui.plots.width) >= ui.theme.px(costs_from_at_1);
 }
 
+/// Where names have no room beside the numbers they stand above them.
+bool names_above(const Ui& ui, float width) {
+  constexpr float least = 90;  // of a name, at scale 1
+  const float beside = plot_card_inner_width(ui, width) - ui.theme.px(remove_at_1 + apart_at_1 + 28);
+  return beside < ui.theme.px(least);
+}
+float line_height_at_1(const Ui& ui, float width) {
+  return names_above(ui, width) ? 2 * line_at_1 - 6 : line_at_1;
+}
+
 /// Whether the two buttons have no room in one row of a card of that width.
 bool buttons_wrap(const Ui& ui, float width) {
   const float add = text_width(*ui.fonts.text, add_label) + 2 * ImGui::GetStyle().FramePadding.x;
@@ -92,7 +102,10 @@ void cloth_line(Ui& ui, int n) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const Columns at = columns_of(ui);
-  const float height = ui.theme.px(line_at_1), middle = std::round(lo.y + height / 2), sample = ui.theme.px(22);
+  const bool above = names_above(ui, ui.plots.width);
+  const float height = ui.theme.px(line_height_at_1(ui, ui.plots.width)), sample = ui.theme.px(22);
+  const float name_middle = std::round(lo.y + ui.theme.px(line_at_1) / 2),
+              middle = above ? std::round(lo.y + height - ui.theme.px(line_at_1) / 2) : name_middle;
   ImGui::PushID(n);
   if (ImGui::InvisibleButton("cloth", {at.apart, height}) && copies.reference != n)
     copies.reference = n, copies.forget();
@@ -103,12 +116,13 @@ void cloth_line(Ui& ui, int n) {
                                 : "Click to measure distances from this one.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, ui.theme.px(4));
-  const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
+  const ImVec2 ends[2] = {{lo.x, name_middle}, {lo.x + sample, name_middle}};
   draw_styled_line(draw, ends, 2, copy_style(ui.theme.colors, seat_of_cloth(ui.session, n)), ui.theme.scale);
   const bool diverged = cloth_of(ui.session, n).divergence().has_value();
   const float left = lo.x + sample + ui.theme.px(6),
-              room = lo.x + at.cost - (costs_shown(ui) ? ui.theme.px(cost_at_1) : 0) - left;
-  draw_on_baseline(draw, *ui.fonts.small, {left, baseline_at(ui.fonts, middle)}, diverged ? c.danger : c.text,
+              room = above ? at.apart - sample - ui.theme.px(6)
+                           : lo.x + at.cost - (costs_shown(ui) ? ui.theme.px(cost_at_1) : 0) - left;
+  draw_on_baseline(draw, *ui.fonts.small, {left, baseline_at(ui.fonts, name_middle)}, diverged ? c.danger : c.text,
                    fitted(*ui.fonts.small, name_of_cloth(ui.session, n), room));
   const Lockstep::Cost& cost = n == Copies::original ? copies.cost : copies.lockstep[std::size_t(n)].cost;
   if (costs_shown(ui))
@@ -181,7 +195,7 @@ float copies_card_height(const Ui& ui, float width) {
   if (copies == 0)
     return card_height(ui, heading, explanation_height(ui, width) / ui.theme.scale + under_words_at_1 + buttons_at_1);
   const float buttons = buttons_wrap(ui, width) ? 2 * buttons_at_1 : buttons_at_1;
-  return card_height(ui, heading, card::line + line_at_1 * float(copies + 1) + buttons);
+  return card_height(ui, heading, card::line + line_height_at_1(ui, width) * float(copies + 1) + buttons);
 }
 
 void copies_card(Ui& ui, float height) {

@@ -1,6 +1,7 @@
 #include "app/ui/cards/height_card.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -19,40 +20,60 @@ namespace {
 constexpr float height_legend_at_1 = 22, height_under_legend_at_1 = 6,
                 height_least_plot_at_1 = 120;  // pixels at scale 1
 
+constexpr float sample_at_1 = 18, sample_gap_at_1 = 4, entry_gap_at_1 = 10;
+
+/// Where each entry of the legend begins, in lines as wide as that; relative to the first, y in lines.
+std::array<ImVec2, ReferenceCurves::curves.size()> figure_places(const Ui& ui, float width) {
+  std::array<ImVec2, ReferenceCurves::curves.size()> places;
+  ImVec2 at{0, 0};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const float entry =
+        ui.theme.px(sample_at_1 + sample_gap_at_1) + text_width(*ui.fonts.small, ReferenceCurves::titles[k]);
+    if (at.x > 0 && at.x + entry > width) at = {0, at.y + 1};
+    places[k] = at;
+    at.x += entry + ui.theme.px(entry_gap_at_1);
+  }
+  return places;
+}
+float figure_legend_height(const Ui& ui, float card_width) {
+  const float width = plot_card_inner_width(ui, card_width) - ui.theme.px(height_legend_at_1);
+  return ui.theme.px(height_legend_at_1) * (figure_places(ui, width).back().y + 1);
+}
+
 /// The report's curves beside the weight's own, which is drawn thicker; a click hides one.
 void figure_legend(Ui& ui, const Region& place) {
   Plots& plots = ui.plots;
   const Tokens& c = ui.theme.colors;
   const ImFont& font = *ui.fonts.small;
-  const float sample = ui.theme.px(18), gap = ui.theme.px(10);
-  float x = place.at.x;
+  const float sample = ui.theme.px(sample_at_1), line = ui.theme.px(height_legend_at_1);
+  const auto places = figure_places(ui, place.size.x);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (std::size_t k = 0; k < ReferenceCurves::curves.size(); ++k) {
-    const float width = sample + ui.theme.px(4) + text_width(font, ReferenceCurves::titles[k]);
-    if (x + width > place.at.x + place.size.x) break;
-    ImGui::SetCursorScreenPos({x, place.at.y});
+    const float width = sample + ui.theme.px(sample_gap_at_1) + text_width(font, ReferenceCurves::titles[k]);
+    const float x = place.at.x + places[k].x, y = place.at.y + places[k].y * line;
+    ImGui::SetCursorScreenPos({x, y});
     ImGui::PushID(int(k));
-    if (ImGui::InvisibleButton("figure", {width, place.size.y})) plots.figure_hidden[k] = !plots.figure_hidden[k];
+    if (ImGui::InvisibleButton("figure", {width, line})) plots.figure_hidden[k] = !plots.figure_hidden[k];
     report_control(ui, ReferenceCurves::titles[k]);
     const float opacity = plots.figure_hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
     CurveStyle style = integrator_style(c, ReferenceCurves::curves[k]);
     style.color = faded(style.color, opacity);
-    const float middle = std::round(place.at.y + place.size.y / 2);
+    const float middle = std::round(y + line / 2);
     const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
     draw_styled_line(draw, ends, 2, style, ui.theme.scale);
-    draw_on_baseline(draw, font, {x + sample + ui.theme.px(4), baseline_at(ui.fonts, middle)}, faded(c.text, opacity),
-                     ReferenceCurves::titles[k]);
+    draw_on_baseline(draw, font, {x + sample + ui.theme.px(sample_gap_at_1), baseline_at(ui.fonts, middle)},
+                     faded(c.text, opacity), ReferenceCurves::titles[k]);
     tooltip(ui, gui::item_id(), "As in figure 3.2: the same start, constants and dt with this method",
             plots.figure_hidden[k] ? "Click to show" : "Click to hide");
     ImGui::PopID();
-    x += width + gap;
   }
 }
 
 }  // namespace
 
-float height_card_least(const Ui& ui, float) {
-  return plot_card_height(ui, ui.theme.px(height_legend_at_1 + height_under_legend_at_1 + height_least_plot_at_1));
+float height_card_least(const Ui& ui, float width) {
+  return plot_card_height(
+      ui, figure_legend_height(ui, width) + ui.theme.px(height_under_legend_at_1 + height_least_plot_at_1));
 }
 
 void height_card(Ui& ui, float height) {
@@ -62,7 +83,8 @@ void height_card(Ui& ui, float height) {
   const float side = ui.theme.px(height_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});
   if (quiet_button(ui, "csv", icon::download, "CSV", "Export the plot as CSV…")) ui.command("export_height");
-  figure_legend(ui, {inner.at, {inner.size.x - side, side}});
+  const float legend = figure_legend_height(ui, plots.width);
+  figure_legend(ui, {inner.at, {inner.size.x - side, legend}});
   const std::span<const double> t = ui.session.recorded.height.t();
   std::vector<PlotCurve> curves;
   for (std::size_t k = 0; k < ReferenceCurves::curves.size(); ++k)
@@ -80,7 +102,7 @@ void height_card(Ui& ui, float height) {
     curves.back().style.width = 2.4f;
   }
   for (PlotCurve& curve : curves) curve.gaps = ui.session.recorded.height.gaps();
-  const float head = side + ui.theme.px(height_under_legend_at_1);
+  const float head = legend + ui.theme.px(height_under_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x, inner.at.y + head});
   PlotFrame frame = time_frame(ui, ui.session.recorded.height, false, "m", why_empty(ui));
   frame.from_zero = false;

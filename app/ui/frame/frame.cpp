@@ -66,7 +66,7 @@ void draw_panels(Ui& ui) {
   slider.keys.clear();
   if (slider.typing == 0 || !ui.input.unread) slider.commit = slider.cancel = false;
   ui.close_lists = false;
-  if (!ui.hover_seen) ui.hovered = 0;
+  if (!ui.hover_seen) ui.hovered = 0, ui.hover_used = false;
 }
 
 void end_gestures(Ui& ui) {

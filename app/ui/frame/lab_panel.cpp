@@ -60,7 +60,7 @@ void verdict(Ui& ui, const Prediction& asked, const StepRecord& record) {
   if (record.right) return marked_line(ui, icon::check, "+", c.good, "You were right: " + said, c.text);
   const std::string answer = number ? with_unit(record.answer, asked.unit) : asked.choices[asked.right];
   marked_line(ui, icon::close, "x", c.warning, "You predicted: " + said, c.text);
-  marked_line(ui, icon::check, "+", c.good, "It is: " + answer, c.text);
+  marked_line(ui, icon::check, "+", c.good, "Right: " + answer, c.text);
 }
 
 void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
@@ -223,6 +223,16 @@ void end_lab_column(Ui& ui) {
   ImGui::EndChild();
 }
 
+/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …"
+std::string lab_result(const LabRun& run) {
+  int asked = 0, right = 0;
+  for (std::size_t k = 0; k < run.records.size(); ++k)
+    if (run.lab.steps[k].prediction && run.records[k].predicted) ++asked, right += run.records[k].right;
+  std::string text = "“" + run.lab.title + "” is done";
+  if (asked > 0) text += "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
+  return text + ". The next lab is under the cap in the top bar.";
+}
+
 /// Buttons at the right of the header; returns where they begin.
 float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
   const bool last = run.step + 1 == run.lab.steps.size(), done = run.record().done;
@@ -238,11 +248,14 @@ float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
   if (again) ImGui::SameLine(0, gap);
   if (text_button(ui, "Back", false, run.step > 0)) back_step(ui.session);
   ImGui::SameLine(0, gap);
-  const bool go = text_button(ui, forward, done);
+  // The second click of a double click meets the next step's button, and is not meant for it.
+  const bool second = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
+  const bool go = text_button(ui, forward, done) && !second;
   ImGui::SameLine(0, gap);
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + ui.theme.px(13)});
   const bool leave = quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept");
   if (leave || (go && last)) {
+    if (go && done) ui.session.messages.note(lab_result(run));
     ui.command("leave_lab");
   } else if (go) {
     enter_step(ui.session, run.step + 1);

@@ -102,7 +102,8 @@ PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) 
   // Nearly all of the values count; beyond three times their spread begins what leaves the scale.
   const double low = quantile(values, 0.02), high = quantile(values, 0.97);
   if (frame.log) return log_range(std::max(values.front(), low * 1e-2), std::min(values.back(), high * 1e3));
-  const double reach = 3 * std::max({high - low, 0.1 * std::abs(high), 1e-300});
+  const double reach = 3 * std::max(high - low, 0.1 * std::abs(high));
+  if (reach == 0) return linear_range(values.front(), values.back(), frame.from_zero);
   return linear_range(std::max(values.front(), low - reach), std::min(values.back(), high + reach), frame.from_zero);
 }
 

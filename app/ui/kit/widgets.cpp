@@ -80,12 +80,18 @@ SegmentPlaces segment_places(const UiContext& ui, const char* const* labels, int
 bool tooltip_due(UiContext& ui, ImGuiID id) {
   // What cannot be chosen says why.
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
-  if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || ui.slider.typing != 0 || ui.covered) return false;
+  if (ui.covered) return false;
   ui.hover_seen = true;
+  if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || ui.slider.typing != 0) {
+    ui.hovered = id, ui.hover_used = true;
+    return false;
+  }
   if (ui.hovered != id) {
     ui.hovered = id;
     ui.hovered_since = ui.now;
+    ui.hover_used = false;
   }
+  if (ui.hover_used) return false;  // who works with it looks at the cloth
   const double due = ui.hovered_since + tooltip_delay;
   if (ui.now <= due) ui.draw_by = std::min(ui.draw_by, due + 0.01);
   return ui.now > due;

@@ -109,7 +109,11 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   const bool past = ui.session.rewind.before(*ui.session.simulation, ui.session.simulation->time(), 1) != nullptr;
   const Way rewind{"Rewind 1 s", "One second back, paused", "←", [](Ui& u) { u.command("rewind"); }};
   if (changed_since_divergence(ui.session)) {
-    ways.insert(ways.begin(), restart);
+    // A restart that must end in the same way is not the first thing to try.
+    const auto& limits = ui.session.studies.stability.limits();
+    const Preset& present = ui.session.preset();
+    const bool again = limits && same_model(limits->of, present) && present.dt > limits->every;
+    ways.insert(again ? ways.end() : ways.begin(), restart);
     if (past) ways.push_back(rewind);
     return ways;
   }
@@ -156,7 +160,7 @@ Box place_of_banner(const Ui& ui, glm::vec2 picture, glm::vec2 size) {
 }
 
 /// All in a line, where the whole would hide what happened: the first way out, and the rest on demand.
-void folded_banner(Ui& ui, const std::vector<Way>& ways, glm::vec2 picture) {
+void folded_banner(Ui& ui, const std::vector<Way>& ways, double over_limit, glm::vec2 picture) {
   const Tokens& c = ui.theme.colors;
   const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
   const ImFont& font = *ui.fonts.title;
@@ -164,8 +168,11 @@ void folded_banner(Ui& ui, const std::vector<Way>& ways, glm::vec2 picture) {
   const float buttons =
       text_width(*ui.fonts.text, ways.front().label) + text_width(*ui.fonts.text, "Details") + 2 * frame + gap;
   float words = 0;
-  const char* shown = "";
-  for (const char* text : {"The simulation diverged", "Diverged"}) {
+  std::string shown;
+  const std::string limit =
+      over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit" : std::string();
+  for (const std::string& text :
+       {"The simulation diverged" + limit, std::string("The simulation diverged"), std::string("Diverged")}) {
     const float width = text_width(font, text) + 2 * gap;
     if (2 * padding + icon + width + buttons <= most && words == 0) words = width, shown = text;
   }
@@ -211,7 +218,8 @@ void banner(Ui& ui) {
   const float height =
       2 * padding + title.FontSize + gap + happened_height + gap + why_height + ui.theme.px(12) + buttons;
   constexpr float most_covered = 0.4f;  // of the picture's height
-  if (!ui.banner_whole.value_or(height <= most_covered * size.y)) return folded_banner(ui, ways, size);
+  if (!ui.banner_whole.value_or(height <= most_covered * size.y))
+    return folded_banner(ui, ways, advice.largest_dt > 0 ? then.dt / advice.largest_dt : 0, size);
   const Box box = place_of_banner(ui, size, {width, height});
   const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
