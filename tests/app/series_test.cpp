@@ -6,6 +6,9 @@
 #include <array>
 #include <vector>
 
+#include "tests/app/desk.h"
+#include "tests/support/scenes.h"
+
 namespace tyglab::series_test {
 
 void add(Series& series, double from, int samples) {
@@ -40,6 +43,22 @@ TEST_CASE("gaps stay with their samples when the oldest are dropped") {
   add(series, 50000, 1);
   REQUIRE(gaps(series).size() == 1);
   CHECK(series.t()[gaps(series)[0]] == behind);
+}
+
+TEST_CASE("what is plotted of a particle does not depend on how often pictures are drawn") {
+  const auto samples = [](int frames) {
+    test::Desk desk(test::cloth(6, 6));
+    desk.session.picked = Pins::Site{3, 3};
+    desk.session.pacing.playing = desk.session.pacing.patient = true;
+    for (int n = 0; n < frames; ++n) {
+      desk.session.wants.forces = true;
+      desk.session.update(0.5 / frames, {});
+    }
+    CHECK(desk.session.simulation->time() > 0.3);
+    return double(desk.session.recorded.forces.size()) / desk.session.simulation->time();
+  };
+  CHECK(samples(4) == doctest::Approx(240).epsilon(0.1));
+  CHECK(samples(30) == doctest::Approx(240).epsilon(0.15));
 }
 
 }  // namespace tyglab::series_test

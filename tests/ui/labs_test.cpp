@@ -278,4 +278,26 @@ TEST_CASE("a lab waits while another preset is open, says so, and puts its own c
   CHECK_FALSE(window.sees("lab.Open_the_lab_s_cloth"));
 }
 
+TEST_CASE("Back sets the step before up again, so that nothing of the step after it counts") {
+  test::NullUi window;
+  begin(window, "critical", "03_stiffness");
+  window.click("lab.Skip");
+  window.frames(2);
+  window.click("lab.Skip");
+  window.frames(2);
+  CHECK(window.preset().dt == 0.0002);
+  window.click("lab.Back");
+  window.frames(2);
+  CHECK(window.session.labs.run->step == 1);
+  CHECK(window.preset().dt == 0.001);
+}
+
+TEST_CASE("the second click of a double click leaves out no step") {
+  test::NullUi window;
+  begin(window, "critical", "03_stiffness");
+  window.double_click(window.middle("lab.Skip"));
+  window.frames(2);
+  CHECK(window.session.labs.run->step == 1);
+}
+
 }  // namespace tyglab::labs_ui_test

@@ -70,7 +70,7 @@ struct UiContext {
   unsigned hovered = 0;   ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
-  bool hover_used = false;  ///< it was pressed or typed into since: no tooltip any more
+  bool hover_used = false;     ///< it was pressed or typed into since: no tooltip any more
   glm::vec2 tooltip_size{0};   ///< of the last tooltip, pixels
   bool close_lists = false;    ///< Esc was pressed: open menus and combo boxes close in this frame
   bool covered = false;        ///< something lies over everything: no tooltips

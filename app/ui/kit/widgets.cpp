@@ -82,7 +82,8 @@ bool tooltip_due(UiContext& ui, ImGuiID id) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
   if (ui.covered) return false;
   ui.hover_seen = true;
-  if (ImGui::IsMouseDown(ImGuiMouseButton_Left) || ui.slider.typing != 0) {
+  const bool enabled = ImGui::IsItemHovered();  // a press on what is disabled asks why it is
+  if ((enabled && ImGui::IsMouseDown(ImGuiMouseButton_Left)) || ui.slider.typing != 0) {
     ui.hovered = id, ui.hover_used = true;
     return false;
   }
