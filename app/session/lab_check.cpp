@@ -225,7 +225,10 @@ std::string check_in_words(Session& session, const Condition& check, CheckState 
   std::string text = asked + " · ";
   if (now.empty()) {
     const Observable* row = find_observable(check.name);
-    text += row != nullptr && !row->hint.empty() ? std::string(row->hint) : "not known yet";
+    const bool coming = row != nullptr && row->shown_by != nullptr && session.wants.*row->shown_by;
+    text += coming && !session.pacing.playing      ? "it is being measured"
+            : row != nullptr && !row->hint.empty() ? std::string(row->hint)
+                                                   : "not known yet";
   } else if (is_word(check.name)) {
     text += "now: " + now;
   } else {

@@ -24,6 +24,7 @@ struct Observable {
   bool Wants::*needs = nullptr;  ///< the study that works it out, if one does; not those that somebody opens on purpose
   /// It is worked out beside the motion, for one moment or for the constants: it is not there in every step.
   bool measured = false;
+  bool Wants::*shown_by = nullptr;  ///< the study that does so, where somebody has to open it on purpose
   std::string_view (*word)(const Session&) = nullptr;
   std::span<const std::string_view> (*words)() = nullptr;  ///< those it can be
   std::string_view label = {};                             ///< of a word: what it is called on the card

@@ -12,6 +12,7 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "core/model/changes.h"
 #include "core/theory/amplification.h"
 
 namespace tyglab {
@@ -201,11 +202,22 @@ void accuracy_ways(Ui& ui) {
   ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(ways_at_1)});
 }
 
+constexpr EffectSet settings_of_the_method{Effect::integrator, Effect::dt, Effect::tolerance};
+
+/// Shows an earlier study only as far as it is true of the present constants.
 void errors_shown(Ui& ui, float height) {
-  const auto study = ui.session.studies.accuracy.study();
-  if (!study) return words_and_chart(ui, height, "Measuring…", nullptr);
+  auto study = ui.session.studies.accuracy.study();
+  const std::string waiting = ui.session.simulation->divergence()
+                                  ? "Nothing is measured once the cloth has diverged: restart it."
+                                  : "Measuring…";
+  if (!study) return words_and_chart(ui, height, waiting, nullptr);
+  const EffectSet since = changes(study->of, ui.session.preset());
+  const bool stale = !since.within(motionless);
+  // Errors of other methods stay true where only the present one's settings have changed.
+  const bool charted = study->present && since.within(motionless | settings_of_the_method);
+  if (stale) study->present.reset();
   const Chart chart = accuracy_chart(ui.theme.colors, *study, target_error(ui));
-  words_and_chart(ui, height, accuracy_words(*study), study->present ? &chart : nullptr);
+  words_and_chart(ui, height, stale ? waiting : accuracy_words(*study), charted ? &chart : nullptr);
 }
 
 void convergence_shown(Ui& ui, float height) {
