@@ -1,4 +1,3 @@
-#version 330 core
 // One triangle over the whole target, at the far end of the depth range.
 void main() {
   vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);

@@ -1,4 +1,3 @@
-#version 330 core
 #include "frame.glsl"
 layout(location = 0) in float x;
 layout(location = 1) in float y;

@@ -1,4 +1,3 @@
-#version 330 core
 #include "frame.glsl"
 in vec3 position;
 out vec4 color;  // premultiplied

@@ -1,4 +1,3 @@
-#version 330 core
 #include "frame.glsl"
 uniform vec4 area;  // least x and z, greatest x and z, m
 out vec3 position;

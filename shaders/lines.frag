@@ -1,4 +1,3 @@
-#version 330 core
 in float strength;
 uniform vec4 ink;  // sRGB and opacity
 out vec4 color;   // premultiplied

@@ -1,4 +1,3 @@
-#version 330 core
 in float strength;
 flat in float radius;
 uniform vec4 ink;    // sRGB and opacity

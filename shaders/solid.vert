@@ -1,4 +1,3 @@
-#version 330 core
 #include "frame.glsl"
 layout(location = 0) in vec3 point;
 layout(location = 1) in vec3 point_normal;

@@ -122,13 +122,20 @@ void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
   mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
 }
 
+void ClothRenderer::Parts::draw_lines_of(const ClothMesh& of, const gl::Program& lines, ClothMesh::List list) {
+  lines.set("positions", positions_unit);
+  lines.set("lines", lines_unit);
+  lines.set("component", of.stride() / 3);
+  of.draw_lines(list, positions_unit, lines_unit);
+}
+
 void ClothRenderer::Parts::draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width) {
   const gl::Program& lines = use(shared->lines, shared->colored ? &shared->colored->lines : nullptr, options);
   lines.set("spacing", spacing());
   lines.set("max_width", width);
   lines.set("ink", glm::vec4(options.palette.lines, opacity));
   glEnable(GL_BLEND);
-  mesh.draw(list, GL_LINES);
+  draw_lines_of(mesh, lines, list);
   glDisable(GL_BLEND);
 }
 
@@ -185,7 +192,7 @@ void ClothRenderer::Parts::draw_ghost(const Parts& other, glm::vec3 color, float
   shared->lines.set("ink", glm::vec4(color, ghost_opacity));
   glEnable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
-  other.mesh.draw(ClothMesh::List::outlines, GL_LINES);
+  draw_lines_of(other.mesh, shared->lines, ClothMesh::List::outlines);
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_BLEND);
 }

@@ -31,6 +31,10 @@ bool needs(const ViewOptions& options, List list) {
   return false;
 }
 
+bool of_lines(List list) {
+  return list != List::triangles && list != List::particles && list != List::pins;
+}
+
 }  // namespace
 
 void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed,
@@ -58,8 +62,15 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   work.way = way_;
   normals_ready_ = needs_normals || (normals_ready_ && !moved);
   const Stopwatch watch(work.index_lists);
+  bool lines = false;
   for (int list = 0; list < int(List::count); ++list) {
-    if (needs(options, List(list))) prepare(List(list), scene);
+    if (!needs(options, List(list))) continue;
+    prepare(List(list), scene);
+    lines |= of_lines(List(list));
+  }
+  if (lines && !position_texels_ready_) {
+    position_texels_.take(position_source_, floats_.size());
+    position_texels_ready_ = true;
   }
   glBindVertexArray(0);
 }
@@ -71,7 +82,7 @@ void ClothMesh::take(const ClothScene& scene, bool moved, bool normals, RenderWo
     written_.free();
     const auto lent = lent_.show(floats_.data);
     way_ = lent ? VertexWay::shared_memory : VertexWay::copied;
-    set_attributes(0, lent ? *lent : copied(position_buffer_, floats_.data, work));
+    set_positions(lent ? *lent : copied(position_buffer_, floats_.data, work));
   }
   if (normals) set_attributes(3, make_normals(scene, work));
 }
@@ -106,7 +117,7 @@ void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, 
   lent_.show(nullptr);
   mapped_normals_.free();
   way_ = VertexWay::shared_buffer;
-  set_attributes(0, written_.positions());
+  set_positions(written_.positions());
   if (normals) set_attributes(3, written_.normals());
 }
 
@@ -135,8 +146,9 @@ void ClothMesh::drawn() {
 std::size_t ClothMesh::bytes() const {
   std::size_t total = (converted_.capacity() + normals_.capacity()) * sizeof(float);
   for (const gl::Buffer* buffer : {&position_buffer_, &normal_buffer_}) total += std::size_t(buffer->bytes());
-  for (const IndexList& list : lists_) total += std::size_t(list.buffer.bytes());
-  return total + mapped_normals_.bytes() + written_.bytes();
+  for (const IndexList& list : lists_)
+    total += std::size_t(list.buffer.bytes()) + (list.texels ? list.texels->bytes() : 0);
+  return total + mapped_normals_.bytes() + written_.bytes() + position_texels_.bytes();
 }
 
 /// Copies a vector of every particle.
@@ -145,6 +157,12 @@ VertexSource ClothMesh::copied(gl::Buffer& to, const float* data, RenderWork& wo
   to.write(GL_ARRAY_BUFFER, data, floats_.size() * sizeof(float));
   work.copied += floats_.size() * sizeof(float);
   return {to.id(), 0};
+}
+
+void ClothMesh::set_positions(const VertexSource& source) {
+  set_attributes(0, source);
+  position_source_ = source;
+  position_texels_ready_ = false;
 }
 
 /// Names the components of a vector of every particle `first` to `first` + 2 for the shaders.
@@ -189,9 +207,14 @@ void ClothMesh::prepare(List list, const ClothScene& scene) {
     case List::count:
       break;
   }
-  if (longest_edge_ > 0 && list != List::particles && list != List::pins)
+  if (longest_edge_ > 0 && (of_lines(list) || list == List::triangles))
     remove_long(indices, list == List::triangles ? 3 : 2, floats_, longest_edge_);
-  target.buffer.write(GL_ELEMENT_ARRAY_BUFFER, indices);
+  if (of_lines(list)) {
+    if (!target.texels) target.texels.emplace(TexelArray::Of::index_pairs);
+    target.texels->take(indices.data(), indices.size() / 2);
+  } else {
+    target.buffer.write(GL_ELEMENT_ARRAY_BUFFER, indices);
+  }
   target.count = GLsizei(indices.size());
   target.ready = true;
 }
@@ -202,6 +225,16 @@ void ClothMesh::draw(List list, GLenum primitive) const {
   glBindVertexArray(array_.id());
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, source.buffer.id());
   glDrawElements(primitive, source.count, GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(0);
+}
+
+void ClothMesh::draw_lines(List list, int positions_unit, int lines_unit) const {
+  const IndexList& source = lists_[int(list)];
+  if (source.count == 0) return;
+  position_texels_.bind(positions_unit);
+  source.texels->bind(lines_unit);
+  glBindVertexArray(no_attributes_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 6 * (source.count / 2));
   glBindVertexArray(0);
 }
 

@@ -10,6 +10,7 @@
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_topology.h"
 #include "app/render/gl_objects.h"
+#include "app/render/texel_array.h"
 #include "app/render/vertex_memory.h"
 #include "app/render/vertex_normals.h"
 #include "app/render/written_vertices.h"
@@ -34,8 +35,10 @@ class ClothMesh {
   std::string problem() const;
   /// Uploads positions if `moved` and whatever else this view lacks.
   void update(const ClothScene& scene, const ViewOptions& options, bool moved, bool topology_changed, RenderWork& work);
-  /// Draws a list that update() was asked for: GL_TRIANGLES, GL_LINES or GL_POINTS.
+  /// Draws a list of triangles or particles that update() was asked for: GL_TRIANGLES or GL_POINTS.
   void draw(List list, GLenum primitive) const;
+  /// Draws a list of lines with a program (lines.vert) in use that finds positions and lines in those texture units.
+  void draw_lines(List list, int positions_unit, int lines_unit) const;
   /// Draws one particle as a point.
   void draw_particle(int i, int j) const;
   /// All that is drawn of this picture has been.
@@ -50,6 +53,7 @@ class ClothMesh {
  private:
   struct IndexList {
     gl::Buffer buffer;
+    std::optional<TexelArray> texels;  ///< in its place, of lines
     GLsizei count = 0;
     bool ready = false;
   };
@@ -59,20 +63,23 @@ class ClothMesh {
   VertexSource make_normals(const ClothScene& scene, RenderWork& work);
   void prepare(List list, const ClothScene& scene);
   VertexSource copied(gl::Buffer& to, const float* data, RenderWork& work) const;
+  void set_positions(const VertexSource& source);
   void set_attributes(GLuint first, const VertexSource& source) const;
 
-  gl::VertexArray array_;
+  gl::VertexArray array_, no_attributes_;
   gl::Buffer position_buffer_, normal_buffer_;  ///< of what is copied
   LentPositions lent_;
   MappedNormals mapped_normals_;
   WrittenVertices written_;
+  VertexSource position_source_;  ///< of what is drawn
+  TexelArray position_texels_{TexelArray::Of::floats};
   VertexWay way_ = VertexWay::copied;
   std::array<IndexList, int(List::count)> lists_;
   std::vector<float> converted_;  ///< of a solver in double
   FloatRows floats_;              ///< valid during update() alone; without data where they are written
   std::vector<float> normals_;
   std::optional<std::vector<std::uint32_t>> beside_tears_;
-  bool normals_ready_ = false;
+  bool normals_ready_ = false, position_texels_ready_ = false;
   float longest_edge_ = 0;
   Lattice lattice_;
   int stride_ = 0;

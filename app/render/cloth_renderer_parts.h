@@ -26,9 +26,9 @@ namespace tyglab {
 
 /// What only a cloth needs that is colored by values.
 struct ColoredCloth {
-  gl::Program cloth{{"cloth.vert", "cloth.frag", {}, "COLORED"}};
-  gl::Program lines{{"lines.vert", "lines.frag", "lines.geom", "COLORED"}};
-  gl::Program points{{"points.vert", "points.frag", {}, "COLORED"}};
+  gl::Program cloth{{"cloth.vert", "cloth.frag", "COLORED"}};
+  gl::Program lines{{"lines.vert", "lines.frag", "COLORED"}};
+  gl::Program points{{"points.vert", "points.frag", "COLORED"}};
   ValueTexture map{GL_LINEAR};
 };
 
@@ -39,7 +39,7 @@ struct ClothRenderer::Shared {
   gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
   gl::Program cloth{{"cloth.vert", "cloth.frag"}};
   gl::Program solid{{"solid.vert", "solid.frag"}};
-  gl::Program lines{{"lines.vert", "lines.frag", "lines.geom"}};
+  gl::Program lines{{"lines.vert", "lines.frag"}};
   gl::Program points{{"points.vert", "points.frag"}};
   gl::Program cloth_depth{{"cloth_depth.vert", "depth.frag"}};
   gl::Program solid_depth{{"solid_depth.vert", "depth.frag"}};
@@ -53,7 +53,8 @@ struct ClothRenderer::Shared {
 
 struct ClothRenderer::Parts {
   /// Where each texture is bound while the cloth is drawn.
-  static constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3;
+  static constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3, positions_unit = 4,
+                       lines_unit = 5;
   static inline const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
 
   std::shared_ptr<Shared> shared;
@@ -95,6 +96,7 @@ struct ClothRenderer::Parts {
   void draw_triangles(const ViewOptions& options);
   const gl::Program& use(const gl::Program& plain, const gl::Program* colored, const ViewOptions& options);
   void draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width);
+  static void draw_lines_of(const ClothMesh& of, const gl::Program& lines, ClothMesh::List list);
   void draw_bending(const ViewOptions& options);
   void draw_points(const ViewOptions& options);
   void draw_marks(const ViewOptions& options);

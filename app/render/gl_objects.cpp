@@ -29,8 +29,9 @@ std::string shader_text(std::string_view name) {
 
 /// A shader that is attached to a program and then lives as long as it.
 void attach(GLuint program, GLenum stage, std::string_view name, std::string_view define) {
-  std::string text = shader_text(name);
-  if (!define.empty()) text.insert(text.find('\n') + 1, "#define " + std::string(define) + '\n');
+  std::string text(shader_head);
+  if (!define.empty()) text += "#define " + std::string(define) + '\n';
+  text += "#line 1\n" + shader_text(name);
   const char* const source = text.c_str();
   const GLuint shader = glCreateShader(stage);
   glShaderSource(shader, 1, &source, nullptr);
@@ -63,7 +64,6 @@ void Buffer::write(GLenum target, const void* data, std::size_t bytes) {
 Program::Program(const Files& files) {
   const GLuint program = object_.id();
   attach(program, GL_VERTEX_SHADER, files.vertex, files.define);
-  if (!files.geometry.empty()) attach(program, GL_GEOMETRY_SHADER, files.geometry, files.define);
   attach(program, GL_FRAGMENT_SHADER, files.fragment, files.define);
   glLinkProgram(program);
   GLint ok = 0;

@@ -75,12 +75,15 @@ class Buffer {
   GLsizeiptr bytes_ = 0;
 };
 
-/// A linked program made of the files "shaders/NAME.vert", "….frag" and, where asked for, "….geom".
+/// The first lines of every shader: its language and version.
+inline constexpr std::string_view shader_head = "#version 330 core\n";
+
+/// A linked program made of the files "shaders/NAME.vert" and "….frag".
 class Program {
  public:
   struct Files {
-    std::string_view vertex, fragment, geometry = {};
-    std::string_view define = {};  ///< a name that all of them see as defined
+    std::string_view vertex, fragment;
+    std::string_view define = {};  ///< a name that both see as defined
   };
   /// Throws GraphicsError with the compiler's log, DataFileError if a file is missing.
   explicit Program(const Files& files);

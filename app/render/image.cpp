@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "app/render/jpeg.h"
 #include "core/io/destination.h"
@@ -43,7 +44,9 @@ class EncoderMemory {
 
   static void* take(std::size_t bytes) {
     auto block = std::make_unique<std::byte[]>(bytes);
-    return present_->blocks_.emplace_back(std::move(block)).get();
+    void* const at = block.get();
+    present_->blocks_.emplace(at, std::move(block));
+    return at;
   }
   static void* more(void* block, std::size_t old_bytes, std::size_t bytes) {
     void* const larger = take(bytes);
@@ -51,13 +54,11 @@ class EncoderMemory {
     give_back(block);
     return larger;
   }
-  static void give_back(void* block) {
-    std::erase_if(present_->blocks_, [&](const std::unique_ptr<std::byte[]>& each) { return each.get() == block; });
-  }
+  static void give_back(void* block) { present_->blocks_.erase(block); }
 
  private:
   static thread_local EncoderMemory* present_;
-  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  std::unordered_map<void*, std::unique_ptr<std::byte[]>> blocks_;  ///< tens of thousands in a large picture
 };
 thread_local EncoderMemory* EncoderMemory::present_ = nullptr;
 

@@ -2,13 +2,17 @@
 
 namespace tyglab {
 
-ValueTexture::ValueTexture(GLint filter) {
-  glBindTexture(GL_TEXTURE_2D, texture_.id());
+void set_up_texture(const gl::Texture& texture, GLint filter) {
+  glBindTexture(GL_TEXTURE_2D, texture.id());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+ValueTexture::ValueTexture(GLint filter) {
+  set_up_texture(texture_, filter);
 }
 
 void ValueTexture::take(std::span<const float> values, int rows, int columns) {

@@ -8,6 +8,9 @@
 
 namespace tyglab {
 
+/// Lets a texture be looked up with that filter, without a repetition beyond its edges.
+void set_up_texture(const gl::Texture& texture, GLint filter);
+
 class ValueTexture {
  public:
   /// `filter`: GL_NEAREST, or GL_LINEAR between neighbors.

@@ -204,8 +204,9 @@ TEST_CASE("nothing is uploaded where nothing moved, and normals are made for lit
   stage.draw(simulation, 5);
   work = stage.renderer().take_work();
   CHECK(work.normals.wall_s == 0);
-  // Three floats a particle for positions and for normals, in padded rows, once on either side; and index lists.
-  CHECK(bytes < std::size_t(9 * 48 * 4 * 4 + 4 * (6 * 8 * 8 + 2 * 12 * 81 + 4 * 81)));
+  // Three floats a particle for positions and for normals, in padded rows, once on either side; positions once more for
+  // lines; and index lists.
+  CHECK(bytes < std::size_t(9 * 48 * 4 * 5 + 4 * (6 * 8 * 8 + 2 * 12 * 81 + 4 * 81)));
 }
 
 TEST_CASE("triangles and lines with a long edge can be left out") {
