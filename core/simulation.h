@@ -49,7 +49,7 @@ struct Snapshot {
 class Simulation {
  public:
   /// Builds the cloth at its start; `threads`: at most that many, at least 1. Throws EngineError; the preset must be
-  /// valid (check_preset).
+  /// valid (check_preset), but for dt: any above 0 will do.
   explicit Simulation(const Preset& preset, int threads = 1);
   ~Simulation();
 
