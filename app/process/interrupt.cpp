@@ -50,8 +50,8 @@ SignalHandler::~SignalHandler() {
 
 InterruptExit::InterruptExit() : handler_(exit_on_interrupt) {}
 
-InterruptGuard::InterruptGuard() : handler_(note_interrupt) {
-  was_interrupted = 0;
+// Nothing is noted before: a signal that comes while the handler is being installed counts.
+InterruptGuard::InterruptGuard() : handler_((was_interrupted = 0, note_interrupt)) {
   stop_waiting_outputs_when(interrupted);
 }
 

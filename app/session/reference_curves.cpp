@@ -21,9 +21,14 @@ void ReferenceCurves::begin(const Simulation& weight, double y, double v, double
   exact_ = starting_at(of_, y, v);
   exact_t_ = t_ = t;
   for (std::size_t n = 0; n < companions_.size(); ++n) {
-    Preset own = exact_;
+    Preset own = of_;
     own.integrator = curves[n], own.precision = Precision::double_;
     companions_[n] = std::make_unique<Simulation>(own);
+    if (exact_ == of_) continue;
+    // A weight may have come to where no preset lets it start.
+    State state = companions_[n]->read();
+    state.x.y[0] = y, state.v.y[0] = v;
+    companions_[n]->load(state);
   }
 }
 

@@ -60,6 +60,19 @@ TEST_CASE("where the weight has moved unseen they begin anew from where it is") 
   CHECK(figure.follow(weight, 400).back() == doctest::Approx(weight.positions().at(0, 0).y).epsilon(1e-7));
 }
 
+TEST_CASE("they begin where no preset lets a weight start") {
+  Preset preset = test::one_weight("rk4");
+  preset.dt = 1e-3, preset.v_0.y = 1000, preset.k = 1e-3, preset.L = 10;
+  Simulation weight(preset);
+  ReferenceCurves figure;
+  weight.advance(2000);
+  weight.advance(1);
+  for (const double height : figure.follow(weight, 1)) CHECK(height == doctest::Approx(weight.positions().at(0, 0).y));
+  CHECK(weight.positions().at(0, 0).y > 1500);
+  weight.advance(400);
+  CHECK(figure.follow(weight, 400).back() == doctest::Approx(weight.positions().at(0, 0).y).epsilon(1e-7));
+}
+
 TEST_CASE("a companion that has diverged has no height any more") {
   Preset preset = test::one_weight("implicit_euler");
   preset.dt = 0.2;

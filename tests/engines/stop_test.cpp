@@ -83,6 +83,12 @@ TEST_CASE("stopped anywhere in a step, every method stands at its last whole ste
     for (const int threads : {1, 2}) check_stops(busy(std::string(method.name)), threads);
 }
 
+TEST_CASE("the same where a step of projections takes long") {
+  Preset preset = busy("xpbd");
+  preset.rows = 40, preset.columns = 45, preset.iterations = 150;
+  for (const int threads : {1, 2}) check_stops(preset, threads);
+}
+
 TEST_CASE("the same on an OpenCL device") {
   if (test::skipped_without_device()) return;
   for (const Scheme& method : schemes()) {
@@ -98,6 +104,7 @@ TEST_CASE("a step that takes many iterations asks in each of them, and tells how
     CAPTURE(std::string(method));
     Preset preset = busy(method);
     preset.iterations = 40, preset.tolerance = 1e-9, preset.k_s = 1e5, preset.dt = 0.01;
+    if (method == std::string("xpbd")) preset.rows = 40, preset.columns = 45, preset.iterations = 150;
     Simulation simulation(preset, 2);
     double least = 1, most = 0;
     int asked = 0;

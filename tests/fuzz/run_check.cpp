@@ -29,8 +29,6 @@ constexpr double stop_seconds = 0.5;                 // that an interrupt takes,
 constexpr double address_space = 16.0 * (1u << 30);  // so that a leak ends the run, not the machine
 
 [[noreturn]] void become(const std::string& program, const fs::path& folder, std::vector<std::string> arguments) {
-  // A shell without job control starts what is in its background with SIGINT ignored.
-  ::signal(SIGINT, SIG_DFL);
   const rlimit limit{rlim_t(address_space), rlim_t(address_space)};
   ::setrlimit(RLIMIT_AS, &limit);
   const auto open = [&](const char* name, int to) {

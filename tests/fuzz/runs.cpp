@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -106,6 +107,8 @@ bool read(const std::string& text, T& number) {
 int main(int argc, char** argv) {
   using namespace tyglab::fuzz;
   if (argc < 3) return 2;
+  // A shell without job control starts what is in its background with SIGINT ignored, and so would the runs.
+  std::signal(SIGINT, SIG_DFL);
   Options options;
   options.program = std::filesystem::absolute(argv[1]), options.findings = std::filesystem::absolute(argv[2]);
   bool limited = false;

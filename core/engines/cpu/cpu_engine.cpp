@@ -120,9 +120,16 @@ void CpuEngine<R, Present>::resolve() {
   const Preset& p = cloth_.preset;
   guard_.set_rules({.tearing = has(part::tearing) && p.F_max > 0 && p.k_s > 0 && p.kind == Kind::cloth,
                     .F_release = p.F_release,
-                    .costly_steps = is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_)});
+                    .costly_steps = stops_within_steps()});
   guard_.set_scene(p, cloth_.lattice, cloth_.held);
   guard_.invalidate();
+}
+
+template <class R, unsigned Present>
+bool CpuEngine<R, Present>::stops_within_steps() const {
+  constexpr double most = 1 << 18;  // particles times iterations: some milliseconds
+  if (!projects(*scheme_)) return is_implicit(*scheme_) || chooses_steps(*scheme_);
+  return double(cloth_.lattice.size()) * cloth_.preset.iterations >= most;
 }
 
 template <class R, unsigned Present>

@@ -90,6 +90,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void resolve_estimate();
   void write_fixed_velocities();
   void make_waves();
+  /// Whether a step may take so long that it asks to be stopped within, which costs a backup before it.
+  bool stops_within_steps() const;
   /// How many steps that many threads can make in a wave; 0 where waves do not pay.
   int steps_of_wave(int threads) const;
   void resize_team(int size);

@@ -121,7 +121,7 @@ bool CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, cons
   const int iterations = cloth_.preset.iterations;
   const bool finished = projector_.project(cloth_, sweep.velocity, begin, end, *team_, [&](int n) {
     set_step_progress(double(n) / iterations);
-    return repeating_ || !stops();
+    return repeating_ || !stops_within_steps() || !stops();
   });
   if (!finished) {
     if (number == 0) abandoned_ = true;
