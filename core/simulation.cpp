@@ -254,7 +254,10 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
     other->restart_untouched(next);
   } else {
     State state;
-    engine_->read(state, tears_);
+    {
+      const std::lock_guard lock(*reading_);
+      engine_->read(state, tears_);
+    }
     other->take_engine(next, state);
     if (changed.touches(Effect::pins)) other->take_pins();
   }

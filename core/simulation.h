@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "core/cloth/start.h"
@@ -88,7 +89,8 @@ class Simulation {
   /// Whether an edit asks for new arrays: of a large cloth that takes longer than a frame.
   bool rebuilds(const Edit& edit) const;
   /// A simulation as that edit (a Change or a Restart) would leave this one, which stays as it is. May run beside
-  /// other threads that only look at this one: positions(), particle() and whatever else is const. Throws as apply().
+  /// other threads that only look at this one: positions(), read(), particle() and whatever else is const. Throws as
+  /// apply().
   std::unique_ptr<Simulation> rebuilt(const Edit& edit) const;
   /// What this one shows now, with an engine that stands still: to be looked at while another thread moves this one.
   /// Changes of what is only seen may be applied to it, nothing else.
@@ -194,6 +196,8 @@ class Simulation {
   std::optional<Divergence> divergence_;
   Preset diverged_preset_;
   State state_;
+  /// An engine evaluates forces to be read, and has one place for them.
+  std::unique_ptr<std::mutex> reading_ = std::make_unique<std::mutex>();
   std::uint64_t state_revision_ = ~0ull;
   std::uint64_t revision_ = 0, tear_revision_ = 0;
   std::optional<EnergyWatch> watch_;

@@ -19,7 +19,10 @@ double rounding_unit(Precision precision) {
 
 const State& Simulation::read() {
   if (state_revision_ == revision_) return state_;
-  engine_->read(state_, tears_), state_revision_ = revision_;
+  {
+    const std::lock_guard lock(*reading_);
+    engine_->read(state_, tears_), state_revision_ = revision_;
+  }
   if (!initial_velocity_) return state_;
   for (int i = 0, p = 0; i < lattice_.rows; ++i)
     for (int j = 0; j < lattice_.columns; ++j, ++p)
@@ -31,6 +34,7 @@ const State& Simulation::read() {
 
 State Simulation::read_raw() {
   State state;
+  const std::lock_guard lock(*reading_);
   engine_->read_raw(state, tears_);
   return state;
 }

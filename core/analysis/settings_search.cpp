@@ -19,7 +19,7 @@ using Found = std::function<void(const SettingsSearch&)>;
 
 /// Every other method has one beside it here that is better at the same cost: Verlet is the cheapest of the first two
 /// orders, XPBD's error does not fall with dt alone. What is quick comes first, so that the rest need not go beyond it.
-constexpr std::array candidates{"verlet", "velocity_verlet", "rk4",     "rkn4",
+constexpr std::array candidates{"verlet", "velocity_verlet", "rk4",     "force_gradient4",
                                 "dopri5", "implicit_euler",  "tr_bdf2", "implicit_midpoint"};
 constexpr double aim = 0.5;            // of the tolerance
 constexpr double most_effort = 3e9;    // particles times force evaluations of a reference: some ten seconds

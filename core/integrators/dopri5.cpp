@@ -145,7 +145,7 @@ The program counts what limits the steps: *stability* where the fastest motion l
               R"(coordinate are ignored: such a step is accepted, counted and reported.)",
           .sweeps = sweeps(),
           .start = {},
-          .lags = false,
+          .lag = 0,
           .estimate = estimate()};
 }
 

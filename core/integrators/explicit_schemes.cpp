@@ -22,7 +22,7 @@ std::vector<Scheme> explicit_schemes() {
                   R"(example of what not to do, and worth seeing.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
       {.name = "improved_euler",
        .title = "Improved Euler",
        .equation = "2.11",
@@ -39,7 +39,7 @@ std::vector<Scheme> explicit_schemes() {
                   R"(two. An oscillation grows by a factor of $\sqrt{1 + (\omega\,dt)^2/2}$ per step.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
       // d[n] = x[n] - x[n-1] is kept: x[n+1] = 2x[n] - x[n-1] + dt² a would lose a float's last digits in every step.
       {.name = "verlet",
        .title = "Verlet",
@@ -59,7 +59,7 @@ std::vector<Scheme> explicit_schemes() {
                   R"(fluctuates but does not drift while no spring switches.)",
        .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
        .start = {{v, {{v, 1, 1}, {a, -0.5, 2}}}},
-       .lags = true},
+       .lag = 0.5},
       {.name = "semi_implicit_euler",
        .title = "Semi-implicit Euler",
        .equation = "",
@@ -77,7 +77,7 @@ std::vector<Scheme> explicit_schemes() {
            R"(first-order error.)",
        .sweeps = {{x, v, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
       // Vector 1 is v half a step back; vector 2 is v + dt a of the step before, a second-order prediction that the
       // damping sees, so that one evaluation a step is enough.
       {.name = "velocity_verlet",
@@ -99,7 +99,7 @@ std::vector<Scheme> explicit_schemes() {
            R"(whose error is only $O(dt^2)$, so it costs no order.)",
        .sweeps = {{x, 2, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}, {2, {{v, 1, 0}, {a, 0.5, 1}}}}}},
        .start = {{2, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -0.5, 1}}}},
-       .lags = true},
+       .lag = 0.5},
       // Vectors 2 and 3 gather the result, 4 and 5 hold the stage.
       {.name = "rk4",
        .title = "Runge-Kutta 4",
@@ -137,7 +137,7 @@ std::vector<Scheme> explicit_schemes() {
                     {5, {{v, 1, 0}, {a, 1, 1}}}}},
                   {4, 5, 0, {{x, {{2, 1, 0}, {5, 1.0 / 6, 1}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
       // Vectors 2 and 3 gather the result, 4 and 5 hold the stage.
       {.name = "rkn4",
        .title = "Nyström 4",
@@ -171,7 +171,43 @@ std::vector<Scheme> explicit_schemes() {
                     {5, {{v, 1, 0}, {a, 1, 1}}}}},
                   {4, 5, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
+      // Vector 1 lacks the end of the last step's closing kick, which is one with the next step's first; vectors 2 and
+      // 3 hold the middle and the middle shifted, 4 a second-order prediction of the velocity, which the damping sees.
+      {.name = "force_gradient4",
+       .title = "Force gradient 4",
+       .equation = "",
+       .source = "S. A. Chin, Phys. Lett. A 226, 344 (1997), algorithm A; as I. P. Omelyan, I. M. Mryglod, R. Folk, "
+                 "Comput. Phys. Commun. 151, 272 (2003); the gradient by a shifted force as J. Wisdom, M. Holman, "
+                 "J. Touma, Fields Inst. Commun. 10, 217 (1996)",
+       .order_undamped = 4,
+       .order_damped = 2,
+       .vectors = 5,
+       .keeps_displacement = false,
+       .note = "Fourth order without damping for three evaluations per step, with energy that does not drift, while no "
+               "spring switches; second with it.",
+       .stability = "stable up to hω = 2√3 without damping; oscillations lag by (hω)⁵/4320 per step",
+       .cost = "three evaluations of the force",
+       .formula =
+           R"(Verlet's step with kicks of $\tfrac16$, $\tfrac23$ and $\tfrac16$ of $dt$, whose middle one has the )"
+           R"(force's gradient in it: $v_1 = v + \tfrac16 dt\,a(x)$, $\;x_m = x + \tfrac12 dt\,v_1$, $\;v_2 = v_1 + )"
+           R"(\tfrac23 dt\,\tilde a(x_m)$, $\;x' = x_m + \tfrac12 dt\,v_2$, $\;v' = v_2 + \tfrac16 dt\,a(x')$ with )"
+           R"($\tilde a(x) = a(x + \tfrac1{24} dt^2 a(x)) = a + \tfrac1{48} dt^2\,\nabla |a|^2 + O(dt^4)$. A step's )"
+           R"(last kick and the next one's first are one, so a step costs three evaluations. All coefficients are )"
+           R"(positive, which no splitting of fourth order without the gradient can have. Damping sees a )"
+           R"(second-order prediction of the velocity.)",
+       .sweeps =
+           {{x,
+             4,
+             0,
+             {{v, {{v, 1, 0}, {a, 1.0 / 3, 1}}}, {2, {{x, 1, 0}, {v, 0.5, 1}}}, {4, {{v, 1, 0}, {a, 1.0 / 3, 1}}}}},
+            {2, 4, 0, {{3, {{2, 1, 0}, {a, 1.0 / 24, 2}}}}},
+            {3,
+             4,
+             0,
+             {{v, {{v, 1, 0}, {a, 2.0 / 3, 1}}}, {x, {{2, 1, 0}, {v, 0.5, 1}}}, {4, {{v, 1, 0}, {a, 1.0 / 6, 1}}}}}},
+       .start = {{4, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -1.0 / 6, 1}}}},
+       .lag = 1.0 / 6},
   };
 }
 

@@ -30,7 +30,7 @@ std::vector<Scheme> implicit_schemes() {
                   R"(shrinks by a factor of $1/\sqrt{1 + (\omega\,dt)^2}$ per step.)",
        .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
       {.name = "implicit_midpoint",
        .title = "Implicit midpoint",
        .equation = "",
@@ -52,7 +52,7 @@ std::vector<Scheme> implicit_schemes() {
                    0.5,
                    {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
       // The trapezium to t + γ dt, then BDF2 over both points, γ = 2 - √2: both solve with γ/2.
       {.name = "tr_bdf2",
        .title = "TR-BDF2",
@@ -78,7 +78,7 @@ std::vector<Scheme> implicit_schemes() {
                    {}},
                   {2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, gamma / 2, {}}},
        .start = {},
-       .lags = false},
+       .lag = 0},
   };
 }
 

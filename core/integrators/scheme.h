@@ -79,7 +79,7 @@ struct Scheme {
   /// What the vectors become at the start, in order, from x in vector 0, v in vector 1 and a(x, v); none: these are
   /// kept.
   std::vector<Assignment> start;
-  bool lags;  ///< vector 1 holds the velocity of half a step ago: dt/2 a more belongs to the position
+  double lag;  ///< vector 1 lacks the end of the last kick: lag·dt·a(x, v) more is the velocity at the position
   std::optional<Estimate> estimate = {};  ///< it chooses its own steps
 };
 

@@ -60,7 +60,7 @@ Damping between constraints would not be $k_d$ of (2.6), which acts on slack spr
                       .assignments = {{v, {{q, 1, -1}}}, {x, {{x, 1, 0}, {q, 1, 0}}}},
                       .projects = true}},
           .start = {},
-          .lags = false};
+          .lag = 0};
 }
 
 }  // namespace tyglab

@@ -186,7 +186,7 @@ TEST_CASE("in every shape the cloth's own limit lies between the worst-case limi
     const Linearisation cloth(simulation);
     if (!(cloth.largest_stiffness(1e-9) > 0)) continue;  // no spring pulls
     const std::vector<Mode> modes = extreme_modes(cloth, exact_tolerance);
-    for (const char* method : {"verlet", "velocity_verlet", "rk4", "rkn4"}) {
+    for (const char* method : {"verlet", "velocity_verlet", "rk4", "rkn4", "force_gradient4"}) {
       CAPTURE(method);
       p.integrator = method;
       const double own = dt_crit(scheme(method), modes);

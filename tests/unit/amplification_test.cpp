@@ -38,6 +38,7 @@ TEST_CASE("stability limits have their closed forms") {
   CHECK(stability_limit(scheme("velocity_verlet"), 0) == doctest::Approx(2).epsilon(1e-4));
   // As docs/integrators.md says them.
   CHECK(stability_limit(scheme("rkn4"), 0) == doctest::Approx(2.59).epsilon(2e-3));
+  CHECK(stability_limit(scheme("force_gradient4"), 0) == doctest::Approx(2 * std::sqrt(3.0)).epsilon(1e-4));
   CHECK(stability_limit(scheme("dopri5"), 0) == doctest::Approx(1).epsilon(5e-3));
   CHECK(2 * stability_limit(scheme("dopri5"), 1e3) * 1e3 == doctest::Approx(3.31).epsilon(2e-3));
   CHECK(stability_limit(scheme("rk4"), 0) == doctest::Approx(2 * std::sqrt(2.0)).epsilon(1e-6));

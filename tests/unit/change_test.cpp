@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <thread>
 
 #include "core/cloth/start.h"
 #include "core/integrators/scheme.h"
@@ -49,6 +50,20 @@ TEST_CASE("a change of a constant keeps the state and counts from the next step"
     other.advance(50);
     CHECK_FALSE(simulation.divergence().has_value());
     CHECK(furthest(simulation.read(), other.read()) > 1e-7);
+  }
+}
+
+TEST_CASE("a cloth can be read while another thread makes of it what a change asks for") {
+  Preset preset = test::cloth(40, 40, "velocity_verlet");  // whose velocity takes an evaluation of the force
+  Simulation simulation(preset, 2), alone(preset, 2);
+  for (int n = 0; n < 20; ++n) {
+    simulation.advance(5), alone.advance(5);
+    std::unique_ptr<Simulation> made;
+    std::thread worker([&] { made = simulation.rebuilt(edit::Change{changed(preset, "precision=double")}); });
+    const State seen = simulation.read();
+    worker.join();
+    CHECK(test::identical(seen, alone.read()));
+    CHECK(furthest_velocity(made->read(), seen) < 1e-5);
   }
 }
 

@@ -128,8 +128,8 @@ void stage_text(Ui& ui, const StepTrace& trace, std::size_t n) {
           c.text);
   ImGui::PopFont();
   line(ui, "x", steady_vector(stage.x) + " m", c.text);
-  line(ui, method.lags ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
-  if (method.lags) words(ui, "the velocity that damping uses: between two steps, or predicted", c.quiet);
+  line(ui, method.lag != 0 ? "v, seen" : "v", steady_vector(stage.v) + " m/s", c.text);
+  if (method.lag != 0) words(ui, "the velocity that damping uses: between two steps, or predicted", c.quiet);
   springs(ui, stage);
   forces(ui, stage, ui.session.preset().m);
   if (!trace.whole) return;

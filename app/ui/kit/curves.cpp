@@ -29,6 +29,7 @@ CurveStyle integrator_style(const Tokens& c, std::string_view name) {
                                      {"velocity_verlet", 0x73DFFF, 0x4589A5, LineStyle::long_dash},
                                      {"rk4", 0xF0E442, 0x4C3C00, LineStyle::dash_dot},
                                      {"rkn4", 0xA1B058, 0x114D30, LineStyle::dash_dot_dot},
+                                     {"force_gradient4", 0xB0703C, 0x4A3AE0, LineStyle::long_dash},
                                      {"dopri5", 0x00FFE8, 0x281747, LineStyle::dash_dot_dot},
                                      {"implicit_euler", 0xD23E52, 0x440802, LineStyle::dashed},
                                      {"implicit_midpoint", 0x6C68E4, 0x916DDE, LineStyle::dotted},

@@ -242,8 +242,8 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
   assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision &&
          preset.integrator == cloth_.preset.integrator);
   const EffectSet changed = changes(cloth_.preset, preset);
-  // What lags half a step depends on dt, and the velocity must stay. All that takes memory comes first.
-  const bool shifts = scheme_->lags && changed.touches(Effect::dt);
+  // What lags depends on dt, and the velocity must stay. All that takes memory comes first.
+  const bool shifts = scheme_->lag != 0 && changed.touches(Effect::dt);
   State state;
   if (shifts && scheme_->keeps_displacement)
     accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
@@ -350,15 +350,15 @@ std::vector<Contact> CpuEngine<R, Present>::contacts() const {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_stored(state);
-  if (!scheme_->lags) return;
+  if (scheme_->lag == 0) return;
   accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
-  const double half_dt = cloth_.preset.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
+  const double lag = scheme_->lag * cloth_.preset.dt;  // s; in double: what a float would lose is shown in plots
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
       const std::size_t to = std::size_t(i) * cloth_.lattice.columns + j;
-      state.v.x[to] += half_dt * acceleration_.row(i, 0)[j];
-      state.v.y[to] += half_dt * acceleration_.row(i, 1)[j];
-      state.v.z[to] += half_dt * acceleration_.row(i, 2)[j];
+      state.v.x[to] += lag * acceleration_.row(i, 0)[j];
+      state.v.y[to] += lag * acceleration_.row(i, 1)[j];
+      state.v.z[to] += lag * acceleration_.row(i, 2)[j];
     }
 }
 
@@ -406,7 +406,7 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
   };
   const double scale = cloth_.velocity_scale();
   return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale,
-          scheme_->lags ? cloth_.preset.dt / 2 : 0};
+          scheme_->lag * cloth_.preset.dt};
 }
 
 template <class R, unsigned Present>

@@ -269,14 +269,14 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
-  const bool shifts = scheme_->lags && changes(preset_, preset).touches(Effect::dt);
+  const bool shifts = scheme_->lag != 0 && changes(preset_, preset).touches(Effect::dt);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
   state_.end_views();
   accept_changes(tears);
   State kept;
-  // What lags half a step depends on dt, and the velocity must stay.
+  // What lags depends on dt, and the velocity must stay.
   if (shifts && !scheme_->keeps_displacement) read(kept, tears);
   if (shifts && scheme_->keeps_displacement) {
     // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.

@@ -24,16 +24,16 @@ template <class R>
 void OpenClEngine<R>::read(State& state, const Tears& tears) {
   accept_changes(tears);
   read_stored(state);
-  if (!scheme_->lags) return;
+  if (scheme_->lag == 0) return;
   accelerations();
   R* const a = state_.map(acceleration_.get(), CL_MAP_READ);
-  const double half_dt = preset_.dt / 2;  // v[n] + dt/2 a, in double: what a float would lose is shown in plots
+  const double lag = scheme_->lag * preset_.dt;  // s; in double: what a float would lose is shown in plots
   Array<double>* components[] = {&state.v.x, &state.v.y, &state.v.z};
   for (int i = 0; i < lattice_.rows; ++i)
     for (int c = 0; c < 3; ++c) {
       const R* row = StateView<R>::row(a, state_.stride(), i, c);
       double* v = components[c]->data() + std::size_t(i) * lattice_.columns;
-      for (int j = 0; j < lattice_.columns; ++j) v[j] += half_dt * row[j];
+      for (int j = 0; j < lattice_.columns; ++j) v[j] += lag * row[j];
     }
   state_.unmap(acceleration_.get(), a);
 }
@@ -63,7 +63,7 @@ template <class R>
 StoredParticle OpenClEngine<R>::stored(int i, int j) const {
   const auto at = [&](int vector) { return state_.at(vector, i, j); };
   const double scale = velocity_scale();
-  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lags ? preset_.dt / 2 : 0};
+  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lag * preset_.dt};
 }
 
 template <class R>
