@@ -145,11 +145,12 @@ int boundary(const BenchOptions& options) {
   const std::string slack_title = "A slack cloth: dt from which it diverges within " +
                                   std::to_string(cases.slack_steps) +
                                   " steps, and the limits as it hangs and for any configuration";
+  // dt's limit goes with 1/√k_s: what is within 1 % in dt is so within 2 % in k_s.
   const Part parts[] = {
       {What::dt, cases.dt, "Taut sheet: dt from which a method is unstable, s",
        "     k_s       k_d    predicted     measured    ratio", 0.01},
       {What::k_s, cases.k_s, "Taut sheet: k_s from which a method is unstable, N/m",
-       "      dt       k_d    predicted     measured    ratio", 0.01},
+       "      dt       k_d    predicted     measured    ratio", 0.02},
       {What::growth, cases.growth,
        "Taut sheet: growth per step (natural logarithm) of methods that are unstable at every dt",
        "      dt       k_d    predicted     measured    ratio", 0.05},
@@ -178,7 +179,7 @@ int boundary(const BenchOptions& options) {
     write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)}, bench_reach());
   if (const int code = bench_exit(options.outputs()); code != exit_done) return code;
   if (kept) return exit_done;
-  std::cerr << "tyglab: a method did not become unstable where predicted (1 %, growth 5 %); see the ratios.\n";
+  std::cerr << "tyglab: a method did not become unstable where predicted (dt 1 %, k_s 2 %, growth 5 %); see the ratios.\n";
   return exit_violation;
 }
 
