@@ -1,12 +1,12 @@
 #include "core/lockstep.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
+#include "core/model/clocks.h"
 #include "core/model/readable.h"
 
 namespace tyglab {
@@ -44,11 +44,11 @@ Edit with_own_steps(const Edit& edit, const Simulation& original, const Simulati
 
 }  // namespace
 
-void Lockstep::Cost::add(double simulated_s, double wall_s) {
+void Lockstep::Cost::add(double simulated_s, double computing_s) {
   if (simulated_s <= 0) return;
   const double kept = std::exp(-simulated_s / cost_settles);
   simulated_ = kept * simulated_ + simulated_s;
-  wall_ = kept * wall_ + wall_s;
+  computing_ = kept * computing_ + computing_s;
 }
 
 Preset copied_preset(const Preset& original, std::span<const Difference> differences) {
@@ -124,14 +124,14 @@ std::vector<std::string> Lockstep::resume(Simulation& original, int threads) {
 }
 
 void Lockstep::follow(double t) {
-  using Clock = std::chrono::steady_clock;
   for (Copy& copy : copies_) {
     Simulation& cloth = *copy.simulation;
     const int steps = steps_until(cloth, t);
     if (steps == 0 || cloth.divergence()) continue;
-    const auto start = Clock::now();
+    const EngineKind engine = cloth.preset().engine;
+    const double start = computing_seconds(engine);
     const int made = cloth.advance(steps).steps;
-    copy.cost.add(made * cloth.preset().dt, std::chrono::duration<double>(Clock::now() - start).count());
+    copy.cost.add(made * cloth.preset().dt, computing_seconds(engine) - start);
   }
 }
 

@@ -22,14 +22,14 @@ class Lockstep {
   static constexpr int largest = 256 * 256;    ///< particles of a cloth that is copied
   static constexpr double cost_settles = 0.5;  ///< s of simulated time over which a cost is smoothed
 
-  /// Seconds of the wall that a simulated second takes, smoothed.
+  /// Seconds of computing (computing_seconds) that a simulated second takes, smoothed.
   class Cost {
    public:
-    void add(double simulated_s, double wall_s);
-    double per_second() const { return simulated_ > 0 ? wall_ / simulated_ : 0; }  ///< 0 until it is known
+    void add(double simulated_s, double computing_s);
+    double per_second() const { return simulated_ > 0 ? computing_ / simulated_ : 0; }  ///< 0 until it is known
 
    private:
-    double simulated_ = 0, wall_ = 0;  ///< of the last steps, the older the less they count
+    double simulated_ = 0, computing_ = 0;  ///< of the last steps, the older the less they count
   };
 
   struct Copy {

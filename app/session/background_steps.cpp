@@ -1,12 +1,12 @@
 #include "app/session/background_steps.h"
 
-#include <chrono>
 #include <new>
 #include <utility>
 
 #include "app/session/engine_fallback.h"
 #include "app/session/session.h"
 #include "core/integrators/scheme.h"
+#include "core/model/clocks.h"
 
 namespace tyglab {
 namespace {
@@ -41,16 +41,18 @@ void BackgroundSteps::start(Session& session, int steps) {
   const double alone_until = session.copies.t + steps * session.preset().dt;
   const auto work = [cloth = cloth_, &copies = copies_, steps, alone_until](const JobControl& control) {
     const Stop stop = [&control] { return control.cancelled(); };
-    const auto begun = std::chrono::steady_clock::now();
+    const EngineKind engine = cloth->preset().engine;
+    const double begun = computing_seconds(engine), begun_on_wall = wall_seconds();
     const bool diverged = cloth->divergence().has_value();
     cloth->stop_when(stop), copies.stop_when(stop);
     StepsMadeBeside made;
     made.advance = cloth->advance(steps);
+    made.computing_s = computing_seconds(engine) - begun;
     made.steps = diverged ? steps : made.advance.steps;
     made.t = diverged ? alone_until : cloth->time();
     copies.follow(made.t);
     cloth->stop_when({}), copies.stop_when({});
-    made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    made.seconds = wall_seconds() - begun_on_wall;
     return made;
   };
   try {

@@ -19,10 +19,11 @@ struct Session;
 
 /// What has become of a piece of steps.
 struct StepsMadeBeside {
-  Advance advance;     ///< of the original; nothing where it had diverged
-  int steps = 0;       ///< of its dt, by which time has gone on
-  double t = 0;        ///< s, until which the copies were to go
-  double seconds = 0;  ///< that all of them took
+  Advance advance;         ///< of the original; nothing where it had diverged
+  int steps = 0;           ///< of its dt, by which time has gone on
+  double t = 0;            ///< s, until which the copies were to go
+  double seconds = 0;      ///< on the wall, that all of them took, those of the copies too
+  double computing_s = 0;  ///< of the original's steps alone
 };
 
 class BackgroundSteps {

@@ -200,15 +200,15 @@ void copies_resume(Session& session) {
   session.copies.forget();
 }
 
-void copies_note(Session& session, double t, double wall_s) {
+void copies_note(Session& session, double t, double computing_s) {
   Copies& copies = session.copies;
   if (copies.lockstep.empty()) return;
-  copies.cost.add(t - copies.t, wall_s);
+  copies.cost.add(t - copies.t, computing_s);
   copies.t = t;
 }
 
-void copies_follow(Session& session, double wall_s) {
-  copies_note(session, session.simulation->time(), wall_s);
+void copies_follow(Session& session, double computing_s) {
+  copies_note(session, session.simulation->time(), computing_s);
   session.copies.lockstep.follow(session.copies.t);
 }
 

@@ -68,10 +68,10 @@ bool put_away_copies(Session& session);
 /// What the original has been given or become, the copies are given or become.
 void copies_apply(Session& session, const Edit& edit);
 void copies_resume(Session& session);
-/// The original has come to time `t`, s, in `wall_s` seconds.
-void copies_note(Session& session, double t, double wall_s);
+/// The original has come to time `t`, s, in `computing_s` seconds of computing.
+void copies_note(Session& session, double t, double computing_s);
 /// The same, and the copies make the steps that the original has made.
-void copies_follow(Session& session, double wall_s);
+void copies_follow(Session& session, double computing_s);
 /// The original has diverged: the copies go on by themselves, for that many of its steps. Returns them.
 int copies_go_on(Session& session, int steps);
 void sample_copies(Session& session);

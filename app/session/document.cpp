@@ -91,6 +91,9 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
 bool save_document_as(Session& session, const std::filesystem::path& file, const std::string& name) {
   try {
     Preset preset = session.preset();
+    // What the former preset says of itself need not hold of another one that was made from it.
+    const Preset& former = session.document.saved;
+    if (name != former.name && preset.description == former.description && unsaved(session)) preset.description.clear();
     preset.name = name;
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
     // The program's own folder is made where it is missing; nobody else's.
@@ -107,7 +110,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
     Document saved{preset, file.stem().string(), file};
     if (!session.copies.lockstep.empty()) copied += ". Copies are no part of a preset.";
     std::string said = "Saved " + file.string() + copied, opened = saved.label;
-    session.rebuild.rename(name);
+    session.rebuild.rename(name, preset.description);
     if (!session.rebuild.holds_present()) apply_to_all(session, edit::Change{preset});
     if (session.labs.opened == session.document.label)
       session.labs.opened = std::move(opened);  // still the lab's cloth

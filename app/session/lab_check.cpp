@@ -132,11 +132,12 @@ std::string broken_in_words(Session& session, const Condition& check, const Chec
   const std::string was = subject(check) + " was " + (memory.was.empty() ? "not known" : memory.was);
   const std::string goal = goal_in_words(session, check);
   if (check.span == Span::when && memory.was.empty())
-    return words_of(check.when[0]) + " was true before this step began: restart, and reach it with " + subject(check) +
-           " " + goal;
+    return (asks_divergence(check.when[0]) ? "The cloth had diverged" : words_of(check.when[0]) + " was true") +
+           " before this step began: restart, and reach it with " + subject(check) + " " + goal;
   if (check.span == Span::when)
-    return was + at + ", when " + words_of(check.when[0]) + " became true: restart, and reach it with " +
-           subject(check) + " " + goal;
+    return was + at + ", when " +
+           (asks_divergence(check.when[0]) ? "the cloth diverged" : words_of(check.when[0]) + " became true") +
+           ": restart, and reach it with " + subject(check) + " " + goal;
   if (is_word(check.name)) return was + at + ": choose " + goal + ", and restart";
   return was + at + ": restart, and keep it " + goal + " from the beginning";
 }

@@ -136,7 +136,7 @@ std::string words_of_span(const Condition& condition) {
     case Span::lasting:
       return " for " + shortest_number(condition.seconds) + " s";
     case Span::when:
-      return " when " + words_of(condition.when[0]);
+      return " when " + (asks_divergence(condition.when[0]) ? "the cloth diverges" : words_of(condition.when[0]));
   }
   return "";
 }
@@ -161,6 +161,10 @@ std::string words_of_number(const Condition& condition) {
 }
 
 }  // namespace
+
+bool asks_divergence(const Condition& condition) {
+  return condition.name == "diverged" && condition.relation == Relation::equal && condition.right.word == "yes";
+}
 
 std::string shown_word(std::string_view name, std::string_view word) {
   if (name == "integrator") return std::string(scheme(word).title);

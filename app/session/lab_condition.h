@@ -15,6 +15,9 @@ Condition parse_condition(std::string_view value, bool first_step);
 /// may be off. Throws as parse_condition does.
 void parse_answer(std::string_view value, bool first_step, Prediction& given);
 
+/// "diverged = yes": a moment that has a verb of its own.
+bool asks_divergence(const Condition& condition);
+
 /// A word of an observable as people read it: "Verlet" for "verlet", "CPU" for "cpu".
 std::string shown_word(std::string_view name, std::string_view word);
 

@@ -97,9 +97,9 @@ void BackgroundRebuild::start(const Session& session) {
       });
 }
 
-void BackgroundRebuild::rename(const std::string& name) {
+void BackgroundRebuild::rename(const std::string& name, const std::string& description) {
   for (auto* order : {&making_, &next_})
-    if (*order) (*order)->target.name = name;
+    if (*order) (*order)->target.name = name, (*order)->target.description = description;
 }
 
 void BackgroundRebuild::poll(Session& session) {

@@ -88,7 +88,7 @@ class BackgroundRebuild {
   /// Keeps an edit for the cloth being built.
   void defer(Edit edit) { deferred_.push_back(std::move(edit)); }
   /// The cloth being built gets another name.
-  void rename(const std::string& name);
+  void rename(const std::string& name, const std::string& description);
   /// Called in every frame: takes the cloth that is ready, if one is.
   void poll(Session& session);
   /// Whether the ledger can be kept from now on without waiting for a compiler. Otherwise its program is being built.

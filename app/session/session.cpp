@@ -7,6 +7,7 @@
 #include "app/session/edits.h"
 #include "app/session/engine_fallback.h"
 #include "app/session/motion.h"
+#include "core/model/clocks.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {
@@ -134,11 +135,13 @@ void Session::make_steps(int due, const SessionInput& input) {
       background_steps.start(*this, piece);
       if (!background_steps.wait(std::max(pacing.budget_s - before, 0.0))) break;
       const StepsMadeBeside beside = background_steps.take(*this);
-      copies_note(*this, beside.t, beside.seconds);
+      copies_note(*this, beside.t, beside.computing_s);
       advance = beside.advance;
     } else {
+      const EngineKind engine = preset().engine;
+      const double begun = computing_seconds(engine);
       advance = simulation->advance(piece);
-      copies_follow(*this, spent() - before);
+      copies_follow(*this, computing_seconds(engine) - begun);
     }
     stepping_s = spent();
     made += advance.steps, steps_made += advance.steps;
@@ -153,7 +156,7 @@ void Session::make_steps(int due, const SessionInput& input) {
 void Session::take_steps() {
   const double dt = preset().dt;
   const StepsMadeBeside beside = background_steps.take(*this);
-  copies_note(*this, beside.t, beside.seconds);
+  copies_note(*this, beside.t, beside.computing_s);
   warn_of(beside.advance);
   steps_made += beside.steps;
   made_steps(beside.steps, beside.seconds, dt);

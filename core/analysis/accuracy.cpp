@@ -1,9 +1,7 @@
 #include "core/analysis/accuracy.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
 
 #include "core/integrators/scheme.h"
@@ -24,13 +22,12 @@ std::int64_t evaluations(const Scheme& scheme, const Simulation& simulation) {
 AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, const Preset& preset, int steps,
                      const Stop& stop) {
   AccuracyRow row{scene.name, preset.integrator, preset.precision, preset.engine, preset.dt};
-  const auto clock = preset.engine == EngineKind::cpu ? thread_seconds : wall_seconds;
   Simulation simulation(preset);
   Track track;
   for (int n = 0; n < accuracy_samples && !simulation.divergence(); ++n) {
-    const double start = clock();
+    const double start = computing_seconds(preset.engine);
     simulation.advance(steps);
-    row.seconds += clock() - start;
+    row.seconds += computing_seconds(preset.engine) - start;
     if (stop()) throw Stopped();
     track.push_back(positions_of(simulation));
   }
@@ -55,16 +52,6 @@ AccuracyRow run_once(const AccuracyScene& scene, const Reference& reference, con
 
 std::string_view name_of(AccuracyStatus status) {
   return status == AccuracyStatus::ok ? "ok" : status == AccuracyStatus::below_floor ? "below_floor" : "diverged";
-}
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
-
-double wall_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 bool can_tell(const Reference& reference, double error_rms_m) {

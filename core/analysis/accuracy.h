@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/analysis/reference.h"
+#include "core/model/clocks.h"
 
 namespace tyglab {
 
@@ -35,12 +36,6 @@ struct AccuracyEffort {
   int repeats = 6;         ///< of a run that is short, beside the first
   double repeated_below_s = 0.04;
 };
-
-/// Processor time of this thread so far, s: what another process takes meanwhile is not in it.
-double thread_seconds();
-
-/// A clock on the wall, s: a device's work is not this thread's.
-double wall_seconds();
 
 /// The least dt that presets allow, s.
 inline constexpr double least_dt = 1e-7;

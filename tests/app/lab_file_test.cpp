@@ -174,6 +174,7 @@ TEST_CASE("a check says over which part of the motion it is judged") {
   CHECK(words_of(check("fastest < 0.1 m/s for 0.5 s")) == "fastest < 0.1 m/s for 0.5 s");
   CHECK(check("fastest < 0.1 m/s for 0.5").seconds == 0.5);
   CHECK(words_of(check("F_max < 0.1 N when torn > 0")) == "F_max < 0.1 N when torn > 0");
+  CHECK(words_of(check("k_s > 185 when diverged = yes")) == "k_s > 185 N/m when the cloth diverges");
   CHECK(words_of(check("untouched = yes throughout")) == "Nothing else changed throughout");
   CHECK(words_of(check("untouched = no")) == "Nothing else changed: no");
   CHECK(says(problem_in("check: k_s > 3 N/m thruoghout"), "my.md:8: \"thruoghout\" ends no check; did you mean"));

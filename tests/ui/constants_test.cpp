@@ -83,6 +83,30 @@ TEST_CASE("a value typed after Ctrl+click is taken; Escape, nonsense and values 
   CHECK(window.preset().dt == 1e-3);
 }
 
+TEST_CASE("a field whose value was refused keeps the keys, and what is typed next replaces its text") {
+  for (const char* wrong : {"abc", "-3"}) {
+    CAPTURE(wrong);
+    test::NullUi window;
+    window.pause();
+    const int view = window.preset().mode;
+    window.double_click(window.middle("constants.k_s.value"));
+    REQUIRE(window.typing());
+    window.type(wrong);
+    window.key(GLFW_KEY_ENTER);
+    window.frames(3);
+    CHECK(window.preset().k_s == preset_k_s);
+    REQUIRE(window.typing());
+    const std::size_t said = window.session.messages.list().size();
+    window.type("15");
+    window.key(GLFW_KEY_ENTER);
+    window.frames(3);
+    CHECK(window.preset().k_s == 15);
+    CHECK(window.preset().mode == view);
+    CHECK_FALSE(window.typing());
+    CHECK(window.session.messages.list().size() == said);
+  }
+}
+
 TEST_CASE("a double click on a number lets one type it, also while its slider has the keys; Ctrl+Q quits from there") {
   test::NullUi window;
   window.pause();

@@ -40,6 +40,7 @@ TEST_CASE("a preset is saved to a file and loaded again; what is not saved is as
   const Preset saved = load_preset(file);
   CHECK(saved.k_s == 123);
   CHECK(saved.name == "Stiff cloth");
+  CHECK(saved.description.empty());  // "The default scene." is said of another one
   const test::Outcome judged = test::tyglab(window.config.path(), {"presets", "check", file.string()});
   CHECK(judged.code == 0);
 
@@ -99,8 +100,15 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   open_dialog(window, Kind::save);
   save_as(window, "Soft and slow", file);
   CHECK(window.settings.recent == std::vector<std::string>{file.string()});
+  CHECK_FALSE(load_preset(file).description.empty());  // nothing but the name is another
+  window.settings.tour_seen = false;
   window.click("top.brand");
   window.frames(2);
+  CHECK(window.drew("Start with this cloth"));
+  window.click("dialog.Start_with_this_cloth");
+  window.click("top.brand");
+  window.frames(2);
+  CHECK(window.drew("Continue with the cloth"));
   REQUIRE(window.ui.dialog.kind == Kind::start);
   CHECK(window.drew("Recent work"));
   CHECK(window.sees("dialog.entry.Soft_and_slow"));

@@ -260,6 +260,9 @@ void NullUi::type_value(const std::string& constant, std::string_view text, int 
   frames(2);
   type(text);
   key(end);
+  until([&] { return !typing() || !ui.slider.refused.empty(); }, "Enter to be seen");
+  frames(2);
+  if (ui.slider.typing != 0) key(escape);
   until([&] { return !typing(); }, "the text field to close");
   frames(2);
 }

@@ -74,7 +74,7 @@ class NullUi : public Desk {
   glm::vec2 along(const std::string& slider, float part);
   /// Turns the wheel over another control, downwards, until the control is seen.
   void scroll_to(const std::string& name, const std::string& over);
-  /// Types the value of a constant after Ctrl+click; the key ends it.
+  /// Types the value of a constant after Ctrl+click; the key ends it. One that is refused is given up by Escape.
   void type_value(const std::string& constant, std::string_view text, int end = enter);
   /// Does what the palette finds first.
   void find(std::string_view text);

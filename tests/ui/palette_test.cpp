@@ -86,6 +86,8 @@ TEST_CASE("menu, palette and help have every command: they read the same rows") 
       CHECK(palette_has(row.name) == why_not(window.ui, row).empty());
     }
   }
+  window.click("menu.File");
+  CHECK(window.control("menu.Quit").lo.y > window.control("menu.Presets").hi.y);
   window.click("menu.View");
   window.click("menu.Views_of_the_cloth");
   window.click("menu.Outlines");

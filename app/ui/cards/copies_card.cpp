@@ -86,7 +86,17 @@ void head(Ui& ui) {
   const Columns at = columns_of(ui);
   const float middle = lo.y + ui.theme.px(card::line) / 2;
   const Tokens& c = ui.theme.colors;
-  if (costs_shown(ui)) right_aligned(ui, *ui.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
+  if (costs_shown(ui)) {
+    right_aligned(ui, *ui.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
+    const float width = ui.theme.px(cost_at_1);
+    ImGui::SetCursorScreenPos({lo.x + at.cost - width, lo.y});
+    ImGui::InvisibleButton("cost", {width, ui.theme.px(card::line)});
+    report_control(ui, "cost");
+    tooltip(ui, gui::item_id(),
+            "Seconds of computing per simulated second, on the thread that makes the steps. What other programs take "
+            "meanwhile does not count, except with OpenCL.");
+    ImGui::SetCursorScreenPos(lo);
+  }
   right_aligned(ui, *ui.fonts.small, lo.x + at.apart, middle, c.quiet, "apart, m");
   ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }

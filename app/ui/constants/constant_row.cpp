@@ -122,10 +122,13 @@ void take(Ui& ui, const Line& line, int k, const SliderResult& result, unsigned 
   double next[3] = {line.value[0], line.value[1], line.value[2]};
   if (result.reset && !std::isnan(line.saved[k])) {
     next[k] = line.saved[k];
-  } else if (due && result.value != line.value[k] && in_range(ui, line, result.value)) {
-    next[k] = result.value;
-  } else {
+  } else if (!due || result.value == line.value[k]) {
     return;
+  } else if (!in_range(ui, line, result.value)) {
+    if (result.typed != 0) type_again(ui.slider, result.typed);
+    return;
+  } else {
+    next[k] = result.value;
   }
   line.set(next, gesture);
 }

@@ -284,7 +284,8 @@ void start_page(Ui& ui) {
   ImGui::Dummy({0, ui.theme.px(2)});
   gallery(ui, ImGui::GetIO().DisplaySize.y - ui.theme.px(218));
   if (ui.dialog.kind != DialogKind::start) return;
-  if (text_button(ui, "Continue with the cloth", true)) return close(ui);
+  if (text_button(ui, ui.dialog.first_start ? "Start with this cloth" : "Continue with the cloth", true))
+    return close(ui);
   ImGui::SameLine();
   if (text_button(ui, "Take the tour")) close(ui), ui.command("start_tour");
 }
@@ -325,6 +326,7 @@ void open_dialog(Ui& ui, DialogKind kind) {
   const fs::path own = user_preset_folder();
   if (kind == DialogKind::open || kind == DialogKind::start) {
     fill_gallery(ui, kind == DialogKind::start);
+    dialog.first_start = kind == DialogKind::start && !ui.settings.tour_seen;
     ui.settings.tour_seen |= kind == DialogKind::start;
   } else if (kind == DialogKind::save) {
     set(dialog.name, ui.session.preset().name);

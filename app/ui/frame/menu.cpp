@@ -21,6 +21,11 @@ constexpr Place places[] = {{"File", "Preset", "Presets"},          {"Motion", "
                             {"Cloth", "Color", "Colors"},           {"Cards", "Copy", "Copies"},
                             {"View", "View", "Views of the cloth"}, {"Labs and help", "Lab", "Labs"}};
 
+/// Below a line, where it is not hit by mistake.
+bool stands_last(const CommandRow& row) {
+  return std::string_view(row.id) == "quit";
+}
+
 void command_item(Ui& ui, const CommandRow& row) {
   const std::string obstacle = why_not(ui, row);
   const char* keys = *row.keys != 0 ? row.keys : nullptr;
@@ -56,9 +61,12 @@ void application_menu(Ui& ui, const char* id) {
   if (ImGui::IsWindowAppearing()) ui.menu = palette_entries(ui);
   for (const CommandTopic& topic : command_topics())
     submenu(ui, topic.name, [&] {
-      for (const CommandRow& row : topic.rows) command_item(ui, row);
+      for (const CommandRow& row : topic.rows)
+        if (!stands_last(row)) command_item(ui, row);
       for (const Place& place : places)
         if (place.topic == topic.name) submenu(ui, place.name, [&] { group_items(ui, place.group); });
+      for (const CommandRow& row : topic.rows)
+        if (stands_last(row)) ImGui::Separator(), command_item(ui, row);
     });
   end_menu();
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <variant>
 
 #include "app/base/numbers.h"
@@ -53,6 +54,7 @@ void start_typing(SliderState& state, unsigned id, double value) {
   state.typing = id;
   state.typing_starts = true;
   state.commit = state.cancel = false;
+  state.refused.clear();
   std::snprintf(state.text, sizeof state.text, "%.10g", value);
 }
 
@@ -204,12 +206,15 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   const bool ended = (state.commit || state.cancel) && !ui.input.unread;
   const bool over = ended || (!state.typing_starts && !ImGui::IsItemActive());
   if (!over) return;
-  state.typing = 0;
-  if (state.cancel) return;
+  const unsigned field = std::exchange(state.typing, 0);
+  // Who leaves what was refused gives it up.
+  if (state.cancel || (!state.commit && state.refused == state.text)) return;
   if (const auto typed = typed_number(state.text, unit)) {
     result.changed = result.finished = *typed != value;
     result.value = *typed;
+    if (state.commit) result.typed = field;
   } else {
+    if (state.commit) type_again(state, field);
     ui.messages.error(std::string("“") + state.text + "” is not a number" +
                       (unit.empty() ? "" : " in " + std::string(unit)) +
                       "; the value stays. Type one such as 310 or 1e-4.");
@@ -217,6 +222,13 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
 }
 
 }  // namespace
+
+void type_again(SliderState& state, unsigned field) {
+  state.typing = field;
+  state.typing_starts = true;
+  state.commit = state.cancel = false;
+  state.refused = state.text;
+}
 
 SliderScale slider_scale(const PresetRow& row, double preset_value) {
   const SliderRange range = slider_range(row, preset_value);

@@ -28,10 +28,14 @@ struct SliderResult {
   bool finished = false;  ///< the drag (or the key) is over
   bool reset = false;     ///< double click: back to the preset's value
   double value = 0;
+  unsigned typed = 0;  ///< the field in which Enter gave it; 0: not given so
 };
 
 /// Draws it at the cursor and takes mouse and keys. Shift drags ten times finer.
 SliderResult slider(UiContext& ui, const SliderScale& scale, double value, float width, float height);
+
+/// What was typed there is not accepted: the field keeps the keys, with all of its text selected.
+void type_again(SliderState& state, unsigned field);
 
 /// A value that is dragged sideways (`scale` tells how far) or typed: component of a vector.
 SliderResult drag_cell(UiContext& ui, const char* id, const SliderScale& scale, double value, float width, float height,

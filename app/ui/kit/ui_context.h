@@ -33,6 +33,7 @@ struct SliderState {
   bool typing_starts = false;
   bool commit = false, cancel = false;  ///< Enter, Escape while typing
   char text[64] = "";
+  std::string refused;  ///< what was typed last and not accepted: its field keeps the keys
   unsigned dragged = 0;
   double position = 0;                                   ///< of the drag, 0 to 1, finer than the value shows
   double value = 0;                                      ///< of the drag, for constants that are taken when it ends

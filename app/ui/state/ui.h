@@ -81,6 +81,7 @@ struct Dialog {
   bool enter = false;                     ///< Enter was pressed in this frame
   bool path_follows = false;              ///< the path is made from the name until it is edited
   bool overwrite = false;                 ///< the file exists, and the user is asked
+  bool first_start = false;               ///< of start: there is nothing yet to continue with
   bool whole_window = false;              ///< of picture
   const CommandRow* exporting = nullptr;  ///< of write_export
   std::optional<Request> then;            ///< of a question: what follows a yes
