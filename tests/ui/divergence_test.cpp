@@ -122,6 +122,32 @@ TEST_CASE("after a divergence the past can be had back: paused, with the constan
   CHECK(window.t() < later - 0.5);
 }
 
+TEST_CASE("a replay is colored by strain, until the cloth that it led to is left") {
+  test::NullUi window({.preset = "explodes"});
+  window.ui.color_by(ParticleField::speed);
+  explode(window);
+  const auto field = [&] { return window.scene.colors.chosen->field; };
+  const auto replay = [&] {
+    window.ui.command("replay");
+    window.until([&] { return window.session.replay.has_value(); }, "the replay to begin");
+    CHECK(field() == ParticleField::strain);
+  };
+  const auto restart = [&] {
+    window.ui.command("restart");
+    window.until([&] { return !window.session.replay && !window.diverged(); }, "the replay to be left");
+    window.frames(1);
+  };
+  replay();
+  restart();
+  CHECK(field() == ParticleField::speed);
+  CHECK(window.settings.color == std::string(info(ParticleField::speed).name));
+  explode(window);
+  replay();
+  window.ui.color_by(ParticleField::tension);  // what is chosen meanwhile stays
+  restart();
+  CHECK(field() == ParticleField::tension);
+}
+
 TEST_CASE("the banner offers 0.9 of dt_crit, from a second back") {
   test::NullUi window;
   const double t = push_over(window);

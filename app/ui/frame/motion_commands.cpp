@@ -36,7 +36,7 @@ std::string no_replay(const Ui& ui) {
 }
 
 void replay_slowly(Ui& ui) {
-  if (ui.session.preset().kind == Kind::cloth) ui.color_by(ParticleField::strain);
+  if (ui.session.preset().kind == Kind::cloth) ui.color_replay();
   ui.session.request(request::Replay{});
 }
 

@@ -18,6 +18,20 @@ void Ui::color_by(std::optional<ParticleField> field) {
   settings.color = field ? info(*field).name : "";
 }
 
+void Ui::color_replay() {
+  const auto& chosen = scene.colors.chosen;
+  if (!color_before_replay_) color_before_replay_.emplace(chosen ? std::optional(chosen->field) : std::nullopt);
+  scene.colors.choose(ParticleField::strain);
+}
+
+/// The replay's coloring stays while what it led to is seen; what was chosen meanwhile stays altogether.
+void Ui::follow_replay() {
+  if (!color_before_replay_ || session.replay || session.simulation->divergence()) return;
+  const auto& chosen = scene.colors.chosen;
+  if (chosen && chosen->field == ParticleField::strain) scene.colors.choose(*color_before_replay_);
+  color_before_replay_.reset();
+}
+
 /// A file of the user's that is open; a lab's cloth is none.
 void Ui::remember_recent() {
   constexpr std::size_t most = 8;
@@ -33,6 +47,7 @@ void Ui::follow() {
   const SessionCounts& counts = session.counts;
   if (counts.documents != seen_.documents) slider = SliderState{}, constants_to_top = true;
   remember_recent();
+  follow_replay();
   if (counts.copies_added != seen_.copies_added) {
     settings.layout.folded.erase(card_name::copies);
     if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;

@@ -180,6 +180,8 @@ struct Ui : UiContext {
   const char* keys_of(std::string_view id) const;
   /// What colors the cloth from now on; none: its own look. Remembered for the next session.
   void color_by(std::optional<ParticleField> field);
+  /// By strain, for a replay; the coloring of before comes back when the cloth that it led to is left.
+  void color_replay();
   /// Does what was asked for, in order.
   void run_actions();
   /// Follows what became of the session since the last call.
@@ -187,7 +189,9 @@ struct Ui : UiContext {
 
  private:
   void remember_recent();
+  void follow_replay();
   SessionCounts seen_;
+  std::optional<std::optional<ParticleField>> color_before_replay_;  ///< none: no replay has set it
 };
 
 }  // namespace tyglab
