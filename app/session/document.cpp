@@ -16,9 +16,9 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
-void go_on_from(Session& session, const Resumption& where) {
+void go_on_from(Session& session, Resumption where) {
   if (where.state && session.simulation->fits(*where.state)) session.simulation->restore(*where.state);
-  session.history = where.history;
+  session.history = std::move(where.history);
 }
 
 /// The middle of the cloth, so that there is something to read at once.
@@ -29,8 +29,8 @@ std::optional<Pins::Site> first_pick(const Session& session) {
 
 }  // namespace
 
-void begin_document(Session& session, const Document& document) {
-  session.document = document;
+void begin_document(Session& session, Document document) {
+  session.document = std::move(document);
   if (session.show_texture)
     if (const auto problem = session.show_texture(session.preset().texture)) session.messages.error(*problem);
   session.history.clear(), session.rewind.clear(), session.curves.clear(), session.auto_dt.reset();
@@ -51,13 +51,13 @@ std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, s
   }
 }
 
-void take_built(Session& session, std::unique_ptr<Simulation> simulation, const BuildOrder& order) {
+void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildOrder order) {
   settle(session);
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));
   if (order.document) {
-    begin_document(session, *order.document);
-    return order.resumption ? go_on_from(session, *order.resumption) : void();
+    begin_document(session, std::move(*order.document));
+    return order.resumption ? go_on_from(session, std::move(*order.resumption)) : void();
   }
   follow_up(session, before);
   if (!order.fresh) return;
@@ -73,7 +73,7 @@ void reopen_document(Session& session, const Preset& preset, const Document& doc
   auto simulation = make_simulation(preset, session.threads, fallback);
   if (!fallback.empty()) session.messages.warning(fallback);
   session.rebuild.drop();
-  take_built(session, std::move(simulation), order);
+  take_built(session, std::move(simulation), std::move(order));
 }
 
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,

@@ -21,7 +21,7 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
 void reopen_document(Session& session, const Preset& preset, const Document& document,
                      std::optional<Resumption> resumption = {});
 /// Takes what has been built as the present cloth; what follows belongs to an edit, or to a preset that is opened.
-void take_built(Session& session, std::unique_ptr<Simulation> simulation, const BuildOrder& order);
+void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildOrder order);
 /// Why a preset could not be saved.
 struct SaveProblem {
   std::filesystem::path file;
@@ -32,6 +32,6 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
 /// A preset's simulation. Where its engine is not there, the CPU runs it, and `fallback` says why.
 std::unique_ptr<Simulation> make_simulation(const Preset& preset, int threads, std::string& fallback);
 /// Puts the session at the beginning of a preset: nothing to undo, a particle picked, its texture shown.
-void begin_document(Session& session, const Document& document);
+void begin_document(Session& session, Document document);
 
 }  // namespace tyglab

@@ -143,7 +143,7 @@ bool BackgroundRebuild::available(const BuildOrder& made) const {
 }
 
 void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
-  const BuildOrder order = *std::exchange(making_, std::nullopt);
+  BuildOrder order = *std::exchange(making_, std::nullopt);
   const bool use = available(order);
   dropped_ = false;
   if (!use) {
@@ -151,11 +151,11 @@ void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
     if (next_) start(session);
     return;
   }
-  take(session, std::move(made), order);
+  take(session, std::move(made), std::move(order));
   if (next_) go_on(session);
 }
 
-void BackgroundRebuild::take(Session& session, BuiltCloth made, const BuildOrder& order) {
+void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order) {
   edit::Change change{order.target};
   if (order.programs) {
     const Preset before = session.preset();
@@ -166,7 +166,7 @@ void BackgroundRebuild::take(Session& session, BuiltCloth made, const BuildOrder
   change.preset.engine = made.simulation->preset().engine;  // the CPU's, where the device failed
   if (!(change.preset == made.simulation->preset())) made.simulation->apply(change);  // it has been renamed
   if (!made.fallback.empty()) session.messages.warning(std::move(made.fallback));
-  take_built(session, std::move(made.simulation), order);
+  take_built(session, std::move(made.simulation), std::move(order));
 }
 
 /// From what has just been taken to what has been asked for since.

@@ -101,7 +101,7 @@ class BackgroundRebuild {
   bool available(const BuildOrder& made) const;
   void start(const Session& session);
   void finish(Session& session, BuiltCloth made);
-  void take(Session& session, BuiltCloth made, const BuildOrder& order);
+  void take(Session& session, BuiltCloth made, BuildOrder order);
   void go_on(Session& session);
   void give_up(Session& session, const JobError& why);
 

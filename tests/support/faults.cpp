@@ -175,6 +175,7 @@ void inject(const Campaign& campaign, const Make& make) {
     REQUIRE_MESSAGE(!counted.refused, std::string(campaign.operation) << ", without a fault: " << counted.sentence);
     wanted.done = scene->outcome();
   }
+  constexpr std::int64_t last = 20;  // where what has been made takes the place of what was there
   const std::int64_t all = counted.calls, dense = std::min(all, campaign.dense);
   const std::int64_t stride = std::max<std::int64_t>((all - dense) / std::max<std::int64_t>(campaign.dense, 1), 1);
   std::int64_t tried = 0, survived = 0;
@@ -198,7 +199,7 @@ void inject(const Campaign& campaign, const Make& make) {
     CHECK_MESSAGE(wrong.empty(), which << wrong);
   };
   const bool lasts = campaign.kind == Fault::write || campaign.kind == Fault::driver;
-  for (std::int64_t n = 1; n <= all; n += n < dense ? 1 : stride) {
+  for (std::int64_t n = 1; n <= all; n += n < dense || n + last >= all ? 1 : stride) {
     inject_at(n, lasts);
     if (campaign.lasts) inject_at(n, true);
   }

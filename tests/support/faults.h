@@ -65,8 +65,8 @@ class Scene {
 /// Lets every call of that kind in the operation fail in turn, and checks each time what the scene says, and that no
 /// memory, file or thread is left; then, in turn, that the scene goes on as if nothing had been asked of it, or that
 /// the operation succeeds when it is repeated and that it goes on as if nothing had failed. The first `dense` calls
-/// each, and of the rest every so many that there are about as many more. Prints "FAULTS <operation>: <kind> <faults
-/// tried> <survived>".
+/// each, the last ones too, and of the rest every so many that there are about as many more. Prints "FAULTS
+/// <operation>: <kind> <faults tried> <survived>".
 struct Campaign {
   const char* operation;
   Fault kind;

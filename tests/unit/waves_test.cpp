@@ -34,8 +34,8 @@ void same_as_single_steps(const Preset& preset, int steps, int threads) {
 }
 
 TEST_CASE("waves give the bits of single steps, with every integrator" * doctest::test_suite("slow")) {
-  for (const char* integrator :
-       {"verlet", "euler", "improved_euler", "semi_implicit_euler", "velocity_verlet", "rk4", "rkn4", "force_gradient4"}) {
+  for (const char* integrator : {"verlet", "euler", "improved_euler", "semi_implicit_euler", "velocity_verlet", "rk4",
+                                 "rkn4", "force_gradient4"}) {
     CAPTURE(std::string(integrator));
     Preset preset = threads_worth(integrator);
     preset.dt = 1e-4;

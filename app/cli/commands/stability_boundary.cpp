@@ -179,7 +179,8 @@ int boundary(const BenchOptions& options) {
     write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)}, bench_reach());
   if (const int code = bench_exit(options.outputs()); code != exit_done) return code;
   if (kept) return exit_done;
-  std::cerr << "tyglab: a method did not become unstable where predicted (dt 1 %, k_s 2 %, growth 5 %); see the ratios.\n";
+  std::cerr
+      << "tyglab: a method did not become unstable where predicted (dt 1 %, k_s 2 %, growth 5 %); see the ratios.\n";
   return exit_violation;
 }
 

@@ -405,8 +405,7 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
     return glm::dvec3(cloth_.row(vector, i, 0)[j], cloth_.row(vector, i, 1)[j], cloth_.row(vector, i, 2)[j]);
   };
   const double scale = cloth_.velocity_scale();
-  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale,
-          scheme_->lag * cloth_.preset.dt};
+  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lag * cloth_.preset.dt};
 }
 
 template <class R, unsigned Present>
