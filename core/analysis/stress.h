@@ -1,5 +1,5 @@
 // `tyglab stability stress`: random scenes over the whole range of every constant, edited while they move. Each must
-// end bounded, or be reported as diverged with time, particle, cause and remedy, and leave nothing that is not finite.
+// end bounded, or be reported as diverged with time, particle, cause and advice, and leave nothing that is not finite.
 #pragma once
 
 #include <cstdint>

@@ -291,7 +291,7 @@ TEST_CASE("the method is called unstable only where it is in every shape of the 
   blames(0.1, Zone::stable, "solves that do not converge");
 }
 
-TEST_CASE("the cure makes the change that the remedy names first, and heals") {
+TEST_CASE("the suggested fix makes the change that the advice names first, and works") {
   for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
     CAPTURE(std::string(integrator));
     const Preset preset = explosive(integrator, Precision::double_);
