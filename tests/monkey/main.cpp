@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double between_samples = 5;  // s, of memory
 // Of a session whose cloth stays at 32 x 32, without sanitizers.
-constexpr double most_work = 2;       // s of one frame
+constexpr double most_work = 2;      // s of one frame
 constexpr double most_memory = 500;  // MB; 240 were seen in eighteen minutes
 
 struct Options {

@@ -71,7 +71,7 @@ class Player {
   std::optional<Preset> checked_;  ///< the last preset that was found good
   Tally tally_;
   double worked_s_ = 0;  ///< processor time of this thread until the last frame
-  std::string now_;  ///< the action that is being done
+  std::string now_;      ///< the action that is being done
 };
 
 /// Resident memory now, MB.
