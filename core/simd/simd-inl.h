@@ -99,8 +99,13 @@ HWY_INLINE Lanes<D> from_left(Lanes<D> before, Lanes<D> now) {
         _mm512_alignr_epi64(_mm512_castpd_si512(now.v.raw), _mm512_castpd_si512(before.v.raw), 8 - n))};
   }
 #elif HWY_TARGET == HWY_AVX2
-  // [before's upper half, now's lower half], then a shift inside each half.
-  const auto middle = hn::ConcatLowerUpper(d, now.v, before.v);
+  // [before's upper half, now's lower half], then a shift inside each half. Written so that `before` can be read from
+  // memory in the same instruction.
+  typename Lanes<D>::V middle;
+  if constexpr (sizeof(T) == 4)
+    middle.raw = _mm256_permute2f128_ps(now.v.raw, before.v.raw, 0x03);
+  else
+    middle.raw = _mm256_permute2f128_pd(now.v.raw, before.v.raw, 0x03);
   if constexpr (n * sizeof(T) == 16)
     return middle;
   else
@@ -150,34 +155,39 @@ HWY_INLINE Vec3<D> where(hn::Mask<D> mask, Vec3<D> v) {
 
 /// a + b where the mask is set, else a.
 template <class D>
-HWY_INLINE Vec3<D> add_where(hn::Mask<D> mask, Vec3<D> a, Vec3<D> b) {
+HWY_INLINE Lanes<D> add_where(hn::Mask<D> mask, Lanes<D> a, Lanes<D> b) {
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-  const auto add = [mask](Lanes<D> p, Lanes<D> q) HWY_ATTR {
-    using V = typename Lanes<D>::V;
-    if constexpr (sizeof(hn::TFromD<D>) == 4)
-      return Lanes<D>(V{_mm512_mask_add_ps(p.v.raw, mask.raw, p.v.raw, q.v.raw)});
-    else
-      return Lanes<D>(V{_mm512_mask_add_pd(p.v.raw, mask.raw, p.v.raw, q.v.raw)});
-  };
-  return {add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)};
+  using V = typename Lanes<D>::V;
+  if constexpr (sizeof(hn::TFromD<D>) == 4)
+    return V{_mm512_mask_add_ps(a.v.raw, mask.raw, a.v.raw, b.v.raw)};
+  else
+    return V{_mm512_mask_add_pd(a.v.raw, mask.raw, a.v.raw, b.v.raw)};
 #else
-  return a + where<D>(mask, b);
+  return hn::Add(a.v, hn::IfThenElseZero(mask, b.v));
 #endif
 }
 
-/// Carries forces on the right ends of springs over to the lanes of those ends, block after block along a row.
+/// Carries a component of forces on the right ends of springs, n to the right, over to the lanes of those ends, block
+/// after block along a row.
 template <int n, class D>
-struct Carry {
+struct LaneCarry {
   static constexpr int blocks = hn::MaxLanes(D()) == 1 ? n : 1;  // one lane a block: n blocks lie between the ends
-  Vec3<D> before[blocks];
-  HWY_INLINE Carry() {}
-  HWY_INLINE Vec3<D> operator()(Vec3<D> now) {
-    const Vec3<D> last = before[blocks - 1];
-    const Vec3<D> moved{from_left<n>(last.x, now.x), from_left<n>(last.y, now.y), from_left<n>(last.z, now.z)};
+  Lanes<D> before[blocks];
+  HWY_INLINE LaneCarry() {}
+  HWY_INLINE Lanes<D> operator()(Lanes<D> now) {
+    const Lanes<D> moved = from_left<n>(before[blocks - 1], now);
     for (int b = blocks - 1; b > 0; --b) before[b] = before[b - 1];
     before[0] = now;
     return moved;
   }
+};
+
+/// The same for all three components.
+template <int n, class D>
+struct Carry {
+  LaneCarry<n, D> x, y, z;
+  HWY_INLINE Carry() {}
+  HWY_INLINE Vec3<D> operator()(Vec3<D> now) { return {x(now.x), y(now.y), z(now.z)}; }
 };
 
 }  // namespace tyglab::simd::HWY_NAMESPACE

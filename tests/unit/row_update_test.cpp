@@ -31,9 +31,12 @@ TEST_CASE_TEMPLATE("a sum is that of plain loops, and ends with the row", R, flo
       const int stride = simd::row_stride<R>(columns);
       simd::RowField<R> rows[cpu::RowSum<R>::most_terms];
       for (unsigned n = 0; n < std::size(rows); ++n) rows[n] = random_row<R>(columns, n + 1);
-      cpu::RowSum<R> sum{.target = rows[0].row(0)};
-      for (int n = 0; n < terms; ++n) sum.source[n] = rows[n].row(0), sum.factor[n] = R(0.3 + n);
-      sum.terms = terms;
+      cpu::RowSums<R> sums;
+      cpu::RowSum<R>& sum = sums.sum[sums.count++];
+      sum.target = rows[0].row(0), sum.terms = terms;
+      // The last one is the force, which is given apart.
+      for (int n = 0; n < terms; ++n)
+        sum.source[n] = n + 1 < terms ? rows[n].row(0) : nullptr, sum.factor[n] = R(0.3 + n);
       std::vector<double> expected;
       for (int c = 0; c < 3; ++c)
         for (int j = 0; j < columns; ++j) {
@@ -41,7 +44,7 @@ TEST_CASE_TEMPLATE("a sum is that of plain loops, and ends with the row", R, flo
           for (int n = 0; n < terms; ++n) value += double(sum.factor[n]) * double(rows[n].row(0, c)[j]);
           expected.push_back(value);
         }
-      cpu::make_sum(sum, stride, columns);
+      cpu::make_sums(sums, 0, rows[terms - 1].row(0), stride, columns);
       for (int c = 0; c < 3; ++c)
         for (int j = 0; j < stride; ++j) {
           const double wanted = j < columns ? expected[std::size_t(c * columns + j)] : 0;
@@ -73,12 +76,34 @@ TEST_CASE_TEMPLATE("the largest way of a row is found, and what is not finite", 
   }
 }
 
-TEST_CASE("no method adds more terms than a row's sum can take") {
+TEST_CASE("sums of a row are made one after another, at the row's offset") {
+  constexpr int columns = 33;
+  const int stride = simd::row_stride<float>(columns), pitch = 3 * stride;
+  simd::RowField<float> a, b;
+  a.resize(2, stride), b.resize(2, stride);
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < columns; ++j) a.row(1, c)[j] = float(c * 100 + j);
+  cpu::RowSums<float> sums;
+  sums.count = 2;
+  sums.sum[0] = {.target = b.row(0), .terms = 1, .source = {a.row(0)}, .factor = {2}};
+  sums.sum[1] = {.target = a.row(0), .terms = 2, .source = {a.row(0), b.row(0)}, .factor = {1, 10}};
+  cpu::make_sums<float>(sums, pitch, nullptr, stride, columns);
+  for (int c = 0; c < 3; ++c)
+    for (int j = 0; j < columns; ++j) {
+      CHECK(b.row(1, c)[j] == float(2 * (c * 100 + j)));
+      CHECK(a.row(1, c)[j] == float(21 * (c * 100 + j)));
+      CHECK(a.row(0, c)[j] == 0);
+    }
+}
+
+TEST_CASE("no method adds more terms than a row's sum can take, nor makes more sums") {
   for (const Scheme& scheme : schemes())
     for (const Sweep& sweep : scheme.sweeps)
-      for (const auto* list : {&sweep.before, &sweep.assignments})
+      for (const auto* list : {&sweep.before, &sweep.assignments}) {
+        CHECK(int(list->size()) <= cpu::RowSums<float>::most);
         for (const Assignment& assignment : *list)
           CHECK(int(assignment.terms.size()) <= cpu::RowSum<float>::most_terms);
+      }
 }
 
 }  // namespace tyglab::row_update_test

@@ -141,17 +141,25 @@ void Band<R, Present>::fix_row(int i) {
     for (int c = 0; c < 3; ++c) force_row(i, c)[cloth_.fixed_columns[n]] = R(0);
 }
 
+/// Assignments as sums over rows, found once for all rows.
 template <class R, unsigned Present>
-void Band<R, Present>::assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i) {
+void Band<R, Present>::begin_sums(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments) {
+  assert(assignments.size() <= std::size_t(RowSums<R>::most));
+  sums_.count = 0;
   for (const auto& assignment : assignments) {
     assert(assignment.terms.size() <= std::size_t(RowSum<R>::most_terms));
-    RowSum<R> sum{.target = cloth_.row(assignment.target, i, 0)};
+    RowSum<R>& sum = sums_.sum[sums_.count++];
+    sum.target = cloth_.row(assignment.target, 0, 0), sum.terms = 0;
     for (const auto [vector, factor] : assignment.terms) {
-      sum.source[sum.terms] = vector == acceleration ? force_row(i, 0) : cloth_.row(vector, i, 0);
+      sum.source[sum.terms] = vector == acceleration ? nullptr : cloth_.row(vector, 0, 0);
       sum.factor[sum.terms++] = R(factor);
     }
-    make_sum(sum, cloth_.stride, cloth_.lattice.columns);
   }
+}
+
+template <class R, unsigned Present>
+void Band<R, Present>::sum_row(int i) {
+  make_sums(sums_, i * 3 * std::ptrdiff_t(cloth_.stride), force_row(i, 0), cloth_.stride, cloth_.lattice.columns);
 }
 
 template <class R, unsigned Present>
@@ -265,6 +273,7 @@ void Band<R, Present>::begin_sweep(const ResolvedSweep& s, const Tears& tears, b
   const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && !weight;
   pass_ = {&s, &tears, task(s), last, bodies, weight || s.update == Update::force};
   has_hand_ = false;
+  if (pass_.assigns) begin_sums(s.assignments);
   begin_forces(pass_.task, tears);
 }
 
@@ -278,7 +287,7 @@ void Band<R, Present>::sweep_pair(int i) {
   if (!assigns && in_tail(i)) restore_pair(pass_.task, s, i);
   for (int row = i; row < std::min(i + 2, end_); ++row) {
     if (assigns)
-      fix_row(row), assign_row(s.assignments, row);
+      fix_row(row), sum_row(row);
     else if constexpr (has(part::hand))
       read_hand(row);
     if (bodies && touches(row)) collide_row(row);
@@ -296,9 +305,10 @@ void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool la
 template <class R, unsigned Present>
 void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last) {
   const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && cloth_.preset.kind == Kind::cloth;
+  begin_sums(assignments);
   for (int i = begin_; i < end_; ++i) {
     if (last && i % 2 == 0) save_pair(i);
-    assign_row(assignments, i);
+    sum_row(i);
     if (bodies && touches(i)) collide_row(i);
     if (last) watch_row(i);
   }

@@ -141,7 +141,8 @@ class Band {
   void forces_on_pair(PairTask<R>& task, Update update);
   void read_hand(int i);
   void fix_row(int i);
-  void assign_row(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, int i);
+  void begin_sums(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments);
+  void sum_row(int i);
   void save_pair(int i);
   void restore_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
   bool touches(int i) const;
@@ -162,6 +163,7 @@ class Band {
   Cloth<R>& cloth_;
   int begin_ = 0, end_ = 0;
   Pass pass_;
+  RowSums<R> sums_;        ///< that follow the sweep being made
   unsigned features_ = 0;  ///< of the sweep
   Field ring_;             ///< force rows i … i+3
   Field old_rows_;         ///< positions of a pair before it is overwritten

@@ -81,7 +81,7 @@ HWY_INLINE Masks<D> masks_of(const PairTask<R>& t, int row, int j) {
   const int under = t.rows_below - row;
   const int right = under >= 0 ? t.columns - j : 0;
   const int below = under >= 1 ? right : 0, below2 = under >= 2 ? right : 0;
-  const auto quads = first(below - 1);
+  auto quads = first(below - 1);
   Masks<D> m{first(right - 1), first(below),  quads,          quads,
              first(right - 2), first(below2), {quads, quads}, first(right)};
   if (t.whole && under >= 0) {

@@ -17,23 +17,22 @@
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/forces/spring-inl.h"
 #include "core/forces/wind-inl.h"
+#include "core/simd/row_field.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
 using namespace tyglab::HWY_NAMESPACE;
 using namespace tyglab::simd::HWY_NAMESPACE;
+using simd::widest_vector;
 
-/// What a row of a block has four of, one for each stretch spring that its particles own or, for `crossing`, that their
-/// right neighbors own. With A a particle, B to its right, C below it and E below B: A-B, A-C, A-E, B-C.
-template <class D>
-struct Four {
-  using V = Vec3<D>;
-  V right, down, diagonal, crossing;
-  // Written out, as in Vec3.
-  HWY_INLINE Four() {}
-  HWY_INLINE Four(V r, V d, V g, V c) : right(r), down(d), diagonal(g), crossing(c) {}
-};
+/// Makes the compiler believe that something in memory has changed, so that it reads what was stored there where it is
+/// used, as an operand of an instruction. Registers cannot hold all that a row computes (16 of AVX2, 32 of AVX-512),
+/// and what compilers write to the stack and read again in order to free some costs more.
+template <class T>
+HWY_INLINE void settle(T& stored) {
+  asm volatile("" : "+m"(stored));
+}
 
 /// Two rows, block by block. F: features; displacements: the task's update is Update::displacement.
 template <class R, unsigned F, bool displacements>
@@ -49,6 +48,7 @@ class PairSweep {
       : t_(task),
         stride_(task.stride),
         pitch_(3 * task.stride),
+        columns_(task.columns),
         x_(task.x),
         v_(task.v),
         f_{task.f[0], task.f[1], task.f[2], task.f[3]},
@@ -67,153 +67,216 @@ class PairSweep {
 
   HWY_INLINE void run() {
     int j = 0;
+    Carries carries;
     if (t_.rows_below >= 3) {
       const bool plain = !t_.whole && !t_.fixed[0] && !t_.fixed[1];
-      for (; j + lanes + 2 <= t_.columns; j += lanes)
+      for (; j + lanes + 2 <= columns_; j += lanes)
         if (plain || untouched<R, D>(t_, j))
-          block<false>(j);
+          block<false>(j, carries);
         else
-          block<true>(j);
+          block<true>(j, carries);
     }
-    for (; j < t_.columns; j += lanes) block<true>(j);
+    for (; j < columns_; j += lanes) block<true>(j, carries);
     largest_.store(t_.max_displacement);
   }
 
  private:
+  /// The springs that a particle A of a row owns, with B to its right, C below it and E below B: A-B, A-C, A-E, and B-C
+  /// in place of its left neighbor's; then A to the second particle to its right and below it.
+  enum Of { right, down, diagonal, crossing, two_right, two_down, springs };
+  using Difference = R[3][lanes];
+  /// What the differences along them are multiplied by.
+  struct Factors {
+    L right, down, diagonal, crossing, two_right, two_down;
+    HWY_INLINE Factors() {}
+  };
+  /// Where a component of a row of a block is: positions, velocities, and forces on the row and on rows i+2 and i+3.
+  struct Place {
+    R *x, *v, *f, *f_below, *f_below2;
+    HWY_INLINE void next(std::ptrdiff_t stride) {
+      x += stride, v += stride, f += stride, f_below += stride, f_below2 += stride;
+    }
+  };
+  /// Forces on the right ends of springs: of rows i and i+1 and reactions in row i+2, by component; then those on
+  /// particles two to the right, in rows i and i+1.
+  struct Carries {
+    LaneCarry<1, D> right[3][3];
+    LaneCarry<2, D> two_right[2][3];
+    HWY_INLINE Carries() {}
+  };
+  /// What a row takes from the particles below it, as forces to subtract, by component: from C below, its right
+  /// neighbor E, and G two rows below.
+  struct Reactions {
+    alignas(widest_vector) Difference c, e, g;
+  };
+  /// Wind on the two triangles of each quad A B C E, as forces on their corners, by component. Even quads are split
+  /// from A to E, odd ones from C to B (figure 2.7); the first triangle always has A and C, the second B and E.
+  struct OnTriangles {
+    L first[3], second[3];
+    HWY_INLINE OnTriangles() {}
+  };
+
   template <bool masked>
-  static HWY_INLINE V kept(M mask, V force) {
+  static HWY_INLINE L kept(M mask, L force) {
     if constexpr (masked)
-      return where<D>(mask, force);
+      return hn::IfThenElseZero(mask, force.v);
     else
       return (void)mask, force;
   }
 
-  /// Forces of the four stretch springs on the ends that they are listed with. Written step by step over all four, so
-  /// that a processor always has four chains of operations to go on with.
-  template <bool masked>
-  HWY_INLINE Four<D> stretch(const Four<D>& x_ij, const R* v, const Masks<D>& m) const {
-    const L right2 = dot(x_ij.right, x_ij.right), down2 = dot(x_ij.down, x_ij.down),
-            diagonal2 = dot(x_ij.diagonal, x_ij.diagonal), crossing2 = dot(x_ij.crossing, x_ij.crossing);
-    const L right = stretch_factor(straight_, right2), down = stretch_factor(straight_, down2),
-            diagonal = stretch_factor(diagonal_, diagonal2), crossing = stretch_factor(diagonal_, crossing2);
-    Four<D> f{right * x_ij.right, down * x_ij.down, diagonal * x_ij.diagonal, crossing * x_ij.crossing};
-    if constexpr ((F & damping) != 0) {
-      const Four<D> v_ij = differences(v);
-      f = {multiply_add(k_d_, v_ij.right, f.right), multiply_add(k_d_, v_ij.down, f.down),
-           multiply_add(k_d_, v_ij.diagonal, f.diagonal), multiply_add(k_d_, v_ij.crossing, f.crossing)};
-    }
-    return {kept<masked>(m.E, f.right), kept<masked>(m.S, f.down), kept<masked>(m.SE, f.diagonal),
-            kept<masked>(m.SW, f.crossing)};
-  }
-  template <bool masked>
-  HWY_INLINE V bend(M mask, V p, V q) const {
-    const V x_ij = q - p;
-    return kept<masked>(mask, bend_factor(bending_, dot(x_ij, x_ij)) * x_ij);
-  }
-
   HWY_INLINE V load(const R* p) const { return V::load(p, stride_); }
 
-  /// Differences of positions or velocities along the four springs of the particles at p….
-  HWY_INLINE Four<D> differences(const R* p) const {
-    const V a = load(p), b = load(p + 1), c = load(p + pitch_), e = load(p + pitch_ + 1);
-    return {b - a, c - a, e - a, c - b};
+  /// |d|²; stores d.
+  static HWY_INLINE L squared(V d, Difference& to) {
+    d.x.store(to[0]), d.y.store(to[1]), d.z.store(to[2]);
+    return dot(d, d);
   }
+
+  /// Springs of the particles at x…, one after another: their differences and factors.
+  HWY_INLINE Factors measure(const R* x, Difference (&x_ij)[springs]) const {
+    Factors s;
+    const R* const below = x + pitch_;
+    const V A = load(x), B = load(x + 1);
+    s.right = stretch_factor(straight_, squared(B - A, x_ij[right]));
+    const V C = load(below);
+    s.crossing = stretch_factor(diagonal_, squared(C - B, x_ij[crossing]));
+    s.down = stretch_factor(straight_, squared(C - A, x_ij[down]));
+    s.diagonal = stretch_factor(diagonal_, squared(load(below + 1) - A, x_ij[diagonal]));
+    if constexpr ((F & bending) != 0) {
+      s.two_right = bend_factor(bending_, squared(load(x + 2) - A, x_ij[two_right]));
+      s.two_down = bend_factor(bending_, squared(load(below + pitch_) - A, x_ij[two_down]));
+    }
+    return s;
+  }
+
   static HWY_INLINE V pick(M mask, V yes, V no) {
     return {hn::IfThenElse(mask, yes.x.v, no.x.v), hn::IfThenElse(mask, yes.y.v, no.y.v),
             hn::IfThenElse(mask, yes.z.v, no.z.v)};
   }
-
-  /// Wind on the two triangles of each quad A B C E, as forces on their corners. Even quads are split from A to E, odd
-  /// ones from C to B (figure 2.7); the first triangle always has A and C, the second B and E.
-  struct OnTriangles {
-    V first, second;
-  };
   template <bool masked>
-  HWY_INLINE OnTriangles blow(M odd, const Four<D>& x_ij, const Masks<D>& m) const {
-    const V below = x_ij.diagonal - x_ij.down, beside = x_ij.diagonal - x_ij.right;  // C-E, B-E
-    return {kept<masked>(m.triangle[0],
-                         wind_on_corner(cross(x_ij.down, pick(odd, x_ij.right, below)), third_of_W_, smallest_)),
-            kept<masked>(m.triangle[1],
-                         wind_on_corner(cross(beside, pick(odd, below, x_ij.right)), third_of_W_, smallest_))};
+  HWY_INLINE OnTriangles blow(M odd, const Difference (&x_ij)[springs], const Masks<D>& m) const {
+    const auto difference = [&](int n) HWY_ATTR { return V::load(x_ij[n][0], lanes); };
+    const V to_B = difference(right), to_C = difference(down), to_E = difference(diagonal);
+    const V below = to_E - to_C, beside = to_E - to_B;  // C-E, B-E
+    const V first = wind_on_corner(cross(to_C, pick(odd, to_B, below)), third_of_W_, smallest_);
+    const V second = wind_on_corner(cross(beside, pick(odd, below, to_B)), third_of_W_, smallest_);
+    OnTriangles w;
+    w.first[0] = first.x, w.first[1] = first.y, w.first[2] = first.z;
+    w.second[0] = second.x, w.second[1] = second.y, w.second[2] = second.z;
+    for (int c = 0; c < 3; ++c)
+      w.first[c] = kept<masked>(m.triangle[0], w.first[c]), w.second[c] = kept<masked>(m.triangle[1], w.second[c]);
+    return w;
   }
 
-  /// What a row takes from the particles below it, as forces to subtract: from C below, its right neighbor E, and G
-  /// two rows below.
-  struct Reactions {
-    V c, e, g;
-  };
-
-  /// One row of a block; updates it. `above`: what the upper row takes from the lower.
-  template <bool masked, int row>
-  HWY_INLINE Reactions sweep(int j, const Reactions& above) {
-    R *const x = x_ + row * pitch_ + j, *const v = v_ + row * pitch_ + j;
-    const Masks<D> m = masked ? masks_of<R, D>(t_, row, j) : Masks<D>{};
-    const Four<D> x_ij = differences(x);
-    const Four<D> f = stretch<masked>(x_ij, v, m);
-    V on_A = f.right + f.down + f.diagonal, on_B = f.crossing - f.right;
-    V c = f.down + f.crossing, e = f.diagonal, g;
-    if constexpr (row == 1) on_A = on_A - above.c, on_B = on_B - above.e;
+  /// One component of the forces of a row's springs and triangles, and its update. `across`: see sweep().
+  template <bool masked, int row, int c>
+  HWY_INLINE void move(const Place& p, const Difference (&x_ij)[springs], const Factors& s, const OnTriangles& w, M odd,
+                       const Masks<D>& m, Carries& carries, Reactions& across) {
+    const L v_A = L::load(p.v);
+    L f_right = s.right * L::load(x_ij[right][c]), f_down = s.down * L::load(x_ij[down][c]);
+    L f_diagonal = s.diagonal * L::load(x_ij[diagonal][c]), f_crossing = s.crossing * L::load(x_ij[crossing][c]);
+    if constexpr ((F & damping) != 0) {
+      const L v_B = L::load(p.v + 1), v_C = L::load(p.v + pitch_), v_E = L::load(p.v + pitch_ + 1);
+      f_right = multiply_add(k_d_, v_B - v_A, f_right);
+      f_down = multiply_add(k_d_, v_C - v_A, f_down);
+      f_crossing = multiply_add(k_d_, v_C - v_B, f_crossing);
+      f_diagonal = multiply_add(k_d_, v_E - v_A, f_diagonal);
+    }
+    f_right = kept<masked>(m.E, f_right), f_down = kept<masked>(m.S, f_down);
+    f_diagonal = kept<masked>(m.SE, f_diagonal), f_crossing = kept<masked>(m.SW, f_crossing);
+    L on_A = f_right + f_down + f_diagonal, on_B = f_crossing - f_right;
+    L from_C = f_down + f_crossing, from_E = f_diagonal;
+    if constexpr (row == 1) on_A = on_A - L::load(across.c[c]), on_B = on_B - L::load(across.e[c]);
     if constexpr ((F & wind) != 0) {
-      const M odd = odd_quads<D>(row, j), even = hn::Not(odd);
-      const OnTriangles w = blow<masked>(odd, x_ij, m);
-      on_A = add_where<D>(even, on_A + w.first, w.second), on_B = add_where<D>(odd, on_B + w.second, w.first);
-      c = c - add_where<D>(odd, w.first, w.second), e = e - add_where<D>(even, w.second, w.first);
+      const M even = hn::Not(odd);
+      const L first = w.first[c], second = w.second[c];
+      on_A = add_where<D>(even, on_A + first, second), on_B = add_where<D>(odd, on_B + second, first);
+      from_C = from_C - add_where<D>(odd, first, second), from_E = from_E - add_where<D>(even, second, first);
     }
+    if constexpr (row == 0)
+      from_C.store(across.c[c]), from_E.store(across.e[c]);
+    else
+      (L::load(across.g[c]) + from_C + carries.right[2][c](from_E)).store(p.f_below);
+    L from_G;
     if constexpr ((F & bending) != 0) {
-      const V A = load(x);
-      const V two_right = bend<masked>(m.EE, A, load(x + 2));
-      g = bend<masked>(m.SS, A, load(x + 2 * pitch_));
-      on_A = on_A + g + two_right - two_right_[row](two_right);
+      const L f_two_right = kept<masked>(m.EE, s.two_right * L::load(x_ij[two_right][c]));
+      from_G = kept<masked>(m.SS, s.two_down * L::load(x_ij[two_down][c]));
+      on_A = on_A + from_G + f_two_right;
+      on_A = on_A - carries.two_right[row][c](f_two_right);
     }
-    update<masked, row>(j, x, v, on_A + right_[row](on_B) - load(f_[row] + j), m.moving);
-    return {c, e, g};
+    if constexpr (row == 0)
+      from_G.store(across.g[c]);
+    else
+      from_G.store(p.f_below2);
+    const L moved = carries.right[row][c](on_B);
+    L force = on_A + moved - L::load(p.f);
+    if constexpr (c == 1) force = force - weight_;
+    update<masked, row>(p, v_A, force, m.moving);
+  }
+
+  /// One row of a block, in two passes, since its differences do not fit in registers: lengths need all components, and
+  /// forces need one at a time. x and v go on to the next row. `across`: what the upper row takes from the lower.
+  template <bool masked, int row>
+  HWY_INLINE void sweep(int j, R*& x, R*& v, Carries& carries, Reactions& across) {
+    Masks<D> m = masked ? masks_of<R, D>(t_, row, j) : Masks<D>{};
+    alignas(widest_vector) Difference x_ij[springs];
+    Factors s = measure(x, x_ij);
+    OnTriangles w;
+    const M odd = odd_quads<D>(row, j);
+    if constexpr ((F & wind) != 0) w = blow<masked>(odd, x_ij, m);
+    settle(x_ij);
+    Place p{x, v, f_[row] + j, f_[2] + j, f_[3] + j};
+    move<masked, row, 0>(p, x_ij, s, w, odd, m, carries, across), p.next(stride_);
+    move<masked, row, 1>(p, x_ij, s, w, odd, m, carries, across), p.next(stride_);
+    move<masked, row, 2>(p, x_ij, s, w, odd, m, carries, across), p.next(stride_);
+    x = p.x, v = p.v;
   }
 
   template <bool masked>
-  HWY_INLINE void block(int j) {
-    const Reactions upper = sweep<masked, 0>(j, {V(), V(), V()});
-    const Reactions lower = sweep<masked, 1>(j, upper);
-    (upper.g + lower.c + right_[2](lower.e)).store(f_[2] + j, stride_);
-    lower.g.store(f_[3] + j, stride_);
+  HWY_INLINE void block(int j, Carries& carries) {
+    R *x = x_ + j, *v = v_ + j;
+    Reactions across;
+    sweep<masked, 0>(j, x, v, carries, across);
+    settle(across);
+    sweep<masked, 1>(j, x, v, carries, across);
+    settle(carries);
   }
 
-  /// What becomes of the force on a row.
+  /// What becomes of a component of the force on a row.
   template <bool masked, int row>
-  HWY_INLINE void update(int j, R* x_at, R* v_at, V force, M moving) {
-    force.y = force.y - weight_;
+  HWY_INLINE void update(const Place& p, L v, L force, M moving) {
     if constexpr (!displacements)
-      if (keeps_force_) return force.store(f_[row] + j, stride_);
+      if (keeps_force_) return force.store(p.f);
     if constexpr (masked) {
-      if (t_.fixed[row]) force.store(f_[row] + j, stride_);  // the hand's force is read there
-      force = where<D>(moving, force);
+      if (t_.fixed[row]) force.store(p.f);  // the hand's force is read there
+      force = kept<true>(moving, force);
     }
-    const V x = load(x_at), v = load(v_at);
+    const L x = L::load(p.x);
     if constexpr (displacements) {
-      const V d = multiply_add(force_to_v_, force, v);
+      const L d = multiply_add(force_to_v_, force, v);
       watch(d);
-      d.store(v_at, stride_);
-      (x + d).store(x_at, stride_);
+      d.store(p.v);
+      (x + d).store(p.x);
     } else {
-      const V way = multiply_add(force_to_x_, force, v_to_x_ * v);
-      const V next = multiply_add(force_to_v_, force, v);
+      const L way = multiply_add(force_to_x_, force, v_to_x_ * v);
+      const L next = multiply_add(force_to_v_, force, v);
       watch(way);
       watch(dt_v_ * next);
-      next.store(v_at, stride_);
-      (x + way).store(x_at, stride_);
+      next.store(p.v);
+      (x + way).store(p.x);
     }
   }
 
   /// Keeps the largest |component|. Compared as integers, since then NaN and ∞ are larger than every number.
-  HWY_INLINE void watch(V way) {
+  HWY_INLINE void watch(L way) {
     constexpr hn::RebindToUnsigned<D> du;
-    const auto bits = [&](L c) HWY_ATTR { return hn::BitCast(du, hn::Abs(c.v)); };
-    const auto most = hn::Max(bits(way.x), hn::Max(bits(way.y), bits(way.z)));
-    largest_ = hn::BitCast(D(), hn::Max(hn::BitCast(du, largest_.v), most));
+    largest_ = hn::BitCast(D(), hn::Max(hn::BitCast(du, largest_.v), hn::BitCast(du, hn::Abs(way.v))));
   }
 
   const PairTask<R>& t_;
   // Copies, since a compiler must think that stores into the arrays might change the task.
   const std::ptrdiff_t stride_, pitch_;
+  const int columns_;
   R *const x_, *const v_, *const f_[4];
   const Spring<L> straight_, diagonal_, bending_;
   const L k_d_, weight_, v_to_x_, force_to_x_, force_to_v_;
@@ -222,8 +285,6 @@ class PairSweep {
   const V third_of_W_;
   const L smallest_ = L::all(double(std::numeric_limits<R>::min()));
   L largest_;
-  Carry<1, D> right_[3];      ///< forces on the right neighbors, rows i and i+1; reactions, row i+2
-  Carry<2, D> two_right_[2];  ///< reactions on those two to the right, rows i and i+1
 };
 
 /// The fallbacks of processors from before AVX2 (2013) have all features compiled in; what is off has constants of 0

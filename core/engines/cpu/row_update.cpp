@@ -15,32 +15,78 @@ namespace tyglab::cpu::HWY_NAMESPACE {
 using namespace tyglab::simd::HWY_NAMESPACE;
 using simd::widest_vector;
 
-/// The sum at one vector's place.
+/// A sum with its pointers at a row, which no store can change.
 template <int terms, class R>
-HWY_INLINE auto sum_at(const RowSum<R>& s, std::ptrdiff_t at) {
+class Sum {
   using D = hn::ScalableTag<R>;
-  auto sum = hn::Mul(hn::Set(D(), s.factor[0]), hn::Load(D(), s.source[0] + at));
-  for (int n = 1; n < terms; ++n) sum = hn::MulAdd(hn::Set(D(), s.factor[n]), hn::Load(D(), s.source[n] + at), sum);
-  return sum;
-}
+  static constexpr int lanes = int(hn::MaxLanes(D()));
 
-template <int terms, class R>
-void sum_of(const RowSum<R>& given, std::ptrdiff_t stride, int columns) {
-  using D = hn::ScalableTag<R>;
-  constexpr int lanes = int(hn::MaxLanes(D()));
-  const RowSum<R> s = given;  // which no store can change
-  for (int c = 0; c < 3; ++c) {
-    std::ptrdiff_t at = c * stride;
-    const std::ptrdiff_t end = at + columns;
-    for (; at + lanes <= end; at += lanes) hn::Store(sum_at<terms>(s, at), D(), s.target + at);
-    if (at < end) hn::BlendedStore(sum_at<terms>(s, at), hn::FirstN(D(), std::size_t(end - at)), D(), s.target + at);
+ public:
+  HWY_INLINE Sum(const RowSum<R>& s, std::ptrdiff_t offset, const R* force) : target_(s.target + offset) {
+    for (int n = 0; n < terms; ++n) {
+      source_[n] = s.source[n] != nullptr ? s.source[n] + offset : force;
+      factor_[n] = hn::Set(D(), s.factor[n]);
+    }
   }
+  /// Elements [at, end). Two vectors a turn, since a turn's bookkeeping costs as much as a vector.
+  HWY_INLINE void make(std::ptrdiff_t at, std::ptrdiff_t end) const {
+    for (; at + 2 * lanes <= end; at += 2 * lanes) {
+      hn::Store(sum(at), D(), target_ + at);
+      hn::Store(sum(at + lanes), D(), target_ + at + lanes);
+    }
+    if (at + lanes <= end) hn::Store(sum(at), D(), target_ + at), at += lanes;
+    if (at < end) hn::BlendedStore(sum(at), hn::FirstN(D(), std::size_t(end - at)), D(), target_ + at);
+  }
+
+ private:
+  HWY_INLINE hn::Vec<D> sum(std::ptrdiff_t at) const {
+    auto value = hn::Mul(factor_[0], hn::Load(D(), source_[0] + at));
+    for (int n = 1; n < terms; ++n) value = hn::MulAdd(factor_[n], hn::Load(D(), source_[n] + at), value);
+    return value;
+  }
+
+  R* target_;
+  const R* source_[terms];
+  hn::Vec<D> factor_[terms];
+};
+
+template <int terms, class R>
+void sum_of(const RowSum<R>& given, std::ptrdiff_t offset, const R* force, std::ptrdiff_t stride, int columns) {
+  const Sum<terms, R> sum(given, offset, force);
+  // Rows without a gap between their components are one run.
+  if (columns == stride) return sum.make(0, 3 * stride);
+  for (int c = 0; c < 3; ++c) sum.make(c * stride, c * stride + columns);
 }
 
-template <class R, int terms = RowSum<R>::most_terms>
-void sum(const RowSum<R>& s, std::ptrdiff_t stride, int columns) {
-  if (s.terms == terms) return sum_of<terms>(s, stride, columns);
-  if constexpr (terms > 1) sum<R, terms - 1>(s, stride, columns);
+template <class R>
+void make_all(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, std::ptrdiff_t stride, int columns) {
+  static_assert(RowSum<R>::most_terms == 8);
+  for (const RowSum<R>* s = sums.sum; s < sums.sum + sums.count; ++s) switch (s->terms) {
+      case 1:
+        sum_of<1>(*s, offset, force, stride, columns);
+        break;
+      case 2:
+        sum_of<2>(*s, offset, force, stride, columns);
+        break;
+      case 3:
+        sum_of<3>(*s, offset, force, stride, columns);
+        break;
+      case 4:
+        sum_of<4>(*s, offset, force, stride, columns);
+        break;
+      case 5:
+        sum_of<5>(*s, offset, force, stride, columns);
+        break;
+      case 6:
+        sum_of<6>(*s, offset, force, stride, columns);
+        break;
+      case 7:
+        sum_of<7>(*s, offset, force, stride, columns);
+        break;
+      case 8:
+        sum_of<8>(*s, offset, force, stride, columns);
+        break;
+    }
 }
 
 template <class R>
@@ -51,15 +97,19 @@ void watch(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, in
   const auto by = hn::Set(D(), dt);
   // Compared as integers, since then NaN and ∞ are larger than every number.
   auto most = hn::BitCast(du, hn::Load(D(), largest));
-  for (int c = 0; c < 3; ++c)
-    for (int j = 0; j < columns; j += lanes) {
-      const std::ptrdiff_t at = c * stride + j;
-      const auto inside = hn::FirstN(D(), std::size_t(columns - j));
-      const auto way = hn::Abs(hn::Sub(hn::Load(D(), x + at), hn::Load(D(), old + at)));
-      const auto next = hn::Abs(hn::Mul(by, hn::Load(D(), v + at)));
-      const auto larger = hn::Max(hn::BitCast(du, way), hn::BitCast(du, next));
-      most = hn::Max(most, hn::BitCast(du, hn::IfThenElseZero(inside, hn::BitCast(D(), larger))));
-    }
+  const auto larger = [&](std::ptrdiff_t at) HWY_ATTR {
+    const auto way = hn::Abs(hn::Sub(hn::Load(D(), x + at), hn::Load(D(), old + at)));
+    const auto next = hn::Abs(hn::Mul(by, hn::Load(D(), v + at)));
+    return hn::Max(hn::BitCast(du, way), hn::BitCast(du, next));
+  };
+  for (int c = 0; c < 3; ++c) {
+    std::ptrdiff_t at = c * stride;
+    const std::ptrdiff_t end = at + columns;
+    for (; at + lanes <= end; at += lanes) most = hn::Max(most, larger(at));
+    if (at == end) continue;
+    const auto inside = hn::FirstN(D(), std::size_t(end - at));
+    most = hn::Max(most, hn::BitCast(du, hn::IfThenElseZero(inside, hn::BitCast(D(), larger(at)))));
+  }
   hn::Store(hn::BitCast(D(), most), D(), largest);
 }
 
@@ -114,11 +164,13 @@ RowMeasures measure_float(const RowEstimate<float>& e, std::ptrdiff_t stride, in
 RowMeasures measure_double(const RowEstimate<double>& e, std::ptrdiff_t stride, int columns) {
   return measure(e, stride, columns);
 }
-void sum_float(const RowSum<float>& s, std::ptrdiff_t stride, int columns) {
-  sum(s, stride, columns);
+void sums_float(const RowSums<float>& s, std::ptrdiff_t offset, const float* force, std::ptrdiff_t stride,
+                int columns) {
+  make_all(s, offset, force, stride, columns);
 }
-void sum_double(const RowSum<double>& s, std::ptrdiff_t stride, int columns) {
-  sum(s, stride, columns);
+void sums_double(const RowSums<double>& s, std::ptrdiff_t offset, const double* force, std::ptrdiff_t stride,
+                 int columns) {
+  make_all(s, offset, force, stride, columns);
 }
 void watch_float(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
                  float* largest) {
@@ -137,8 +189,8 @@ namespace tyglab::cpu {
 
 HWY_EXPORT(measure_float);
 HWY_EXPORT(measure_double);
-HWY_EXPORT(sum_float);
-HWY_EXPORT(sum_double);
+HWY_EXPORT(sums_float);
+HWY_EXPORT(sums_double);
 HWY_EXPORT(watch_float);
 HWY_EXPORT(watch_double);
 
@@ -151,12 +203,13 @@ RowMeasures measure_row(const RowEstimate<double>& e, std::ptrdiff_t stride, int
   return HWY_DYNAMIC_DISPATCH(measure_double)(e, stride, columns);
 }
 template <>
-void make_sum(const RowSum<float>& s, std::ptrdiff_t stride, int columns) {
-  HWY_DYNAMIC_DISPATCH(sum_float)(s, stride, columns);
+void make_sums(const RowSums<float>& s, std::ptrdiff_t offset, const float* force, std::ptrdiff_t stride, int columns) {
+  HWY_DYNAMIC_DISPATCH(sums_float)(s, offset, force, stride, columns);
 }
 template <>
-void make_sum(const RowSum<double>& s, std::ptrdiff_t stride, int columns) {
-  HWY_DYNAMIC_DISPATCH(sum_double)(s, stride, columns);
+void make_sums(const RowSums<double>& s, std::ptrdiff_t offset, const double* force, std::ptrdiff_t stride,
+               int columns) {
+  HWY_DYNAMIC_DISPATCH(sums_double)(s, offset, force, stride, columns);
 }
 template <>
 void watch_displacements(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,

@@ -9,15 +9,24 @@ namespace tyglab::cpu {
 template <class R>
 struct RowSum {
   static constexpr int most_terms = 8;
-  R* target = nullptr;
+  R* target = nullptr;  ///< as the sources: of the row with offset 0
   int terms = 0;
-  const R* source[most_terms] = {};
+  const R* source[most_terms] = {};  ///< nullptr: the force
   R factor[most_terms] = {};
 };
 
-/// Computes the sum for all components of the row's first `columns` particles; the rest of the row stays.
+/// What follows a sweep on each row: sums, made in this order.
 template <class R>
-void make_sum(const RowSum<R>& sum, std::ptrdiff_t stride, int columns);
+struct RowSums {
+  static constexpr int most = 8;
+  int count = 0;
+  RowSum<R> sum[most];
+};
+
+/// Computes the sums for all components of a row's first `columns` particles; the rest of the row stays. `offset`:
+/// elements from the row with offset 0; `force`: the row that sources of nullptr stand for.
+template <class R>
+void make_sums(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, std::ptrdiff_t stride, int columns);
 
 /// Updates `largest`, a vector of the widest kind, to the largest component of a displacement x - old or dt·v so far,
 /// m; one that is not finite makes it ∞ or NaN.
