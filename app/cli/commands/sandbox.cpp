@@ -1,6 +1,5 @@
 #include "app/cli/commands/sandbox.h"
 
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
@@ -9,6 +8,7 @@
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/size_option.h"
+#include "app/process/process.h"
 #include "app/shell/sandbox.h"
 #include "app/shell/window.h"
 #include "core/io/destination.h"
@@ -31,8 +31,7 @@ struct Options {
 
 /// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
 bool has_display() {
-  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  return named && start_glfw();
+  return display_is_named() && start_glfw();
 }
 
 int open_sandbox(const Options& options, const std::vector<std::string>& commands) {

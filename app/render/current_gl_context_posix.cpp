@@ -1,6 +1,6 @@
-#include "app/render/current_gl_context.h"
-
 #include <EGL/egl.h>
+
+#include "app/render/current_gl_context.h"
 
 namespace tyglab {
 

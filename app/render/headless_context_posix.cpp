@@ -1,5 +1,3 @@
-#include "app/render/headless_context.h"
-
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <glad/gl.h>
@@ -10,6 +8,7 @@
 
 #include "app/render/current_gl_context.h"
 #include "app/render/graphics_error.h"
+#include "app/render/headless_context.h"
 
 namespace tyglab {
 namespace {

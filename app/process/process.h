@@ -1,0 +1,27 @@
+// This process: its streams, arguments, threads and end.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tyglab {
+
+/// Gives standard streams that were closed (>&-) to nothing, so that no file that is opened later takes their place;
+/// makes writing beyond a limit (ulimit -f) or to nobody (| head) an error that is reported instead of the process's
+/// end. On Windows, lets a console show UTF-8.
+void secure_standard_streams();
+
+/// The arguments of main() without the program's name, in UTF-8.
+std::vector<std::string> program_arguments(int argc, char** argv);
+
+/// Whether the environment names a display; on Windows there always is one.
+bool display_is_named();
+
+/// From here on this thread runs only when no other thread of the machine wants to.
+void lower_thread_priority();
+
+/// Ends the process, after a sentence on standard error. May be called from a signal handler.
+[[noreturn]] void end_at_once(std::string_view sentence, int exit_code);
+
+}  // namespace tyglab
