@@ -1,6 +1,5 @@
 #include "app/cli/commands/sandbox.h"
 
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
@@ -9,8 +8,8 @@
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/size_option.h"
+#include "app/platform/window.h"
 #include "app/shell/sandbox.h"
-#include "app/shell/window.h"
 #include "core/io/destination.h"
 
 namespace tyglab {
@@ -28,12 +27,6 @@ struct Options {
     return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
   }
 };
-
-/// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
-bool has_display() {
-  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  return named && start_glfw();
-}
 
 int open_sandbox(const Options& options, const std::vector<std::string>& commands) {
   if (!options.screenshot.empty() && options.frames == 0)
@@ -61,7 +54,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (options.effects == "all") sandbox.effects = Effects::Mode::all;
   if (options.effects == "few") sandbox.effects = Effects::Mode::few;
   sandbox.color = field_called(options.color);
-  if (has_display()) return run_sandbox(sandbox);
+  if (display_there()) return run_sandbox(sandbox);
   if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
   return run_headless(sandbox, people(outputs));
 }

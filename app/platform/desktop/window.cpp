@@ -1,15 +1,20 @@
-#include "app/shell/window.h"
+#include "app/platform/window.h"
+
+#include <glad/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
-#include "app/render/current_gl_context.h"
+#include "app/platform/current_gl_context.h"
+#include "app/platform/gl/dialect.h"
 #include "app/render/graphics_error.h"
-#include "app/ui/kit/imgui_compat.h"
 #include "backends/imgui_impl_glfw.h"
-#include "backends/imgui_impl_opengl3.h"
 
 namespace tyglab {
 namespace {
@@ -83,8 +88,6 @@ glm::ivec2 fit_to_screen(int width, int height) {
   return {std::min(width, most_width), std::min(height, most_height)};
 }
 
-}  // namespace
-
 bool start_glfw() {
 #ifdef GLFW_PLATFORM
   // GLFW 3.4 looks for a Wayland compositor first, and where there is none libwayland complains on stderr.
@@ -94,7 +97,58 @@ bool start_glfw() {
   return glfwInit() == GLFW_TRUE;
 }
 
-Window::Window(int width, int height, const Settings& settings, InputQueue& queue) {
+const GLFWvidmode* video_mode() {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  return monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+}
+
+void install_callbacks(GLFWwindow* window) {
+  glfwSetKeyCallback(window, on_key);
+  glfwSetCharCallback(window, on_character);
+  glfwSetMouseButtonCallback(window, on_button);
+  glfwSetCursorPosCallback(window, on_move);
+  glfwSetScrollCallback(window, on_wheel);
+  glfwSetDropCallback(window, on_drop);
+  glfwSetWindowFocusCallback(window, on_focus);
+  glfwSetCursorEnterCallback(window, on_enter);
+  const auto anything = [](GLFWwindow* of) { queue_of(of).anything = true; };
+  glfwSetWindowRefreshCallback(window, anything);
+  glfwSetWindowCloseCallback(window, anything);
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow* of, int, int) { queue_of(of).anything = true; });
+  glfwSetWindowContentScaleCallback(
+      window, [](GLFWwindow* of, float, float) { queue_of(of).scale_changed = queue_of(of).anything = true; });
+}
+
+}  // namespace
+
+bool display_there() {
+  // Without a display's name GLFW is not asked: its libraries complain on stderr.
+  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+  return named && start_glfw();
+}
+
+double window_time() {
+  return glfwGetTime();
+}
+
+struct Window::Parts {
+  struct Place {
+    int x = 0, y = 0, width = 1280, height = 720;
+  };
+  static Place place_of(GLFWwindow* window) {
+    Place place;
+    glfwGetWindowPos(window, &place.x, &place.y);
+    glfwGetWindowSize(window, &place.width, &place.height);
+    return place;
+  }
+
+  GLFWwindow* window = nullptr;
+  std::optional<GlContextInUse> gl_in_use = {};  ///< OpenCL devices that are opened share buffers with it, if they can
+  Place windowed = {};
+  std::string title = {};
+};
+
+Window::Window(int width, int height, const Settings& settings, InputQueue& queue) : parts_(std::make_unique<Parts>()) {
   if (!start_glfw())
     throw GraphicsError(
         "There is no display for a window (" + glfw_problem() +
@@ -106,162 +160,137 @@ Window::Window(int width, int height, const Settings& settings, InputQueue& queu
   glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
   const bool given = width > 0 && height > 0;
   const glm::ivec2 size = given ? glm::ivec2(width, height) : fit_to_screen(settings.width, settings.height);
-  window_ = glfwCreateWindow(size.x, size.y, "Tyglab", nullptr, nullptr);
-  if (window_ == nullptr) {
+  GLFWwindow* const window = parts_->window = glfwCreateWindow(size.x, size.y, "Tyglab", nullptr, nullptr);
+  if (window == nullptr) {
     const std::string problem = glfw_problem();
     glfwTerminate();
     throw GraphicsError("A window with OpenGL 3.3 could not be opened (" + problem +
                         "). Install a driver (on Debian, libgl1-mesa-dri draws on the CPU).");
   }
-  glfwSetWindowSizeLimits(window_, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSetWindowSizeLimits(window, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
   if (!given && settings.x >= 0 && on_a_monitor(settings.x, settings.y))
-    glfwSetWindowPos(window_, settings.x, settings.y);
-  if (!given && settings.maximised) glfwMaximizeWindow(window_);
-  glfwMakeContextCurrent(window_);
+    glfwSetWindowPos(window, settings.x, settings.y);
+  if (!given && settings.maximised) glfwMaximizeWindow(window);
+  glfwMakeContextCurrent(window);
   if (gladLoadGL(glfwGetProcAddress) == 0) {
-    glfwDestroyWindow(window_);
+    glfwDestroyWindow(window);
     glfwTerminate();
     throw GraphicsError("The functions of OpenGL 3.3 could not be loaded. Install a driver (libgl1-mesa-dri).");
   }
-  gl_in_use_.emplace(current_gl_context(glfwGetProcAddress));
-  glfwSetWindowUserPointer(window_, &queue);
-  install_callbacks();
-  queue.focused = glfwGetWindowAttrib(window_, GLFW_FOCUSED) != 0;
-  queue.inside = glfwGetWindowAttrib(window_, GLFW_HOVERED) != 0;
-  glfwShowWindow(window_);
-  windowed_ = place();
+  parts_->gl_in_use.emplace(current_gl_context(glfwGetProcAddress));
+  glfwSetWindowUserPointer(window, &queue);
+  install_callbacks(window);
+  queue.focused = glfwGetWindowAttrib(window, GLFW_FOCUSED) != 0;
+  queue.inside = glfwGetWindowAttrib(window, GLFW_HOVERED) != 0;
+  glfwShowWindow(window);
+  parts_->windowed = Parts::place_of(window);
 }
 
 Window::~Window() {
-  gl_in_use_.reset();
-  glfwDestroyWindow(window_);
+  parts_->gl_in_use.reset();
+  glfwDestroyWindow(parts_->window);
   glfwTerminate();
 }
 
-void Window::install_callbacks() {
-  glfwSetKeyCallback(window_, on_key);
-  glfwSetCharCallback(window_, on_character);
-  glfwSetMouseButtonCallback(window_, on_button);
-  glfwSetCursorPosCallback(window_, on_move);
-  glfwSetScrollCallback(window_, on_wheel);
-  glfwSetDropCallback(window_, on_drop);
-  glfwSetWindowFocusCallback(window_, on_focus);
-  glfwSetCursorEnterCallback(window_, on_enter);
-  const auto anything = [](GLFWwindow* window) { queue_of(window).anything = true; };
-  glfwSetWindowRefreshCallback(window_, anything);
-  glfwSetWindowCloseCallback(window_, anything);
-  glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { queue_of(window).anything = true; });
-  glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* window, float, float) {
-    queue_of(window).scale_changed = queue_of(window).anything = true;
-  });
+void Window::take_events(double wait) {
+  wait > 0 ? glfwWaitEventsTimeout(wait) : glfwPollEvents();
+}
+
+void Window::swap() {
+  glfwSwapBuffers(parts_->window);
+}
+
+void Window::wait_for_screen(bool waits) {
+  glfwSwapInterval(waits ? 1 : 0);
+}
+
+bool Window::wants_close() const {
+  return glfwWindowShouldClose(parts_->window) != 0;
+}
+
+void Window::forget_close() {
+  glfwSetWindowShouldClose(parts_->window, GLFW_FALSE);
+}
+
+bool Window::hidden() const {
+  return glfwGetWindowAttrib(parts_->window, GLFW_ICONIFIED) != 0;
+}
+
+bool Window::full_screen() const {
+  return glfwGetWindowMonitor(parts_->window) != nullptr;
 }
 
 void Window::set_title(const std::string& title) {
-  if (title == title_) return;
-  title_ = title;
-  glfwSetWindowTitle(window_, title.c_str());
-}
-
-Window::Place Window::place() const {
-  Place place;
-  glfwGetWindowPos(window_, &place.x, &place.y);
-  glfwGetWindowSize(window_, &place.width, &place.height);
-  return place;
+  if (title == parts_->title) return;
+  parts_->title = title;
+  glfwSetWindowTitle(parts_->window, title.c_str());
 }
 
 void Window::toggle_full_screen() {
+  const Parts::Place& old = parts_->windowed;
   if (full_screen()) {
-    glfwSetWindowMonitor(window_, nullptr, windowed_.x, windowed_.y, windowed_.width, windowed_.height, GLFW_DONT_CARE);
+    glfwSetWindowMonitor(parts_->window, nullptr, old.x, old.y, old.width, old.height, GLFW_DONT_CARE);
     return;
   }
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
   if (mode == nullptr) return;
-  windowed_ = place();
-  glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  parts_->windowed = Parts::place_of(parts_->window);
+  glfwSetWindowMonitor(parts_->window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
 glm::ivec2 Window::size() const {
   glm::ivec2 size{0};
-  glfwGetWindowSize(window_, &size.x, &size.y);
+  glfwGetWindowSize(parts_->window, &size.x, &size.y);
   return size;
 }
 
 glm::ivec2 Window::framebuffer_size() const {
   glm::ivec2 size{0};
-  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  glfwGetFramebufferSize(parts_->window, &size.x, &size.y);
   return size;
 }
 
 float Window::content_scale() const {
   float x = 1, y = 1;
-  glfwGetWindowContentScale(window_, &x, &y);
+  glfwGetWindowContentScale(parts_->window, &x, &y);
   const glm::ivec2 window = size(), framebuffer = framebuffer_size();
   // Where window coordinates are larger than pixels (Wayland), the system magnifies them already.
   const float magnified = window.x > 0 ? float(framebuffer.x) / float(window.x) : 1;
   float scale = magnified > 0 ? x / magnified : x;
-  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  const GLFWvidmode* const mode = video_mode();
   if (x == 1 && mode != nullptr && mode->height >= tall_monitor) scale *= 1.25f;
   return std::isfinite(scale) ? std::clamp(scale, 0.5f, 4.f) : 1;
 }
 
 double Window::frame_time() const {
-  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+  const GLFWvidmode* const mode = video_mode();
   return 1.0 / (mode != nullptr && mode->refreshRate >= 30 ? mode->refreshRate : 60);
 }
 
 void Window::remember(Settings& settings) const {
-  settings.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) != 0;
+  settings.maximised = glfwGetWindowAttrib(parts_->window, GLFW_MAXIMIZED) != 0;
   if (settings.maximised) return;
-  const Place now = full_screen() ? windowed_ : place();
+  const Parts::Place now = full_screen() ? parts_->windowed : Parts::place_of(parts_->window);
   settings.x = now.x, settings.y = now.y, settings.width = now.width, settings.height = now.height;
 }
 
 Image Window::pixels() const {
   const glm::ivec2 size = framebuffer_size();
-  Image image{size.x, size.y, std::vector<std::uint8_t>(std::size_t(size.x) * size.y * 3)};
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadBuffer(GL_BACK);
-  glReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-  const std::size_t row = std::size_t(size.x) * 3;
-  for (int y = 0; y < size.y / 2; ++y)
-    std::swap_ranges(image.rgb.begin() + std::ptrdiff_t(y * row), image.rgb.begin() + std::ptrdiff_t((y + 1) * row),
-                     image.rgb.begin() + std::ptrdiff_t((size.y - 1 - y) * row));
-  return image;
+  return {size.x, size.y, read_pixels(size.x, size.y)};
 }
 
-Gui::Gui(GLFWwindow* window) {
-  IMGUI_CHECKVERSION();
-  ImGui::CreateContext();
-  gui::prepare_io(ImGui::GetIO());
-  ImGui_ImplGlfw_InitForOpenGL(window, false);  // it has its events from the input queue
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+GuiBackend::GuiBackend(Window& window) {
+  ImGui_ImplGlfw_InitForOpenGL(window.parts_->window, false);  // it has its events from the input queue
 }
 
-Gui::~Gui() {
-  ImGui_ImplOpenGL3_Shutdown();
+GuiBackend::~GuiBackend() {
   ImGui_ImplGlfw_Shutdown();
-  ImGui::DestroyContext();
 }
 
-void Gui::begin_frame(InputQueue& input) {
-  ImGui_ImplOpenGL3_NewFrame();
+void GuiBackend::begin_frame() {
   ImGui_ImplGlfw_NewFrame();
-  input_.feed(input);
-  ImGui::NewFrame();
-}
-
-void Gui::draw() {
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-void Gui::fonts_changed() {
-  ImGui_ImplOpenGL3_DestroyFontsTexture();
-  ImGui_ImplOpenGL3_CreateFontsTexture();
-  ImGui::GetIO().Fonts->ClearTexData();  // OpenGL has it
 }
 
 }  // namespace tyglab
