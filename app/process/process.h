@@ -1,4 +1,4 @@
-// This process: its streams, arguments, threads and end.
+// This process: its streams, arguments and end.
 #pragma once
 
 #include <string>
@@ -18,8 +18,11 @@ std::vector<std::string> program_arguments(int argc, char** argv);
 /// Whether the environment names a display; on Windows there always is one.
 bool display_is_named();
 
-/// From here on this thread runs only when no other thread of the machine wants to.
-void lower_thread_priority();
+/// Gives up the console that a program for terminals gets where it is started by a double-click; its last words are
+/// kept for show_last_words(). Only Windows does so: elsewhere nothing.
+void leave_own_console();
+/// Shows in a dialog what went wrong, where it ended with an exit code other than 0 and has no terminal for it.
+void show_last_words(int exit_code);
 
 /// Ends the process, after a sentence on standard error. May be called from a signal handler.
 [[noreturn]] void end_at_once(std::string_view sentence, int exit_code);

@@ -1,7 +1,6 @@
 #include "app/process/process.h"
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,9 +29,9 @@ bool display_is_named() {
   return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
 }
 
-void lower_thread_priority() {
-  setpriority(PRIO_PROCESS, 0, 19);  // on Linux this thread's alone
-}
+void leave_own_console() {}
+
+void show_last_words(int) {}
 
 void end_at_once(std::string_view sentence, int exit_code) {
   // Where stderr is gone too there is nobody left to tell.

@@ -7,8 +7,11 @@
 #include <shellapi.h>
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace tyglab {
 
@@ -35,8 +38,31 @@ bool display_is_named() {
   return true;
 }
 
-void lower_thread_priority() {
-  ::SetThreadPriority(::GetCurrentThread(), THREAD_PRIORITY_LOWEST);
+namespace {
+
+std::ostringstream* last_words = nullptr;  ///< since the console was left
+
+/// Whether nobody reads what is printed: it has no console, or one that was made for it alone.
+bool has_no_reader() {
+  const HANDLE error = ::GetStdHandle(STD_ERROR_HANDLE);
+  if (error == nullptr || error == INVALID_HANDLE_VALUE) return true;
+  DWORD mode = 0, processes[2] = {};
+  return ::GetConsoleMode(error, &mode) != 0 && ::GetConsoleProcessList(processes, 2) == 1;
+}
+
+}  // namespace
+
+void leave_own_console() {
+  if (last_words != nullptr || !has_no_reader()) return;
+  ::FreeConsole();
+  last_words = new std::ostringstream;  // until the process ends, as std::cerr
+  std::cerr.rdbuf(last_words->rdbuf());
+}
+
+void show_last_words(int exit_code) {
+  if (exit_code == 0 || last_words == nullptr || last_words->str().empty()) return;
+  const std::wstring words = std::filesystem::path(last_words->str()).native();
+  ::MessageBoxW(nullptr, words.c_str(), L"Tyglab", MB_OK | MB_ICONERROR);
 }
 
 void end_at_once(std::string_view sentence, int exit_code) {

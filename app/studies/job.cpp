@@ -1,6 +1,6 @@
 #include "app/studies/job.h"
 
-#include "app/process/process.h"
+#include "app/platform/threads.h"
 
 namespace tyglab {
 namespace {
@@ -14,8 +14,7 @@ void let_work_yield(bool yields) {
 }
 
 void run_below_frames() {
-  if (!work_yields) return;
-  lower_thread_priority();
+  if (work_yields) lower_own_priority();
 }
 
 }  // namespace tyglab

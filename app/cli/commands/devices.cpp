@@ -5,10 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "app/platform/headless_context.h"
 #include "app/process/print_in_child.h"
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
-#include "app/render/headless_context.h"
 #include "app/render/mapped_buffer.h"
 #include "app/render/written_vertices.h"
 #include "core/analysis/machine.h"

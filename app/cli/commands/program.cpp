@@ -52,7 +52,9 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return exit_of_parsing(program, error, words);
   }
-  return run_action(action);
+  const int code = run_action(action);
+  show_last_words(code);
+  return code;
 }
 
 }  // namespace tyglab

@@ -18,7 +18,7 @@ constexpr std::array<const char*, 7> wanted{
     "Inter-Regular.otf",       "Inter-SemiBold.otf", "STIXGeneral-Italic.otf", "JetBrainsMono-Regular.ttf",
     "forkawesome-webfont.ttf", "DejaVuSans.ttf",     "DejaVuSansMono.ttf"};
 
-/// Where Debian puts them, which the search below need not find again. Elsewhere they come with the program.
+/// Where Debian puts them, which the search below need not find again. Where there are none they come with the program.
 constexpr std::array<const char*, 6> folders{
     "/usr/share/fonts/opentype/inter",          "/usr/share/fonts/opentype/stix",
     "/usr/share/fonts/truetype/jetbrains-mono", "/usr/share/fonts/truetype/fork-awesome",
@@ -29,8 +29,8 @@ using Files = std::map<std::string, fs::path>;
 Files find_fonts() {
   Files found;
   std::error_code ignored;
-  std::vector<fs::path> known(folders.begin(), folders.end());
-  known.push_back(data_folder() / "fonts");
+  std::vector<fs::path> known{data_folder() / "fonts"};
+  known.insert(known.end(), folders.begin(), folders.end());
   for (const fs::path& folder : known)
     for (const char* name : wanted)
       if (const fs::path file = folder / name; fs::is_regular_file(file, ignored)) found.emplace(name, file);

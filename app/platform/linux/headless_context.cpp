@@ -1,3 +1,5 @@
+#include "app/platform/headless_context.h"
+
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <glad/gl.h>
@@ -6,9 +8,8 @@
 #include <cstring>
 #include <string>
 
-#include "app/render/current_gl_context.h"
+#include "app/platform/current_gl_context.h"
 #include "app/render/graphics_error.h"
-#include "app/render/headless_context.h"
 
 namespace tyglab {
 namespace {

@@ -3,9 +3,10 @@
 
 #include <string>
 
-#include "app/render/current_gl_context.h"
+#include "app/platform/advice.h"
+#include "app/platform/current_gl_context.h"
+#include "app/platform/headless_context.h"
 #include "app/render/graphics_error.h"
-#include "app/render/headless_context.h"
 
 namespace tyglab {
 namespace {

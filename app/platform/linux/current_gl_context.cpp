@@ -1,6 +1,6 @@
-#include <EGL/egl.h>
+#include "app/platform/current_gl_context.h"
 
-#include "app/render/current_gl_context.h"
+#include <EGL/egl.h>
 
 namespace tyglab {
 
