@@ -22,6 +22,9 @@ class Messages {
  public:
   static constexpr std::size_t most = 3;
 
+  /// A text that is there can always be said: none needs memory that may be short by then.
+  Messages() { list_.reserve(most + 1); }
+
   void note(std::string text) { add(Message::Severity::note, std::move(text)); }
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }

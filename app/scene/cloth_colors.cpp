@@ -34,16 +34,21 @@ void ClothColors::update(Scene& scene, int tile, int every) {
   Picture& picture = pictures_[std::size_t(tile)];
   Simulation& cloth = cloth_in_tile(scene, tile);
   Simulation* reference = chosen->field == ParticleField::distance ? reference_of(scene, tile) : nullptr;
+  const bool wreck = cloth.divergence().has_value();
   Source now{&cloth,         cloth.revision(), reference, reference != nullptr ? reference->revision() : 0,
-             cloth.preset(), chosen->field,    every};
+             cloth.preset(), chosen->field,    every,     wreck};
   if (now == picture.of || scene.session.rebuild.holds_present()) return;  // then another thread reads the cloth
   const FrameCosts::Timer timer(scene.session.costs, Part::colors);
   picture.of = std::move(now);
   picture.sites = {cloth.lattice(), every};
   read_field(chosen->field, cloth, reference, picture.sites, picture.values);
   picture.version = ++versions_;
+  // A replay keeps the scale of what it leads to, so that its colors can be compared.
+  if (scene.session.replay && chosen->automatic.now() > 0) {
+    chosen->seen = span_of(picture.values);
+    return;
+  }
   // Where another cloth shares the scale, what is left of one that has diverged would take all of it.
-  const bool wreck = cloth.divergence().has_value();
   if (wreck && !scene.session.copies.lockstep.empty()) return;
   if (std::exchange(picture.wreck, wreck) && !wreck) chosen->automatic.forget();
   chosen->look(span_of(picture.values), wreck);

@@ -47,6 +47,7 @@ class ClothColors {
     Preset constants;
     ParticleField field{};
     int every = 0;
+    bool wreck = false;  ///< the step in which it diverges is undone, and leaves its state and revision as they were
     bool operator==(const Source&) const = default;
   };
   struct Picture {

@@ -1,6 +1,7 @@
 #include "app/session/lab_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -339,10 +340,26 @@ void watch_lab(Session& session) {
   if (all && run.awaited.empty()) complete(session, run);
 }
 
+namespace {
+
+/// What the card that a step shows wants, whether or not a small window has room for it; null: nothing.
+bool Wants::*wanted_by_card(const Session& session, std::string_view card) {
+  static constexpr std::array<bool Wants::*, lab_cards.size()> wants{
+      &Wants::forces, &Wants::height, &Wants::stability, &Wants::accuracy, &Wants::ledger,
+      nullptr,        &Wants::copies, &Wants::map,       &Wants::step};
+  const auto found = std::find(lab_cards.begin(), lab_cards.end(), card);
+  bool Wants::*const wanted = found == lab_cards.end() ? nullptr : wants[std::size_t(found - lab_cards.begin())];
+  const bool large = session.simulation->lattice().size() > AccuracyWatch::largest;
+  return wanted == &Wants::accuracy && large ? nullptr : wanted;
+}
+
+}  // namespace
+
 Wants lab_wants(const Session& session) {
   Wants wants;
   if (!session.labs.run || session.labs.run->record().done) return wants;
   const LabStep& step = session.labs.run->now();
+  if (bool Wants::*const wanted = wanted_by_card(session, step.show)) wants.*wanted = true;
   const auto need = [&](std::string_view name) {
     const Observable* row = find_observable(name);
     if (row != nullptr && row->needs != nullptr) wants.*row->needs = true;

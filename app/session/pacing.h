@@ -28,7 +28,7 @@ class Pacing {
   /// not more than the budget is likely to allow.
   int due(double real_seconds, double dt) {
     const double wish = aim() * std::min(real_seconds, 0.1);
-    wished_ += wish, elapsed_ += std::min(real_seconds, 0.1);
+    requested_ += wish, elapsed_ += std::min(real_seconds, 0.1);
     owed_ += wish;
     const double steps = std::floor(owed_ / dt * (1 + 1e-12));
     if (patient) return int(std::min(steps, 1e7));
@@ -45,12 +45,12 @@ class Pacing {
     got_ += steps * dt;
     owed_ = std::clamp(owed_ - steps * dt, 0.0, dt);
     if (elapsed_ < 0.5) return;
-    reached_ = wished_ > 0 ? std::min(got_ / wished_, 1.0) * aim() : 0;
-    wished_ = got_ = elapsed_ = 0;
+    reached_ = requested_ > 0 ? std::min(got_ / requested_, 1.0) * aim() : 0;
+    requested_ = got_ = elapsed_ = 0;
   }
   void forget_cost() { step_cost_s_ = 0; }
   /// Starts measuring again (after a pause, a change of speed).
-  void restart_measure() { wished_ = got_ = elapsed_ = owed_ = 0; }
+  void restart_measure() { requested_ = got_ = elapsed_ = owed_ = 0; }
 
   double step_cost_s() const { return step_cost_s_; }
   int steps_per_frame() const { return steps_per_frame_; }
@@ -60,7 +60,7 @@ class Pacing {
  private:
   static constexpr double first_guess = 8;
   double owed_ = 0, step_cost_s_ = 0;
-  double wished_ = 0, got_ = 0, elapsed_ = 0, reached_ = 0;
+  double requested_ = 0, got_ = 0, elapsed_ = 0, reached_ = 0;
   int steps_per_frame_ = 0;
 };
 

@@ -54,7 +54,7 @@ bool takes_long(const Session& session, const Edit& edit) {
                                             : change != nullptr && needs_programs(session, preset);
 }
 
-void swap_in(Session& session, std::unique_ptr<Simulation> simulation) {
+void swap_in(Session& session, std::shared_ptr<Simulation> simulation) {
   std::shared_ptr<Simulation> last = std::exchange(session.simulation, std::move(simulation));
   copies_resume(session);
   session.rebuild.dispose(std::move(last));

@@ -123,6 +123,6 @@ bool takes_long(const Session& session, const Edit& edit);
 /// The same of a preset that is opened.
 bool takes_long(const Session& session, const Preset& preset);
 /// Takes a simulation in place of the present one.
-void swap_in(Session& session, std::unique_ptr<Simulation> simulation);
+void swap_in(Session& session, std::shared_ptr<Simulation> simulation);
 
 }  // namespace tyglab

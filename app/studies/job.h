@@ -1,5 +1,5 @@
 // Work beside the frames: one thread, a result or an error at its end, and a way to stop it. Everything that runs
-// beside the frames is a Job; there is no other thread in app/.
+// beside the frames is a Job. How far it is, the work says itself: a Study in its findings, a step through its engine.
 #pragma once
 
 #include <atomic>

@@ -153,7 +153,7 @@ class StressRun {
   /// A divergence must say what a person needs, and leave a simulation that can be looked at and restarted.
   void check_report() {
     const Divergence d = *result_.divergence;
-    if (d.cause.empty() || d.advice.empty() || d.quantity.empty()) fail("the divergence does not say cause or remedy");
+    if (d.cause.empty() || d.advice.empty() || d.quantity.empty()) fail("the divergence does not say cause or advice");
     if (!finite(d.t) || d.t <= 0 || d.step != simulation_->steps() + 1) fail("the divergence does not say when");
     if (!simulation_->lattice().contains(d.i, d.j)) fail("the divergence does not say where");
     inspect();

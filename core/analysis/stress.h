@@ -1,5 +1,6 @@
 // `tyglab stability stress`: random scenes over the whole range of every constant, edited while they move. Each must
-// end bounded, or be reported as diverged with time, particle, cause and remedy, and leave nothing that is not finite.
+// end bounded, or be reported as diverged with time, particle, cause and advice, and leave nothing that is not finite.
+// State, read-outs, forces and energies are looked at here; the files that such runs write, by tests/fuzz/runs.
 #pragma once
 
 #include <cstdint>

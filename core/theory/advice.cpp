@@ -59,7 +59,7 @@ namespace {
 /// How to get to Verlet, whose step must be `dt` or less: nothing where no such dt is allowed.
 std::string or_verlet(const Preset& p, double dt) {
   if (dt < least_dt) return "";
-  return "; or use the integrator verlet" + (p.dt <= dt ? "" : " with dt = " + seconds(dt) + " or less");
+  return "; or use Verlet" + (p.dt <= dt ? "" : " with dt = " + seconds(dt) + " or less");
 }
 
 /// Of a method that linear theory gives no limit: what can be done about dt itself.
@@ -71,9 +71,9 @@ std::string smaller_dt(const Preset& p) {
 std::string advice_on_dt(const Preset& p, double own, double verlet, const std::string& stiffness, bool overdamped) {
   if (std::max(own, verlet) < least_dt)
     return "No dt that is allowed (" + seconds(least_dt) + " or more) is stable here: use a smaller " + stiffness +
-           " or a larger m, or the integrator implicit_euler, which is stable at any stiffness, and restart.";
+           " or a larger m, or implicit Euler, which is stable at any stiffness, and restart.";
   if (own < verlet)
-    return "Use the integrator verlet" + (p.dt <= verlet ? "" : " with dt = " + seconds(verlet) + " or less") +
+    return "Use Verlet" + (p.dt <= verlet ? "" : " with dt = " + seconds(verlet) + " or less") +
            " and restart; " +
            (own >= least_dt ? "this method itself needs dt below about " + seconds(own)
             : own > 0       ? "this method itself is stable at no dt that is allowed"
@@ -111,7 +111,7 @@ std::string advice(const Preset& p) {
     return "Use " +
            std::string(p.dt > least_dt ? "a smaller dt (its inner steps may be a ten-thousandth of it) or " : "") +
            "a smaller " + stiffness +
-           ", and restart; or use the integrator implicit_euler, which is stable at any stiffness.";
+           ", and restart; or use implicit Euler, which is stable at any stiffness.";
   if (projects(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
            "more iterations, and restart: this method has no limit of dt, but with few iterations its springs are "

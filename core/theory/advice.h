@@ -38,7 +38,7 @@ bool springs_too_weak(const Preset& preset);
 /// What to change where they do.
 std::string advice_for_weak_springs(const Preset& preset);
 
-/// The preset with the change of integrator and dt that remedy() names first, made; none where it names none.
+/// The preset with the change of integrator and dt that advice() names first, made; none where it names none.
 std::optional<Preset> suggested_fix(const Preset& preset);
 
 /// The preset with the dt that is advised for its own method; none where it has it already, or none is stable.

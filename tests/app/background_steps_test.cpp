@@ -64,6 +64,24 @@ TEST_CASE("while a step is being made, the session shows the cloth before it, an
   CHECK(same(session.simulation->read(), alone.read()));
 }
 
+TEST_CASE("a step whose equations were not solved is said once, with what is left") {
+  Preset preset = long_steps(24);
+  preset.iterations = 1;
+  test::Desk desk(preset);
+  Session& session = desk.session;
+  session.pacing.patient = true;
+  const auto warnings = [&] {
+    const auto& said = session.messages.list();
+    return std::count_if(said.begin(), said.end(), [](const Message& message) {
+      return message.severity == Message::Severity::warning &&
+             message.text.find("did not converge (up to ") != message.text.npos;
+    });
+  };
+  while (session.simulation->steps() < 4) session.update(frame, {});
+  CHECK(session.simulation->engine().solves().unconverged_steps > 1);
+  CHECK(warnings() == 1);
+}
+
 TEST_CASE("a change of constants stops the step at once, and counts from the last whole one") {
   Under under;
   Session& session = under.desk.session;

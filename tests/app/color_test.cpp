@@ -210,6 +210,38 @@ TEST_CASE("what is left of a cloth that has diverged has a scale that tells its 
   CHECK(top() == before);
 }
 
+TEST_CASE("step by step into a divergence, and in its replay, the scale is the one of the wreck") {
+  Preset preset = test::cloth(12, 12);
+  preset.k_s = 200, preset.dt = 1.15e-3;
+  test::Desk desk(preset);
+  Session& session = desk.session;
+  session.scripted = session.pacing.patient = true;
+  desk.scene.colors.choose(ParticleField::strain);
+  const auto top = [&] {
+    desk.scene.colors.update(desk.scene, 0, 1);
+    return desk.scene.colors.chosen->top();
+  };
+  double last = 0;
+  while (!session.simulation->divergence()) {
+    session.simulation->advance(1);
+    last = session.simulation->divergence() ? last : top();
+  }
+  const double of_wreck = top();
+  CHECK(of_wreck < last / 10);  // that of the last whole step is for a few springs
+  session.rewind.clear();
+  session.simulation->apply(edit::Restart{});
+  while (!session.simulation->divergence()) session.update(0.05, {});
+  CHECK(top() == of_wreck);
+  session.request(request::Replay{});
+  session.update(0, {});
+  REQUIRE(session.replay);
+  while (session.replay) {
+    CHECK(top() == of_wreck);
+    session.update(0.05, {});
+  }
+  CHECK(top() == of_wreck);
+}
+
 TEST_CASE("values are worked out once for a state, and again when it moves or a constant changes") {
   test::Desk desk(test::cloth(6, 6));
   desk.scene.colors.choose(ParticleField::tension);

@@ -112,7 +112,7 @@ TEST_CASE("a lab is read whole") {
   CHECK(second.explanation.empty());
 }
 
-TEST_CASE("a wrong lab is refused with its file, its line and the cure") {
+TEST_CASE("a wrong lab is refused with its file, its line and how to mend it") {
   CHECK(says(problem_of("Text\n"), "my.md:1: a lab begins with its title"));
   CHECK(says(problem_of("# A lab\n"), "at least one step"));
   CHECK(says(problem_of("# A lab\n## \n"), "my.md:2"));

@@ -30,7 +30,7 @@ LabPlayer::LabPlayer(const std::string& label) {
 }
 
 void LabPlayer::update(double seconds) {
-  session_.wants = {.accuracy = accuracy_open};
+  session_.wants = {};
   session_.update(seconds, {});
   REQUIRE_FALSE(session_.question.has_value());
 }
@@ -112,17 +112,18 @@ void LabPlayer::look() {
     const auto& known = session_.studies.stability.limits();
     return known && known->of == session_.preset() && known->at == session_.study_moment().mark();
   };
+  const bool measures = lab().now().show == "accuracy";
   const auto study = [&] {
-    if (!accuracy_open) return true;
+    if (!measures) return true;
     const auto known = session_.studies.accuracy.study();
     return known && known->present && known->of == session_.preset() && known->at == session_.study_moment().mark();
   };
   REQUIRE_FALSE(session_.simulation->divergence());  // of which no study is made
   const auto begun = std::chrono::steady_clock::now();
   const bool playing = std::exchange(session_.pacing.playing, false);
-  while (!limits() || !study()) {
+  while (!done() && (!limits() || !study())) {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    session_.wants = {.stability = true, .accuracy = accuracy_open};
+    session_.wants = {.stability = true, .accuracy = measures};
     session_.update(0.01, {});
     REQUIRE(std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() < patience);
   }
@@ -133,6 +134,13 @@ void LabPlayer::next() {
   REQUIRE(done());
   enter_step(session_, lab().step + 1);
   open();
+}
+
+void finish(LabPlayer& play) {
+  CAPTURE(play.lab().lab.label);
+  CAPTURE(play.lab().step);
+  REQUIRE(play.done());
+  if (play.lab().now().prediction) CHECK(play.right());
 }
 
 }  // namespace tyglab::test

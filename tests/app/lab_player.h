@@ -23,9 +23,9 @@ class LabPlayer {
   void set(const std::string& setting);
   /// Runs until it has lasted so many simulated seconds more, the step stops it, it diverges, or the step is done.
   void run(double seconds);
-  /// Updates in which nothing is done, until the limits and the study (of those that are open) are there.
+  /// Updates in which nothing is done, until the limits are there and, where the step shows the card Accuracy, what it
+  /// measures; or until the step is done.
   void look();
-  bool accuracy_open = false;
   /// The next step, which opens its preset.
   void next();
   /// The same though this one is not done.
@@ -47,5 +47,8 @@ class LabPlayer {
 
   Session session_;
 };
+
+/// The step is done, and what was predicted is right.
+void finish(LabPlayer& play);
 
 }  // namespace tyglab::test

@@ -15,6 +15,7 @@
 #include "tests/monkey/chooser.h"
 #include "tests/monkey/player.h"
 #include "tests/monkey/shrink.h"
+#include "tests/support/sanitized.h"
 
 namespace tyglab::monkey {
 namespace {
@@ -23,6 +24,9 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double between_samples = 5;  // s, of memory
+// Of a session whose cloth stays at 32 x 32, without sanitizers.
+constexpr double most_work = 2;      // s of one frame
+constexpr double most_memory = 500;  // MB; 240 were seen in eighteen minutes
 
 struct Options {
   unsigned seed = 1;
@@ -95,6 +99,14 @@ std::unique_ptr<HeadlessContext> picture_context() {
   }
 }
 
+/// What a session on a small cloth must not need; empty if it does not.
+std::string excess(const Tally& tally) {
+  if (tally.most_work_s > most_work)
+    return "a frame took " + std::to_string(tally.most_work_s) + " s of processor time, on a small cloth";
+  if (tally.most_mb > most_memory) return "the session holds " + std::to_string(int(tally.most_mb)) + " MB";
+  return {};
+}
+
 /// In the process that may crash.
 int play(const Options& options) {
   const fs::path record = options.record.empty() ? fs::path() : fs::absolute(options.record);
@@ -118,6 +130,8 @@ int play(const Options& options) {
       player.play(action);
       memory.look(player.tally());
     }
+    const std::string problem = options.one_cloth && !test::sanitized ? excess(player.tally()) : "";
+    if (!problem.empty()) throw Finding(problem);
   } catch (const std::exception& error) {
     std::cout << "FINDING: " << error.what() << std::endl;
     findings = 1;

@@ -1,5 +1,6 @@
 #include "tests/monkey/player.h"
 
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,6 +46,13 @@ bool finite(const VectorField<double>& field) {
     if (!std::all_of(component->begin(), component->end(), [](double value) { return std::isfinite(value); }))
       return false;
   return true;
+}
+
+/// Processor time of this thread, which other programs don't lengthen.
+double worked_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
 }  // namespace
@@ -320,6 +328,9 @@ void Player::undo_redo() {
 void Player::after_frame(double seconds) {
   alarm(longest_quiet);
   ++tally_.frames;
+  const double worked = worked_s();
+  if (worked_s_ > 0) tally_.most_work_s = std::max(tally_.most_work_s, worked - worked_s_);
+  worked_s_ = worked;
   if (seconds > tally_.longest_frame_s) tally_.longest_frame_s = seconds, tally_.longest_after = now_;
   Session& session = window_->session;
   session.pacing.patient = patient(session);

@@ -24,6 +24,7 @@ struct Tally {
   long actions = 0, frames = 0, restarts = 0;
   long passed_over = 0;  ///< whose control or particle was not in sight
   double longest_frame_s = 0;
+  double most_work_s = 0;     ///< processor time of the thread that draws, from one frame to the next
   std::string longest_after;  ///< the action in which that was
   double most_mb = 0;         ///< resident memory
 };
@@ -69,7 +70,8 @@ class Player {
   std::unique_ptr<SettingsWriter> writer_;
   std::optional<Preset> checked_;  ///< the last preset that was found good
   Tally tally_;
-  std::string now_;  ///< the action that is being done
+  double worked_s_ = 0;  ///< processor time of this thread until the last frame
+  std::string now_;      ///< the action that is being done
 };
 
 /// Resident memory now, MB.

@@ -1,4 +1,4 @@
-// Presets that are wrong: each is refused, and the error names file, line, key and cure.
+// Presets that are wrong: each is refused, and the error names file, line, key and how to mend it.
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
@@ -164,7 +164,7 @@ TEST_CASE("text that is not JSON is refused with its line") {
   }
 }
 
-TEST_CASE("text that is not JSON is told in plain words, with its place and the cure") {
+TEST_CASE("text that is not JSON is told in plain words, with its place and how to mend it") {
   for (const auto& [text, says] : std::initializer_list<std::pair<std::string, std::string>>{
            {"{\n\"cloth\": {\n\"rows\" 5}}", ":3: column 8: a colon is missing after the key \"rows\""},
            {"{\n\"name\": \"a\"\n\"kind\": 5}", ":3: column 1: a comma is missing before this"},

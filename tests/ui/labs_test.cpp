@@ -4,6 +4,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/session/lab_state.h"
 #include "app/session/requests.h"
+#include "app/ui/cards/cards.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::labs_ui_test {
@@ -215,6 +216,26 @@ TEST_CASE("a step shows what it is about, at its speed, and the lab's end gives 
   CHECK(window.drew("Which k_s and dt are stable"));
   leave_lab(window.session);
   CHECK(window.session.pacing.speed == 0.5);
+}
+
+TEST_CASE("what a step shows is measured where the window has no room for its card, and comes into sight with F5") {
+  const auto large_text = [](Settings& settings) { settings.ui_scale = 1.5; };
+  test::NullUi window({.size = {900, 600}, .settings = large_text});
+  find_labs(window.session);
+  begin_lab(window.session, "05_order");
+  window.frames(4);
+  until_done(window, "the error to be measured");
+  CHECK_FALSE(window.drew("open the card"));
+
+  test::NullUi wide;
+  find_labs(wide.session);
+  begin_lab(wide.session, "05_order");
+  wide.frames(4);
+  wide.ui.plots.tab = card_name::forces;
+  wide.key(GLFW_KEY_F5);
+  wide.frames(4);
+  CHECK(wide.ui.presenting);
+  CHECK(wide.ui.plots.tab == card_name::accuracy);
 }
 
 TEST_CASE("the card says which number is looked at, where it is seen, and why a check is broken") {

@@ -139,7 +139,7 @@ TEST_CASE("what no inner step is short enough for is found as a divergence, with
     CHECK(simulation.advance(3).diverged);
     CHECK(simulation.steps() == 5);
     CHECK(test::identical(simulation.read(), before));
-    CHECK(simulation.divergence()->advice.find("implicit_euler") != std::string::npos);
+    CHECK(simulation.divergence()->advice.find("implicit Euler") != std::string::npos);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tyglab {
 
@@ -24,13 +25,28 @@ const char* why_empty(const Ui& ui) {
   return ui.session.pacing.playing ? "Waiting for the first step" : "Press Space to run";
 }
 
-PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
+namespace {
+
+/// The simulated time that a plot shows, s: the last of it or, in a replay, all of the replay.
+std::pair<double, double> shown_time(const Ui& ui, const Series& series) {
+  const auto& window_s = ui.plots.window_s;
+  if (const auto& replay = ui.session.replay) {
+    const double end = replay->of.t;
+    return {end - window_s.value_or(Replay::steps * ui.session.preset().dt), end};
+  }
   const double now = series.empty() ? ui.session.simulation->time() : series.t().back();
   const double length = series.empty() ? 0 : now - series.t().front();
   const double usual = length <= 2 ? 2 : length <= 5 ? 5 : 10;
-  const double window = ui.plots.window_s.value_or(length > 0 ? std::min(usual, blow_up_span(ui, length)) : usual);
+  const double window = window_s.value_or(length > 0 ? std::min(usual, blow_up_span(ui, length)) : usual);
   const double end = std::max(now, window);
-  return {.x_min = end - window,
+  return {end - window, end};
+}
+
+}  // namespace
+
+PlotFrame time_frame(const Ui& ui, const Series& series, bool log, std::string_view unit, std::string_view when_empty) {
+  const auto [begin, end] = shown_time(ui, series);
+  return {.x_min = begin,
           .x_max = end,
           .log = log,
           .from_zero = true,

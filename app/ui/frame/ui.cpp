@@ -22,6 +22,7 @@ void Ui::color_replay() {
   const auto& chosen = scene.colors.chosen;
   if (!color_before_replay_) color_before_replay_.emplace(chosen ? std::optional(chosen->field) : std::nullopt);
   scene.colors.choose(ParticleField::strain);
+  scene.colors.update(scene, 0, 1);  // of what it leads to, whose scale the replay keeps
 }
 
 /// The replay's coloring stays while what it led to is seen; what was chosen meanwhile stays altogether.

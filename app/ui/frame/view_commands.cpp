@@ -1,6 +1,8 @@
 // The window: panels, text, theme.
 #include <algorithm>
 
+#include "app/session/lab_state.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/frame/commands.h"
 
 namespace tyglab {
@@ -51,6 +53,7 @@ void next_theme(Ui& ui) {
 void present(Ui& ui) {
   ui.presenting = !ui.presenting;
   ui.panels = true;
+  if (ui.presenting && ui.session.labs.run) show_for_lab(ui, ui.session.labs.run->now().show);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 
-namespace tyglab::falling_back_test {
+namespace tyglab::engine_fallback_test {
 
 /// An engine whose device is lost after so many calls of advance().
 class LostEngine final : public Engine {
@@ -104,4 +104,4 @@ TEST_CASE(
   CHECK_THROWS_AS(fall_back(session, "Lost."), EngineError);
 }
 
-}  // namespace tyglab::falling_back_test
+}  // namespace tyglab::engine_fallback_test
