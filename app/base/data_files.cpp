@@ -2,6 +2,8 @@
 
 #include <system_error>
 
+#include "app/base/program.h"
+
 namespace tyglab {
 namespace fs = std::filesystem;
 
@@ -21,13 +23,12 @@ void set_data_folder(const fs::path& folder) {
 const fs::path& data_folder() {
   if (!given_folder().empty()) return given_folder();
   static const fs::path folder = [] {
-    std::error_code error;
-    const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-    if (error) {
-      throw DataFileError("The folder of the program cannot be found (/proc/self/exe: " + error.message() +
+    try {
+      return data_folder_beside(program_file().parent_path());
+    } catch (const fs::filesystem_error& error) {
+      throw DataFileError(std::string("The folder of the program cannot be found (") + error.what() +
                           "). Is /proc mounted?");
     }
-    return (executable.parent_path() / ".." / "share" / "tyglab").lexically_normal();
   }();
   return folder;
 }

@@ -1,32 +1,15 @@
 #include "app/base/frame_costs.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <ctime>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
+
+#include "app/base/program.h"
 
 namespace tyglab {
 namespace {
 
 constexpr double smoothing = 0.05;     // of a mean over about the last twenty frames
 constexpr double least_recent = 1e-4;  // ms; a part that fell below it has stopped
-
-/// How long this program has run, s. The system notes its start to a hundredth of a second.
-double program_age_s() {
-  std::ifstream stat("/proc/self/stat");
-  std::string text;
-  std::getline(stat, text);
-  std::istringstream fields(text.substr(std::min(text.rfind(')') + 2, text.size())));
-  for (int before_start = 0; before_start < 19; ++before_start) fields >> text;
-  double start_ticks = 0;
-  fields >> start_ticks;
-  timespec now{};
-  clock_gettime(CLOCK_BOOTTIME, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec) - start_ticks / double(sysconf(_SC_CLK_TCK));
-}
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <concepts>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/io/files.h"
@@ -10,6 +9,7 @@
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
+#include "core/io/user_folders.h"
 
 namespace tyglab {
 namespace {
@@ -279,14 +279,9 @@ std::string without_name(std::string problem, const fs::path& file) {
 }  // namespace
 
 fs::path config_folder() {
-  const auto variable = [](const char* name) -> fs::path {
-    const char* value = std::getenv(name);
-    return value != nullptr ? fs::path(value) : fs::path();
-  };
-  if (const fs::path own = variable("TYGLAB_CONFIG_DIR"); !own.empty()) return own;
-  if (const fs::path xdg = variable("XDG_CONFIG_HOME"); xdg.is_absolute()) return xdg / "tyglab";
-  if (const fs::path home = variable("HOME"); !home.empty()) return home / ".config" / "tyglab";
-  return {};
+  if (const fs::path own = environment("TYGLAB_CONFIG_DIR"); !own.empty()) return own;
+  const fs::path base = settings_base();
+  return base.empty() ? base : base / "tyglab";
 }
 
 fs::path user_preset_folder() {

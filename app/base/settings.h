@@ -56,8 +56,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-/// Folder of settings and the user's presets: $TYGLAB_CONFIG_DIR, $XDG_CONFIG_HOME/tyglab or ~/.config/tyglab; empty
-/// where none of them is known.
+/// Folder of settings and the user's presets: $TYGLAB_CONFIG_DIR, or "tyglab" in settings_base(); empty where neither
+/// is known.
 std::filesystem::path config_folder();
 std::filesystem::path user_preset_folder();
 

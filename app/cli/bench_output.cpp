@@ -1,7 +1,7 @@
 #include "app/cli/bench_output.h"
 
 #include <chrono>
-#include <ctime>
+#include <cstdio>
 #include <iostream>
 
 #include "app/cli/command_line.h"
@@ -15,11 +15,9 @@ namespace {
 
 /// "2026-11-21", the day on which something is measured (UTC).
 std::string today() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  std::tm parts{};
-  gmtime_r(&now, &parts);
+  const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
   char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
+  std::snprintf(text, sizeof text, "%04d-%02u-%02u", int(date.year()), unsigned(date.month()), unsigned(date.day()));
   return text;
 }
 

@@ -1,13 +1,9 @@
 #include "app/cli/command_line.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
-#include <csignal>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -55,11 +51,10 @@ std::string range_problem(double value, double lowest, double highest, const std
 
 /// What is wrong with the first word that should be a command and is none, or with the lack of one; empty if nothing
 /// is.
-std::string command_problem(const CLI::App& program, std::span<const char* const> words) {
+std::string command_problem(const CLI::App& program, std::span<const std::string> words) {
   const CLI::App* at = &program;
   std::string typed;
-  for (const char* const each : words) {
-    const std::string word = each;
+  for (const std::string& word : words) {
     const std::vector<std::string> names = command_names(*at);
     if (names.empty() || word.starts_with('-')) return {};
     if (std::find(names.begin(), names.end(), word) != names.end()) {
@@ -92,19 +87,6 @@ std::string unexpected(const CLI::ExtrasError& error) {
 
 }  // namespace
 
-void prepare_process() {
-  filter_standard_streams();
-  std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGPIPE, SIG_IGN);
-  // Descriptors are given out from the lowest: each that was free is taken until the first beyond the three. For
-  // reading alone, so that what is written to it fails and is reported.
-  int descriptor = 0;
-  do {
-    descriptor = ::open("/dev/null", O_RDONLY);
-  } while (descriptor >= 0 && descriptor <= STDERR_FILENO);
-  if (descriptor > STDERR_FILENO) ::close(descriptor);
-}
-
 std::vector<std::string> command_names(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::App* each : command.get_subcommands([](const CLI::App* each) { return !each->get_group().empty(); }))
@@ -112,7 +94,7 @@ std::vector<std::string> command_names(const CLI::App& command) {
   return names;
 }
 
-int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words) {
+int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const std::string> words) {
   return run_action([&]() -> int {
     if (error.get_exit_code() != 0) {
       if (const std::string problem = command_problem(program, words); !problem.empty()) {

@@ -32,13 +32,9 @@ class UsageError : public std::runtime_error {
 /// What the command line picked: does the work and returns the exit code.
 using Action = std::function<int()>;
 
-/// Filters what is printed (core/io/terminal.h). Gives streams that were
-/// closed (>&-) to nothing, so that no file that is opened later takes their place; makes writing beyond a limit
-/// (ulimit -f) or to nobody (| head) an error that is reported instead of the process's end.
-void prepare_process();
 /// Ends the program's parsing: prints help (0) or what is wrong with the command line (2). `words` are those typed
 /// after the program's name: one that should be a command and is none is named, with those that there are.
-int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const char* const> words);
+int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::span<const std::string> words);
 /// The names of a command's own commands.
 std::vector<std::string> command_names(const CLI::App& command);
 /// Does the work; an error becomes a sentence on stderr and its exit code.

@@ -6,7 +6,7 @@
 #include "app/render/camera.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/field_colors.h"
-#include "app/render/headless_context.h"
+#include "app/platform/headless_context.h"
 #include "core/simulation.h"
 
 namespace tyglab {

@@ -1,12 +1,11 @@
 #include "app/cli/outputs.h"
 
-#include <unistd.h>
-
 #include <iostream>
 
 #include "app/cli/command_line.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/io/system_files.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
@@ -30,7 +29,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
 void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
   for (auto a = outputs.begin(); a != outputs.end(); ++a) {
     if (a->file.empty()) continue;
-    if (a->binary && is_standard_output(a->file) && ::isatty(STDOUT_FILENO) == 1)
+    if (a->binary && is_standard_output(a->file) && os::is_terminal(os::standard_output))
       throw UsageError(a->option +
                        " -: standard output is a terminal, which cannot show such a file; redirect it to a "
                        "file (> F) or pipe it to a program (| …)");
@@ -56,8 +55,7 @@ void make_output_folder(const std::string& option, const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw OutputError(folder + ": the folder cannot be created: " + error.message());
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw OutputError(folder + ": is not writable; choose another folder");
+  if (!os::may_write_into(folder)) throw OutputError(folder + ": is not writable; choose another folder");
 }
 
 CLI::Option* add_output(CLI::App& command, const std::string& option, std::string& file, const std::string& what) {

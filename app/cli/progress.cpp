@@ -1,14 +1,14 @@
 #include "app/cli/progress.h"
 
-#include <unistd.h>
-
 #include <cmath>
 
+#include "core/io/system_files.h"
 #include "core/io/terminal.h"
 
 namespace tyglab {
 
-Progress::Progress(const std::string& what) : what_(in_one_line(what)), terminal_(::isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(const std::string& what)
+    : what_(in_one_line(what)), terminal_(os::is_terminal(os::standard_error)) {}
 
 void Progress::clear() {
   if (shown_) cursor_output() << '\r' << std::string(what_.size() + 40, ' ') << '\r' << std::flush;

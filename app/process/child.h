@@ -1,14 +1,15 @@
-// Child processes: a function of this program or another program, whose crash or hang is a result like any other.
+// Child processes: a function of this program whose crash or hang is a result like any other. Not on Windows, which
+// cannot copy a process.
 #pragma once
 
 #include <sys/types.h>
 
 #include <chrono>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
+
+#include "app/process/child_exit.h"
 
 namespace tyglab {
 
@@ -16,15 +17,6 @@ namespace tyglab {
 class ChildError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// How a child process ended.
-struct ChildExit {
-  std::string result;      ///< of its function; empty unless it returned and all of the result arrived
-  int code = 0;            ///< exit code: 0 unless the function threw or the result could not be sent
-  int signal = 0;          ///< that ended it; 0: none
-  bool timed_out = false;  ///< it was killed for taking too long
-  double seconds = 0;      ///< from its start to its end
 };
 
 struct ChildOptions {
@@ -66,22 +58,5 @@ class Child {
 
 /// Runs a function in a child process and waits for its end. Throws ChildError.
 ChildExit run_in_child(const Child::Work& work, const ChildOptions& options = {});
-
-/// How another program ended.
-struct ProgramExit {
-  std::optional<int> code;  ///< exit code; none if it did not start or was ended by a signal
-  int signal = 0;           ///< that ended it; 0: none
-  bool timed_out = false;   ///< it was killed for taking too long
-  std::string output;       ///< what it wrote to standard output and error, the first 64 KiB
-};
-
-struct ProgramOptions {
-  int input = -1;           ///< descriptor of its standard input; -1: none
-  double most_seconds = 0;  ///< after which it is killed; 0: never
-};
-
-/// Runs another program, none of whose output is seen, and waits for its end. `arguments` begin with its name.
-ProgramExit run_program(const std::string& path, std::vector<std::string> arguments,
-                        const ProgramOptions& options = {});
 
 }  // namespace tyglab

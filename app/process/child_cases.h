@@ -1,11 +1,12 @@
-// Numbered cases in processes of their own, so that one that crashes or hangs is a result like any other.
+// Numbered cases in processes of their own, so that one that crashes or hangs is a result like any other; on Windows in
+// threads of this process.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 #include <string>
 
-#include "app/process/child.h"
+#include "app/process/child_exit.h"
 
 namespace tyglab {
 
@@ -13,7 +14,7 @@ struct ChildCases {
   std::int64_t from = 0, count = 0;
   int at_a_time = 1;
   double most_seconds = 60;                                        ///< for one case
-  std::function<std::string(std::int64_t)> work = {};              ///< in the case's own process
+  std::function<std::string(std::int64_t)> work = {};              ///< in the case's own process, or thread
   std::function<void(std::int64_t, const ChildExit&)> ended = {};  ///< in this one, in the order of the numbers
   std::function<bool()> stop = {};                                 ///< no further case is started once this holds
 };

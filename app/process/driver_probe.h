@@ -1,9 +1,10 @@
-// Whether an OpenCL driver crashes when it is asked for its devices: found out in a child process.
+// Whether an OpenCL driver crashes when it is asked for its devices: found out in a child process, where there are any.
 #pragma once
 
 namespace tyglab {
 
-/// Has core ask the drivers in a child process first (set_driver_probe()).
+/// Has core ask the drivers in a child process first (set_driver_probe()). On Windows they are asked in this
+/// process.
 void probe_drivers_in_child();
 
 }  // namespace tyglab

@@ -1,12 +1,12 @@
 // Ctrl-C, SIGTERM and SIGHUP (a terminal that is closed) end the program with a sentence: at once while there is
-// nothing to keep, cleanly during long work.
+// nothing to keep, cleanly during long work. On Windows: Ctrl-C, Ctrl-Break, and a console that is closed.
 #pragma once
 
-#include <csignal>
+#include <memory>
 
 namespace tyglab {
 
-/// What SIGINT, SIGTERM and SIGHUP do while one lives; afterwards they do what they did before.
+/// What those do while one lives; afterwards they do what they did before.
 class SignalHandler {
  public:
   explicit SignalHandler(void (*handler)(int));
@@ -15,7 +15,8 @@ class SignalHandler {
   SignalHandler& operator=(const SignalHandler&) = delete;
 
  private:
-  struct sigaction old_int_, old_term_, old_hup_;
+  struct Before;
+  std::unique_ptr<Before> before_;
 };
 
 /// While one lives, Ctrl-C (or SIGTERM, SIGHUP) says so and ends the program at once with exit code 130.

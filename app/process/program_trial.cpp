@@ -1,15 +1,12 @@
 #include "app/process/program_trial.h"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstring>
 #include <string>
 #include <string_view>
 
-#include "app/process/child.h"
+#include "app/base/program.h"
+#include "app/process/child_exit.h"
+#include "app/process/program_run.h"
 #include "core/engines/opencl/disk_cache.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/vertex_sharing.h"
@@ -39,14 +36,6 @@ Preset small_cloth(const Preset& preset) {
   return small;
 }
 
-/// A file in memory with that text, to be read from its beginning; under 0: none could be made.
-int file_of(const std::string& text) {
-  const int file = ::memfd_create("preset", MFD_CLOEXEC);
-  if (file >= 0 && (::write(file, text.data(), text.size()) != ssize_t(text.size()) || ::lseek(file, 0, SEEK_SET) != 0))
-    return ::close(file), -1;
-  return file;
-}
-
 /// Where what the driver printed stands, as a sentence, and how it begins.
 std::string chatter_words(const std::string& chatter) {
   if (chatter.empty()) return {};
@@ -69,20 +58,17 @@ std::string chatter_words(const std::string& chatter) {
 std::string death_of(const ProgramExit& exit) {
   constexpr int exit_done = 0, exit_engine = 5;  // ExitCode of app/cli/command_line.h
   if (exit.timed_out) return "did not come to an end within three minutes";
-  if (exit.signal != 0) return std::string("crashed (") + ::strsignal(exit.signal) + ")";
+  if (exit.signal != 0) return "crashed (" + signal_words(exit.signal) + ")";
   if (exit.code && exit.code != exit_done && exit.code != exit_engine)
     return "ended the process (exit code " + std::to_string(*exit.code) + ")";
   return {};
 }
 
 std::string try_in_child(const Preset& preset, bool contacts) {
-  const int input = file_of(preset_to_json(small_cloth(preset)));
-  if (input < 0) return {};  // nothing is known against the driver
   std::vector<std::string> arguments{"tyglab", "try-opencl", "--device", std::to_string(preset.device)};
   if (contacts) arguments.emplace_back("--contacts");
-  const ProgramExit exit =
-      run_program("/proc/self/exe", std::move(arguments), {.input = input, .most_seconds = most_seconds});
-  ::close(input);
+  const ProgramExit exit = run_program(this_program_again(), std::move(arguments),
+                                       {.input = preset_to_json(small_cloth(preset)), .most_seconds = most_seconds});
   const std::string death = death_of(exit);
   if (death.empty()) return {};
   return "The OpenCL driver " + death + " when the kernels were tried in a process of their own." +
@@ -129,16 +115,6 @@ void run_programs_once(const Preset& preset, bool ledger) {
   } catch (const EngineError&) {
     // The cloth itself will meet it, where it is reported.
   }
-}
-
-void send_chatter_to_log() {
-  const std::filesystem::path log = driver_log();
-  std::error_code error;
-  if (!log.empty()) std::filesystem::create_directories(log.parent_path(), error);
-  int to = log.empty() ? -1 : ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (to < 0) to = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  ::dup2(to, STDERR_FILENO);
-  ::close(to);
 }
 
 }  // namespace tyglab

@@ -27,7 +27,5 @@ void run_programs_once(const Preset& preset, bool ledger);
 
 /// opencl.log in the cache folder; empty: nowhere.
 std::filesystem::path driver_log();
-/// In a child process: what a driver prints goes to driver_log().
-void send_chatter_to_log();
 
 }  // namespace tyglab

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/platform/gl/dialect.h"
 #include "app/render/cloth_renderer_parts.h"
 #include "core/engines/vertex_sharing.h"
 
@@ -184,7 +185,8 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
   Parts& p = *parts_;
   const SavedTarget saved;
   for (const GLenum off : {GL_BLEND, GL_CULL_FACE, GL_SCISSOR_TEST, GL_STENCIL_TEST}) glDisable(off);
-  for (const GLenum on : {GL_DEPTH_TEST, GL_MULTISAMPLE, GL_PROGRAM_POINT_SIZE}) glEnable(on);
+  glEnable(GL_DEPTH_TEST);
+  enable_smooth_edges_and_point_sizes();
   glDepthMask(GL_TRUE);
   glDepthFunc(GL_LEQUAL);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

@@ -1,9 +1,11 @@
 #include "app/render/draw_timer.h"
 
+#include "app/platform/gl/dialect.h"
+
 namespace tyglab {
 
 void DrawTimer::begin() {
-  if (asked_) return;
+  if (asked_ || !drawing_can_be_timed()) return;
   glBeginQuery(GL_TIME_ELAPSED, query_.id());
   running_ = true;
 }

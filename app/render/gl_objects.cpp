@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/base/data_files.h"
+#include "app/platform/gl/dialect.h"
 
 namespace tyglab::gl {
 namespace {
@@ -29,7 +30,7 @@ std::string shader_text(std::string_view name) {
 
 /// A shader that is attached to a program and then lives as long as it.
 void attach(GLuint program, GLenum stage, std::string_view name, std::string_view define) {
-  std::string text(shader_head);
+  std::string text = std::string(shader_version()) + '\n' + shader_preamble();
   if (!define.empty()) text += "#define " + std::string(define) + '\n';
   text += "#line 1\n" + shader_text(name);
   const char* const source = text.c_str();

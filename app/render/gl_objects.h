@@ -75,9 +75,6 @@ class Buffer {
   GLsizeiptr bytes_ = 0;
 };
 
-/// The first lines of every shader: its language and version.
-inline constexpr std::string_view shader_head = "#version 330 core\n";
-
 /// A linked program made of the files "shaders/NAME.vert" and "….frag".
 class Program {
  public:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "app/platform/gl/dialect.h"
+
 namespace tyglab {
 namespace {
 
@@ -69,16 +71,8 @@ Image RenderTarget::pixels() const {
   GLint bound = 0;
   glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, parts_->resolving.id());
-  Image image{width_, height_, std::vector<std::uint8_t>(std::size_t(3) * width_ * height_)};
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, image.rgb.data());
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  Image image{width_, height_, read_pixels(width_, height_)};
   glBindFramebuffer(GL_READ_FRAMEBUFFER, GLuint(bound));
-  const std::size_t row = std::size_t(3) * width_;
-  for (int top = 0, bottom = height_ - 1; top < bottom; ++top, --bottom) {
-    std::swap_ranges(image.rgb.begin() + top * row, image.rgb.begin() + (top + 1) * row,
-                     image.rgb.begin() + bottom * row);
-  }
   return image;
 }
 

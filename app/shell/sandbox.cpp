@@ -6,14 +6,16 @@
 #include <limits>
 
 #include "app/base/preset_files.h"
+#include "app/platform/loop.h"
+#include "app/platform/window.h"
 #include "app/process/heap.h"
 #include "app/process/interrupt.h"
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
 #include "app/session/document.h"
+#include "app/shell/gui.h"
 #include "app/shell/settings_writer.h"
 #include "app/shell/start.h"
-#include "app/shell/window.h"
 #include "app/ui/frame/frame.h"
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
@@ -30,16 +32,15 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double settle_time = 0.3;          // s after an event
 
-class Sandbox {
+class Sandbox : public Turns {
  public:
   explicit Sandbox(const SandboxOptions& options);
-  ~Sandbox() {  // while the window's context lives; first who works in its memory
+  ~Sandbox() override {  // while the window's context lives; first who works in its memory
     session_.rebuild = {}, session_.copies.lockstep.clear(), session_.simulation.reset();
     scene_.views = {}, scene_.renderer.reset();
   }
-  Sandbox(const Sandbox&) = delete;
-  Sandbox& operator=(const Sandbox&) = delete;
-  int run();
+  bool turn() override;
+  int finish() override;
 
  private:
   bool restores() const { return !options_.explicit_preset && !session_.scripted && settings_.session.has_value(); }
@@ -81,20 +82,21 @@ class Sandbox {
   double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
   Image last_picture_;
+  const InterruptGuard guard_;  ///< from the first turn on, Ctrl-C ends it in good order
 };
 
 Sandbox::Sandbox(const SandboxOptions& options)
     : options_(options),
       settings_(settings_for(options, session_.messages)),
       window_((begin(), options.width), options.height, settings_, input_),
-      gui_(window_.handle()) {
+      gui_(window_) {
   session_.costs.started(StartPart::window);
-  glfwSwapInterval(session_.scripted ? 0 : 1);
+  window_.wait_for_screen(!session_.scripted);
   scene_.renderer = std::make_unique<ClothRenderer>();
   session_.costs.started(StartPart::shaders);
   start_preset();
   session_.costs.started(StartPart::cloth);
-  last_time_ = glfwGetTime();
+  last_time_ = window_time();
 }
 
 /// What goes on while the window opens.
@@ -160,28 +162,28 @@ Document Sandbox::first_document() {
 }
 
 bool Sandbox::idle() const {
-  return session_.idle() && !session_.scripted && busy_frames_ <= 0 && glfwGetTime() >= settle_until_ &&
+  return session_.idle() && !session_.scripted && busy_frames_ <= 0 && window_time() >= settle_until_ &&
          ui_.actions.empty() && tools_.tool.kind == Tool::Kind::none;
 }
 
 void Sandbox::wait_for_events() {
-  if (window_.iconified()) {
-    glfwWaitEventsTimeout(0.5);
+  if (window_.hidden()) {
+    window_.take_events(0.5);
   } else if (idle()) {
     const double longest = report_ ? 0.1 : 0.5;  // a report is due; Ctrl-C is seen
-    const double wait = std::min(ui_.draw_by - glfwGetTime(), longest);
-    wait > 0 ? glfwWaitEventsTimeout(wait) : glfwPollEvents();
+    const double wait = std::min(ui_.draw_by - window_time(), longest);
+    window_.take_events(wait);
   } else {
-    glfwPollEvents();
+    window_.take_events(0);
   }
   busy_frames_ = input_.anything || input_.unshown ? 4 : std::max(busy_frames_ - 1, 0);
-  if (input_.anything) settle_until_ = glfwGetTime() + settle_time;
+  if (input_.anything) settle_until_ = window_time() + settle_time;
 }
 
 /// Whether there is anything that a new frame would show.
 bool Sandbox::due() {
   if (window_.framebuffer_size().x == 0) return false;
-  return !idle() || input_.anything || report_ != nullptr || glfwGetTime() >= ui_.draw_by;
+  return !idle() || input_.anything || report_ != nullptr || window_time() >= ui_.draw_by;
 }
 
 /// When a frame is wanted again though nothing moves; the panels have said what they want of it.
@@ -230,7 +232,7 @@ void Sandbox::present() {
   if (ui_.picture) return save_picture();
   if (frames_ + 1 == options_.frames && !options_.screenshot.empty()) last_picture_ = window_.pixels();
   const FrameCosts::Timer timer(session_.costs, Part::swap);
-  glfwSwapBuffers(window_.handle());
+  window_.swap();
 }
 
 /// Of the frame that has just been drawn, which is not shown: the viewport has no buttons in it.
@@ -260,7 +262,7 @@ void Sandbox::frame() {
 }
 
 void Sandbox::frame_parts() {
-  const double now = glfwGetTime();
+  const double now = window_time();
   const double elapsed = session_.scripted ? scripted_frame : now - last_time_;
   // Events carry the time at which they were polled, so two clicks of one gesture may be a frame apart.
   input_.double_click_s = std::max(0.4, 1.5 * (now - last_time_));
@@ -288,22 +290,25 @@ void Sandbox::frame_parts() {
   ++frames_;
 }
 
-int Sandbox::run() {
-  const InterruptGuard guard;
-  while (!session_.quit && !InterruptGuard::interrupted() && (options_.frames == 0 || frames_ < options_.frames)) {
-    const double start = glfwGetTime();
-    wait_for_events();
-    const auto present = [this] { return present_settings(); };
-    if (!session_.scripted && writer_.update(start, present, session_.messages)) ui_.draw_by = start;
-    if (!due()) {
-      input_.clear();
-      continue;
-    }
-    frame();
-    // Where the driver does not wait for the screen, the program does.
-    const double left = window_.frame_time() - (glfwGetTime() - start) - 0.001;
-    if (!session_.scripted && left > 0.001) glfwWaitEventsTimeout(left);
+bool Sandbox::turn() {
+  if (session_.quit || InterruptGuard::interrupted() || (options_.frames > 0 && frames_ == options_.frames))
+    return false;
+  const double start = window_time();
+  wait_for_events();
+  const auto present = [this] { return present_settings(); };
+  if (!session_.scripted && writer_.update(start, present, session_.messages)) ui_.draw_by = start;
+  if (!due()) {
+    input_.clear();
+    return true;
   }
+  frame();
+  // Where the driver does not wait for the screen, the program does.
+  const double left = window_.frame_time() - (window_time() - start) - 0.001;
+  if (!session_.scripted && left > 0.001) window_.take_events(left);
+  return true;
+}
+
+int Sandbox::finish() {
   remember();
   const int code = write_outputs();
   return code == done && InterruptGuard::interrupted() ? int(interrupted) : code;
@@ -346,7 +351,7 @@ void Sandbox::remember() {
 int run_sandbox(const SandboxOptions& options) {
   return_large_blocks();
   try {
-    return Sandbox(options).run();
+    return make_turns(std::make_unique<Sandbox>(options));
   } catch (const GraphicsError& error) {
     std::cerr << "tyglab: " << error.what() << '\n';
   } catch (const EngineError& error) {

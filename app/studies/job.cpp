@@ -1,6 +1,6 @@
 #include "app/studies/job.h"
 
-#include <sys/resource.h>
+#include "app/platform/threads.h"
 
 namespace tyglab {
 namespace {
@@ -14,8 +14,7 @@ void let_work_yield(bool yields) {
 }
 
 void run_below_frames() {
-  if (!work_yields) return;
-  setpriority(PRIO_PROCESS, 0, 19);  // on Linux this thread's alone
+  if (work_yields) lower_own_priority();
 }
 
 }  // namespace tyglab

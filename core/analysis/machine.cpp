@@ -1,10 +1,7 @@
 #include "core/analysis/machine.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <limits>
 
 #include "core/cloth/state.h"
@@ -14,20 +11,7 @@
 namespace tyglab {
 
 Machine this_machine() {
-  Machine machine{"unknown processor", 1, cpu::pair_sweeps<float>().target};
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name")) {
-      machine.processor = line.substr(line.find(": ") + 2);
-      break;
-    }
-  machine.cores = processors();
-  return machine;
-}
-
-int processors() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
+  return {processor_name(), processors(), cpu::pair_sweeps<float>().target};
 }
 
 std::string build_description() {

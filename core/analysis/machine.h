@@ -6,11 +6,14 @@
 namespace tyglab {
 
 struct Machine {
-  std::string processor;        ///< model name as the system tells it
+  std::string processor;        ///< processor_name()
   int cores = 1;                ///< processors()
   std::string instruction_set;  ///< that the CPU engine picked
 };
 Machine this_machine();
+
+/// The processor's model as the system names it.
+std::string processor_name();
 
 /// Processors that this process may run on, at least 1.
 int processors();

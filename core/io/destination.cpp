@@ -1,8 +1,5 @@
 #include "core/io/destination.h"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +7,7 @@
 #include <utility>
 
 #include "core/io/files.h"
+#include "core/io/system_files.h"
 #include "core/io/terminal.h"
 
 namespace tyglab {
@@ -22,18 +20,8 @@ std::string output_name(const std::filesystem::path& file) {
   return is_standard_output(file) ? "standard output" : in_one_line(file.string());
 }
 
-namespace {
-
-/// Whether the pipe that standard output is has lost its reader.
-bool reader_is_gone() {
-  pollfd output{STDOUT_FILENO, POLLOUT, 0};
-  return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
-}
-
-}  // namespace
-
 std::string lost_output(const std::filesystem::path& file, int error) {
-  if (error == EPIPE || (error == 0 && is_standard_output(file) && reader_is_gone()))
+  if (error == EPIPE || (error == 0 && is_standard_output(file) && os::output_has_no_reader()))
     return output_name(file) + ": its reader has closed it, so the rest of the output is lost";
   const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : std::string();
   return output_name(file) + ": cannot be written" + why + "; write it elsewhere, or free disk space";

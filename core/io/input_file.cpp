@@ -1,22 +1,19 @@
 #include "core/io/input_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+
+#include "core/io/system_files.h"
 
 namespace tyglab {
 namespace {
 
 /// A descriptor that closes itself.
 struct Opened {
-  explicit Opened(const std::filesystem::path& file)
-      : descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {}
+  explicit Opened(const std::filesystem::path& file) : descriptor(os::open_to_read(file)) {}
   ~Opened() {
-    if (descriptor >= 0) ::close(descriptor);
+    if (descriptor >= 0) os::close(descriptor);
   }
   Opened(const Opened&) = delete;
   Opened& operator=(const Opened&) = delete;
@@ -31,30 +28,29 @@ std::string in_mebibytes(std::uintmax_t bytes) {
 
 std::string read_input(const std::filesystem::path& file, const std::string& kind, std::uintmax_t most_bytes) {
   const auto refuse = [&](const std::string& why) { throw InputError(file.string() + ": " + why); };
-  const auto check = [&](const struct stat& status) {
-    if (S_ISDIR(status.st_mode)) refuse("is a folder; name a file in it");
-    if (!S_ISREG(status.st_mode)) refuse("is not a file, so it cannot be read as a " + kind);
-    if (std::uintmax_t(status.st_size) > most_bytes)
-      refuse("too large for a " + kind + " (" + in_mebibytes(most_bytes) + " at most)");
+  const auto check = [&](const os::FileFacts& facts) {
+    if (facts.folder) refuse("is a folder; name a file in it");
+    if (!facts.regular) refuse("is not a file, so it cannot be read as a " + kind);
+    if (facts.size > most_bytes) refuse("too large for a " + kind + " (" + in_mebibytes(most_bytes) + " at most)");
   };
   // Asked by its name first: to open some devices is to do something to them.
-  struct stat status = {};
-  if (::stat(file.c_str(), &status) != 0)
+  auto facts = os::facts_of(file);
+  if (!facts)
     refuse(errno == ENOENT || errno == ENOTDIR ? "there is no such file"
                                                : std::string("cannot be read: ") + std::strerror(errno));
-  check(status);
+  check(*facts);
   const Opened opened(file);
-  if (opened.descriptor < 0 || ::fstat(opened.descriptor, &status) != 0)
-    refuse("cannot be read; check its permissions");
-  check(status);
+  if (opened.descriptor >= 0) facts = os::facts_of(opened.descriptor);
+  if (opened.descriptor < 0 || !facts) refuse("cannot be read; check its permissions");
+  check(*facts);
   // Nor is more read than that of a file that grows, or that tells no size, as those of /proc.
   std::string text;
   constexpr std::size_t portion = 1 << 16;
   while (text.size() <= most_bytes) {
     const std::size_t before = text.size();
     text.resize(before + portion);
-    const ssize_t n = ::read(opened.descriptor, text.data() + before, portion);
-    text.resize(before + std::size_t(std::max<ssize_t>(n, 0)));
+    const std::int64_t n = os::read(opened.descriptor, text.data() + before, portion);
+    text.resize(before + std::size_t(std::max<std::int64_t>(n, 0)));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) refuse(std::string("cannot be read: ") + std::strerror(errno));
     if (n == 0) return text;

@@ -1,24 +1,15 @@
 #include "core/io/output_file.h"
 
-#include <fcntl.h>
-#include <limits.h>
-#include <poll.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
-#include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/io/system_files.h"
 #include "core/io/terminal.h"
 
 namespace tyglab {
@@ -39,43 +30,22 @@ fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// Whether it takes bytes as they come: a pipe, a device, or /dev/fd/3, which stands for what a shell has opened.
-bool is_stream(const fs::path& file) {
-  std::error_code error;
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) return true;
-  const fs::path folder = fs::canonical(folder_of(file), error);
-  return !error && folder.string().starts_with("/proc/");
-}
-
 Stop stop_waiting;
 
 /// Waits until the descriptor takes bytes (-1: for no descriptor, a moment). Throws OutputError where somebody stops
 /// it.
 void wait_for_reader(const fs::path& file, int descriptor) {
   constexpr int moment = 50;  // ms
-  pollfd wanted{descriptor, POLLOUT, 0};
-  while (::poll(&wanted, 1, moment) <= 0) {
+  while (!os::takes_bytes_within(moment, descriptor)) {
     if (stop_waiting && stop_waiting())
       throw OutputError(output_name(file) + ": it has no reader, so what was to be written there is lost");
     if (descriptor < 0) return;
   }
 }
 
-std::optional<struct stat> status_of(const fs::path& file) {
-  struct stat status = {};
-  return ::stat(file.c_str(), &status) == 0 ? std::optional(status) : std::nullopt;
-}
-
-/// Whether that name still stands for what the descriptor has open.
-bool names(const fs::path& file, int descriptor) {
-  struct stat by_name = {}, opened = {};
-  return ::lstat(file.c_str(), &by_name) == 0 && ::fstat(descriptor, &opened) == 0 && by_name.st_dev == opened.st_dev &&
-         by_name.st_ino == opened.st_ino;
-}
-
 bool is_regular(int descriptor) {
-  struct stat status = {};
-  return ::fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode);
+  const auto facts = os::facts_of(descriptor);
+  return facts && facts->regular;
 }
 
 /// What a file is called while it is written.
@@ -83,23 +53,11 @@ fs::path beside(fs::path target) {
   return target += ".incomplete";
 }
 
-/// Gives the new file the owner and the permissions of the older one, as far as the system allows.
-void adopt(int descriptor, const struct stat& older) {
-  constexpr mode_t permissions = 0777, of_group = 0070, of_others = 0007;
-  mode_t mode = older.st_mode & permissions;
-  // Not even the owner can give a file to a group of others: that group then gets what others have.
-  if (::fchown(descriptor, older.st_uid, older.st_gid) != 0 && ::fchown(descriptor, uid_t(-1), older.st_gid) != 0)
-    mode = (mode & ~of_group) | (mode & of_others) << 3;
-  ::fchmod(descriptor, mode);
-}
-
 /// Whether nobody else has it, who is given half a second. True too where the file system knows no locks.
 bool locked(int descriptor) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::milliseconds(500);
-  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    if (errno == EINTR) continue;
-    if (errno != EWOULDBLOCK) return true;
+  while (!os::lock(descriptor)) {
     if (Clock::now() > end) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
@@ -114,7 +72,7 @@ void stop_waiting_outputs_when(Stop stop) {
 
 fs::path incomplete_file(const fs::path& file) {
   std::error_code error;
-  if (file.empty() || is_stream(file)) return {};
+  if (file.empty() || os::is_stream(file)) return {};
   const fs::path part = beside(followed(file));
   return fs::is_regular_file(part, error) ? part : fs::path();
 }
@@ -125,8 +83,8 @@ void check_output(const fs::path& file) {
   std::error_code error;
   if (fs::is_directory(file, error)) refuse("is a folder; name a file in it");
   if (!file.has_filename()) refuse("is the name of a folder; name a file in it");
-  if (is_stream(file)) {
-    if (::access(file.c_str(), W_OK) != 0) refuse("is not writable; choose another name");
+  if (os::is_stream(file)) {
+    if (!os::may_write(file)) refuse("is not writable; choose another name");
     return;
   }
   const fs::path target = followed(file);
@@ -134,12 +92,10 @@ void check_output(const fs::path& file) {
   const fs::path folder = folder_of(target);
   if (!fs::is_directory(folder, error))
     refuse("the folder " + folder.string() + " does not exist; create it first (mkdir -p)");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    refuse("the folder " + folder.string() + " is not writable; choose another");
+  if (!os::may_write_into(folder)) refuse("the folder " + folder.string() + " is not writable; choose another");
   // An administrator may write everything; a file that nobody may write is meant to stay all the same.
-  constexpr mode_t any_write = S_IWUSR | S_IWGRP | S_IWOTH;
-  if (const auto older = status_of(target);
-      older && ((older->st_mode & any_write) == 0 || ::access(target.c_str(), W_OK) != 0))
+  constexpr unsigned any_write = 0222;
+  if (const auto older = os::facts_of(target); older && ((older->mode & any_write) == 0 || !os::may_write(target)))
     refuse("is read-only, so it is not replaced; choose another name, or make it writable (chmod u+w)");
 }
 
@@ -148,10 +104,9 @@ OutputFile::OutputFile(const fs::path& file, Order order) : file_(file) {
   if (is_standard_output(file)) {
     if (order == Order::front_to_back) return;
     kind_ = Kind::gathered;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> temporary(std::tmpfile(), std::fclose);
-    if (temporary) descriptor_ = ::fcntl(::fileno(temporary.get()), F_DUPFD_CLOEXEC, 0);
+    descriptor_ = os::open_temporary();
     if (descriptor_ < 0) fail(errno);
-  } else if (is_stream(file)) {
+  } else if (os::is_stream(file)) {
     open_stream(order);
   } else {
     open_beside();
@@ -161,12 +116,12 @@ OutputFile::OutputFile(const fs::path& file, Order order) : file_(file) {
 void OutputFile::open_stream(Order order) {
   kind_ = Kind::stream;
   // A pipe without a reader is no error: one may come.
-  while ((descriptor_ = ::open(file_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK)) < 0) {
+  while ((descriptor_ = os::open_stream(file_)) < 0) {
     if (errno != ENXIO) fail(errno);
     wait_for_reader(file_, -1);
   }
-  if (order == Order::front_to_back || ::lseek(descriptor_, 0, SEEK_CUR) >= 0) return;
-  ::close(descriptor_);
+  if (order == Order::front_to_back || os::can_seek(descriptor_)) return;
+  os::close(descriptor_);
   throw OutputError(file_.string() +
                     ": what stands first in this output is written last, so it cannot be piped; name "
                     "a file, or -");
@@ -177,23 +132,22 @@ void OutputFile::open_beside() {
   target_ = followed(file_);
   beside_ = target_;
   beside_ = beside(target_);
-  const auto older = status_of(target_);
+  const auto older = os::facts_of(target_);
   while (true) {
-    constexpr int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
     // Nobody may read in the new file what nobody may read in the older one.
-    const int made = ::open(beside_.c_str(), O_RDWR | O_CREAT | O_EXCL | flags, older ? 0600 : 0666);
+    const int made = os::open_new(beside_, older.has_value());
     if (made < 0 && errno != EEXIST) fail(errno);
-    const int opened = made >= 0 ? made : ::open(beside_.c_str(), O_RDONLY | flags);
+    const int opened = made >= 0 ? made : os::open_present(beside_);
     if (opened < 0 && errno == ENOENT) continue;  // it has just taken its name
-    const bool mine = opened >= 0 && locked(opened), still_there = mine && names(beside_, opened);
+    const bool mine = opened >= 0 && locked(opened), still_there = mine && os::names(beside_, opened);
     if (made >= 0 && still_there) {
       descriptor_ = made;
-      if (older) adopt(descriptor_, *older);
+      if (older) os::adopt(descriptor_, *older);
       return;
     }
     // What an earlier run left there, which nobody writes any more, makes room.
-    const bool in_the_way = opened < 0 || (still_there && (!is_regular(opened) || ::unlink(beside_.c_str()) != 0));
-    if (opened >= 0) ::close(opened);
+    const bool in_the_way = opened < 0 || (still_there && (!is_regular(opened) || !os::unlink(beside_)));
+    if (opened >= 0) os::close(opened);
     if (in_the_way)
       throw OutputError(beside_.string() + ": is in the way of a new file; remove it, or choose another name");
     if (!mine)
@@ -203,12 +157,11 @@ void OutputFile::open_beside() {
 
 OutputFile::~OutputFile() {
   if (kind_ == Kind::beside && descriptor_ >= 0) {
-    if (kept_ == 0 && names(beside_, descriptor_)) ::unlink(beside_.c_str());
+    if (kept_ == 0 && os::names(beside_, descriptor_)) os::unlink(beside_);
     // Without the part of a row that a full disk may leave.
-    if (kept_ > 0 && kept_ < size_) [[maybe_unused]]
-      const int cut = ::ftruncate(descriptor_, off_t(kept_));
+    if (kept_ > 0 && kept_ < size_) os::truncate(descriptor_, kept_);
   }
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) os::close(descriptor_);
 }
 
 void OutputFile::fail(int error) const {
@@ -220,9 +173,9 @@ void OutputFile::fail(int error) const {
 
 void OutputFile::put(std::uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t n = kind_ == Kind::stream && offset == size_
-                          ? ::write(descriptor_, bytes.data(), bytes.size())
-                          : ::pwrite(descriptor_, bytes.data(), bytes.size(), off_t(offset));
+    const std::int64_t n = kind_ == Kind::stream && offset == size_
+                               ? os::write(descriptor_, bytes.data(), bytes.size())
+                               : os::write_at(descriptor_, bytes.data(), bytes.size(), offset);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0 && errno == EAGAIN) {
       wait_for_reader(file_, descriptor_);
@@ -250,19 +203,19 @@ void OutputFile::write_at(std::uint64_t offset, std::string_view bytes) {
 void OutputFile::end(Reach reach) {
   if (kind_ == Kind::gathered) return send_gathered();
   if (kind_ == Kind::stream) {
-    if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+    if (!os::close_written(std::exchange(descriptor_, -1))) fail(errno);
     return;
   }
   if (kind_ != Kind::beside) return;
-  const bool stands = status_of(target_).has_value();
+  const bool stands = os::facts_of(target_).has_value();
   if (reach == Reach::whole || (reach == Reach::stopped && !stands)) return take_place();
   keep();
 }
 
 void OutputFile::send(std::string_view bytes) const {
   while (!bytes.empty()) {
-    const std::string_view part = bytes.substr(0, PIPE_BUF);  // a pipe that takes bytes takes as many
-    wait_for_reader(file_, STDOUT_FILENO);
+    const std::string_view part = bytes.substr(0, os::pipe_portion);  // a pipe that takes bytes takes as many
+    wait_for_reader(file_, os::standard_output);
     file_output().write(part.data(), std::streamsize(part.size()));
     flush_standard_output();
     bytes.remove_prefix(part.size());
@@ -272,7 +225,7 @@ void OutputFile::send(std::string_view bytes) const {
 void OutputFile::send_gathered() {
   std::string part(std::size_t{1} << 20, '\0');
   for (std::uint64_t at = 0; at < size_;) {
-    const ssize_t n = ::pread(descriptor_, part.data(), part.size(), off_t(at));
+    const std::int64_t n = os::read_at(descriptor_, part.data(), part.size(), at);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail(errno);
     send({part.data(), std::size_t(n)});
@@ -282,12 +235,11 @@ void OutputFile::send_gathered() {
 
 void OutputFile::take_place() {
   check_output(file_);  // much may have happened since
-  if (!names(beside_, descriptor_))
+  if (!os::names(beside_, descriptor_))
     throw OutputError(file_.string() + ": cannot be written: another program removed " + beside_.string());
-  if (const auto older = status_of(target_)) adopt(descriptor_, *older);
-  // Some file systems tell only now that the disk is full. What is closed is a copy: the descriptor holds the lock.
-  if (const int copy = ::dup(descriptor_); copy >= 0 && ::close(copy) != 0) fail(errno);
-  if (::rename(beside_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (const auto older = os::facts_of(target_)) os::adopt(descriptor_, *older);
+  if (!os::arrived(descriptor_)) fail(errno);
+  if (!os::rename(beside_, target_)) fail(errno);
   kind_ = Kind::placed;
 }
 

@@ -1,13 +1,13 @@
 #include "core/io/terminal.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
 #include <streambuf>
+
+#include "core/io/system_files.h"
 
 namespace tyglab {
 namespace {
@@ -99,7 +99,7 @@ struct Streams {
   std::streambuf& out = *std::cout.rdbuf();
   std::streambuf& err = *std::cerr.rdbuf();
   Filter seen_out{out}, seen_err{err};
-  std::ostream files{::isatty(STDOUT_FILENO) == 1 ? static_cast<std::streambuf*>(&seen_out) : &out};
+  std::ostream files{os::is_terminal(os::standard_output) ? static_cast<std::streambuf*>(&seen_out) : &out};
   std::ostream cursor{&err};
 };
 

@@ -7,6 +7,8 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "app/process/program_run.h"
+
 namespace tyglab::child_test {
 
 TEST_CASE("a function's result arrives whole, and its crash, error or hang is told") {

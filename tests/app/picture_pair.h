@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "app/render/cloth_renderer.h"
-#include "app/render/headless_context.h"
+#include "app/platform/headless_context.h"
 
 namespace tyglab::test {
 

@@ -7,7 +7,7 @@
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_topology.h"
 #include "app/render/drawn_cloth.h"
-#include "app/render/headless_context.h"
+#include "app/platform/headless_context.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -119,19 +119,17 @@ class Hushed {
 
 /// A word a line. It is understood, or refused with a sentence and the exit code of command lines.
 void read_command_line(std::string_view input) {
-  std::vector<std::string> words{"tyglab"};
+  std::vector<std::string> words;
   for (const std::string& line : lines(input.substr(0, 4096)))
-    if (words.size() < 64) words.push_back(line.substr(0, line.find('\0')));
-  std::vector<const char*> typed;
-  for (const std::string& word : words) typed.push_back(word.c_str());
+    if (words.size() < 63) words.push_back(line.substr(0, line.find('\0')));
   const Hushed hushed;
   Action action;
   CLI::App program("", "tyglab");
   declare_program(program, action);
   try {
-    program.parse(int(typed.size()), typed.data());
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
-    const int code = exit_of_parsing(program, error, std::span(typed).subspan(1));
+    const int code = exit_of_parsing(program, error, words);
     require(code == exit_command_line || code == exit_done, "what is not understood ends with exit code 2");
     require(hushed.text().size() >= 8, "it says why");
     return;

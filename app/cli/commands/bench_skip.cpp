@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "app/base/program.h"
 #include "app/cli/bench_instructions.h"
 #include "app/cli/bench_output.h"
 #include "app/cli/commands/bench.h"
@@ -121,7 +122,7 @@ Chart skip_chart(const std::vector<SkipRow>& rows, int side) {
 int skip(const SkipOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
-  const InstructionCounter counter(std::filesystem::read_symlink("/proc/self/exe"));
+  const InstructionCounter counter(program_file());
   const std::string counted_with = counter.instruction_set();
   print_head(out, options, counted_with);
   const auto features = skip_features(options.side);

@@ -1,15 +1,14 @@
 #include "app/cli/commands/devices.h"
 
-#include <cstring>
 #include <iostream>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/process/child.h"
+#include "app/platform/headless_context.h"
+#include "app/process/print_in_child.h"
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
-#include "app/render/headless_context.h"
 #include "app/render/mapped_buffer.h"
 #include "app/render/written_vertices.h"
 #include "core/analysis/machine.h"
@@ -109,33 +108,6 @@ void print_opencl() {
   else
     std::cout << "\nOpenCL devices step with " << names_of_methods(true) << ".\nOnly the CPU engine has "
               << names_of_methods(false) << ".\n";
-}
-
-/// Prints in a process of its own, since a driver that aborts takes its process along. Returns how that ended, or
-/// nothing if it came to its end. Throws OutputError if not all that it printed arrived.
-std::string print_in_child(void (*print)()) {
-  flush_standard_output();
-  const std::string arrived = "arrived";
-  // What is thrown by a driver ends the child like an abort.
-  const auto work = [&]() noexcept -> std::string {
-    send_chatter_to_log();
-    print();
-    try {
-      flush_standard_output();
-    } catch (const OutputError&) {
-      return {};
-    }
-    return arrived;
-  };
-  try {
-    const ChildExit exit = run_in_child(work, {.interruptible = true});  // only this process speaks of Ctrl-C
-    if (exit.signal != 0) return ::strsignal(exit.signal);
-    if (exit.code != 0) return "exit code " + std::to_string(exit.code);
-    if (exit.result != arrived) throw OutputError("standard output: the list could not be written completely");
-    return {};
-  } catch (const ChildError&) {
-    return print(), std::string();
-  }
 }
 
 int devices() {

@@ -11,6 +11,7 @@
 #include "app/cli/commands/try_opencl.h"
 #include "app/process/driver_probe.h"
 #include "app/process/memory_limit.h"
+#include "app/process/process.h"
 #include "app/process/program_trial.h"
 
 namespace tyglab {
@@ -33,10 +34,12 @@ void declare_program(CLI::App& program, Action& action) {
 }
 
 int run_program(int argc, char** argv) {
-  prepare_process();
+  filter_standard_streams();
+  secure_standard_streams();
   const CrashExplainer until_the_end;
   probe_drivers_in_child();
   try_programs_in_child();
+  const std::vector<std::string> words = program_arguments(argc, argv);
   Action action;
   CLI::App program(
       "Tyglab: a sandbox in which a simulated cloth shows how numerical methods work and fail.\n"
@@ -44,11 +47,14 @@ int run_program(int argc, char** argv) {
       "tyglab");
   declare_program(program, action);
   try {
-    program.parse(argc, argv);
+    program.parse(
+        std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the last to the first
   } catch (const CLI::ParseError& error) {
-    return exit_of_parsing(program, error, {argv + 1, argv + argc});
+    return exit_of_parsing(program, error, words);
   }
-  return run_action(action);
+  const int code = run_action(action);
+  show_last_words(code);
+  return code;
 }
 
 }  // namespace tyglab

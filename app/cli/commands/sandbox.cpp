@@ -1,6 +1,5 @@
 #include "app/cli/commands/sandbox.h"
 
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 
@@ -9,8 +8,9 @@
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/size_option.h"
+#include "app/platform/window.h"
+#include "app/process/process.h"
 #include "app/shell/sandbox.h"
-#include "app/shell/window.h"
 #include "core/io/destination.h"
 
 namespace tyglab {
@@ -29,13 +29,8 @@ struct Options {
   }
 };
 
-/// Whether a window can be opened. Without a display's name GLFW is not asked: its libraries complain on stderr.
-bool has_display() {
-  const bool named = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-  return named && start_glfw();
-}
-
 int open_sandbox(const Options& options, const std::vector<std::string>& commands) {
+  leave_own_console();
   if (!options.screenshot.empty() && options.frames == 0)
     throw UsageError("--screenshot: writes the last frame; add --frames N");
   if (is_standard_output(options.session_report))
@@ -61,7 +56,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (options.effects == "all") sandbox.effects = Effects::Mode::all;
   if (options.effects == "few") sandbox.effects = Effects::Mode::few;
   sandbox.color = field_called(options.color);
-  if (has_display()) return run_sandbox(sandbox);
+  if (display_there()) return run_sandbox(sandbox);
   if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
   return run_headless(sandbox, people(outputs));
 }

@@ -1,7 +1,6 @@
 // `tyglab stability stress`: random scenes, each of which must end bounded or be reported as diverged.
 #include <array>
 #include <cstdio>
-#include <cstring>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -72,7 +71,7 @@ Json row_of(std::uint64_t seed, std::int64_t number, const ChildExit& outcome) {
     lost.preset = stress_preset(seed, std::uint64_t(number));
     lost.status = StressStatus::failed;
     lost.problem = outcome.timed_out     ? "it hung and was killed after a minute"
-                   : outcome.signal != 0 ? std::string("it crashed: ") + strsignal(outcome.signal)
+                   : outcome.signal != 0 ? "it crashed: " + signal_words(outcome.signal)
                                          : "its process ended without a result";
     row = case_json(number, lost);
   }

@@ -15,6 +15,7 @@
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/io/preset_io.h"
+#include "core/io/user_folders.h"
 
 namespace tyglab {
 namespace {
@@ -30,8 +31,8 @@ void set(char (&field)[N], const std::string& text) {
 /// "~/…" as a shell reads it.
 fs::path path_of(const char* typed) {
   const std::string text(typed);
-  const char* home = std::getenv("HOME");
-  if (text.rfind("~/", 0) == 0 && home != nullptr) return fs::path(home) / text.substr(2);
+  const fs::path home = home_folder();
+  if (text.rfind("~/", 0) == 0 && !home.empty()) return home / text.substr(2);
   return text;
 }
 

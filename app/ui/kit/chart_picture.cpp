@@ -1,4 +1,4 @@
-#include "app/render/headless_context.h"
+#include "app/platform/headless_context.h"
 #include "app/ui/kit/chart.h"
 #include "app/ui/kit/picture_gui.h"
 

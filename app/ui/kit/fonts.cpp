@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <map>
 #include <system_error>
+#include <vector>
+
+#include "app/base/data_files.h"
 
 namespace tyglab {
 namespace {
@@ -15,7 +18,7 @@ constexpr std::array<const char*, 7> wanted{
     "Inter-Regular.otf",       "Inter-SemiBold.otf", "STIXGeneral-Italic.otf", "JetBrainsMono-Regular.ttf",
     "forkawesome-webfont.ttf", "DejaVuSans.ttf",     "DejaVuSansMono.ttf"};
 
-/// Where Debian puts them, which the search below need not find again.
+/// Where Debian puts them, which the search below need not find again. Where there are none they come with the program.
 constexpr std::array<const char*, 6> folders{
     "/usr/share/fonts/opentype/inter",          "/usr/share/fonts/opentype/stix",
     "/usr/share/fonts/truetype/jetbrains-mono", "/usr/share/fonts/truetype/fork-awesome",
@@ -26,9 +29,11 @@ using Files = std::map<std::string, fs::path>;
 Files find_fonts() {
   Files found;
   std::error_code ignored;
-  for (const char* folder : folders)
+  std::vector<fs::path> known{data_folder() / "fonts"};
+  known.insert(known.end(), folders.begin(), folders.end());
+  for (const fs::path& folder : known)
     for (const char* name : wanted)
-      if (const fs::path file = fs::path(folder) / name; fs::is_regular_file(file, ignored)) found.emplace(name, file);
+      if (const fs::path file = folder / name; fs::is_regular_file(file, ignored)) found.emplace(name, file);
   if (found.size() == wanted.size()) return found;
   const auto options = fs::directory_options::skip_permission_denied;
   for (fs::recursive_directory_iterator it("/usr/share/fonts", options, ignored), end; it != end; it.increment(ignored))
@@ -74,7 +79,8 @@ class Builder {
     config.OversampleV = 1;
     config.PixelSnapH = false;
     const fs::path* file = choose(name, fallback);
-    ImFont* font = file != nullptr ? atlas.AddFontFromFileTTF(file->c_str(), pixels, &config, glyphs) : nullptr;
+    ImFont* font =
+        file != nullptr ? atlas.AddFontFromFileTTF(file->string().c_str(), pixels, &config, glyphs) : nullptr;
     if (font == nullptr) {
       ImFontConfig own;
       own.SizePixels = pixels;
@@ -101,7 +107,7 @@ class Builder {
     config.MergeMode = true;
     config.GlyphMinAdvanceX = pixels * 1.15f;
     config.GlyphOffset.y = std::round(pixels * 0.04f);
-    ImGui::GetIO().Fonts->AddFontFromFileTTF(it->second.c_str(), pixels, &config, icon_glyphs());
+    ImGui::GetIO().Fonts->AddFontFromFileTTF(it->second.string().c_str(), pixels, &config, icon_glyphs());
     fonts_.icons = true;
   }
   void note(std::string text) {

@@ -1,5 +1,6 @@
 #include "app/ui/kit/picture_gui.h"
 
+#include "app/platform/gl/dialect.h"
 #include "app/render/render_target.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "backends/imgui_impl_opengl3.h"
@@ -14,7 +15,7 @@ PictureGui::PictureGui(ImVec2 size, const Theme& theme) : window_(ImGui::GetCurr
   ImGui::GetIO().DeltaTime = 1;
   fonts_ = build_fonts(theme.scale);
   apply_style(theme);
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+  ImGui_ImplOpenGL3_Init(shader_version());
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }

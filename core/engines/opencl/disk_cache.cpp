@@ -3,12 +3,12 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "core/io/files.h"
+#include "core/io/user_folders.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -35,10 +35,8 @@ fs::path file_of(const std::string& key) {
 }  // namespace
 
 fs::path cache_folder() {
-  const char *xdg = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
-  if (xdg != nullptr && *xdg == '/') return fs::path(xdg) / "tyglab";
-  if (home != nullptr && *home == '/') return fs::path(home) / ".cache" / "tyglab";
-  return {};
+  const fs::path base = cache_base();
+  return base.is_absolute() ? base / "tyglab" : fs::path();
 }
 
 std::string kept_on_disk(const std::string& key) {

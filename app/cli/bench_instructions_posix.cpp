@@ -8,7 +8,7 @@
 #include <sstream>
 #include <vector>
 
-#include "app/process/child.h"
+#include "app/process/program_run.h"
 #include "core/model/words.h"
 
 namespace tyglab {

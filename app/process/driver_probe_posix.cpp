@@ -1,6 +1,5 @@
-#include "app/process/driver_probe.h"
-
 #include "app/process/child.h"
+#include "app/process/driver_probe.h"
 #include "core/engines/opencl/opencl_devices.h"
 
 namespace tyglab {

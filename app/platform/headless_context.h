@@ -7,11 +7,11 @@
 
 namespace tyglab {
 
-/// An OpenGL 3.3 core context on EGL's surfaceless platform (Mesa), current in this thread while the object lives.
-/// OpenCL devices that are opened meanwhile share buffers with it, if they can.
+/// An OpenGL 3.3 core context on EGL's surfaceless platform (Mesa), or of a hidden window of Windows, current in this
+/// thread while the object lives. OpenCL devices that are opened meanwhile share buffers with it, if they can.
 class HeadlessContext {
  public:
-  /// Makes it and loads the functions. Throws GraphicsError that names the packages to install.
+  /// Makes it and loads the functions. Throws GraphicsError that says what to install.
   HeadlessContext();
   ~HeadlessContext();
   HeadlessContext(const HeadlessContext&) = delete;

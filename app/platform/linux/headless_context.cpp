@@ -1,4 +1,4 @@
-#include "app/render/headless_context.h"
+#include "app/platform/headless_context.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "app/render/current_gl_context.h"
+#include "app/platform/current_gl_context.h"
 #include "app/render/graphics_error.h"
 
 namespace tyglab {

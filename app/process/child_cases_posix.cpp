@@ -1,10 +1,11 @@
-#include "app/process/child_cases.h"
-
 #include <poll.h>
 
 #include <map>
 #include <utility>
 #include <vector>
+
+#include "app/process/child.h"
+#include "app/process/child_cases.h"
 
 namespace tyglab {
 namespace {

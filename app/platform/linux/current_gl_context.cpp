@@ -1,4 +1,4 @@
-#include "app/render/current_gl_context.h"
+#include "app/platform/current_gl_context.h"
 
 #include <EGL/egl.h>
 

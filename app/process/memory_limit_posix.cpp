@@ -1,13 +1,14 @@
 #include "app/process/memory_limit.h"
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+
+#include "app/process/process.h"
 
 namespace tyglab {
 namespace {
@@ -27,8 +28,7 @@ std::optional<rlim_t> memory_limit() {
 }
 
 extern "C" void end_with_sentence(int) {
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, sentence.data(), sentence_size);
-  ::_exit(exit_no_engine);
+  end_at_once({sentence.data(), sentence_size}, exit_no_engine);
 }
 
 /// Some drivers call exit() where they are refused memory.

@@ -1,0 +1,20 @@
+// Where the OpenGL of desktops and that of browsers (WebGL 2) differ: everything else is called alike.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tyglab {
+
+/// The first line of every shader.
+const char* shader_version();
+/// What follows it before the shader's own text: lines, or nothing.
+const char* shader_preamble();
+/// Switches on what a browser always has on: smooth edges of targets with several samples, points sized by shaders.
+void enable_smooth_edges_and_point_sizes();
+/// Whether GL_TIME_ELAPSED can be asked for.
+bool drawing_can_be_timed();
+/// The lower left part of the framebuffer bound for reading: red, green and blue of each pixel, the top row first.
+std::vector<std::uint8_t> read_pixels(int width, int height);
+
+}  // namespace tyglab
