@@ -1,7 +1,5 @@
 #include "core/analysis/machine.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -23,11 +21,6 @@ Machine this_machine() {
     }
   machine.cores = processors();
   return machine;
-}
-
-int processors() {
-  cpu_set_t set;
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
 std::string build_description() {

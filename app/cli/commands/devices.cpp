@@ -6,10 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "app/platform/headless_context.h"
 #include "app/process/child.h"
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
-#include "app/platform/headless_context.h"
 #include "app/render/mapped_buffer.h"
 #include "app/render/written_vertices.h"
 #include "core/analysis/machine.h"
