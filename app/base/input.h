@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bitset>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <string>
 #include <variant>
@@ -54,6 +55,9 @@ struct InputQueue {
   double double_click_s = 0.4;         ///< longest time between its presses; longer where frames are slow
   double last_press = -1;              ///< s, of the left button
   glm::vec2 last_press_at{0};
+
+  std::function<int(glm::vec2)> finger_button;     ///< GLFW_MOUSE_BUTTON_… that a finger there stands for; none: left
+  std::function<bool(glm::vec2)> finger_on_cloth;  ///< whether a finger there is over the cloth's picture
 
   // What GLFW's callbacks are told; times are glfwGetTime's, s.
   void on_key(int key, int action, int mods);

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
+
+#include "core/model/parsed_number.h"
 
 namespace tyglab {
 namespace {
@@ -77,7 +78,7 @@ std::optional<double> typed_number(std::string_view text, std::string_view unit)
   if (start == std::string::npos) return std::nullopt;
   double value = 0;
   const char* end = plain.data() + plain.size();
-  const auto [rest, error] = std::from_chars(plain.data() + start, end, value);
+  const auto [rest, error] = read_number(plain.data() + start, end, value);
   if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
   // Anything else after it ("1e", "3..2") is a slip that must not be taken for a number.
   const auto factor = factor_of({rest, std::size_t(end - rest)}, unit);

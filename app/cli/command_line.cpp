@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <new>
@@ -21,6 +20,7 @@
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
+#include "core/model/parsed_number.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 
@@ -37,7 +37,7 @@ void complain(std::string what) {
 std::optional<double> number_in(const std::string& text) {
   double value = 0;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const auto [stop, error] = read_number(text.data(), end, value);
   if (text.empty() || stop != end || error != std::errc{}) return {};
   return value;
 }

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "app/base/data_files.h"
+#include "app/base/link.h"
 #include "app/base/numbers.h"
 #include "app/cli/command_line.h"
 #include "app/cli/progress.h"
@@ -87,7 +88,10 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   engines = engines_there;
   for (const CLI::App* each = &command; each->get_parent() != nullptr; each = each->get_parent())
     command_name = each->get_name() + (command_name.empty() ? "" : " ") + command_name;
-  command.add_option("PRESET", preset, "A shipped preset's name (`tyglab presets` lists them) or a preset file")
+  command
+      .add_option("PRESET", preset,
+                  "A shipped preset's name (`tyglab presets` lists them), a preset file, or a link that the page or\n"
+                  "`Copy link` made: 'https://…#hanging&k_s=300' or its end from # on")
       ->required(required)
       ->check(not_empty());
   command
@@ -244,8 +248,9 @@ ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::v
                                        std::optional<double> seconds) const {
   check_engine();
   ResolvedPreset resolved;
-  resolved.source = find_preset(preset.empty() ? fallback : preset, commands);
-  const Preset read = read_preset(resolved.source.file);
+  const std::optional<LinkedPreset> link = is_link(preset) ? std::optional(read_link(preset)) : std::nullopt;
+  resolved.source = find_preset(link ? link->name : preset.empty() ? fallback : preset, commands);
+  const Preset read = link ? linked_preset(*link) : read_preset(resolved.source.file);
   try {
     resolved.preset = with_parsed_settings(read, all_settings());
     if (resolved.preset.texture != read.texture) resolved.preset.texture = chosen_texture(resolved.preset.texture);

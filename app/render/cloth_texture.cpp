@@ -43,7 +43,7 @@ gl::Texture upload(const std::vector<Image>& sizes) {
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   for (std::size_t level = 0; level < sizes.size(); ++level)
-    glTexImage2D(GL_TEXTURE_2D, GLint(level), GL_RGBA8, sizes[level].width, sizes[level].height, 0, GL_RGB,
+    glTexImage2D(GL_TEXTURE_2D, GLint(level), GL_RGB8, sizes[level].width, sizes[level].height, 0, GL_RGB,
                  GL_UNSIGNED_BYTE, sizes[level].rgb.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   filter();

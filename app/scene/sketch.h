@@ -33,6 +33,12 @@ struct SceneSketch {
   std::vector<glm::vec2> line;  ///< of a spring with its weight at the end
 };
 
+template <class Visit>
+void visit_parts(Visit&& visit, SceneSketch& sketch) {
+  auto& [corners, triangles, balls, line] = sketch;
+  visit(corners, triangles, balls, line);
+}
+
 /// Runs the preset for a moment on the CPU, coarsened where it is large; where it diverges, until then. Throws
 /// EngineError, std::bad_alloc.
 SceneSketch sketch_of(const Preset& preset, const Stop& stop);

@@ -1,7 +1,9 @@
 #include "app/session/document.h"
 
+#include "app/base/link.h"
 #include "app/base/preset_files.h"
 #include "app/base/settings.h"
+#include "app/platform/files.h"
 #include "app/session/edits.h"
 #include "app/session/session.h"
 #include "core/io/files.h"
@@ -88,6 +90,16 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
   }
 }
 
+void open_link(Session& session, const std::string& link) {
+  try {
+    const LinkedPreset linked = read_link(link);
+    linked_preset(linked);  // what is wrong with it is said of the link
+    session.request(request::Open{.file = find_preset(linked.name).file, .shipped = true, .settings = linked.settings});
+  } catch (const PresetError& error) {
+    session.messages.error(error.what());
+  }
+}
+
 bool save_document_as(Session& session, const std::filesystem::path& file, const std::string& name) {
   try {
     Preset preset = session.preset();
@@ -104,6 +116,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
       throw OutputError("The folder " + folder.string() + " does not exist; create it first, or choose another.");
     const std::string texture = preset.texture;
     preset = write_preset(preset, file);
+    hand_out(file);
     std::string copied;
     if (preset.texture != texture)
       copied = " and its texture " + std::filesystem::path(preset.texture).filename().string();

@@ -1,11 +1,11 @@
 #include "app/session/lab_text.h"
 
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
 #include "app/base/text_lines.h"
+#include "core/model/parsed_number.h"
 
 namespace tyglab {
 namespace {
@@ -44,7 +44,7 @@ std::vector<std::string> words_in(std::string_view text) {
 
 std::optional<double> plain_number(std::string_view text) {
   double value = 0;
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [stop, error] = read_number(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || stop != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }

@@ -5,7 +5,11 @@
 #include <iostream>
 #include <limits>
 
+#include "app/base/data_files.h"
+#include "app/base/link.h"
 #include "app/base/preset_files.h"
+#include "app/platform/address.h"
+#include "app/platform/files.h"
 #include "app/platform/loop.h"
 #include "app/platform/window.h"
 #include "app/process/heap.h"
@@ -13,6 +17,7 @@
 #include "app/process/program_trial.h"
 #include "app/render/graphics_error.h"
 #include "app/session/document.h"
+#include "app/session/lab_state.h"
 #include "app/shell/gui.h"
 #include "app/shell/settings_writer.h"
 #include "app/shell/start.h"
@@ -63,6 +68,7 @@ class Sandbox : public Turns {
   int write_outputs();
   Settings present_settings();
   void remember();
+  void show_link();
   bool idle() const;
 
   SandboxOptions options_;
@@ -81,6 +87,9 @@ class Sandbox : public Turns {
   int busy_frames_ = 4;      ///< Dear ImGui needs a few frames after an event to settle
   double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
+  std::optional<Preset> linked_;  ///< whose link the page's address shows
+  std::uint64_t linked_document_ = 0;
+  double next_link_ = 0;  ///< s, not before which it is looked at again
   Image last_picture_;
   const InterruptGuard guard_;  ///< from the first turn on, Ctrl-C ends it in good order
 };
@@ -96,6 +105,10 @@ Sandbox::Sandbox(const SandboxOptions& options)
   session_.costs.started(StartPart::shaders);
   start_preset();
   session_.costs.started(StartPart::cloth);
+  input_.finger_button = [this](glm::vec2 at) { return finger_button(tools_, at); };
+  input_.finger_on_cloth = [this](glm::vec2 at) { return scene_.viewport.takes(at); };
+  if (!options_.lab.empty()) ui_.act([lab = options_.lab](Ui& ui) { begin_lab(ui.session, lab); });
+  ui_.panels = options_.panels;
   last_time_ = window_time();
 }
 
@@ -137,7 +150,8 @@ void Sandbox::start_preset() {
   if (!session_.scripted && first_preset().engine != session_.preset().engine)
     session_.rebuild.order(session_, {.target = first_preset(), .fresh = false}, session_.history);
   follow_session(ui_);
-  if (!session_.scripted && !options_.explicit_preset && !settings_.tour_seen) ui_.command("start_page");
+  if (!session_.scripted && !options_.explicit_preset && options_.lab.empty() && !settings_.tour_seen)
+    ui_.command("start_page");
 }
 
 /// Returns what is wrong with it; the present one stays then.
@@ -186,6 +200,18 @@ bool Sandbox::due() {
   return !idle() || input_.anything || report_ != nullptr || window_time() >= ui_.draw_by;
 }
 
+/// Shows the experiment's link in the page's address; a preset that is opened is a step that the browser goes back
+/// from.
+void Sandbox::show_link() {
+  if (window_time() < next_link_ || page_address().empty()) return;
+  next_link_ = window_time() + 0.5;
+  const Preset preset = session_.requested_preset();
+  const bool opened = std::exchange(linked_document_, session_.counts.documents) != session_.counts.documents;
+  if (linked_ && *linked_ == preset && !opened) return;
+  show_in_address(link_to(preset, session_.document.label), opened && linked_.has_value());
+  linked_ = preset;
+}
+
 /// When a frame is wanted again though nothing moves; the panels have said what they want of it.
 void Sandbox::plan_next_frame() {
   const bool cursor_blinks = ui_.slider.typing != 0 || gui::typing_text();
@@ -196,7 +222,15 @@ void Sandbox::plan_next_frame() {
 
 void Sandbox::take_dropped_files() {
   for (const std::string& name : input_.dropped) {
+    if (is_link(name)) {
+      open_link(session_, name);
+      continue;
+    }
     const std::filesystem::path file(name);
+    if (file.parent_path() == data_folder() / "textures") {  // of the page, and has just arrived
+      if (texture_file(session_.preset().texture) == file) show_texture(session_.preset().texture);
+      continue;
+    }
     if (file.extension() == ".json") {
       session_.request(request::Open{.file = file});
     } else {
@@ -246,6 +280,7 @@ void Sandbox::save_picture() {
   }
   try {
     write_png(wanted.file, image);
+    hand_out(wanted.file);
     session_.messages.note("Wrote " + wanted.file.string());
   } catch (const OutputError& error) {
     session_.messages.error(error.what());
@@ -296,6 +331,7 @@ bool Sandbox::turn() {
   const double start = window_time();
   wait_for_events();
   const auto present = [this] { return present_settings(); };
+  show_link();
   if (!session_.scripted && writer_.update(start, present, session_.messages)) ui_.draw_by = start;
   if (!due()) {
     input_.clear();

@@ -24,6 +24,8 @@ struct SandboxOptions {
   std::filesystem::path session_report;  ///< JSON of what goes on, rewritten all the time, empty: none
   std::optional<ParticleField> color;    ///< what colors the cloth; none: as in the last session
   std::optional<Effects::Mode> effects;  ///< none: all with `frames`, else as in the last session
+  std::string lab;                       ///< that is begun, by its label; empty: none
+  bool panels = true;                    ///< are shown
   int width = 0, height = 0;             ///< of the window; 0: as in the last session
 };
 

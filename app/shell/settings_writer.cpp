@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "app/platform/files.h"
 #include "core/io/files.h"
 
 namespace tyglab {
@@ -38,6 +39,7 @@ bool SettingsWriter::update(double now, const std::function<Settings()>& present
   job_.start(Priority::normal, [settings = std::move(settings), known = known_](const JobControl&) -> Written {
     try {
       save_settings(settings, known);
+      keep_files(config_folder());
     } catch (const OutputError& error) {
       return error.what();
     }

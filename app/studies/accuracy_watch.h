@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/error_study.h"
@@ -23,6 +24,12 @@ struct AccuracyStudy {
   bool done = false;
   std::string problem;  ///< why there is nothing to show
 };
+
+template <class Visit>
+void visit_parts(Visit&& visit, AccuracyStudy& study) {
+  auto& [of, at, reference, present, points, done, problem] = study;
+  visit(of, at, reference, present, points, done, problem);
+}
 
 class AccuracyWatch {
  public:

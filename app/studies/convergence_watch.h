@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/convergence.h"

@@ -1,5 +1,7 @@
 // Work beside the frames: one thread, a result or an error at its end, and a way to stop it. Everything that runs
 // beside the frames is a Job. How far it is, the work says itself: a Study in its findings, a step through its engine.
+// Where there are no threads, what takes long is done by a copy of the program (app/platform/copies.h), if its result can
+// be sent back.
 #pragma once
 
 #include <atomic>
@@ -8,6 +10,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -17,6 +20,9 @@
 #include <thread>
 #include <utility>
 #include <variant>
+
+#include "app/platform/copies.h"
+#include "app/studies/transfer.h"
 
 namespace tyglab {
 
@@ -30,6 +36,8 @@ class JobControl {
   /// Whether the result is no longer wanted. The work looks often, and ends soon.
   bool cancelled() const { return cancelled_; }
   void cancel() { cancelled_ = true; }
+  /// In a copy of the program: sends findings to the program itself. Empty in a thread, which shares its memory.
+  std::function<void(std::string_view bytes)> report = {};
 
  private:
   std::atomic<bool> cancelled_ = false;
@@ -77,11 +85,19 @@ class Job {
   }
   ~Job() { stop(); }
 
-  /// Begins `work(JobControl&) -> Result`. What was being done is cancelled and joined first. Throws std::bad_alloc.
+  /// Begins `work(JobControl&) -> Result`. What was being done is cancelled and joined first. `take` is called with
+  /// what a copy of the program reports. Throws std::bad_alloc.
   template <class Work>
-  void start(Priority priority, Work work) {
+  void start(Priority priority, Work work, Copy::Report take = {}) {
     stop();
     auto state = std::make_unique<Running<Work>>(std::move(work));
+    if constexpr (Transferable<Result>) {
+      if (priority == Priority::below_frames && works_in_copies()) {
+        state->run_in_copy(std::move(take));
+        state_ = std::move(state);
+        return;
+      }
+    }
     try {
       state->thread = std::thread([&state = *state, priority] {
         if (priority == Priority::below_frames) run_below_frames();
@@ -104,7 +120,9 @@ class Job {
   /// Whether the worker is still at it.
   bool working() const { return state_ && !state_->ended; }
   void cancel() {
-    if (state_) state_->control.cancel();
+    if (!state_) return;
+    state_->control.cancel();
+    if (state_->copy && !state_->ended) state_->end_copy();
   }
   /// Waits for the end and gives the outcome; busy() must hold.
   Outcome take() {
@@ -130,6 +148,19 @@ class Job {
     std::mutex mutex;
     std::condition_variable end;
     std::thread thread;
+    std::optional<Copy> copy;
+
+    void finish() {
+      const std::lock_guard lock(mutex);
+      ended = true;
+      end.notify_all();
+    }
+    /// In the middle of its work.
+    void end_copy() {
+      copy.reset();
+      outcome.emplace(JobError{"Cancelled"});
+      finish();
+    }
   };
   template <class Work>
   struct Running : State {
@@ -140,18 +171,34 @@ class Job {
       } catch (...) {
         this->outcome.emplace(caught_error());
       }
-      finish();
+      this->finish();
+    }
+    /// What comes back are reports, marked 'r', and at last the result, 'o', or why there is none, 'e'.
+    void run_in_copy(Copy::Report take) {
+      const auto send = [this](const Copy::Report& report) {
+        this->control.report = [&report](std::string_view bytes) { report("r" + std::string(bytes)); };
+        run();
+        if (const auto* result = std::get_if<Result>(&*this->outcome))
+          report("o" + bytes_of(*result));
+        else
+          report("e" + std::get<JobError>(*this->outcome).what);
+      };
+      this->copy.emplace(send, [this, take = std::move(take)](std::string_view bytes) {
+        const std::string_view rest = bytes.substr(1);
+        if (bytes[0] == 'r') return take(rest);
+        if (bytes[0] == 'o')
+          this->outcome.emplace(from_bytes<Result>(rest));
+        else
+          this->outcome.emplace(JobError{std::string(rest)});
+        this->copy.reset();
+        this->finish();
+      });
     }
     void refuse() {
       this->outcome.emplace(JobError{
           "The system can start no further thread, so this cannot be worked out; end other programs, or raise the "
           "limit (ulimit -u)."});
-      finish();
-    }
-    void finish() {
-      const std::lock_guard lock(this->mutex);
-      this->ended = true;
-      this->end.notify_all();
+      this->finish();
     }
     Work work;
   };
@@ -172,7 +219,11 @@ class Study {
       const std::lock_guard lock(mutex_);
       change(findings_);
       ++changes_;
+      if (report) report(findings_, false);
     }
+    /// In a copy of the program: sends what is known, now and then, or at once.
+    std::function<void(const Findings&, bool at_once)> report;
+    void send() { report(findings_, true); }
     /// What is known; for the frames alone. While the work is changing it, what was known before: the work may lose its
     /// processor in the middle of that, and frames wait for nothing.
     const Findings& findings() const {
@@ -195,10 +246,18 @@ class Study {
   template <class Work>
   void begin(Findings first, Work work) {
     shared_ = std::make_shared<Shared>(std::move(first));
-    job_.start(Priority::below_frames, [shared = shared_, work = std::move(work)](JobControl& control) {
+    const auto take = [shared = shared_](std::string_view bytes) {
+      if constexpr (Transferable<Findings>)
+        shared->update([&](Findings& findings) { findings = from_bytes<Findings>(bytes); });
+    };
+    const auto do_it = [shared = shared_, work = std::move(work)](JobControl& control) {
+      if constexpr (Transferable<Findings>)
+        if (control.report) shared->report = reporter(control);
       work(*shared, std::as_const(control));
+      if (shared->report) shared->send();
       return std::monostate();
-    });
+    };
+    job_.start(Priority::below_frames, do_it, take);
   }
   /// Asks the work to stop; what it has found stays.
   void cancel() { job_.cancel(); }
@@ -217,6 +276,16 @@ class Study {
   std::optional<Findings> findings() const { return shared_ ? std::optional(shared_->findings()) : std::nullopt; }
 
  private:
+  /// Sends findings ten times a second.
+  static auto reporter(const JobControl& control) {
+    using Clock = std::chrono::steady_clock;
+    return [&control, last = Clock::time_point()](const Findings& findings, bool at_once) mutable {
+      if (!at_once && Clock::now() - last < std::chrono::milliseconds(100)) return;
+      last = Clock::now();
+      control.report(bytes_of(findings));
+    };
+  }
+
   std::shared_ptr<Shared> shared_;
   Job<std::monostate> job_;
 };

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/stability_map.h"
@@ -18,6 +19,12 @@ struct MapFindings {
   std::vector<MapCell> cells;
   std::string problem;  ///< why there are no more
 };
+
+template <class Visit>
+void visit_parts(Visit&& visit, MapFindings& map) {
+  auto& [of, grid, boundary, cells, problem] = map;
+  visit(of, grid, boundary, cells, problem);
+}
 
 class MapWatch {
  public:

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/settings_search.h"

@@ -273,4 +273,12 @@ bool body_under_pointer(Tools& tools) {
   return body_pressed(tools, tile, tools.input.at - tools.scene.viewport.origin(tile), site_under).has_value();
 }
 
+int finger_button(Tools& tools, glm::vec2 at) {
+  if (!tools.scene.viewport.takes(at) || tools.finger_cuts) return GLFW_MOUSE_BUTTON_LEFT;
+  const int tile = tools.scene.viewport.tile_at(at);
+  const glm::vec2 inside = at - tools.scene.viewport.origin(tile);
+  const bool wind = tile == 0 && on_wind_tip(tools, inside);
+  return wind || body_pressed(tools, tile, inside, nearest_of_all) ? GLFW_MOUSE_BUTTON_LEFT : GLFW_MOUSE_BUTTON_RIGHT;
+}
+
 }  // namespace tyglab

@@ -63,6 +63,8 @@ std::optional<Pins::Site> particle_under_pointer(Tools& tools);
 bool body_under_pointer(Tools& tools);
 /// Whether a left press would take the wind's arrow by its tip.
 bool wind_under_pointer(const Tools& tools);
+/// The mouse's button, GLFW_MOUSE_BUTTON_…, that a finger put there stands for.
+int finger_button(Tools& tools, glm::vec2 at);
 /// How near to the pointer a particle is taken, pixels.
 float pointer_reach(const Tools& tools);
 /// Whether the pointer grabs or cuts now.

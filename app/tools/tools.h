@@ -21,6 +21,7 @@ struct Tools {
   const ToolSettings& settings;
   Tool tool;
   std::optional<bool> wind_arrow;  ///< shown or not; none: while there is wind
+  bool finger_cuts = false;        ///< one finger on a touch screen cuts; otherwise it takes hold of the cloth
   double now = 0;                  ///< s, the window's clock
 
   /// Lengths on the screen, given at scale 1, in pixels.

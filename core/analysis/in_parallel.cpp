@@ -32,15 +32,15 @@ void in_parallel(int count, int threads, const std::function<void(int)>& work, c
       if (!fault) fault = std::current_exception();
     }
   };
-  {
-    std::vector<std::jthread> others;
-    try {
-      for (int n = 1; n < std::min(threads, count); ++n) others.emplace_back(worker);
-    } catch (const std::system_error&) {
-      // The system gives no more threads: fewer do the work.
-    }
-    worker();
+  std::vector<std::thread> others;
+  others.reserve(std::size_t(std::max(threads, 1)));
+  try {
+    for (int n = 1; n < std::min(threads, count); ++n) others.emplace_back(worker);
+  } catch (const std::system_error&) {
+    // The system gives no more threads: fewer do the work.
   }
+  worker();
+  for (std::thread& other : others) other.join();
   if (fault) std::rethrow_exception(fault);
 }
 

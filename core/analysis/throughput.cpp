@@ -62,15 +62,28 @@ ThroughputRow row_of(const ThroughputCase& which, const Simulation& simulation, 
 class Load {
  public:
   explicit Load(int threads) {
-    for (int n = 0; n < threads; ++n)
-      threads_.emplace_back([](const std::stop_token& over) {
-        while (!over.stop_requested()) {
-        }
-      });
+    try {
+      for (int n = 0; n < threads; ++n)
+        threads_.emplace_back([this] {
+          while (!over_) {
+          }
+        });
+    } catch (...) {
+      end();
+      throw;
+    }
   }
+  ~Load() { end(); }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
 
  private:
-  std::vector<std::jthread> threads_;
+  void end() {
+    over_ = true;
+    for (std::thread& thread : threads_) thread.join();
+  }
+  std::atomic<bool> over_ = false;
+  std::vector<std::thread> threads_;
 };
 
 }  // namespace

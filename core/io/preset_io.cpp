@@ -13,6 +13,7 @@
 #include "core/integrators/names.h"
 #include "core/io/json_tree.h"
 #include "core/model/notation.h"
+#include "core/model/parsed_number.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
 
@@ -233,7 +234,7 @@ bool is_text_key(const std::string& key) {
 JsonNode setting_number(const std::string& key, const std::string& text, const Reader& reader) {
   JsonNode node;
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, node.number);
+  const auto [stop, error] = read_number(text.data(), end, node.number);
   if (error == std::errc::result_out_of_range && stop == end)
     reader.fail(0, key, "'" + text + "' is too large or too small for a number");
   if (text.empty() || error != std::errc{} || stop != end)

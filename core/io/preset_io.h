@@ -43,6 +43,9 @@ std::string preset_hash(const Preset& preset);
 /// The same for settings as --set takes them: k_s=500, "W=[0,0,0.02]", "bodies[0].r=0.3".
 Preset with_settings(const Preset& preset, const std::vector<std::string>& settings);
 
+/// What differs between two presets as such settings, their descriptions apart: with_settings(from, these) is `to`.
+std::vector<std::string> settings_between(const Preset& from, const Preset& to);
+
 /// A setting and how it was typed, which is what errors call it.
 struct Setting {
   std::string typed;  ///< "--set k_s=500", "--dt 0.001"

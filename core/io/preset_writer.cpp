@@ -75,7 +75,38 @@ std::string section_text(std::string_view section, const Preset& p) {
   return "  " + json_text(section) + ": {" + text + "}";
 }
 
+/// A word as --set takes it, in quotes where it could be read as JSON.
+std::string setting_text(const std::string& text) {
+  return text.starts_with('"') || text.empty() ? json_text(text) : text;
+}
+
+template <class T>
+std::string setting_text(const Row<T>& row, const T& object) {
+  const auto* const word = std::get_if<std::string T::*>(&row.field);
+  return word != nullptr ? setting_text(object.**word) : field_text(row, object);
+}
+
+std::string one_line(std::string text) {
+  std::erase(text, '\n');
+  return text;
+}
+
 }  // namespace
+
+std::vector<std::string> settings_between(const Preset& from, const Preset& to) {
+  std::vector<std::string> settings;
+  const auto add = [&](std::string_view key, const std::string& before, const std::string& after) {
+    if (before != after) settings.push_back(std::string(key) + "=" + after);
+  };
+  add("kind", std::string(name_of(from.kind)), std::string(name_of(to.kind)));
+  add("name", setting_text(from.name), setting_text(to.name));
+  for (const PresetRow& row : notation()) add(row.key, setting_text(row, from), setting_text(row, to));
+  add("pins", one_line(pins_text(from.pins)), one_line(pins_text(to.pins)));
+  add("engine", std::string(name_of(from.engine)), std::string(name_of(to.engine)));
+  add("precision", std::string(name_of(from.precision)), std::string(name_of(to.precision)));
+  add("bodies", one_line(bodies_text(from.bodies)), one_line(bodies_text(to.bodies)));
+  return settings;
+}
 
 std::string shortest_number(double v) {
   std::array<char, 40> text{};

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
+
+#include "core/model/parsed_number.h"
 
 namespace tyglab {
 namespace {
@@ -52,7 +53,7 @@ double rounded(double value, int digits) {
   std::array<char, 48> text;
   std::snprintf(text.data(), text.size(), "%.*e", digits - 1, value);
   double out = value;
-  std::from_chars(text.data(), text.data() + std::string_view(text.data()).size(), out);
+  read_number(text.data(), text.data() + std::string_view(text.data()).size(), out);
   return out;
 }
 

@@ -48,6 +48,24 @@ TEST_CASE("3: a preset's texture lies outside its folder; one that the user chos
   CHECK(chosen.err.empty());
 }
 
+TEST_CASE("a page's link is a preset; 3: one that is broken") {
+  const test::TemporaryFolder folder;
+  const auto state = [&](const std::vector<std::string>& scene) {
+    std::vector<std::string> call{"run"};
+    call.insert(call.end(), scene.begin(), scene.end());
+    call.insert(call.end(), {"--steps", "20", "--state", "state.csv"});
+    CHECK(test::tyglab(folder.path(), call).code == 0);
+    return test::read_file(folder / "state.csv");
+  };
+  const std::string typed = state({"flag", "--set", "k_s=80", "--set", "W=[0,0,0.01]"});
+  CHECK(state({"https://example.org/a/#flag&k_s=80&W=%5B0,0,0.01%5D"}) == typed);
+  CHECK(state({"#flag&k_s=90&W=[0,0,0.01]", "--set", "k_s=80"}) == typed);
+  check_calls({{{"run", "#nothing", "--steps", "1"}, 3, "names no shipped preset: 'nothing'"},
+               {{"run", "https://example.org/#flag&k_s=x%", "--steps", "1"}, 3, "hexadecimal"},
+               {{"run", "#flag&k_s=-1", "--steps", "1"}, 3, "The link's k_s=-1"}},
+              folder.path());
+}
+
 TEST_CASE("2: a tolerance that cannot be promised is refused with the one that can be, and the command to type") {
   const test::TemporaryFolder folder;
   const std::vector<std::string> scene{"run", "hanging", "--set", "rows=4", "--set", "columns=4", "--seconds", "0.1"};

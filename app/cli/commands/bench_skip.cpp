@@ -1,12 +1,10 @@
 // `tyglab bench skip`: what each feature costs when it is on, off, and not there at all.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "app/base/program.h"
 #include "app/cli/bench_instructions.h"
@@ -16,6 +14,7 @@
 #include "app/cli/progress.h"
 #include "app/process/interrupt.h"
 #include "app/ui/kit/chart.h"
+#include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/skip.h"
 #include "core/io/destination.h"
@@ -75,15 +74,12 @@ void print_row(std::ostream& out, const SkipRow& row, const Counts& counts) {
 /// Counts a feature in all states, side by side: what runs at the same time does not change a count.
 Counts count(const InstructionCounter& counter, const std::string& feature, int threads) {
   Counts counts;
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t n = next++; n < all_states.size() && !InterruptGuard::interrupted(); n = next++)
-      counts[n] = counter.per_particle_step({feature, all_states[n], Precision::float_});
+  const auto work = [&](int n) {
+    const auto at = std::size_t(n);
+    counts[at] = counter.per_particle_step({feature, all_states[at], Precision::float_});
   };
-  std::vector<std::jthread> workers;
-  for (int n = 1; n < std::min(threads, int(all_states.size())); ++n) workers.emplace_back(work);
-  work();
-  workers.clear();
+  in_parallel(
+      int(all_states.size()), threads, work, [](int) {}, InterruptGuard::interrupted);
   return counts;
 }
 

@@ -10,6 +10,7 @@
 #include "app/cli/size_option.h"
 #include "app/platform/window.h"
 #include "app/process/process.h"
+#include "app/session/lab_state.h"
 #include "app/shell/sandbox.h"
 #include "core/io/destination.h"
 
@@ -22,7 +23,8 @@ constexpr PictureSize smallest_window{480, 320};
 struct Options {
   PresetArgument preset;
   int frames = 0;
-  std::string screenshot, time_report, session_report, color, effects, size;
+  std::string screenshot, time_report, session_report, color, effects, size, lab;
+  bool no_panels = false;
 
   std::vector<Output> outputs() const {
     return {{"--screenshot", screenshot, true}, {"--time-report", time_report}, {"--session-report", session_report}};
@@ -36,6 +38,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (is_standard_output(options.session_report))
     throw UsageError("--session-report -: the report is rewritten continuously; name a file");
   const PictureSize size = options.size.empty() ? PictureSize{0, 0} : parse_size(options.size, smallest_window);
+  if (!options.lab.empty()) load_lab(find_lab_file(options.lab));
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
   const std::vector<Output> outputs = options.outputs();
   check_outputs(outputs, scene.source.file);
@@ -56,6 +59,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (options.effects == "all") sandbox.effects = Effects::Mode::all;
   if (options.effects == "few") sandbox.effects = Effects::Mode::few;
   sandbox.color = field_called(options.color);
+  sandbox.lab = options.lab, sandbox.panels = !options.no_panels;
   if (display_there()) return run_sandbox(sandbox);
   if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
   return run_headless(sandbox, people(outputs));
@@ -104,6 +108,10 @@ void add_sandbox_command(CLI::App& program, Action& action) {
       ->type_name("auto|all|few")
       ->check(CLI::IsMember({"auto", "all", "few"}).description(""));
   add_color_option(program, options->color, true);
+  program.add_option("--lab", options->lab, "Begin a lab, by its name in `tyglab labs`")
+      ->type_name("NAME")
+      ->check(not_empty());
+  program.add_flag("--no-panels", options->no_panels, "Show the cloth alone, as Tab does");
   program.callback([options, &action, &program] {
     if (program.get_subcommands().empty()) {
       action = [options, commands = command_names(program)] { return open_sandbox(*options, commands); };

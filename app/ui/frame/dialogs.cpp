@@ -8,6 +8,7 @@
 
 #include "app/base/data_files.h"
 #include "app/base/preset_files.h"
+#include "app/platform/files.h"
 #include "app/session/document.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/gallery.h"
@@ -111,6 +112,12 @@ void open_presets(Ui& ui) {
   title(ui, "Open a preset");
   gallery(ui, ImGui::GetIO().DisplaySize.y - ui.theme.px(236));
   if (dialog.kind != DialogKind::open) return;
+  if (files_are_handed_out()) {
+    if (text_button(ui, "Choose a file…", true)) ask_for_file(".json"), close(ui);
+    ImGui::SameLine();
+    if (text_button(ui, "Cancel")) close(ui);
+    return;
+  }
   label(ui, "Or a file, by its path");
   if (path_field(ui)) dialog.problem.clear();
   problem(ui);
@@ -197,6 +204,7 @@ void export_dialog(Ui& ui) {
   ui.act([&what, file](Ui& u) {
     try {
       what.write(u, file);
+      hand_out(file);
       u.messages.note("Wrote " + file.string());
     } catch (const std::runtime_error& error) {
       u.messages.error(error.what());
@@ -329,6 +337,9 @@ void open_dialog(Ui& ui, DialogKind kind) {
     fill_gallery(ui, kind == DialogKind::start);
     dialog.first_start = kind == DialogKind::start && !ui.settings.tour_seen;
     ui.settings.tour_seen |= kind == DialogKind::start;
+  } else if (kind == DialogKind::texture && files_are_handed_out()) {
+    dialog.kind = DialogKind::none, dialog.opening = false;
+    ask_for_file(".png,.jpg,.jpeg,.bmp,.tga");
   } else if (kind == DialogKind::save) {
     set(dialog.name, ui.session.preset().name);
     const fs::path file =

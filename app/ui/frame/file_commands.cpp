@@ -1,6 +1,9 @@
 // Presets, and what else goes in and out.
 #include <imgui.h>
 
+#include "app/base/data_files.h"
+#include "app/base/link.h"
+#include "app/platform/address.h"
 #include "app/session/document.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/dialogs.h"
@@ -42,6 +45,17 @@ void copy_as_options(Ui& ui) {
   ui.messages.note("Copied the constants as --set options.");
 }
 
+/// A page's whole address; elsewhere the link alone, which any page and the command line take.
+void copy_link(Ui& ui) {
+  const Preset preset = ui.session.requested_preset();
+  const std::string address = page_address(), link = link_to(preset, ui.session.document.label);
+  ImGui::SetClipboardText((address + link).c_str());
+  std::string note = "Copied the link to these constants";
+  if (address.empty()) note += ", to be put at the end of a Tyglab page's address, or to be opened with tyglab 'LINK'";
+  if (!preset.texture.empty() && !is_shipped_texture(preset.texture)) note += "; its own texture is not in it";
+  ui.messages.note(note + ".");
+}
+
 void request_quit(Ui& ui) {
   ui.session.request(request::Quit{});
 }
@@ -72,6 +86,7 @@ std::vector<CommandRow> file_rows() {
            "png screenshot picture export",
            dialog<Dialog::Kind::picture>},
           {"load_texture_dialog", "Use image as texture…", "", {}, "", "picture cloth", dialog<Dialog::Kind::texture>},
+          {"copy_link", "Copy link", "", {}, "", "share address url browser page clipboard export", copy_link},
           {"copy_options",
            "Copy the constants as --set options",
            "",

@@ -1,0 +1,117 @@
+#include "app/base/link.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "app/base/data_files.h"
+#include "app/base/preset_files.h"
+#include "core/io/preset_io.h"
+#include "core/io/terminal.h"
+
+namespace tyglab {
+namespace {
+
+constexpr auto default_preset = "hanging";
+
+[[noreturn]] void fail(std::string_view link, const std::string& why) {
+  constexpr std::size_t most = 200;
+  const std::string shown(link.substr(0, most));
+  throw PresetError("The link '" + in_one_line(shown) + (link.size() > most ? "…" : "") + "' " + why +
+                    " Copy it again, whole; links look like #hanging&k_s=300.");
+}
+
+/// Of a hexadecimal digit; below 0: it is none.
+int digit(char letter) {
+  constexpr std::string_view digits = "0123456789abcdef", capitals = "0123456789ABCDEF";
+  const std::size_t at = std::min(digits.find(letter), capitals.find(letter));
+  return at == std::string_view::npos ? -1 : int(at);
+}
+
+std::string decoded(std::string_view text, std::string_view link) {
+  std::string plain;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    if (text[n] != '%') {
+      plain += text[n];
+      continue;
+    }
+    if (n + 2 >= text.size() || digit(text[n + 1]) < 0 || digit(text[n + 2]) < 0)
+      fail(link, "has a % that two hexadecimal digits do not follow.");
+    plain += char(16 * digit(text[n + 1]) + digit(text[n + 2]));
+    n += 2;
+  }
+  return plain;
+}
+
+std::string encoded(std::string_view text) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.-~,:=[]/";
+  std::string link;
+  for (const char letter : text) {
+    if (plain.find(letter) != std::string_view::npos) {
+      link += letter;
+    } else {
+      std::array<char, 4> code{};
+      std::snprintf(code.data(), code.size(), "%%%02X", unsigned(static_cast<unsigned char>(letter)));
+      link += code.data();
+    }
+  }
+  return link;
+}
+
+bool is_shipped_preset(const std::string& name) {
+  const std::vector<std::string> names = shipped_presets();
+  return std::binary_search(names.begin(), names.end(), name);
+}
+
+}  // namespace
+
+bool is_link(std::string_view text) {
+  return text.starts_with('#') || text.starts_with("http://") || text.starts_with("https://");
+}
+
+LinkedPreset read_link(std::string_view text) {
+  LinkedPreset linked{default_preset, {}};
+  const std::size_t hash = text.find('#');
+  if (hash == std::string_view::npos) return linked;
+  std::string_view rest = text.substr(hash + 1);
+  for (bool first = true; !rest.empty(); first = false) {
+    const std::size_t end = std::min(rest.find('&'), rest.size());
+    const std::string part = decoded(rest.substr(0, end), text);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (first && part.find('=') == std::string::npos) {
+      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: '" + in_one_line(part) + "'.");
+      linked.name = part;
+    } else if (part.find('=') == std::string::npos) {
+      fail(text, "has a part that is no KEY=VALUE: '" + in_one_line(part) + "'.");
+    } else {
+      linked.settings.push_back(part);
+    }
+  }
+  return linked;
+}
+
+Preset linked_preset(const LinkedPreset& link) {
+  std::vector<Setting> settings;
+  for (const std::string& text : link.settings) {
+    Setting setting = parse_setting(text);
+    setting.typed = "The link's " + in_one_line(text);
+    settings.push_back(std::move(setting));
+  }
+  Preset preset = with_parsed_settings(read_preset(find_preset(link.name).file), settings);
+  if (!preset.texture.empty() && !is_shipped_texture(preset.texture))
+    throw PresetError("The link's texture " + in_one_line(preset.texture) +
+                      " is not a shipped one; a link holds no image.");
+  return preset;
+}
+
+std::string link_to(const Preset& preset, const std::string& label) {
+  const std::string name = is_shipped_preset(label) ? label : default_preset;
+  const Preset from = read_preset(find_preset(name).file);
+  Preset to = preset;
+  if (!to.texture.empty() && !is_shipped_texture(to.texture)) to.texture = from.texture;
+  std::string link = "#" + encoded(name);
+  for (const std::string& setting : settings_between(from, to)) link += "&" + encoded(setting);
+  return link;
+}
+
+}  // namespace tyglab

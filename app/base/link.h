@@ -1,0 +1,33 @@
+// An experiment's constants as a link: "#hanging&k_s=300&W=[0,0,0.02]", a shipped preset and what differs from it, as
+// --set takes it. A page of Tyglab shows it at the end of its address; the command line takes the whole address, or the
+// link alone.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// Whether a word on the command line, or dropped on the window, is a link or an address rather than a name or a file.
+bool is_link(std::string_view text);
+
+/// What a link says.
+struct LinkedPreset {
+  std::string name;                   ///< of a shipped preset
+  std::vector<std::string> settings;  ///< "k_s=300"
+};
+/// Reads a link, or an address with one in it. Without a link it is the default preset. Throws PresetError: the link
+/// names no shipped preset, or something in it is no setting.
+LinkedPreset read_link(std::string_view text);
+
+/// The preset itself. Throws PresetError: a setting is wrong.
+Preset linked_preset(const LinkedPreset& link);
+
+/// The link to these constants. `label`: of the shipped preset that they were made from, or anything else. Its texture
+/// is named only where it is shipped.
+std::string link_to(const Preset& preset, const std::string& label);
+
+}  // namespace tyglab

@@ -1,0 +1,265 @@
+// What the C++ of app/platform/web asks of the page, and the page's events for it.
+addToLibrary({
+  $tyglabPage__deps: ['emscripten_resize_heap', '$FS', '$stringToNewUTF8', 'free', 'malloc'],
+  $tyglabPage__postset: "Module['tyglabPage'] = tyglabPage;",
+  $tyglabPage: {
+    // GLFW's numbers of keys that type no letter or digit, by KeyboardEvent.code.
+    codes: {
+      Space: 32, Quote: 39, Comma: 44, Minus: 45, Period: 46, Slash: 47, Semicolon: 59, Equal: 61, BracketLeft: 91,
+      Backslash: 92, BracketRight: 93, Backquote: 96, Escape: 256, Enter: 257, Tab: 258, Backspace: 259, Insert: 260,
+      Delete: 261, ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264, ArrowUp: 265, PageUp: 266, PageDown: 267, Home: 268,
+      End: 269, CapsLock: 280, F1: 290, F2: 291, F3: 292, F4: 293, F6: 295, F7: 296, F8: 297, F9: 298, F10: 299,
+      NumpadDecimal: 330, NumpadDivide: 331, NumpadMultiply: 332, NumpadSubtract: 333, NumpadAdd: 334, NumpadEnter: 335,
+      ShiftLeft: 340, ControlLeft: 341, AltLeft: 342, MetaLeft: 341, ShiftRight: 344, ControlRight: 345, AltRight: 346,
+      MetaRight: 345,
+    },
+    // Those with Ctrl that belong to the browser, whatever a page does or ought to do: Ctrl+T, Ctrl+W, Ctrl+N, Ctrl+Q.
+    kept: 'twnq',
+    buttons: [0, 2, 1, 3, 4],
+    cursor: '',
+    workers: {},
+    // In a worker: the memory of the page becomes this instance's, and the work is done.
+    becomeCopy: (memory, parts) => {
+      if (memory.length > HEAPU8.length) _emscripten_resize_heap(memory.length);
+      HEAPU8.set(memory);
+      _tyglab_run_copy(parts);
+    },
+    field: null,
+    mods: (event) => (event.shiftKey ? 1 : 0) | (event.ctrlKey || event.metaKey ? 2 : 0) | (event.altKey ? 4 : 0),
+    key: (event) => {
+      const letter = event.key.length === 1 ? event.key.toUpperCase() : '';
+      if (/^[A-Z0-9]$/.test(letter)) return letter.charCodeAt(0);
+      if (/^(Key[A-Z]|Digit[0-9])$/.test(event.code)) return event.code.charCodeAt(event.code.length - 1);
+      if (/^Numpad[0-9]$/.test(event.code)) return 320 + Number(event.code[6]);
+      return tyglabPage.codes[event.code] ?? -1;
+    },
+    pressed: (event) => {
+      const ctrl = event.ctrlKey || event.metaKey, key = tyglabPage.key(event);
+      if (key < 0 || (ctrl && tyglabPage.kept.includes(event.key.toLowerCase()))) return;
+      if (ctrl && !event.altKey && event.key.toLowerCase() === 'v') return;  // its text comes with the event 'paste'
+      event.preventDefault();
+      _tyglab_on_key(key, event.repeat ? 2 : 1, tyglabPage.mods(event));
+      if (!ctrl && !event.altKey && [...event.key].length === 1) _tyglab_on_character(event.key.codePointAt(0));
+    },
+    pasted: (event) => {
+      tyglabPage.withText(event.clipboardData.getData('text/plain'), _tyglab_on_clipboard);
+      _tyglab_on_key(86, 1, 2);
+      _tyglab_on_key(86, 0, 2);
+      event.preventDefault();
+    },
+    withText: (text, call) => {
+      const at = stringToNewUTF8(text);
+      call(at);
+      _free(at);
+    },
+    // Canvas pixels of an event.
+    at: (event) => {
+      const box = Module.canvas.getBoundingClientRect();
+      return [(event.clientX - box.left) * Module.canvas.width / box.width,
+              (event.clientY - box.top) * Module.canvas.height / box.height];
+    },
+    resized: () => {
+      const canvas = Module.canvas, scale = window.devicePixelRatio || 1;
+      canvas.width = Math.max(1, Math.round(canvas.clientWidth * scale));
+      canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
+      _tyglab_on_size(canvas.width, canvas.height, scale);
+    },
+    // A file of the person's, put where the program finds it.
+    take: async (file) => {
+      const folder = '/home/web_user/files', path = folder + '/' + file.name.replace(/[/\\]/g, '_');
+      FS.mkdirTree(folder);
+      FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
+      tyglabPage.withText(path, _tyglab_on_drop);
+    },
+    finger: (phase) => (event) => {
+      if (event.pointerType !== 'touch') return;
+      _tyglab_on_finger(event.pointerId, phase, ...tyglabPage.at(event));
+      event.preventDefault();
+    },
+    listenToPointer: (canvas) => {
+      const mouse = (handle) => (event) => {
+        if (event.pointerType !== 'touch') handle(event);
+      };
+      canvas.addEventListener('pointerdown', (event) => {
+        canvas.focus({preventScroll: true});
+        canvas.setPointerCapture(event.pointerId);
+      });
+      canvas.addEventListener('pointerdown', mouse((event) => {
+        _tyglab_on_pointer(...tyglabPage.at(event));
+      }));
+      // Further buttons of a mouse come as mouse events alone.
+      canvas.addEventListener('mousedown', (event) => {
+        _tyglab_on_button(tyglabPage.buttons[event.button] ?? 4, 1, tyglabPage.mods(event));
+        event.preventDefault();
+      });
+      window.addEventListener('mouseup', (event) => {
+        if (event.target === canvas) event.preventDefault();
+        _tyglab_on_button(tyglabPage.buttons[event.button] ?? 4, 0, tyglabPage.mods(event));
+      });
+      canvas.addEventListener('pointermove', mouse((event) => _tyglab_on_pointer(...tyglabPage.at(event))));
+      canvas.addEventListener('pointerleave', mouse(() => _tyglab_on_inside(0)));
+      canvas.addEventListener('pointerdown', tyglabPage.finger(0));
+      canvas.addEventListener('pointermove', tyglabPage.finger(1));
+      canvas.addEventListener('pointerup', tyglabPage.finger(2));
+      canvas.addEventListener('pointercancel', tyglabPage.finger(2));
+      for (const kind of ['touchstart', 'touchmove', 'touchend'])  // no mouse is made of them, and no page moves
+        canvas.addEventListener(kind, (event) => event.preventDefault(), {passive: false});
+      canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+      canvas.addEventListener('wheel', (event) => {
+        const line = event.deltaMode === 0 ? 1 / 100 : event.deltaMode === 1 ? 1 / 3 : 1;
+        _tyglab_on_wheel(-event.deltaX * line, -event.deltaY * line * (event.ctrlKey ? 5 : 1));
+        event.preventDefault();
+      }, {passive: false});
+    },
+    listenToKeys: (canvas) => {
+      canvas.tabIndex = 0;
+      canvas.focus({preventScroll: true});
+      window.addEventListener('keydown', (event) => {
+        if (event.target === tyglabPage.field && event.key.length === 1 && !event.ctrlKey) return;
+        tyglabPage.pressed(event);
+      });
+      window.addEventListener('keyup', (event) => {
+        const key = tyglabPage.key(event);
+        if (key >= 0) _tyglab_on_key(key, 0, tyglabPage.mods(event));
+      });
+      window.addEventListener('paste', tyglabPage.pasted);
+      window.addEventListener('blur', () => _tyglab_on_focus(0));
+      window.addEventListener('focus', () => _tyglab_on_focus(1));
+    },
+  },
+
+  // Copies of the program, each in a worker.
+  tyglab_start_copy__deps: ['$tyglabPage'],
+  tyglab_start_copy: (number, parts, end) => {
+    const memory = HEAPU8.slice(0, end);
+    const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
+    worker.onmessage = ({data}) => {
+      const at = _malloc(data.length);
+      HEAPU8.set(data, at);
+      _tyglab_on_report(number, at, data.length);
+      _free(at);
+    };
+    worker.onerror = (event) => console.error('Tyglab: a worker failed: ' + event.message);
+    worker.postMessage({module: Module.compiled, memory, parts}, [memory.buffer]);
+  },
+  tyglab_end_copy__deps: ['$tyglabPage'],
+  tyglab_end_copy: (number) => {
+    tyglabPage.workers[number].terminate();
+    delete tyglabPage.workers[number];
+  },
+  tyglab_report: (bytes, count) => postMessage(HEAPU8.slice(bytes, bytes + count)),
+
+  tyglab_has_canvas: () => (typeof document === 'undefined' ? 0 : 1),
+
+  tyglab_listen__deps: ['$tyglabPage', '$stringToNewUTF8', 'free'],
+  tyglab_listen: () => {
+    const canvas = Module.canvas;
+    tyglabPage.resized();
+    new ResizeObserver(tyglabPage.resized).observe(canvas);
+    window.addEventListener('resize', tyglabPage.resized);  // zoom
+    tyglabPage.listenToPointer(canvas);
+    tyglabPage.listenToKeys(canvas);
+    window.addEventListener('dragover', (event) => event.preventDefault());
+    window.addEventListener('drop', (event) => {
+      event.preventDefault();
+      for (const file of event.dataTransfer.files) tyglabPage.take(file);
+    });
+    window.addEventListener('hashchange', () => {
+      if (location.hash !== tyglabPage.shown) tyglabPage.withText(location.hash || '#', _tyglab_on_drop);
+      tyglabPage.shown = location.hash;
+    });
+  },
+
+  tyglab_set_title: (title) => {
+    document.title = UTF8ToString(title);
+  },
+  tyglab_full_screen: () => {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else document.documentElement.requestFullscreen?.();
+  },
+  tyglab_is_full_screen: () => (document.fullscreenElement ? 1 : 0),
+  tyglab_is_hidden: () => (document.hidden ? 1 : 0),
+  tyglab_set_cursor__deps: ['$tyglabPage'],
+  tyglab_set_cursor: (name) => {
+    const cursor = UTF8ToString(name);
+    if (cursor !== tyglabPage.cursor) Module.canvas.style.cursor = tyglabPage.cursor = cursor;
+  },
+  tyglab_first_frame: () => Module.firstFrame?.(),
+
+  tyglab_copy: (text) => {
+    const copied = UTF8ToString(text);
+    navigator.clipboard?.writeText(copied).catch(() => {});
+  },
+
+  // A text field takes keys, so a touch screen shows its keyboard: for a field of the page that nobody sees.
+  tyglab_type_by_touch__deps: ['$tyglabPage'],
+  tyglab_type_by_touch: (wanted) => {
+    if (!matchMedia('(pointer: coarse)').matches || (tyglabPage.field !== null) === (wanted !== 0)) return;
+    if (!wanted) {
+      tyglabPage.field.remove();
+      tyglabPage.field = null;
+      Module.canvas.focus({preventScroll: true});
+      return;
+    }
+    const field = tyglabPage.field = document.createElement('input');
+    field.setAttribute('aria-label', 'Text for the field in the picture');
+    field.style = 'position:fixed;left:0;bottom:0;width:1px;height:1px;opacity:0;border:0;font-size:16px';
+    field.autocomplete = field.autocapitalize = 'off';
+    field.addEventListener('input', (event) => {
+      for (const letter of event.data ?? '') _tyglab_on_character(letter.codePointAt(0));
+      field.value = '';
+    });
+    document.body.append(field);
+    field.focus({preventScroll: true});
+  },
+
+  tyglab_hand_out: (file) => {
+    const path = UTF8ToString(file), link = document.createElement('a');
+    link.href = URL.createObjectURL(new Blob([FS.readFile(path)]));
+    link.download = path.slice(path.lastIndexOf('/') + 1);
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  },
+
+  tyglab_ask_for_file__deps: ['$tyglabPage'],
+  tyglab_ask_for_file: (endings) => {
+    const input = document.createElement('input');
+    input.type = 'file';
+    input.accept = UTF8ToString(endings);
+    input.addEventListener('change', () => {
+      for (const file of input.files) tyglabPage.take(file);
+    });
+    input.click();
+  },
+
+  // localStorage holds text: JSON as it is, and nothing large.
+  tyglab_keep_files: (folder) => {
+    if (typeof localStorage === 'undefined') return;
+    const keep = (path) => {
+      for (const name of FS.readdir(path)) {
+        const inside = path + '/' + name;
+        if (name === '.' || name === '..') continue;
+        if (FS.isDir(FS.stat(inside).mode)) keep(inside);
+        else if (name.endsWith('.json'))
+          try {
+            localStorage.setItem('tyglab:' + inside, FS.readFile(inside, {encoding: 'utf8'}));
+          } catch (error) {
+            console.warn('Tyglab: ' + inside + ' could not be kept: ' + error.message);
+          }
+      }
+    };
+    keep(UTF8ToString(folder));
+  },
+
+  tyglab_page_address: (text, bytes) => {
+    if (typeof location === 'undefined') return 0;
+    return stringToUTF8(location.href.split('#')[0], text, bytes);
+  },
+  tyglab_show_in_address__deps: ['$tyglabPage'],
+  tyglab_show_in_address: (link, further) => {
+    const shown = UTF8ToString(link);
+    if (typeof history === 'undefined' || shown === tyglabPage.shown) return;
+    tyglabPage.shown = shown;
+    history[further ? 'pushState' : 'replaceState'](null, '', location.pathname + location.search + shown);
+  },
+});

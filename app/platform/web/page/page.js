@@ -1,0 +1,150 @@
+// Loads the program with its data, shows how far that is, and starts it as the page's address says:
+//   #hanging&k_s=300                      an experiment's constants
+//   ?embed&lab=03_stiffness               in a course's page: without what was kept, with a button that opens it whole
+//   ?embed&preset=flag&panels=0           likewise, the cloth alone
+const canvas = document.getElementById('canvas');
+const words = document.getElementById('words'), bar = document.getElementById('progress');
+const asked = new URLSearchParams(location.search), embedded = asked.has('embed');
+
+class Refusal extends Error {}
+
+function show(text) {
+  words.textContent = text;
+}
+
+/// The program cannot start, or has ended: why, and what to do.
+function end(text) {
+  show(text);
+  bar.hidden = true;
+  document.getElementById('action').hidden = false;
+  document.getElementById('again').href = location.pathname;
+  document.getElementById('start').classList.remove('gone');
+}
+
+/// What a browser must have; a module with one vector instruction is valid where there are any.
+function check_browser() {
+  const simd = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15,
+                               253, 98, 11]);
+  if (typeof WebAssembly === 'undefined' || !WebAssembly.validate(simd))
+    throw new Refusal('Tyglab needs WebAssembly with SIMD, which this browser lacks. Use a current Firefox, Chrome, Edge or ' +
+                      'Safari.');
+  if (!document.createElement('canvas').getContext('webgl2'))
+    throw new Refusal('Tyglab needs WebGL 2, which this browser lacks or has switched off. Allow hardware acceleration in its ' +
+                      'settings, or use a current Firefox, Chrome, Edge or Safari.');
+}
+
+let loaded = 0;
+
+/// A file, counted as it comes.
+async function fetched(name) {
+  const answer = await fetch(name);
+  if (!answer.ok) throw new Refusal(`${name} could not be loaded (${answer.status} ${answer.statusText}). Load the page again.`);
+  const counted = answer.body.pipeThrough(new TransformStream({
+    transform(bytes, out) {
+      loaded += bytes.length;
+      bar.value = loaded / tyglab_bytes;
+      out.enqueue(bytes);
+    },
+  }));
+  const type = name.endsWith('.wasm') ? 'application/wasm' : 'application/octet-stream';
+  return new Response(counted, {headers: {'Content-Type': type}});
+}
+
+/// The files of a pack: a count of bytes, as many bytes of JSON (names and sizes), the files.
+function unpack(pack) {
+  const head = new DataView(pack).getUint32(0, true);
+  const index = JSON.parse(new TextDecoder().decode(new Uint8Array(pack, 4, head)));
+  let at = 4 + head;
+  return index.map(([name, size]) => [name, new Uint8Array(pack, (at += size) - size, size)]);
+}
+
+function write(tyglab, name, bytes) {
+  tyglab.FS.mkdirTree(name.slice(0, name.lastIndexOf('/')));
+  tyglab.FS.writeFile(name, bytes);
+}
+
+/// What earlier sessions kept (library.js, tyglab_keep_files).
+function restore(tyglab) {
+  try {
+    for (const [key, text] of Object.entries(localStorage))
+      if (key.startsWith('tyglab:/')) write(tyglab, key.slice('tyglab:'.length), text);
+  } catch (error) {
+    console.warn('Tyglab: nothing can be kept from one visit to the next: ' + error.message);
+  }
+}
+
+/// The command line that the page's address stands for.
+function arguments_of_address() {
+  const words = [];
+  if (location.hash.length > 1) words.push(location.hash);
+  else if (asked.get('preset')) words.push(asked.get('preset'));
+  if (asked.get('lab')) words.push('--lab', asked.get('lab'));
+  if (asked.get('panels') === '0') words.push('--no-panels');
+  if (asked.has('report')) words.push('--session-report', '/report.json');  // docs/session-report.md, for scripts and tests
+  return words;
+}
+
+function offer_whole() {
+  const whole = document.getElementById('whole');
+  whole.hidden = false;
+  const others = new URLSearchParams(asked);
+  for (const key of ['embed', 'panels']) others.delete(key);
+  const update = () => {
+    whole.href = location.pathname + (others.size ? '?' + others : '') + location.hash;
+  };
+  update();
+  whole.addEventListener('pointerdown', update);
+  whole.addEventListener('focus', update);
+}
+
+/// What is not needed for the first frame.
+async function load_the_rest(tyglab) {
+  for (const [name, bytes] of unpack(await (await fetched('textures.bin')).arrayBuffer())) {
+    write(tyglab, name, bytes);
+    tyglab.tyglabPage.withText(name, tyglab._tyglab_on_drop);
+  }
+  if ('serviceWorker' in navigator && !embedded)
+    navigator.serviceWorker.register('offline.js').catch((error) => console.warn('Tyglab: not offline: ' + error.message));
+}
+
+async function start() {
+  check_browser();
+  const data = fetched('data.bin').then((answer) => answer.arrayBuffer());
+  const code = new Promise((done, failed) => {
+    const script = document.createElement('script');
+    script.src = 'tyglab.js';
+    script.onload = done;
+    script.onerror = () => failed(new Refusal('tyglab.js could not be loaded. Load the page again.'));
+    document.head.append(script);
+  });
+  const compiled = await WebAssembly.compileStreaming(fetched('tyglab.wasm'));
+  await code;
+  show('Starting…');
+  let said = '';
+  const tyglab = await createTyglab({
+    canvas, compiled, embedded, workerAddress: 'worker.js',
+    instantiateWasm: (imports, take) => {
+      WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled));
+      return {};
+    },
+    print: (text) => console.log(text),
+    printErr: (text) => { said += text + '\n'; console.log(text); },
+    firstFrame: () => {
+      document.getElementById('start').classList.add('gone');
+      performance.mark('tyglab first frame');
+      load_the_rest(tyglab).catch((error) => console.warn('Tyglab: ' + error.message));
+    },
+  });
+  window.tyglab = tyglab;
+  for (const [name, bytes] of unpack(await data)) write(tyglab, name, bytes);
+  tyglab.FS.symlink('/tyglab/bin/tyglab', '/proc/self/exe');
+  if (!embedded) restore(tyglab);
+  else offer_whole();
+  const code_of_end = tyglab.callMain(arguments_of_address());
+  if (code_of_end) throw new Refusal(said.replace(/^tyglab: /, '').trim());
+}
+
+start().catch((error) => {
+  end(error instanceof Refusal ? error.message : 'Tyglab could not start: ' + error.message);
+  if (!(error instanceof Refusal)) console.error(error);
+});

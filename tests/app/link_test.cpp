@@ -1,0 +1,77 @@
+// Links: an experiment's constants at the end of a page's address.
+#include <doctest/doctest.h>
+
+#include "app/base/link.h"
+#include "app/base/preset_files.h"
+#include "core/io/preset_io.h"
+
+namespace tyglab::link_test {
+
+/// What a link brings back; a description stays with its shipped preset.
+Preset there_and_back(const Preset& preset, const std::string& label) {
+  const std::string link = link_to(preset, label);
+  CAPTURE(link);
+  CHECK(link.find_first_of(" \"<>{}|\\^`") == std::string::npos);  // as addresses must
+  Preset back = linked_preset(read_link("https://example.org/page/" + link));
+  back.description = preset.description;
+  return back;
+}
+
+std::string problem_of(const std::string& link) {
+  try {
+    linked_preset(read_link(link));
+  } catch (const PresetError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST_CASE("a link brings back every constant of every shipped preset, from its own and from another's") {
+  for (const std::string& name : shipped_presets()) {
+    CAPTURE(name);
+    const Preset preset = read_preset(find_preset(name).file);
+    CHECK(link_to(preset, name) == "#" + name);
+    CHECK(there_and_back(preset, name) == preset);
+    CHECK(there_and_back(preset, "my own") == preset);
+  }
+}
+
+TEST_CASE("a link brings back what was changed, whatever its name") {
+  Preset preset = read_preset(find_preset("sphere").file);
+  preset.name = "Å \"quoted\" 100 % & more = # it\n[1]";
+  preset.k_s = 1.0 / 3, preset.rows = 17, preset.W = {0, -1e-7, 0.02}, preset.gust = 0.4;
+  preset.pins = {Pins::Mode::list, {{0, 0}, {16, 3}}};
+  preset.bodies.push_back({.shape = Body::Shape::plane, .y = -0.25, .restitution = 0.5});
+  preset.integrator = "rk4", preset.precision = Precision::double_, preset.texture = "linen.png", preset.mode = 3;
+  CHECK(there_and_back(preset, "sphere") == preset);
+  preset.name = "7", preset.bodies.clear();
+  CHECK(there_and_back(preset, "sphere") == preset);
+}
+
+TEST_CASE("an image of one's own is not in a link") {
+  Preset preset = read_preset(find_preset("denim").file);
+  preset.texture = "/home/somebody/image.png";
+  CHECK(link_to(preset, "denim") == "#denim");
+}
+
+TEST_CASE("a whole address, its end and no link at all are read") {
+  CHECK(linked_preset(read_link("https://example.org/tyglab/?embed#flag&k_s=80")).k_s == 80);
+  CHECK(linked_preset(read_link("#flag&W=%5B0%2C0%2c0.01%5D")).W.z == 0.01);
+  CHECK(linked_preset(read_link("#k_s=80")) == linked_preset(read_link("#hanging&k_s=80")));
+  CHECK(read_link("https://example.org/").name == "hanging");
+  CHECK(is_link("#flag"));
+  CHECK_FALSE(is_link("flag"));
+  CHECK_FALSE(is_link("my#file.json"));
+}
+
+TEST_CASE("what is wrong with a link is named") {
+  CHECK(problem_of("#nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
+  CHECK(problem_of("#flag&k_s").find("no KEY=VALUE: 'k_s'") != std::string::npos);
+  CHECK(problem_of("#flag&k_s=%4").find("hexadecimal") != std::string::npos);
+  CHECK(problem_of("#flag&k_s=%zz").find("hexadecimal") != std::string::npos);
+  CHECK(problem_of("#flag&k_s=-1").find("k_s=-1") != std::string::npos);
+  CHECK(problem_of("#flag&k_q=1").find("unknown key") != std::string::npos);
+  CHECK(problem_of("#flag&texture=/etc/passwd").find("not a shipped one") != std::string::npos);
+}
+
+}  // namespace tyglab::link_test

@@ -1,0 +1,280 @@
+#!/usr/bin/python3
+"""test_page.py --page FOLDER [--shots FOLDER]: the page in Chromium, with real events, from a plain server and a sub-path."""
+import argparse
+import contextlib
+import functools
+import http.server
+import json
+import pathlib
+import shutil
+import sys
+import tempfile
+import threading
+import time
+
+from browser import Browser
+
+PALETTE = ("p", "KeyP", 80, 2)
+
+
+@contextlib.contextmanager
+def served(folder):
+    class Handler(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=str(folder)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://localhost:{server.server_address[1]}"
+    server.shutdown()
+
+
+def report(page):
+    """The session report (docs/session-report.md) of the next frames."""
+    return json.loads(page.ask("tyglab.FS.readFile('/report.json', {encoding: 'utf8'})"))
+
+
+def wait_for(page, what, good, seconds=30):
+    end = time.monotonic() + seconds
+    while True:
+        now = report(page)
+        if good(now):
+            return now
+        if time.monotonic() > end:
+            raise RuntimeError(f"not within {seconds} s: {what}; messages: {now['messages']}, dialog: {now['dialog']}")
+        time.sleep(0.1)
+
+
+def opened(browser, address, **size):
+    page = browser.page(address, **size)
+    page.started()
+    return page
+
+
+def close_start(page):
+    wait_for(page, "the start page", lambda now: now["dialog"] == "start")
+    page.key("Escape", "Escape", 27)
+    return wait_for(page, "the start page closes", lambda now: now["dialog"] == "none")
+
+
+def middle_particle(now):
+    return next(p for p in now["particles"][len(now["particles"]) // 2:] if p["at"] and not p["pinned"])
+
+
+def command(page, words):
+    page.key(*PALETTE)
+    wait_for(page, "the palette", lambda now: now["palette"])
+    page.type(words)
+    time.sleep(0.5)
+    page.key("Enter", "Enter", 13)
+    wait_for(page, "the palette closes", lambda now: not now["palette"])
+
+
+class Tests:
+    def __init__(self, browser, home, shots):
+        self.browser, self.home, self.shots = browser, home, shots
+        self.pages = []
+
+    def open(self, rest="", **size):
+        page = opened(self.browser, f"{self.home}/{rest}", **size)
+        self.pages.append(page)
+        return page
+
+    def shot(self, page, name):
+        if self.shots:
+            page.picture(self.shots / f"{name}.png")
+
+    def test_opens_and_is_pulled(self):
+        page = self.open("?report")
+        self.shot(page, "start")
+        now = close_start(page)
+        assert now["label"] == "hanging", now["label"]
+        page.wait("tyglab.FS.stat('/tyglab/share/tyglab/textures/denim.png').size > 1000")
+        time.sleep(1)
+        self.shot(page, "hanging")
+        at = middle_particle(report(page))["at"]
+        for _ in page.drag(at, (at[0] + 120, at[1] - 40), "right"):
+            held = wait_for(page, "a particle is held", lambda now: now["held"])["held"]
+            self.shot(page, "pulled")
+        assert abs(held["at"][0] - at[0] - 120) < 60, held
+        wait_for(page, "it is let go", lambda now: not now["held"])
+        self.page = page
+
+    def test_cuts(self):
+        before = report(self.page)["torn_springs"]
+        at = middle_particle(report(self.page))["at"]
+        for _ in self.page.drag((at[0] - 60, at[1]), (at[0] + 60, at[1])):
+            pass
+        wait_for(self.page, "springs are cut", lambda now: now["torn_springs"] > before)
+
+    def test_link(self):
+        page = self.page
+        page.ask("location.hash = '#hanging&k_s=80&W=[0,0,0.0005]'")
+        wait_for(page, "the link opens", lambda now: now["preset"]["forces"]["k_s"] == 80)
+        self.browser_call(page, "Browser.grantPermissions", permissions=["clipboardReadWrite", "clipboardSanitizedWrite"])
+        command(page, "copy link")
+        time.sleep(0.5)
+        link = page.ask("navigator.clipboard.readText()")
+        assert link.startswith(self.home) and "k_s=80" in link, link
+        page.wait("location.hash.includes('k_s=80')")
+        before, second = report(page), self.open("?report" + link[link.index("#"):])
+        after = report(second)
+        for key in ("cloth", "forces", "solver", "bodies"):
+            assert before["preset"][key] == after["preset"][key], (key, before["preset"][key], after["preset"][key])
+        assert after["dialog"] == "none", after["dialog"]
+        second.call("Page.close")
+
+    def browser_call(self, page, method, **parameters):
+        page.call(method, **parameters)
+
+    def test_broken_link(self):
+        page = self.browser.page(f"{self.home}/#nothing")
+        page.wait("document.getElementById('words').textContent.includes('names no shipped preset')", 120)
+        page.call("Page.close")
+
+    def test_files(self):
+        page = self.page
+        with tempfile.TemporaryDirectory() as folder:
+            page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+            page.key("s", "KeyS", 83, 2)
+            wait_for(page, "the dialog to save", lambda now: now["dialog"] == "save")
+            self.shot(page, "save")
+            page.key("Enter", "Enter", 13)
+            wait_for(page, "it is saved", lambda now: now["dialog"] == "none" and not now["unsaved"])
+            end = time.monotonic() + 30
+            while not list(pathlib.Path(folder).glob("*.json")) and time.monotonic() < end:
+                time.sleep(0.1)
+            saved = next(pathlib.Path(folder).glob("*.json"))
+            time.sleep(0.5)
+            assert json.loads(saved.read_text())["forces"]["k_s"] == 80, saved.read_text()
+            changed = saved.with_name("mine.json")
+            changed.write_text(saved.read_text().replace('"k_s": 80', '"k_s": 81'))
+            page.call("Page.setInterceptFileChooserDialog", enabled=True)
+            page.key("o", "KeyO", 79, 2)
+            now = wait_for(page, "the dialog to open", lambda now: "dialog.Choose_a_file" in " ".join(now["controls"]))
+            name = next(key for key in now["controls"] if key.startswith("dialog.Choose_a_file"))
+            x, y, width, height = now["controls"][name]
+            page.click(x + width / 2, y + height / 2)
+            page.wait("true")
+            end = time.monotonic() + 20
+            while not page.choosers and time.monotonic() < end:
+                page.ask("1")
+                time.sleep(0.1)
+            page.call("DOM.setFileInputFiles", files=[str(changed)], backendNodeId=page.choosers.pop())
+            wait_for(page, "the file opens", lambda now: now["preset"]["forces"]["k_s"] == 81)
+
+    def test_is_kept(self):
+        page = self.page
+        theme = report(page)["theme"]
+        page.key("t", "KeyT", 84, 1)
+        changed = wait_for(page, "another theme", lambda now: now["theme"] != theme)["theme"]
+        time.sleep(2)
+        page.call("Page.navigate", url=f"{self.home}/?report")
+        page.wait("performance.getEntriesByName('tyglab first frame').length > 0 && location.search == '?report'", 120)
+        time.sleep(1)
+        assert report(page)["theme"] == changed, report(page)["theme"]
+
+    def test_studies_leave_frames_alone(self):
+        page = self.open("?report#hanging&rows=64&columns=64")
+        page.ask("""window.gaps = []; (() => { let last = performance.now(); const look = (now) => {
+            gaps.push(now - last); last = now; requestAnimationFrame(look); }; requestAnimationFrame(look); })(); 1""")
+        time.sleep(3)
+        alone = page.ask("Math.max(...gaps.splice(0).slice(2))")
+        command(page, "accuracy")
+        now = wait_for(page, "the card's result", lambda now: now["accuracy"] and now["accuracy"]["error_rms_m"] is not None, 180)
+        page.ask("gaps.length")
+        print(f"  longest frame: {alone:.0f} ms alone, {page.ask('Math.max(...gaps.slice(2))'):.0f} ms beside a study", flush=True)
+        assert now["accuracy"]["seconds"] > 0, now["accuracy"]
+        self.shot(page, "study")
+        page.call("Page.close")
+
+    def test_touch(self):
+        page = self.open("?report#hanging", width=390, height=844, scale=2, touch=True)
+        self.shot(page, "phone")
+        now = report(page)
+        ratio = now["window"][0] / 390
+        particle = next((p for p in now["particles"] if p["at"] and not p["pinned"] and p["i"] > 8 and p["at"][1] > 0), None)
+        x, y = (pixel / ratio for pixel in particle["at"])
+        page.touch("touchStart", (x, y))
+        for step in range(1, 9):
+            page.touch("touchMove", (x + 8 * step, y - 3 * step))
+            time.sleep(0.05)
+        wait_for(page, "a finger holds a particle", lambda now: now["held"])
+        page.touch("touchEnd")
+        wait_for(page, "it lets go", lambda now: not now["held"])
+        before = report(page)["camera"]
+        page.touch("touchStart", (150, 400))
+        page.touch("touchStart", (150, 400), (250, 400))
+        for step in range(1, 9):
+            page.touch("touchMove", (150 - 8 * step, 400), (250 + 8 * step, 400))
+            time.sleep(0.05)
+        page.touch("touchEnd")
+        wait_for(page, "two fingers zoom", lambda now: now["camera"]["distance"] < 0.9 * before["distance"])
+        page.call("Page.close")
+
+    def test_embedded(self):
+        page = self.open("?embed&preset=flag&panels=0&report")
+        assert report(page)["label"] == "flag"
+        assert page.ask("!document.getElementById('whole').hidden")
+        assert "embed" not in page.ask("document.getElementById('whole').href")
+        assert not [key for key in report(page)["controls"] if key.startswith("constants.")]
+        self.shot(page, "embed")
+        page.call("Page.close")
+        page = self.open("?embed&lab=03_stiffness&report")
+        wait_for(page, "the lab", lambda now: now["lab"] and now["lab"]["label"] == "03_stiffness")
+        self.shot(page, "embed_lab")
+        page.call("Page.close")
+
+    def test_offline(self):
+        page = self.open("?report")
+        page.ask("navigator.serviceWorker.ready.then(() => 1)")
+        page.wait("caches.keys().then((names) => names.length > 0)")
+        time.sleep(1)
+        page.call("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=-1, uploadThroughput=-1)
+        page.call("Page.navigate", url=f"{self.home}/?report&again")
+        page.wait("location.search == '?report&again' && performance.getEntriesByName('tyglab first frame').length > 0", 120)
+        page.call("Page.close")
+
+    def test_sizes(self):
+        for name, size in [("2x", {"width": 1280, "height": 720, "scale": 2}), ("tablet", {"width": 1024, "height": 768, "touch": True}),
+                           ("tablet_upright", {"width": 768, "height": 1024, "touch": True})]:
+            page = self.open("?report#hanging", **size)
+            time.sleep(1)
+            assert report(page)["window"][0] == size["width"] * size.get("scale", 1), report(page)["window"]
+            self.shot(page, name)
+            page.call("Page.close")
+
+    def test_no_errors(self):
+        errors = [error for page in self.pages for error in page.errors]
+        assert not errors, errors
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--page", required=True, type=pathlib.Path)
+    parser.add_argument("--shots", type=pathlib.Path)
+    parser.add_argument("--only", help="tests whose names have this in them, after the first")
+    args = parser.parse_args()
+    if args.shots:
+        args.shots.mkdir(parents=True, exist_ok=True)
+    names = [name for name in vars(Tests) if name.startswith("test_")]
+    if args.only:
+        names = [name for name in names if name == "test_opens_and_is_pulled" or args.only in name]
+    failed = []
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(args.page, pathlib.Path(folder) / "course" / "tyglab")
+        with served(folder) as address, Browser() as browser:
+            tests = Tests(browser, f"{address}/course/tyglab", args.shots)
+            for name in names:
+                start = time.monotonic()
+                try:
+                    getattr(tests, name)()
+                    print(f"  {name}: {time.monotonic() - start:.0f} s", flush=True)
+                except Exception as error:  # the others go on
+                    failed.append(name)
+                    print(f"FAILED: {name}: {type(error).__name__}: {error}", flush=True)
+    print(f"{len(names) - len(failed)} of {len(names)} passed")
+    sys.exit(1 if failed else 0)
+
+
+main()

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""test_states.py --tyglab NATIVE --page FOLDER: the page's program, under Node, against the desktop's: presets, methods,
+precisions, links and exit codes.
+
+Springs that buckle make a motion chaotic, so bounds hold for a tenth of a second: single precision rounds at 6e-8, and
+its roots differ (core/simd/simd-inl.h); double precision differs by the order of a few sums and by fused operations.
+"""
+import argparse
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+SECONDS = "0.1"
+BOUNDS = {"float": 1e-4, "double": 1e-9}  # m, of any coordinate
+PRESETS = ["curtain", "cutting", "denim", "explodes", "flag", "fold_with_k_b", "fold_without_k_b", "hanging", "one_weight",
+           "rubber_mat", "sphere", "taut_sheet", "tearing"]
+
+
+def positions(file):
+    with open(file, encoding="utf-8") as lines:
+        rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+        return [[float(row[axis]) for axis in "xyz"] for row in rows]
+
+
+class Programs:
+    def __init__(self, tyglab, page, scratch):
+        self.tyglab, self.page, self.scratch = tyglab, page, scratch
+
+    def native(self, *words):
+        return subprocess.run([self.tyglab, *words], cwd=self.scratch, capture_output=True, text=True, check=False)
+
+    def web(self, *words):
+        script = pathlib.Path(__file__).parent / "program.js"
+        return subprocess.run(["node", script, self.page, self.scratch, *words], capture_output=True, text=True, check=False)
+
+    def compare(self, name, *words):
+        """The largest difference of a coordinate between the two, m."""
+        found = []
+        for way in (self.native, self.web):
+            file = self.scratch / "state.csv"
+            file.unlink(missing_ok=True)
+            ended = way("run", *words, "--state", "state.csv")
+            if ended.returncode not in (0, 4) or not file.exists():
+                sys.exit(f"{name}: {way.__name__} ended with {ended.returncode}: {ended.stderr}")
+            found.append((ended.returncode, positions(file)))
+        (code, ours), (other_code, theirs) = found
+        if code != other_code or len(ours) != len(theirs):
+            sys.exit(f"{name}: exit codes {code} and {other_code}, {len(ours)} and {len(theirs)} particles")
+        return max(abs(a - b) for p, q in zip(ours, theirs) for a, b in zip(p, q)), code
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--tyglab", required=True)
+    parser.add_argument("--page", required=True)
+    args = parser.parse_args()
+    bad, worst, checks = [], {"float": 0.0, "double": 0.0}, 0
+    with tempfile.TemporaryDirectory() as folder:
+        programs = Programs(str(pathlib.Path(args.tyglab).resolve()), args.page, pathlib.Path(folder))
+
+        def check(name, good, said=""):
+            nonlocal checks
+            checks += 1
+            if not good:
+                bad.append(name)
+                print(f"FAILED: {name}: {said}")
+
+        # Scenes at sizes that a test has time for.
+        for preset in PRESETS:
+            small = ["--set", "rows=16", "--set", "columns=16"] if preset not in ("one_weight", "cutting", "tearing") else []
+            for precision, bound in BOUNDS.items():
+                difference, code = programs.compare(f"{preset} {precision}", preset, "--seconds", SECONDS, "--precision", precision,
+                                                    "--engine", "cpu", *small)
+                if code == 4:
+                    continue  # what has diverged is noise
+                worst[precision] = max(worst[precision], difference)
+                check(f"{preset} {precision}", difference <= bound, f"differs by {difference:.3g} m")
+        listed = programs.native("run", "hanging", "--steps", "1", "--integrator", "none").stderr
+        methods = [word.strip(" .\n") for word in listed.partition("Known: ")[2].split(",") if word.strip()]
+        check("the list of methods", len(methods) > 9, listed)
+        for method in methods:
+            for precision, bound in BOUNDS.items():
+                difference, _ = programs.compare(f"{method} {precision}", "hanging", "--seconds", SECONDS, "--integrator", method,
+                                                 "--precision", precision, "--set", "rows=12", "--set", "columns=12", "--dt", "0.0005")
+                worst[precision] = max(worst[precision], difference)
+                check(f"{method} {precision}", difference <= bound, f"differs by {difference:.3g} m")
+        link = "https://example.org/lab/#hanging&k_s=80&W=%5B0,0,0.001%5D"
+        difference, _ = programs.compare("a link", link, "--seconds", SECONDS)
+        check("a link", difference <= BOUNDS["float"], f"differs by {difference:.3g} m")
+        for words, code in [(["run", "#nothing"], 3), (["run", "hanging", "--set", "k_s=x"], 2), (["render", "hanging"], 2)]:
+            ours, theirs = programs.native(*words).returncode, programs.web(*words).returncode
+            check(" ".join(words), ours == theirs == code, f"exit codes {ours} and {theirs}")
+    print(f"{checks - len(bad)} of {checks} passed; largest differences: float {worst['float']:.2g} m, double {worst['double']:.2g} m")
+    sys.exit(1 if bad else 0)
+
+
+main()
