@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/analysis/in_parallel.h"
 #include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
@@ -69,13 +70,21 @@ TimeMean mean_of_blocks(std::span<const double> means) {
   return result;
 }
 
-std::vector<MotionStatistics> measure_statistics(const AccuracyScene& scene, bool quick, const Stop& stop) {
-  std::vector<MotionStatistics> all;
+std::vector<MotionStatistics> measure_statistics(const AccuracyScene& scene, bool quick, int threads,
+                                                 const Stop& stop) {
+  const auto names = integrator_names();
+  std::vector<MotionStatistics> all(names.size());
+  std::size_t measured = 0;
   try {
-    for (const std::string_view name : integrator_names())
-      all.push_back(follow(scene, std::string(name), quick ? blocks / 4 : blocks, stop));
+    in_parallel(
+        int(names.size()), threads,
+        [&](int n) {
+          all[std::size_t(n)] = follow(scene, std::string(names[std::size_t(n)]), quick ? blocks / 4 : blocks, stop);
+        },
+        [&](int) { ++measured; }, stop);
   } catch (const Stopped&) {
   }
+  all.resize(measured);
   return all;
 }
 

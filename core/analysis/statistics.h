@@ -27,7 +27,8 @@ struct MotionStatistics {
 };
 
 /// Every integrator on one scene in double: explicit ones with half of Verlet's limit as dt, implicit ones and xpbd
-/// with three times that. `quick`: a quarter of the time. What has been measured when `stop` says so is kept.
-std::vector<MotionStatistics> measure_statistics(const AccuracyScene& scene, bool quick, const Stop& stop);
+/// with three times that; as many at a time as there are threads. `quick`: a quarter of the time. What has been
+/// measured when `stop` says so is kept; it is asked by all threads.
+std::vector<MotionStatistics> measure_statistics(const AccuracyScene& scene, bool quick, int threads, const Stop& stop);
 
 }  // namespace tyglab

@@ -28,7 +28,7 @@ TEST_CASE("one weight's means are those of its closed form, for what neither gro
   weight.k_d = 0;
   const double sag = weight.m * weight.g / weight.k, amplitude = weight.offset + sag;
   const AccuracyScene scene{"weight", "one weight", weight, 1};
-  const auto all = measure_statistics(scene, true, [] { return false; });
+  const auto all = measure_statistics(scene, true, 2, [] { return false; });
   CHECK(all.size() == integrator_names().size());
   int seen = 0;
   for (const MotionStatistics& row : all) {
@@ -49,7 +49,7 @@ TEST_CASE("one weight's means are those of its closed form, for what neither gro
 TEST_CASE("what has been measured before a stop is kept") {
   int asked = 0;
   const AccuracyScene scene{"weight", "one weight", test::one_weight("verlet"), 1};
-  const auto some = measure_statistics(scene, true, [&] { return ++asked > 1000; });
+  const auto some = measure_statistics(scene, true, 1, [&] { return ++asked > 1000; });
   CHECK(!some.empty());
   CHECK(some.size() < integrator_names().size());
 }

@@ -12,6 +12,7 @@
 #include "app/cli/outputs.h"
 #include "app/cli/progress.h"
 #include "app/process/interrupt.h"
+#include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/names.h"
@@ -76,12 +77,32 @@ std::vector<AccuracyRow> measure(AccuracyScene scene, const Reference& reference
   }
 }
 
+constexpr double share_of_references = 0.2;  // of the whole time, for the display of progress
+
+/// References of all scenes, on all processors, since no time is measured yet; those that are done when Ctrl-C comes.
+std::vector<Reference> make_references(const std::vector<AccuracyScene>& scenes, bool quick, Progress& progress) {
+  std::vector<Reference> all(scenes.size());
+  std::size_t made = 0;
+  try {
+    in_parallel(
+        int(scenes.size()), processors(),
+        [&](int n) {
+          all[std::size_t(n)] = make_reference(scenes[std::size_t(n)], quick, InterruptGuard::interrupted);
+        },
+        [&](int) { progress.update(share_of_references * double(++made) / double(scenes.size())); },
+        InterruptGuard::interrupted);
+  } catch (const Stopped&) {
+  }
+  all.resize(made);
+  return all;
+}
+
 /// Measures one scene, the `number`-th of `of`; what is measured when Ctrl-C comes is kept.
-AccuracyResult measure(const AccuracyScene& scene, bool quick, std::ostream& out, Progress& progress,
-                       std::size_t number, std::size_t of) {
+AccuracyResult measure(const AccuracyScene& scene, const Reference& reference, bool quick, std::ostream& out,
+                       Progress& progress, std::size_t number, std::size_t of) {
   const Stop stop = InterruptGuard::interrupted;
-  const AccuracyEffort effort = quick ? AccuracyEffort{0.03, false, 1} : AccuracyEffort{};
-  AccuracyResult result{scene, make_reference(scene, quick, stop), {}};
+  const AccuracyEffort effort = quick ? AccuracyEffort{0.015, false, 1, 0.005} : AccuracyEffort{};
+  AccuracyResult result{scene, reference, {}};
   progress.clear();
   print_scene(out, result);
   const auto list = contestants(scene, !quick || number == 0);  // programs take a while to be built
@@ -90,7 +111,8 @@ AccuracyResult measure(const AccuracyScene& scene, bool quick, std::ostream& out
     progress.clear();
     print_method(out, rows, result.reference);
     result.rows.insert(result.rows.end(), rows.begin(), rows.end());
-    progress.update((double(number) + double(n + 1) / double(list.size())) / double(of));
+    const double done = (double(number) + double(n + 1) / double(list.size())) / double(of);
+    progress.update(share_of_references + (1 - share_of_references) * done);
   }
   progress.clear();
   print_winners(out, accuracy_winners(result.rows, result.reference));
@@ -109,16 +131,13 @@ int accuracy(const AccuracyOptions& options) {
   std::vector<AccuracyResult> results;
   InterruptGuard guard;
   Progress progress("bench accuracy");
-  for (std::size_t n = 0; n < scenes.size() && !InterruptGuard::interrupted(); ++n) {
-    try {
-      results.push_back(measure(scenes[n], options.quick, out, progress, n, scenes.size()));
-    } catch (const Stopped&) {
-      break;  // without a reference there is nothing to keep of this scene
-    }
-  }
+  const std::vector<Reference> references = make_references(scenes, options.quick, progress);
+  for (std::size_t n = 0; n < references.size() && !InterruptGuard::interrupted(); ++n)
+    results.push_back(measure(scenes[n], references[n], options.quick, out, progress, n, scenes.size()));
   std::vector<MotionStatistics> statistics;
   for (const AccuracyScene& scene : scenes)
-    if (scene.name == unpredictable) statistics = measure_statistics(scene, options.quick, InterruptGuard::interrupted);
+    if (scene.name == unpredictable)
+      statistics = measure_statistics(scene, options.quick, processors(), InterruptGuard::interrupted);
   progress.clear();
   print_statistics(out, statistics);
   if (!options.json.empty())

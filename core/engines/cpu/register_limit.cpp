@@ -1,4 +1,3 @@
-// Frozen: see register_limit.h. Changes of the formulas belong here only if the model itself changes.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/engines/cpu/register_limit.cpp"
 #include <hwy/foreach_target.h>
@@ -9,102 +8,77 @@
 #include <limits>
 
 #include "core/engines/cpu/register_limit.h"
+#include "core/forces/spring-inl.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace tyglab::cpu::HWY_NAMESPACE {
+using namespace tyglab::HWY_NAMESPACE;
 using namespace tyglab::simd::HWY_NAMESPACE;
-
-/// A spring's constants and its formulas as they stood when this loop was frozen.
-template <class D>
-struct FrozenSpring {
-  using L = Lanes<D>;
-  using T = hn::TFromD<D>;
-  L k, minus_tension, rest2, shortest2;
-
-  static HWY_INLINE FrozenSpring of(double k, double rest) {
-    const double least = 1e-9 * rest;
-    return {L::all(k), L::all(-k * rest), L::all(rest * rest), L::all(least * least)};
-  }
-  static HWY_INLINE L inverse_sqrt(L r2) {
-    if constexpr (sizeof(T) == 4) {
-      const auto y = hn::ApproximateReciprocalSqrt(r2.v);
-      const auto error = hn::NegMulAdd(hn::Mul(r2.v, y), y, hn::Set(D(), T(1)));
-      return hn::MulAdd(hn::Mul(y, hn::Set(D(), T(0.5))), error, y);
-    } else {
-      return hn::Div(hn::Set(D(), T(1)), hn::Sqrt(r2.v));
-    }
-  }
-  HWY_INLINE L tension(L r2) const { return multiply_add(minus_tension, inverse_sqrt(r2), k); }
-  HWY_INLINE L stretch_factor(L r2) const { return if_greater(r2, rest2, tension(r2)); }
-  HWY_INLINE L bend_factor(L r2) const { return if_greater(r2, shortest2, if_greater(rest2, r2, tension(r2))); }
-};
 
 /// Makes the compiler believe that the registers have changed, so that it computes every spring again.
 template <class D>
-HWY_INLINE void forget([[maybe_unused]] Vec3<D>& v) {
+HWY_INLINE void forget(Vec3<D>& v) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
   asm volatile("" : "+v"(v.x.v.raw), "+v"(v.y.v.raw), "+v"(v.z.v.raw));
+#else
+  asm volatile("" : "+m"(v));  // through memory, where the name of a register's kind is not known
 #endif
 }
 
-/// Forces of one step on registers: three positions and two velocities stand for all that a particle's springs join.
+/// The operations of one step, in as many numbers and of the same kinds as those of the sweep, but on so few values
+/// that 16 registers nearly hold them: one vector stands for all particles and velocities, which are looked at from one
+/// place. Nothing but sums is handed from a turn to the next, so what is measured is how many operations of this mix
+/// the processor makes at a time, and not how long one waits for another.
 template <class R>
 class Limit {
   using D = hn::ScalableTag<R>;
   using L = Lanes<D>;
   using V = Vec3<D>;
-  using Spring = FrozenSpring<D>;
 
  public:
   explicit HWY_INLINE Limit(double seed)
-      : straight_(Spring::of(50, 1.0)),
-        diagonal_(Spring::of(50, 1.4)),
-        bending_(Spring::of(5, 2.0)),
+      : straight_(Spring<L>::of(50, 1.0, &L::all)),
+        diagonal_(Spring<L>::of(50, 1.4, &L::all)),
+        bending_(Spring<L>::of(5, 2.0, &L::all)),
         k_d_(L::all(1e-6)),
         weight_(L::all(1e-3)),
         to_v_(L::all(1e-9 * seed)),
-        A_(L::all(0.1 * seed), L::all(0.2), L::all(0.3)),
-        B_(L::all(1.1 * seed), L::all(0.2), L::all(0.3)),
-        C_(L::all(0.1 * seed), L::all(1.2), L::all(0.3)),
-        vA_(L(), L::all(seed), L()),
-        vB_(L::all(seed), L(), L()) {}
+        from_(L::all(0.1 * seed)) {}
 
   HWY_INLINE double run(int steps) {
-    V A = A_, B = B_, C = C_, vA = vA_, vB = vB_, other;
+    V there(L::all(1.1), L::all(0.2), L::all(0.3)), own, other;
     for (int n = 0; n < steps; ++n) {
-      V own = other;
       own.y = own.y - weight_;
-      const auto add = [&](V force) HWY_ATTR {
-        own = own + force;
-        other = other - force;
-      };
-      add(pull(straight_, A, B, vA, vB)), forget(B), forget(vB);
-      add(pull(straight_, A, C, vA, vB)), forget(C), forget(vB);
-      add(pull(diagonal_, A, B, vA, vB)), forget(B), forget(vB);
-      add(pull(diagonal_, B, C, vA, vB)), forget(B), forget(C);
-      add(push(A, B)), forget(B);
-      add(push(A, C)), forget(C);
-      vB = multiply_add(to_v_, own, vB);
-      B = B + vB;
-      forget(A), forget(vA);
+      add(pull(straight_, there), own, other);
+      add(pull(straight_, there), own, other);
+      add(pull(diagonal_, there), own, other);
+      add(pull(diagonal_, there), own, other);
+      add(push(there), own, other);
+      add(push(there), own, other);
+      other = other + multiply_add(to_v_, there, there);
     }
-    return double(hn::GetLane((A.x + B.y + C.z + vA.y + vB.x + other.x + other.y + other.z).v));
+    return double(hn::GetLane((own.x + own.y + own.z + other.x + other.y + other.z).v));
   }
 
  private:
-  HWY_INLINE V pull(const Spring& s, V p, V q, V vp, V vq) const {
-    const V x_ij = q - p;
-    return multiply_add(k_d_, vq - vp, s.stretch_factor(dot(x_ij, x_ij)) * x_ij);
+  static HWY_INLINE void add(V force, V& own, V& other) { own = own + force, other = other - force; }
+  HWY_INLINE V away(V& there) const {
+    forget(there);
+    return {there.x - from_, there.y - from_, there.z - from_};
   }
-  HWY_INLINE V push(V p, V q) const {
-    const V x_ij = q - p;
-    return bending_.bend_factor(dot(x_ij, x_ij)) * x_ij;
+  HWY_INLINE V pull(const Spring<L>& s, V& there) const {
+    const V x_ij = away(there);
+    const V force = stretch_factor(s, dot(x_ij, x_ij)) * x_ij;
+    return multiply_add(k_d_, away(there), force);
+  }
+  HWY_INLINE V push(V& there) const {
+    const V x_ij = away(there);
+    return bend_factor(bending_, dot(x_ij, x_ij)) * x_ij;
   }
 
-  const Spring straight_, diagonal_, bending_;
-  const L k_d_, weight_, to_v_;
-  const V A_, B_, C_, vA_, vB_;
+  const Spring<L> straight_, diagonal_, bending_;
+  const L k_d_, weight_, to_v_, from_;
 };
 
 template <class R>
