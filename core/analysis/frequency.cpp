@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <numbers>
 
-#include "core/engines/cpu/stiffness.h"
+#include "core/engines/implicit/stiffness.h"
 
 namespace tyglab {
 namespace {
 
-using cpu::coefficient_pitch;
-using cpu::spring_parts;
-using cpu::springs_of_a_particle;
+using implicit::coefficient_pitch;
+using implicit::spring_parts;
+using implicit::springs_of_a_particle;
 
 constexpr int most_lanczos_steps = 2000;
 constexpr int between_looks = 4;  // products from one look at the residual to the next
@@ -160,14 +160,14 @@ Linearisation::Field Linearisation::beginning() const {
 
 double Linearisation::inner(const Field& a, const Field& b) const {
   double sum = 0;
-  for (int i = 0; i < rows_; ++i) sum += cpu::dot_row(a.row(i), b.row(i), int(a.pitch()));
+  for (int i = 0; i < rows_; ++i) sum += implicit::dot_row(a.row(i), b.row(i), int(a.pitch()));
   return sum;
 }
 
 double Linearisation::multiply(const Array<double>& a, const Field& p, Field& q) const {
   double sum = 0;
   for (int i = 0; i < rows_; ++i)
-    sum += cpu::multiply_row(cpu::ProductTask<double>{a.data() + i * coefficient_pitch(stride_), p.row(i), q.row(i),
+    sum += implicit::multiply_row(implicit::ProductTask<double>{a.data() + i * coefficient_pitch(stride_), p.row(i), q.row(i),
                                                       stride_, columns_, i == 0, 0});
   for (const int n : fixed_)
     for (int c = 0; c < 3; ++c) q.row(n / columns_, c)[n % columns_] = 0;

@@ -10,13 +10,12 @@ namespace {
 constexpr double flat_enough = 0.2;  // slope along a step where it ends, of that at its beginning
 constexpr int most_tries = 20;
 
-/// Finds the step; directly where conjugate gradients do not get there, and from then on in this stage.
-bool find_step(ImplicitStage& stage, bool& direct) {
-  if (direct && stage.solve_directly()) return true;
-  if (stage.gradients()) return true;
-  if (stage.stops()) return false;
+/// Finds the step; directly where conjugate gradients do not get there, and from then on in this stage. Where that, too,
+/// is not possible, the step is what conjugate gradients have left.
+void find_step(ImplicitStage& stage, bool& direct) {
+  if (direct && stage.solve_directly()) return;
+  if (stage.gradients() || stage.stops()) return;
   direct = !direct && stage.solve_directly();
-  return direct;
 }
 
 /// Goes along the step, or less far where that overshoots; returns |r| there.
@@ -52,29 +51,25 @@ double take_whole_step(ImplicitStage& stage, SolveCounts& counts) {
 
 }  // namespace
 
-double solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) {
+Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts) {
   const double first = stage.evaluate();
   ++counts.force_evaluations;
   // A step that moves nothing by more than the last digits of a position cannot be bettered.
   const double last_digits = 4 * rules.epsilon * stage.start_size();
-  const double tolerance = rules.most == 1 ? single_solve_tolerance : rules.tolerance;
   bool direct = false;  // every stage tries again: a repeated step must give the same bits
-  bool solved = first == 0;
+  bool ended = first == 0;
   double norm = first;
-  for (int n = 0; n < rules.most && !solved && std::isfinite(norm); ++n) {
+  for (int n = 0; n < rules.most && !ended && std::isfinite(norm); ++n) {
     stage.begin_iteration(n, rules.most);
     stage.linearize();
-    const bool found = find_step(stage, direct);
-    if (stage.stops()) return 0;
-    if (!found) ++counts.unconverged;
+    find_step(stage, direct);
+    if (stage.stops()) return {};
     ++counts.newton;
     const ImplicitStage::Step step = stage.step();
     norm = rules.most == 1 ? take_whole_step(stage, counts) : take_step(stage, step.slope, counts);
-    solved = norm <= tolerance * first || rules.h * step.size <= last_digits;
+    ended = norm <= rules.tolerance * first || rules.h * step.size <= last_digits;
   }
-  if (solved) return 0;
-  if (rules.most > 1) ++counts.unconverged;
-  return std::isfinite(norm) ? norm / first : std::numeric_limits<double>::infinity();
+  return stage.balance();
 }
 
 }  // namespace tyglab

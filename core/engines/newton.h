@@ -9,13 +9,12 @@
 #pragma once
 
 #include "core/cloth/lattice.h"
+#include "core/engines/balance.h"
 #include "core/engines/engine.h"
 
 namespace tyglab {
 
 inline constexpr double linear_tolerance = 1e-3;  ///< of conjugate gradients, relative to the initial |r|
-/// Of a single linear system's solution in the equations themselves, which it meets only as far as they are linear.
-inline constexpr double single_solve_tolerance = 10 * linear_tolerance;
 /// Upper bound on their iterations.
 constexpr int max_gradient_steps(const Lattice& lattice) {
   return 200 + 20 * (lattice.rows + lattice.columns);
@@ -51,6 +50,8 @@ class ImplicitStage {
   };
   /// Moves to v + part · s, where v is the velocity at which the step was found, and evaluates r there.
   virtual Trial try_part(double part) = 0;
+  /// How well the forces balance at the present x and v.
+  virtual Balance balance() = 0;
   /// Whether to abandon the stage, which may then be left anyhow. Once it says so it goes on to say so.
   virtual bool stops() = 0;
   /// Tells how much of the stage is done, 0 to 1, if the iterations that are allowed are all needed.
@@ -70,8 +71,8 @@ class ImplicitStage {
 };
 
 struct NewtonRules {
-  int most;          ///< iterations; 1: one linear system, whose solution is accepted as it is
-  double tolerance;  ///< relative to the initial |r|
+  int most;          ///< iterations; 1: one linear system, whose solution is taken as it is
+  double tolerance;  ///< relative to the initial |r|, where the iteration ends
   double epsilon;    ///< of the precision in which the stage is stored
   double h;          ///< s
 };
@@ -79,8 +80,7 @@ template <class R>
 constexpr double newton_tolerance = sizeof(R) == 8 ? 1e-10 : 1e-5;
 
 /// Solves the stage, unless it stops. Adds to the counts everything but the iterations of conjugate gradients and what
-/// concerns whole steps. Returns the residual that is left relative to the initial |r|, or 0 if that is within the
-/// tolerance; infinity if it is not finite.
-double solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts);
+/// concerns whole steps. Returns how well the forces balance in the end.
+Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& counts);
 
 }  // namespace tyglab

@@ -40,7 +40,7 @@ struct StepOutcome {
   int left_inside = 0;                   ///< free particles inside a body
   std::optional<glm::dvec3> hand_force;  ///< on the held particle, N, if there is one
   std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
-  double residual = 0;                   ///< relative, of equations that the step left unsolved; 0: none
+  double residual = 0;                   ///< of a stage that did not converge, as Balance has it; 0: none
 };
 
 /// What the guard asks of an engine.
@@ -112,7 +112,7 @@ class StepGuard {
 
   /// Adds what is known of whole steps alone.
   SolveCounts with_steps(SolveCounts solves) const {
-    solves.unconverged_steps = unconverged_steps_, solves.worst_residual = worst_residual_;
+    solves.unconverged = unconverged_steps_, solves.worst_residual = worst_residual_;
     return solves;
   }
 

@@ -7,12 +7,11 @@ namespace tyglab {
 
 /// Work of implicit methods since the engine was created.
 struct SolveCounts {
-  std::int64_t newton = 0;  ///< Newton iterations
+  std::int64_t newton = 0;  ///< iterations of Newton's method, or of the interior-point method in its place
   std::int64_t linear = 0;  ///< iterations of conjugate gradients within them
   std::int64_t force_evaluations = 0;
-  std::int64_t unconverged = 0;        ///< solves, linear or by several Newton iterations, that missed their tolerance
-  std::int64_t unconverged_steps = 0;  ///< whole steps in which an implicit stage missed it
-  double worst_residual = 0;           ///< of those steps, relative to the stage's initial residual; may be infinite
+  std::int64_t unconverged = 0;  ///< steps whose forces do not balance, in any of their stages
+  double worst_residual = 0;     ///< of those steps, in parts of the largest force; may be infinite
 };
 
 }  // namespace tyglab

@@ -43,15 +43,18 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
          "tolerance.";
 }
 
-std::string solves_missed(const SolveCounts& solves) {
-  if (solves.unconverged_steps == 0) return "";
-  const bool one = solves.unconverged_steps == 1;
+std::string solves_missed(const SolveCounts& solves, int iterations) {
+  if (solves.unconverged == 0) return "";
+  const bool one = solves.unconverged == 1;
   const double worst = solves.worst_residual;
-  const std::string left = !std::isfinite(worst) ? "a residual that is no number"
-                           : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the initial residual"
-                                       : "up to " + short_number(worst, 2) + " times the initial residual";
-  return std::to_string(solves.unconverged_steps) + (one ? " step" : " steps") + " did not converge (" + left +
-         " was left), so the motion is not quite the method's. Use a smaller dt or more iterations.";
+  const std::string left = !std::isfinite(worst) ? "forces that are no numbers were left"
+                           : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
+                                       : "up to " + short_number(worst, 2) + " times the largest force was left over";
+  const std::string said = std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" +
+                           left + "), so the motion is not quite the method's. ";
+  if (iterations == 1)
+    return said + "With iterations = 1 every step is linearised: use more iterations, or a smaller dt.";
+  return said + "Use a smaller dt or more iterations.";
 }
 
 namespace {

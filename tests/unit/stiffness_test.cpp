@@ -1,5 +1,5 @@
 // The product with the linearised force, row by row in SIMD, against spring after spring in plain loops.
-#include "core/engines/cpu/stiffness.h"
+#include "core/engines/implicit/stiffness.h"
 
 #include <doctest/doctest.h>
 
@@ -10,7 +10,7 @@
 #include "core/cloth/lattice.h"
 #include "core/simd/row_field.h"
 
-namespace tyglab::cpu::stiffness_test {
+namespace tyglab::implicit::stiffness_test {
 
 using simd::RowField, simd::row_stride;
 
@@ -127,4 +127,4 @@ TEST_CASE("an update moves along the direction and preconditions what is left, b
   CHECK(sums.preconditioned == doctest::Approx(preconditioned));
 }
 
-}  // namespace tyglab::cpu::stiffness_test
+}  // namespace tyglab::implicit::stiffness_test

@@ -168,8 +168,7 @@ Json solves_json(const Engine& engine) {
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
-          {"unconverged_steps", counts.unconverged_steps},
-          {"worst_residual", counts.unconverged_steps > 0 ? finite_json(counts.worst_residual) : Json()}};
+          {"worst_residual", counts.unconverged > 0 ? finite_json(counts.worst_residual) : Json()}};
 }
 
 /// The ledger at the end, J; null where none was kept.
@@ -322,7 +321,8 @@ int run(const RunOptions& options) {
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
-  if (const std::string missed = solves_missed(simulation.engine().solves()); !missed.empty())
+  const int iterations = simulation.preset().iterations;
+  if (const std::string missed = solves_missed(simulation.engine().solves(), iterations); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
   if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';

@@ -6,6 +6,8 @@
 
 namespace tyglab::cpu {
 
+using namespace implicit;
+
 template <class R>
 void ImplicitSolver<R>::resize() {
   if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return;
@@ -24,7 +26,7 @@ std::size_t ImplicitSolver<R>::bytes() const {
   for (const Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
     total += field->bytes();
-  return total + direct_.bytes();
+  return total + kept_.bytes() + direct_.bytes() + stiff_.bytes();
 }
 
 template <class R>
@@ -41,9 +43,33 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   stopped_ = false;
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
-  const NewtonRules rules{cloth.preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), dt};
-  residual_left_ = std::max(residual_left_, tyglab::solve(*this, rules, counts_));
+  const Balance balance = solve_either_way(*this, cloth.preset, dt);
+  if (!balance.solved) residual_left_ = std::max(residual_left_, balance.residual);
   return !stopped_;
+}
+
+template <class R>
+Balance ImplicitSolver<R>::solve_by_newton() {
+  return tyglab::solve(*this,
+                       {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt},
+                       counts_);
+}
+
+template <class R>
+Balance ImplicitSolver<R>::solve_stiff() {
+  const Balance balance = stiff_.solve(
+      implicit::StiffTask<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt, start_x_.row(0),
+                             start_v_.row(0), cloth().vector(vector_x).row(0), velocity().row(0), stride_,
+                             [this] { return stops(); }, [this](double part) { note_progress(part); }},
+      counts_);
+  if (!stopped_) evaluate();
+  return balance;
+}
+
+template <class R>
+Balance ImplicitSolver<R>::balance() {
+  return balance_of(StageView<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt,
+                                 position().row(0), residual_.row(0), stride_});
 }
 
 template <class R>

@@ -5,14 +5,15 @@
 #include <functional>
 
 #include "core/engines/cpu/band.h"
-#include "core/engines/cpu/stiffness.h"
 #include "core/engines/direct_solve.h"
+#include "core/engines/implicit/stiff_stage.h"
+#include "core/engines/implicit/stiffness.h"
 #include "core/engines/newton.h"
 
 namespace tyglab::cpu {
 
 template <class R>
-class ImplicitSolver final : private ImplicitStage {
+class ImplicitSolver final : private implicit::EitherStage {
  public:
   using Field = RowField<R>;
   /// Writes a for the vectors that are being solved for.
@@ -26,7 +27,7 @@ class ImplicitSolver final : private ImplicitStage {
 
   /// A step begins, whose stages come next.
   void begin_step() { residual_left_ = 0; }
-  /// The largest residual that a stage of the step has left, relative to its initial value; 0: all are solved.
+  /// The largest residual of a stage of the step that has not converged, in parts of the largest force; 0: all have.
   double residual_left() const { return residual_left_; }
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
   /// Returns false where it was stopped; the vectors may then hold anything.
@@ -52,6 +53,11 @@ class ImplicitSolver final : private ImplicitStage {
   bool solve_directly() override;
   Step step() override;
   Trial try_part(double part) override;
+  Balance balance() override;
+  Balance solve_by_newton() override;
+  Balance solve_stiff() override;
+  void keep() override { kept_ = velocity(); }
+  void restore() override { velocity() = kept_, evaluate(); }
   bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
   void note_progress(double part) override { task_.watch->progress(part); }
 
@@ -63,7 +69,7 @@ class ImplicitSolver final : private ImplicitStage {
   void invert_blocks();
   bool conjugate_gradients();
   double multiply();
-  Residual update(double alpha);
+  implicit::Residual update(double alpha);
   double inner(const Field& a, const Field& b) const;
   R* block(int i) { return blocks_.data() + std::size_t(i) * 6 * stride_; }
 
@@ -73,13 +79,14 @@ class ImplicitSolver final : private ImplicitStage {
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs
   Field start_x_, start_v_;  ///< c_x and c_v
-  Field acceleration_, before_;
+  Field acceleration_, before_, kept_;
   Field residual_;  ///< then that of conjugate gradients
   Field step_;
   Field direction_, product_, preconditioned_;
   Array<R> blocks_;  ///< on the diagonal, then their inverses
   Array<R> coefficients_;
   DirectSolver direct_;
+  implicit::StiffStage stiff_;
   SolveCounts counts_;
 };
 

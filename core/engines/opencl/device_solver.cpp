@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/engines/opencl/arguments.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -46,7 +47,8 @@ DeviceSolver<R>::DeviceSolver(std::shared_ptr<Device> device, const Lattice& lat
 template <class R>
 std::size_t DeviceSolver<R>::bytes() const {
   constexpr std::size_t fields = 9;
-  return (fields * state_.numbers() + coefficient_numbers_ + block_numbers_) * sizeof(R) + direct_.bytes();
+  return (fields * state_.numbers() + coefficient_numbers_ + block_numbers_) * sizeof(R) + direct_.bytes() +
+         stiff_.bytes();
 }
 
 template <class R>
@@ -55,10 +57,65 @@ bool DeviceSolver<R>::solve(const Task& task) {
   stopped_ = false;
   const int position = task.position, velocity = task.velocity;
   state_.copy(state_.vector(position), start_x_.get()), state_.copy(state_.vector(velocity), start_v_.get());
-  const NewtonRules rules{task.preset->iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task.h};
-  residual_left_ = std::max(residual_left_, tyglab::solve(*this, rules, counts_));
-  arrive();
+  read_scene();
+  const Balance balance = solve_either_way(*this, *task.preset, task.h);
+  if (!balance.solved) residual_left_ = std::max(residual_left_, balance.residual);
   return !stopped_;
+}
+
+template <class R>
+void DeviceSolver<R>::read_scene() {
+  tears_ = Tears(lattice_);
+  state_.download(tears_);
+  fixed_.assign(std::size_t(lattice_.size()), 0);
+  for (const int p : *task_.fixed) fixed_[std::size_t(p)] = 1;
+}
+
+template <class R>
+void DeviceSolver<R>::keep() {
+  if (!kept_) kept_ = state_.field();
+  state_.copy(state_.vector(task_.velocity), kept_.get());
+}
+
+template <class R>
+void DeviceSolver<R>::restore() {
+  state_.copy(kept_.get(), state_.vector(task_.velocity));
+  evaluate();
+  arrive();
+}
+
+template <class R>
+Balance DeviceSolver<R>::solve_by_newton() {
+  const NewtonRules rules{task_.preset->iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.h};
+  const Balance balance = tyglab::solve(*this, rules, counts_);
+  arrive();
+  return balance;
+}
+
+template <class R>
+Balance DeviceSolver<R>::solve_stiff() {
+  const cl_mem c_x = start_x_.get(), c_v = start_v_.get(), x = state_.vector(vector_x),
+               v = state_.vector(task_.velocity);
+  R *const c_x_rows = state_.map(c_x, CL_MAP_READ), *const c_v_rows = state_.map(c_v, CL_MAP_READ),
+           *const x_rows = state_.map(x, CL_MAP_READ), *const v_rows = state_.map(v, CL_MAP_READ | CL_MAP_WRITE);
+  const Balance balance = stiff_.solve(
+      implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, x_rows, v_rows,
+                             state_.stride(), [this] { return stops(); },
+                             [this](double part) { note_progress(part); }},
+      counts_);
+  state_.unmap(c_x, c_x_rows), state_.unmap(c_v, c_v_rows), state_.unmap(x, x_rows), state_.unmap(v, v_rows);
+  if (!stopped_) evaluate(), arrive();
+  return balance;
+}
+
+template <class R>
+Balance DeviceSolver<R>::balance() {
+  const cl_mem x = state_.vector(task_.position), residual = residual_.get();
+  R *const x_rows = state_.map(x, CL_MAP_READ), *const residual_rows = state_.map(residual, CL_MAP_READ);
+  const Balance balance = balance_of(
+      StageView<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, x_rows, residual_rows, state_.stride()});
+  state_.unmap(x, x_rows), state_.unmap(residual, residual_rows);
+  return balance;
 }
 
 template <class R>
@@ -248,14 +305,12 @@ bool DeviceSolver<R>::solve_directly() {
                     std::size_t(j);
     return {{part[0], part[row], part[2 * row]}, part[3 * row]};
   };
-  std::vector<std::uint8_t> fixed(std::size_t(lattice_.size()));
-  for (const int p : *task_.fixed) fixed[std::size_t(p)] = 1;
   const R* const r = state_.map(residual_.get(), CL_MAP_READ);
   R* const s = state_.map(step_.get(), CL_MAP_WRITE);
   const auto at = [&](int i, int j, int c) { return (3 * std::ptrdiff_t(i) + c) * state_.stride() + j; };
   const bool solved = direct_.solve(
       {lattice_, own_stiffness(*task_.preset, task_.h),
-       [&](int i, int j) { return fixed[std::size_t(i) * lattice_.columns + j] != 0; }, spring,
+       [&](int i, int j) { return fixed_[std::size_t(i) * lattice_.columns + j] != 0; }, spring,
        [&](int i, int j, int c) { return double(r[at(i, j, c)]); }},
       [&](int i, int j, int c, double value) { s[at(i, j, c)] = R(value); }, task_.stop);
   state_.unmap(residual_.get(), const_cast<R*>(r)), state_.unmap(step_.get(), s);

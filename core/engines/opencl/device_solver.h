@@ -7,7 +7,8 @@
 // the same order: nothing is read back, no launch is made for a sum, and every run has the same bits. The host queues
 // as many steps as the last system took, then looks; launches that come too late do nothing. Small cloths are solved by
 // one group in a single launch. Where conjugate gradients do not converge, the host reads the four numbers a spring and
-// factorizes (direct_solve.h); where that would take too long, the solve counts as unconverged, as on the CPU engine.
+// factorizes (direct_solve.h). Stiff stages, and those at which Newton's method fails, are solved by the host
+// (implicit/stiff_stage.h), as on the CPU engine.
 #pragma once
 
 #include <array>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "core/engines/direct_solve.h"
+#include "core/engines/implicit/stiff_stage.h"
 #include "core/engines/newton.h"
 #include "core/engines/opencl/device.h"
 #include "core/engines/opencl/device_constants.h"
@@ -25,7 +27,7 @@
 namespace tyglab::opencl {
 
 template <class R>
-class DeviceSolver final : private ImplicitStage {
+class DeviceSolver final : private implicit::EitherStage {
  public:
   struct Kernels {
     Kernel linearise, gradients, begin_gradients, multiply, update, go, inner_products;
@@ -79,9 +81,16 @@ class DeviceSolver final : private ImplicitStage {
   bool solve_directly() override;
   Step step() override;
   Trial try_part(double part) override;
+  Balance balance() override;
+  Balance solve_by_newton() override;
+  Balance solve_stiff() override;
+  void keep() override;
+  void restore() override;
   bool stops() override { return stopped_ = stopped_ || (task_.stop && task_.stop()); }
   void note_progress(double part) override { task_.progress(part); }
 
+  /// What the host needs to know of the stage, read from the device.
+  void read_scene();
   /// Makes the velocity that was tried the present one.
   void arrive();
   void launch_go(double part);
@@ -109,10 +118,14 @@ class DeviceSolver final : private ImplicitStage {
   std::size_t coefficient_numbers_, block_numbers_;
   Memory start_x_, start_v_, residual_, step_;
   Memory left_, preconditioned_, product_;  ///< of conjugate gradients
+  Memory kept_;                             ///< velocities
   std::array<Memory, 2> directions_;        ///< theirs, of an even and of an odd iteration
   std::array<Memory, 2> progress_;          ///< likewise, before it
   Memory coefficients_, blocks_, sums_;
   DirectSolver direct_;
+  implicit::StiffStage stiff_;
+  Tears tears_;                      ///< of the stage
+  std::vector<std::uint8_t> fixed_;  ///< likewise: 1 at i·columns + j
   Task task_{};
   bool stopped_ = false;
   double residual_left_ = 0;

@@ -1,23 +1,23 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/engines/cpu/stiffness.cpp"
+#define HWY_TARGET_INCLUDE "core/engines/implicit/stiffness.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "core/engines/cpu/stiffness.h"
+#include "core/engines/implicit/stiffness.h"
 #include "core/simd/simd-inl.h"
 
 #ifndef TYGLAB_STIFFNESS_TYPES_
 #define TYGLAB_STIFFNESS_TYPES_
-namespace tyglab::cpu {
+namespace tyglab::implicit {
 template <class R>
 using Input = const R*;
 template <class R>
 using Output = R*;
-}  // namespace tyglab::cpu
+}  // namespace tyglab::implicit
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace tyglab::cpu::HWY_NAMESPACE {
+namespace tyglab::implicit::HWY_NAMESPACE {
 using namespace tyglab::simd::HWY_NAMESPACE;
 
 /// What a spring resists with when its ends are moved apart by d: t d + a (a·d). `c`: its four parts at one column.
@@ -123,11 +123,11 @@ TYGLAB_DEFINE(float, float)
 TYGLAB_DEFINE(double, double)
 #undef TYGLAB_DEFINE
 
-}  // namespace tyglab::cpu::HWY_NAMESPACE
+}  // namespace tyglab::implicit::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace tyglab::cpu {
+namespace tyglab::implicit {
 
 #define TYGLAB_DISPATCH(R, name)                                         \
   HWY_EXPORT(multiply_##name);                                           \
@@ -154,5 +154,5 @@ TYGLAB_DISPATCH(float, float)
 TYGLAB_DISPATCH(double, double)
 #undef TYGLAB_DISPATCH
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::implicit
 #endif

@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-namespace tyglab::cpu {
+namespace tyglab::implicit {
 
 inline constexpr int springs_of_a_particle = 6;  ///< that it owns, one per direction (lattice.h)
 inline constexpr int spring_parts = 4;           ///< a.x, a.y, a.z, t
@@ -55,4 +55,4 @@ void add_scaled_row(const R* x, double beta, R* y, int count);
 template <class R>
 double dot_row(const R* a, const R* b, int count);
 
-}  // namespace tyglab::cpu
+}  // namespace tyglab::implicit

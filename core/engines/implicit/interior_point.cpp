@@ -1,0 +1,235 @@
+#include "core/engines/implicit/interior_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "core/engines/implicit/stiffness.h"
+
+namespace tyglab::implicit {
+namespace {
+
+constexpr int most_iterations = 100;
+constexpr int most_gradients = 200;
+constexpr double to_border = 0.995;        // of the way to where a tension or slack becomes 0
+constexpr double predictor_tolerance = 0.05, corrector_tolerance = 0.02;
+constexpr double least_centering = 0.01;
+
+}  // namespace
+
+template <class R>
+void InteriorPoint<R>::resize(const Lattice& lattice) {
+  if (lattice_ == lattice) return;
+  const int rows = lattice.rows, fast = simd::row_stride<R>(lattice.columns);
+  stride_ = simd::row_stride<double>(lattice.columns);
+  for (Field* field : {&c_, &y_, &x_, &best_, &forces_, &right_, &moved_}) field->resize(rows + 3, stride_);
+  const std::size_t stretch = std::size_t(rows) * stretch_directions * stride_ + simd::widest_vector;
+  for (Array<double>* springs : {&tension_, &slack_}) springs->assign(stretch, 1.0);
+  for (Array<double>* springs : {&d_tension_, &d_slack_}) springs->assign(stretch, 0.0);
+  free_.assign(std::size_t(rows) * stride_, 0.0);
+  for (RowField<R>* field : {&step_, &r_, &p_, &q_}) field->resize(rows + 3, fast);
+  coefficients_.assign(std::size_t(rows) * coefficient_pitch(fast) + simd::widest_vector, R(0));
+  multigrid_.resize(lattice, fast);
+  lattice_ = lattice;
+}
+
+template <class R>
+std::size_t InteriorPoint<R>::bytes() const {
+  std::size_t total = coefficients_.size() * sizeof(R) + multigrid_.bytes();
+  for (const Field* field : {&c_, &y_, &x_, &best_, &forces_, &right_, &moved_}) total += field->bytes();
+  for (const Array<double>* springs : {&tension_, &slack_, &d_tension_, &d_slack_, &whole_, &free_})
+    total += springs->size() * sizeof(double);
+  for (const RowField<R>* field : {&step_, &r_, &p_, &q_}) total += field->bytes();
+  return total;
+}
+
+/// A row for each row of a torn cloth. The rows of an untorn one are alike but for the last two: there are three.
+template <class R>
+void InteriorPoint<R>::find_whole_springs() {
+  const Tears& tears = *task_->tears;
+  torn_ = !tears.untorn();
+  const std::ptrdiff_t pitch = std::ptrdiff_t(directions.size()) * stride_;
+  const int rows = torn_ ? lattice_.rows : std::min(lattice_.rows, 3);
+  whole_.assign(std::size_t(rows * pitch), 0.0);
+  springs_ = 0;
+  for (int n = 0; n < rows; ++n) {
+    const int i = torn_ ? n : lattice_.rows - rows + n;
+    const double alike = torn_ || n > 0 ? 1 : lattice_.rows - rows + 1;
+    for (int d = 0; d < int(directions.size()); ++d)
+      for (int j = 0; j < lattice_.columns; ++j)
+        if (lattice_.has_spring(d, i, j) && tears.whole(d, i, j)) {
+          whole_[std::size_t(n * pitch + d * stride_ + j + std::min(0, directions[std::size_t(d)].dj))] = 1;
+          if (d < stretch_directions) springs_ += alike;
+        }
+  }
+}
+
+template <class R>
+BarrierRow InteriorPoint<R>::row(int i) {
+  const int rows = std::min(lattice_.rows, 3);
+  const int pattern = torn_ ? i : std::max(0, i - (lattice_.rows - rows));
+  const std::ptrdiff_t at = std::ptrdiff_t(i) * stretch_directions * stride_;
+  return {task_->constants,
+          whole_.data() + std::ptrdiff_t(pattern) * std::ptrdiff_t(directions.size()) * stride_,
+          x_.row(i),
+          c_.row(i),
+          tension_.data() + at,
+          slack_.data() + at,
+          d_tension_.data() + at,
+          d_slack_.data() + at,
+          stride_,
+          lattice_.columns};
+}
+
+template <class R>
+void InteriorPoint<R>::begin() {
+  find_whole_springs();
+  size_ = 0;
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int j = 0; j < lattice_.columns; ++j) {
+      const std::size_t p = std::size_t(i) * lattice_.columns + j;
+      free_[std::size_t(i) * stride_ + j] = task_->fixed.empty() || !task_->fixed[p];
+      for (int c = 0; c < 3; ++c) size_ = std::max(size_, std::abs(x_.row(i, c)[j]));
+    }
+  // About a hundredth of a spring's length under a third of the tension of a row of all particles.
+  const double weight = std::max(task_->gravity, 1e-6 * task_->constants.L) * std::sqrt(double(lattice_.size()));
+  const double mu = 0.3 * weight * 0.01 * task_->constants.L;
+  for (int i = 0; i < lattice_.rows; ++i) begin_tensions(row(i), mu);
+}
+
+template <class R>
+double InteriorPoint<R>::linearize() {
+  for (Field* field : {&forces_, &right_}) std::fill(field->all().begin(), field->all().end(), 0.0);
+  if (task_->others) {
+    task_->others(x_, forces_);
+    right_ = forces_;
+  }
+  double products = 0;
+  residual_ = 0, force_ = task_->gravity;
+  const std::ptrdiff_t fast = fast_stride();
+  for (int i = 0; i < lattice_.rows; ++i) {
+    const BarrierSums sums = linearize_row<R>(row(i), forces_.row(i), right_.row(i),
+                                              coefficients_.data() + i * coefficient_pitch(fast), fast);
+    products += sums.products, force_ = std::max(force_, sums.force);
+    const double left = finish_row(x_.row(i), y_.row(i), free_.data() + std::ptrdiff_t(i) * stride_, forces_.row(i),
+                                   right_.row(i), stride_, lattice_.columns);
+    residual_ = left <= residual_ ? residual_ : left;  // which a number that is none becomes
+  }
+  ++counts_->force_evaluations;
+  return products;
+}
+
+/// The residual that counts as none: the tolerance, or what the last digits of positions make of the forces.
+template <class R>
+double InteriorPoint<R>::allowed() const {
+  const double digits = last_digits(std::numeric_limits<double>::epsilon(), size_,
+                                    std::max(task_->constants.stretch, task_->constants.bend));
+  return std::max(task_->tolerance * force_, digits);
+}
+
+/// Solves A step_ = right_ by conjugate gradients, from the present step_ on if it is `warm`.
+template <class R>
+bool InteriorPoint<R>::solve_linear(double tolerance, bool warm) {
+  const int rows = lattice_.rows, columns = lattice_.columns, count = int(step_.pitch());
+  const auto product = [&](RowField<R>& p, int i) {
+    multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(fast_stride()), p.row(i), q_.row(i),
+                                fast_stride(), columns, i == 0, 1});
+  };
+  if (!warm) std::fill(step_.all().begin(), step_.all().end(), R(0));
+  double whole = 0, left = 0;
+  for (int i = 0; i < rows; ++i) {
+    if (warm) product(step_, i);
+    const double* free = free_.data() + std::ptrdiff_t(i) * stride_;
+    for (int c = 0; c < 3; ++c)
+      for (int j = 0; j < columns; ++j) {
+        const double b = free[j] * right_.row(i, c)[j], r = b - (warm ? free[j] * double(q_.row(i, c)[j]) : 0);
+        r_.row(i, c)[j] = R(r), whole += b * b, left += r * r;
+      }
+  }
+  const double enough = tolerance * tolerance * whole;
+  double before = 0;
+  for (int n = 0; left > enough; ++n) {
+    if (n == most_gradients || !std::isfinite(left) || task_->stops()) return false;
+    const RowField<R>& z = multigrid_.precondition(r_, task_->stops);
+    double rz = 0;
+    for (int i = 0; i < rows; ++i) rz += dot_row(r_.row(i), z.row(i), count);
+    const double keep = n == 0 ? 0 : rz / before;
+    before = rz;
+    double pq = 0;
+    for (int i = 0; i < rows; ++i) add_scaled_row(z.row(i), keep, p_.row(i), count);
+    for (int i = 0; i < rows; ++i) {
+      multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(fast_stride()), p_.row(i), q_.row(i),
+                                  fast_stride(), columns, i == 0, 1});
+      pq += dot_row(p_.row(i), q_.row(i), count);
+    }
+    if (!(pq > 0)) return false;
+    left = 0;
+    for (int i = 0; i < rows; ++i) left += multigrid_.descend(rz / pq, p_, q_, step_, r_, i);
+    ++counts_->linear;
+  }
+  return true;
+}
+
+template <class R>
+BarrierStep InteriorPoint<R>::find_step(bool corrects, double mu) {
+  const int columns = lattice_.columns;
+  for (int i = 0; i < lattice_.rows; ++i)
+    for (int c = 0; c < 3; ++c) std::copy_n(step_.row(i, c), columns, moved_.row(i, c));
+  BarrierStep all{};
+  for (int i = 0; i < lattice_.rows; ++i) {
+    const BarrierStep one = step_row(row(i), moved_.row(i), corrects, mu);
+    all.tension = std::max(all.tension, one.tension), all.slack = std::max(all.slack, one.slack);
+    all.with_slack += one.with_slack, all.with_tension += one.with_tension, all.both += one.both;
+  }
+  return all;
+}
+
+template <class R>
+void InteriorPoint<R>::advance(double primal, double dual) {
+  const auto add = [](std::span<double> to, std::span<const double> step, double part) {
+    for (std::size_t n = 0; n < to.size(); ++n) to[n] += part * step[n];
+  };
+  add(x_.all(), moved_.all(), primal);
+  add(tension_, d_tension_, dual);
+  add(slack_, d_slack_, primal);
+}
+
+template <class R>
+Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
+  task_ = &task, counts_ = &counts;
+  begin();
+  const auto part_of = [](double most) { return std::min(1.0, to_border / most); };
+  double least = std::numeric_limits<double>::infinity(), least_force = 1, first = 0;
+  const double corrector = lattice_.size() < 128 * 128 ? corrector_tolerance : corrector_tolerance / 2;
+  for (int n = 0;; ++n) {
+    const double products = linearize(), mu = products / std::max(springs_, 1.0);
+    if (getenv("IPM_LOG")) fprintf(stderr, "%3d mu %.3g residual %.3g force %.3g linear %ld\n", n, mu, residual_, force_, (long)counts.linear);
+    if (residual_ < least) least = residual_, least_force = force_, best_ = x_;
+    if (n == 0) first = residual_;
+    if (residual_ <= allowed()) return {true, residual_ / force_};
+    if (n == most_iterations || !std::isfinite(residual_)) break;
+    task.progress(std::clamp(std::log(first / least) / std::log(first / allowed()), double(n) / most_iterations, 1.0));
+    multigrid_.prepare({coefficients_.data(), 1, task.fixed});
+    ++counts.newton;
+    solve_linear(predictor_tolerance, false);
+    if (task.stops()) return {};
+    const BarrierStep predicted = find_step(false, 0);
+    const double p = std::min(1.0, 1 / predicted.slack), d = std::min(1.0, 1 / predicted.tension);
+    const double left = products + p * predicted.with_slack + d * predicted.with_tension + p * d * predicted.both;
+    const double ratio = std::clamp(left / products, 0.0, 1.0);
+    const double goal = std::max(ratio * ratio, least_centering) * mu;
+    for (int i = 0; i < lattice_.rows; ++i) correct_row(row(i), goal, right_.row(i));
+    solve_linear(corrector, true);
+    if (task.stops()) return {};
+    const BarrierStep step = find_step(true, goal);
+    advance(part_of(step.slack), part_of(step.tension));
+  }
+  x_ = best_;
+  return {false, least / least_force};
+}
+
+template class InteriorPoint<float>;
+template class InteriorPoint<double>;
+
+}  // namespace tyglab::implicit

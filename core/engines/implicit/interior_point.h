@@ -1,0 +1,82 @@
+// A primal-dual interior-point method for an implicit stage in which springs switch so often that Newton's method
+// stalls. Bending aside, the solution x of x = c_x + h v, v = c_v + h a(x, v) makes
+//
+//   ½ |x - y|² + Σ ½ k max(r - L, 0)² + ½ k_d Σ |x_ij - c_ij|²,   y = c_x + h c_v + h² F/m,
+//
+// least (all forces times h²/m), where r is the length of a stretch spring and F what acts without springs. With a
+// tension t and a slack s for each of these springs that is: forces t along the springs balance all others, r - L - t/k
+// + s = 0, t s = 0, t >= 0, s >= 0. Newton's method for the same with t s = μ never meets a switch, and μ goes to 0.
+// Each iteration solves twice with one matrix, which resists with k t/(t + k s) along a spring and t/r across it: for
+// μ = 0, and for the μ that this promises, with the products that it had left out (S. Mehrotra, SIAM J. Optim. 2, 575
+// (1992)). The linear systems are solved by conjugate gradients with multigrid (multigrid.h). Converged is what the
+// forces of the model itself, without t and s, balance.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "core/cloth/lattice.h"
+#include "core/cloth/tears.h"
+#include "core/engines/balance.h"
+#include "core/engines/implicit/barrier_rows.h"
+#include "core/engines/implicit/multigrid.h"
+#include "core/integrators/solve_counts.h"
+
+namespace tyglab::implicit {
+
+/// `R`: precision of the linear systems.
+template <class R>
+class InteriorPoint {
+ public:
+  using Field = RowField<double>;
+
+  struct Task {
+    BarrierConstants constants;
+    double gravity;    ///< h² g, m
+    double tolerance;  ///< of the largest residual, in parts of the largest force
+    const Tears* tears;
+    std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
+    /// Adds h² F/m of forces that depend on positions otherwise than by springs, m; may be empty.
+    std::function<void(const Field& x, Field& forces)> others;
+    std::function<bool()> stops;
+    std::function<void(double part)> progress;
+  };
+  /// Takes the memory for a lattice.
+  void resize(const Lattice& lattice);
+  /// To be written before solve(): c_x, y, and where to begin with fixed particles at their places, each array as in
+  /// row_field.h; the last is then the best that was found.
+  Field& c() { return c_; }
+  Field& y() { return y_; }
+  Field& x() { return x_; }
+  /// Adds its iterations to the counts. Where it was stopped, the result means nothing.
+  Balance solve(const Task& task, SolveCounts& counts);
+  std::size_t bytes() const;
+
+ private:
+  void begin();
+  void find_whole_springs();
+  BarrierRow row(int i);
+  /// The model's residual and the linear system at the present x. Returns Σ tension · slack.
+  double linearize();
+  bool solve_linear(double tolerance, bool warm);
+  BarrierStep find_step(bool corrects, double mu);
+  void advance(double primal, double dual);
+  double allowed() const;
+  std::ptrdiff_t fast_stride() const { return step_.pitch() / 3; }
+
+  const Task* task_ = nullptr;
+  SolveCounts* counts_ = nullptr;
+  Lattice lattice_{0, 0};
+  int stride_ = 0;
+  Field c_, y_, x_, best_, forces_, right_, moved_;
+  Array<double> tension_, slack_, d_tension_, d_slack_, whole_, free_;
+  bool torn_ = false;
+  double springs_ = 0;           ///< stretch springs
+  double residual_ = 0, force_ = 0;  ///< the largest, m
+  double size_ = 0;              ///< largest coordinate, m
+  RowField<R> step_, r_, p_, q_;
+  Array<R> coefficients_;
+  Multigrid<R> multigrid_;
+};
+
+}  // namespace tyglab::implicit

@@ -1,0 +1,313 @@
+#include "core/engines/implicit/multigrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/engines/implicit/multigrid_rows.h"
+#include "core/engines/implicit/stiffness.h"
+
+namespace tyglab::implicit {
+namespace {
+
+constexpr int coarsest = 3;  // rows or columns that are not made fewer
+
+int coarser(int n) {
+  return n <= coarsest ? n : n / 2 + 1;
+}
+
+/// Chebyshev's iteration for eigenvalues between a tenth of the largest and the largest. On the lattice itself B A has
+/// none above 2, since (x_i - x_j)ᵀ K (x_i - x_j) is at most twice x_iᵀ K x_i + x_jᵀ K x_j; on coarser ones interpolation
+/// leads to at most 2 · 4/3 along a direction in which all springs pull.
+constexpr double largest_eigenvalue(bool finest) {
+  return finest ? 2 : 8.0 / 3;
+}
+constexpr double middle = 0.55, half_width = 0.45;  // of that interval, in parts of its upper end
+
+}  // namespace
+
+template <class R>
+void Multigrid<R>::resize(const Lattice& lattice, int stride) {
+  if (!levels_.empty() && levels_[0].rows == lattice.rows && levels_[0].columns == lattice.columns) return;
+  std::vector<Level> levels;
+  for (int rows = lattice.rows, columns = lattice.columns;;) {
+    Level& level = levels.emplace_back();
+    const bool finest = levels.size() == 1;
+    level.rows = rows, level.columns = columns;
+    level.stride = finest ? stride : simd::row_stride<R>(columns + 2);
+    level.pitch = operator_pitch(level.stride);
+    if (!finest) level.blocks.assign(std::size_t(level.rows) * level.pitch + 4 * Level::lead, R(0));
+    level.inverse.assign(std::size_t(rows + 2) * 6 * level.stride + 2 * Level::lead, R(0));
+    for (Field* field : {&level.r, &level.d, &level.q, &level.x}) field->resize(rows + 3, level.stride);
+    if (coarser(rows) == rows && coarser(columns) == columns) break;
+    rows = coarser(rows), columns = coarser(columns);
+  }
+  work_stride_ = simd::row_stride<R>(lattice.columns + 2);
+  for (Array<R>& row : scratch_) row.assign(std::size_t(operator_pitch(work_stride_)) + 6 * Level::lead, R(0));
+  zeros_.assign(scratch_[0].size(), R(0));
+  free_stride_ = work_stride_;
+  free_.assign(std::size_t(lattice.rows + 1) * free_stride_ + 2 * Level::lead, R(0));
+  levels_ = std::move(levels);
+}
+
+template <class R>
+std::size_t Multigrid<R>::bytes() const {
+  std::size_t total = (zeros_.size() + free_.size()) * sizeof(R) + coarsest_.size() * sizeof(double);
+  for (const Array<R>& row : scratch_) total += row.size() * sizeof(R);
+  for (const Level& level : levels_)
+    total += (level.blocks.size() + level.inverse.size()) * sizeof(R) + level.r.bytes() + level.d.bytes() +
+             level.q.bytes() + level.x.bytes();
+  return total;
+}
+
+template <class R>
+void Multigrid<R>::prepare(const SpringMatrix<R>& matrix) {
+  matrix_ = matrix;
+  prepare_finest();
+  for (std::size_t l = 0; l + 1 < levels_.size(); ++l) coarsen(l);
+  if (levels_.size() > 1) invert_coarsest();
+}
+
+/// What is fixed, and the blocks on the diagonal.
+template <class R>
+void Multigrid<R>::prepare_finest() {
+  Level& at = levels_[0];
+  std::fill(at.inverse.begin(), at.inverse.end(), R(0));
+  for (int i = 0; i < at.rows; ++i) {
+    R* free = free_.data() + std::ptrdiff_t(i) * free_stride_;
+    for (int j = 0; j < at.columns; ++j)
+      free[j] = R(matrix_.fixed.empty() || !matrix_.fixed[std::size_t(i) * at.columns + j]);
+    for (int c = 0; c < 3; ++c) std::fill_n(at.inverse_row(i) + c * at.stride, at.columns, R(matrix_.m));
+  }
+  for (int i = 0; i < at.rows; ++i) {
+    R* blocks = at.inverse_row(i);
+    diagonal_row(matrix_.coefficients + i * coefficient_pitch(at.stride), blocks, at.stride, at.columns);
+    const R* free = free_.data() + std::ptrdiff_t(i) * free_stride_;
+    for (int j = 0; j < at.columns; ++j) blocks[j] *= free[j];
+    invert_blocks_row<R>(blocks, blocks, at.stride, at.columns);
+  }
+}
+
+/// Row i of the finest lattice's nine-point operator, in scratch 0 or 1 by turns; of rows in rising order.
+template <class R>
+void Multigrid<R>::build_nine_point_row(int i) {
+  Level& at = levels_[0];
+  R* row = scratch(i % 2);
+  if (i == 0)
+    for (int c = 0; c < block_parts; ++c)
+      std::fill_n(row + c * work_stride_, at.columns, c < 3 ? R(matrix_.m) : R(0));
+  const R* coefficients = matrix_.coefficients + i * coefficient_pitch(at.stride);
+  const R* free = free_.data() + std::ptrdiff_t(i) * free_stride_;
+  nine_point_row<R>({coefficients, i > 0 ? coefficients - coefficient_pitch(at.stride) : nullptr, at.stride, at.columns,
+                     free, free + free_stride_, row, scratch((i + 1) % 2), work_stride_, matrix_.m});
+}
+
+/// Row i of a level's operator with only the columns of the next level, in one of three scratch rows by turns.
+template <class R>
+const R* Multigrid<R>::next_coarse_columns(std::size_t level, int i) {
+  const Level &at = levels_[level], &next = levels_[level + 1];
+  if (level == 0) build_nine_point_row(i);
+  const R* row = level == 0 ? scratch(i % 2) : levels_[level].block_row(i);
+  const std::ptrdiff_t stride = level == 0 ? work_stride_ : at.stride;
+  R* to = scratch(2 + i % 3);
+  if (next.columns != at.columns) {
+    coarsen_columns(row, stride, to, next.stride, next.columns);
+  } else {
+    for (int part = 0; part < blocks_of_a_particle * block_parts; ++part)
+      std::copy_n(row + part * stride, next.stride, to + part * next.stride);
+  }
+  return to;
+}
+
+template <class R>
+void Multigrid<R>::coarsen(std::size_t from) {
+  const Level& at = levels_[from];
+  Level& next = levels_[from + 1];
+  const R* none = zeros_.data() + Level::lead;
+  const R* rows[3] = {none, none, none};  // 2I - 1, 2I, 2I + 1
+  for (int I = 0, i = 0; I < next.rows; ++I) {
+    const auto following = [&] { return i < at.rows ? next_coarse_columns(from, i++) : none; };
+    if (next.rows == at.rows) {
+      std::copy_n(following(), next.pitch, next.block_row(I));
+    } else {
+      rows[0] = rows[2], rows[1] = following(), rows[2] = following();
+      coarsen_rows(rows[0], rows[1], rows[2], next.block_row(I), next.stride, next.columns);
+    }
+    invert_blocks_row<R>(next.block_row(I), next.inverse_row(I), next.stride, next.columns);
+  }
+}
+
+template <class R>
+void Multigrid<R>::invert_coarsest() {
+  Level& at = levels_.back();
+  const int nodes = at.rows * at.columns, n = 3 * nodes;
+  std::vector<double> a(std::size_t(n) * n, 0.0);
+  constexpr int part[3][3] = {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}};
+  const auto put = [&](int i, int j, int oi, int oj, int which, int column) {
+    if (oi >= at.rows || oj < 0 || oj >= at.columns) return;
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) {
+        const double value = double(at.block_row(i)[(which * block_parts + part[r][c]) * at.stride + column]);
+        const int p = 3 * (i * at.columns + j) + r, q = 3 * (oi * at.columns + oj) + c;
+        a[std::size_t(p) * n + q] = a[std::size_t(q) * n + p] = value;
+      }
+  };
+  for (int i = 0; i < at.rows; ++i)
+    for (int j = 0; j < at.columns; ++j)
+      put(i, j, i, j, 0, j), put(i, j, i, j + 1, 1, j), put(i, j, i + 1, j, 2, j), put(i, j, i + 1, j + 1, 3, j),
+          put(i, j, i + 1, j - 1, 4, j - 1);
+  // Gauss and Jordan, without pivots, which a positive matrix does not need; what cannot move stays out of it.
+  for (int k = 0; k < n; ++k) {
+    double* row = a.data() + std::size_t(k) * n;
+    const bool moves = row[k] > 0;
+    const double per = moves ? 1 / row[k] : 0;
+    row[k] = 1;
+    for (int c = 0; c < n; ++c) row[c] *= per;
+    for (int r = 0; r < n; ++r) {
+      double* other = a.data() + std::size_t(r) * n;
+      const double factor = other[k];
+      if (r == k || factor == 0) continue;
+      other[k] = 0;
+      for (int c = 0; c < n; ++c) other[c] -= factor * row[c];
+    }
+  }
+  coarsest_ = std::move(a);
+}
+
+template <class R>
+void Multigrid<R>::solve_coarsest() {
+  Level& at = levels_.back();
+  const int n = 3 * at.rows * at.columns;
+  double r[3 * coarsest * coarsest];
+  for (int p = 0; p < n / 3; ++p)
+    for (int c = 0; c < 3; ++c) r[3 * p + c] = double(at.r.row(p / at.columns, c)[p % at.columns]);
+  for (int p = 0; p < n; ++p) {
+    double sum = 0;
+    for (int q = 0; q < n; ++q) sum += coarsest_[std::size_t(p) * n + q] * r[q];
+    at.x.row(p / 3 / at.columns, p % 3)[p / 3 % at.columns] = R(sum);
+  }
+}
+
+/// Row i of q = A d.
+template <class R>
+void Multigrid<R>::multiply(std::size_t level, int i) {
+  Level& at = levels_[level];
+  if (level == 0) {
+    multiply_row(ProductTask<R>{matrix_.coefficients + i * coefficient_pitch(at.stride), at.d.row(i), at.q.row(i),
+                                at.stride, at.columns, i == 0, matrix_.m});
+  } else {
+    multiply_blocks_row(
+        BlockProduct<R>{at.block_row(i), at.d.row(i), at.q.row(i), at.stride, at.columns, i == 0});
+  }
+}
+
+/// r -= A d, and the next d. Row i of d is not needed any more once row i of the product is made.
+template <class R>
+void Multigrid<R>::smooth(std::size_t level, Pass pass) {
+  if ((*stops_)()) return;
+  Level& at = levels_[level];
+  for (int i = 0; i < at.rows; ++i) {
+    multiply(level, i);
+    smooth_row(SmoothTask<R>{at.q.row(i), at.inverse_row(i), at.r.row(i), at.d.row(i), at.x.row(i), at.stride,
+                             at.columns, pass.keep, pass.scale});
+  }
+}
+
+template <class R>
+void Multigrid<R>::leave_residual(std::size_t level) {
+  if ((*stops_)()) return;
+  Level& at = levels_[level];
+  for (int i = 0; i < at.rows; ++i) {
+    multiply(level, i);
+    subtract_row(SmoothTask<R>{at.q.row(i), at.inverse_row(i), at.r.row(i), nullptr, nullptr, at.stride, at.columns, 0,
+                               0});
+  }
+}
+
+template <class R>
+void Multigrid<R>::restrict_residual(std::size_t level) {
+  Level &at = levels_[level], &next = levels_[level + 1];
+  const std::ptrdiff_t wide = level == 0 ? work_stride_ : at.stride;
+  R* sum = scratch(0);
+  std::fill_n(sum - Level::lead, 3 * wide + 3 * Level::lead, R(0));
+  const auto row = [&](int i, int c) { return i >= 0 && i < at.rows ? at.r.row(i, c) : zeros_.data(); };
+  for (int I = 0; I < next.rows; ++I) {
+    const bool fewer = next.rows != at.rows;
+    for (int c = 0; c < 3; ++c) {
+      R* to = sum + c * wide;
+      if (fewer) {
+        combine_rows(0.5, row(2 * I - 1, c), 0.5, row(2 * I + 1, c), to, at.stride);
+        combine_rows<R>(1, to, 1, row(2 * I, c), to, at.stride);
+      } else {
+        std::copy_n(row(I, c), at.stride, to);
+      }
+    }
+    if (next.columns != at.columns) {
+      restrict_columns(sum, wide, next.r.row(I), next.stride, next.columns, 3);
+    } else {
+      for (int c = 0; c < 3; ++c) std::copy_n(sum + c * wide, at.columns, next.r.row(I, c));
+    }
+  }
+}
+
+/// d = P x of the next level, x += d.
+template <class R>
+void Multigrid<R>::prolong_correction(std::size_t level) {
+  Level &at = levels_[level], &next = levels_[level + 1];
+  R *between = scratch(0), *fine = scratch(1);
+  for (int i = 0; i < at.rows; ++i) {
+    const bool fewer = next.rows != at.rows;
+    const R* coarse = next.x.row(fewer ? i / 2 : i);
+    if (fewer && i % 2 == 1) {
+      combine_rows<R>(0.5, coarse, 0.5, next.x.row(i / 2 + 1), between, 3 * next.stride);
+      coarse = between;
+    }
+    if (next.columns != at.columns) {
+      prolong_columns(coarse, next.stride, fine, at.stride, at.columns, 3);
+    } else {
+      for (int c = 0; c < 3; ++c) std::copy_n(coarse + c * next.stride, at.columns, fine + c * at.stride);
+    }
+    add_correction_row<R>(fine, at.inverse_row(i), at.d.row(i), at.x.row(i), at.stride, at.columns);
+  }
+}
+
+template <class R>
+void Multigrid<R>::cycle(std::size_t level) {
+  Level& at = levels_[level];
+  if (level > 0 && level + 1 == levels_.size()) return solve_coarsest();
+  const double end = largest_eigenvalue(level == 0), theta = middle * end, ratio = half_width / middle;
+  const double next_ratio = 1 / (2 / ratio - ratio);
+  const Pass first{0, 1 / theta}, second{next_ratio * ratio, 2 * next_ratio / (half_width * end)};
+  for (int i = 0; i < at.rows; ++i)
+    start_smoothing_row(SmoothTask<R>{nullptr, at.inverse_row(i), at.r.row(i), at.d.row(i), at.x.row(i), at.stride,
+                                      at.columns, 0, first.scale});
+  smooth(level, second);
+  if (levels_.size() == 1) return;
+  leave_residual(level);
+  restrict_residual(level);
+  cycle(level + 1);
+  prolong_correction(level);
+  smooth(level, first);
+  smooth(level, second);
+}
+
+template <class R>
+const RowField<R>& Multigrid<R>::precondition(const Field& r, const std::function<bool()>& stops) {
+  stops_ = &stops;
+  levels_[0].r = r;
+  cycle(0);
+  return levels_[0].x;
+}
+
+template <class R>
+double Multigrid<R>::descend(double part, const Field& p, const Field& q, Field& x, Field& r, int i) const {
+  const Level& at = levels_[0];
+  // Of p nothing is written: the task holds it where a smoother has its own direction.
+  return descend_row(SmoothTask<R>{q.row(i), at.inverse_row(i), r.row(i), const_cast<R*>(p.row(i)), x.row(i), at.stride,
+                                   at.columns, 0, 0},
+                     part);
+}
+
+template class Multigrid<float>;
+template class Multigrid<double>;
+
+}  // namespace tyglab::implicit

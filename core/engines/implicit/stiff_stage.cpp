@@ -1,0 +1,111 @@
+#include "core/engines/implicit/stiff_stage.h"
+
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/forces/spring-inl.h"
+#include "core/forces/wind-inl.h"
+
+namespace tyglab::implicit {
+namespace {
+
+using Field = simd::RowField<double>;
+
+glm::dvec3 at(const Field& x, int i, int j) {
+  return {x.row(i, 0)[j], x.row(i, 1)[j], x.row(i, 2)[j]};
+}
+
+/// Adds a third of the wind on a triangle to each of its corners.
+void blow(const Preset& preset, double scale, const Field& x, int i, int j, int which, Field& forces) {
+  const auto& corners = quad_triangles[std::size_t((i + j) & 1)][std::size_t(which)];
+  glm::dvec3 corner[3];
+  for (int n = 0; n < 3; ++n) corner[n] = at(x, i + corners[std::size_t(n)].di, j + corners[std::size_t(n)].dj);
+  const glm::dvec3 force = HWY_NAMESPACE::wind_on_corner(cross(corner[1] - corner[0], corner[2] - corner[0]),
+                                                         preset.W / 3.0, std::numeric_limits<double>::min());
+  for (const Corner& to : corners)
+    for (int c = 0; c < 3; ++c) forces.row(i + to.di, c)[j + to.dj] += scale * force[c];
+}
+
+/// Adds the wind's h²/m on every whole triangle.
+void add_wind(const Preset& preset, const Tears& tears, double scale, const Field& x, Field& forces) {
+  const Lattice& lattice = tears.lattice();
+  for (int i = 0; i + 1 < lattice.rows; ++i)
+    for (int j = 0; j + 1 < lattice.columns; ++j)
+      for (int which = 0; which < 2; ++which)
+        if (tears.triangle_whole(i, j, which)) blow(preset, scale, x, i, j, which, forces);
+}
+
+template <class R>
+bool is_fixed(const StiffTask<R>& task, int i, int j) {
+  return !task.fixed.empty() && task.fixed[std::size_t(i) * task.lattice.columns + j] != 0;
+}
+
+/// Calls what(i, j, c, n) for all components, n their place in the engine's arrays.
+template <class R, class What>
+void for_each(const StiffTask<R>& task, const What& what) {
+  for (int i = 0; i < task.lattice.rows; ++i)
+    for (int c = 0; c < 3; ++c)
+      for (int j = 0; j < task.lattice.columns; ++j) what(i, j, c, (3 * i + c) * task.stride + j);
+}
+
+}  // namespace
+
+template <class R, class S>
+Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& task, SolveCounts& counts) {
+  const Preset& p = task.preset;
+  const double h = task.h, scale = h * h / p.m;
+  solver.resize(task.lattice);
+  for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
+    const bool fixed = is_fixed(task, i, j);
+    const double from = double(task.c_x[n]), end = from + h * double(task.c_v[n]);
+    solver.c().row(i, c)[j] = from;
+    solver.y().row(i, c)[j] = end - (c == 1 && !fixed ? h * h * p.g : 0);
+    solver.x().row(i, c)[j] = fixed ? end : double(task.x[n]);
+  });
+  typename InteriorPoint<S>::Task inner{.constants = {p.k_s * scale, p.k_b * scale, p.k_d * h / p.m, p.L},
+                                        .gravity = h * h * p.g,
+                                        .tolerance = balance_tolerance<R>,
+                                        .tears = &task.tears,
+                                        .fixed = task.fixed,
+                                        .others = {},
+                                        .stops = task.stops,
+                                        .progress = task.progress};
+  if (p.W != glm::dvec3(0))
+    inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
+  const Balance balance = solver.solve(inner, counts);
+  for_each(task, [&](int i, int j, int c, std::ptrdiff_t n) {
+    if (!is_fixed(task, i, j)) task.v[n] = R((solver.x().row(i, c)[j] - solver.c().row(i, c)[j]) / h);
+  });
+  return balance;
+}
+
+template <class R>
+Balance StiffStage::solve(const StiffTask<R>& task, SolveCounts& counts) {
+  if (stiffness_of(task.preset, task.h) < very_stiff) {
+    if (!single_) single_ = std::make_unique<InteriorPoint<float>>();
+    return solve_with(*single_, task, counts);
+  }
+  if (!double_) double_ = std::make_unique<InteriorPoint<double>>();
+  return solve_with(*double_, task, counts);
+}
+
+Balance solve_either_way(EitherStage& stage, const Preset& preset, double h) {
+  const bool both = preset.iterations > 1 && StiffStage::possible(preset);
+  const bool stiff_first = both && stiffness_of(preset, h) >= stiff;
+  const Balance first = stiff_first ? stage.solve_stiff() : stage.solve_by_newton();
+  if (first.solved || !both || stage.stops()) return first;
+  stage.keep();
+  const Balance second = stiff_first ? stage.solve_by_newton() : stage.solve_stiff();
+  if (second.solved || second.residual < first.residual || stage.stops()) return second;
+  stage.restore();
+  return first;
+}
+
+std::size_t StiffStage::bytes() const {
+  return (single_ ? single_->bytes() : 0) + (double_ ? double_->bytes() : 0);
+}
+
+template Balance StiffStage::solve(const StiffTask<float>&, SolveCounts&);
+template Balance StiffStage::solve(const StiffTask<double>&, SolveCounts&);
+
+}  // namespace tyglab::implicit

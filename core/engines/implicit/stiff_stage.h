@@ -1,0 +1,77 @@
+// An implicit stage by the interior-point method (interior_point.h), on the processor and in double, for every engine:
+// where Newton's method would stall, or has.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "core/cloth/lattice.h"
+#include "core/cloth/tears.h"
+#include "core/engines/balance.h"
+#include "core/engines/implicit/interior_point.h"
+#include "core/engines/newton.h"
+#include "core/integrators/solve_counts.h"
+#include "core/model/preset.h"
+
+namespace tyglab::implicit {
+
+/// k_s h²/m from which on a stage is solved by the interior-point method without trying Newton's first: about where a
+/// step carries springs across their rest lengths.
+inline constexpr double stiff = 10;
+/// From here on the linear systems, too, are solved in double.
+inline constexpr double very_stiff = 1e6;
+inline double stiffness_of(const Preset& preset, double h) {
+  return preset.k_s * h * h / preset.m;
+}
+
+/// The stage as an engine stores it: each array row by row, its x, then its y, then its z, `stride` numbers each.
+template <class R>
+struct StiffTask {
+  const Preset& preset;
+  Lattice lattice;
+  const Tears& tears;
+  std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
+  double h;                             ///< s
+  const R *c_x, *c_v;
+  const R* x;  ///< positions from which to begin
+  R* v;        ///< receives the solution, or the best that was found; fixed particles' is left
+  std::ptrdiff_t stride;
+  std::function<bool()> stops;
+  std::function<void(double part)> progress;
+};
+
+class StiffStage {
+ public:
+  /// Whether a stage can be solved at all in this way.
+  static bool possible(const Preset& preset) { return preset.kind == Kind::cloth && preset.k_s > 0; }
+  template <class R>
+  Balance solve(const StiffTask<R>& task, SolveCounts& counts);
+  std::size_t bytes() const;
+
+ private:
+  template <class R, class S>
+  Balance solve_with(InteriorPoint<S>& solver, const StiffTask<R>& task, SolveCounts& counts);
+
+  std::unique_ptr<InteriorPoint<float>> single_;
+  std::unique_ptr<InteriorPoint<double>> double_;
+};
+
+/// An implicit stage that an engine can solve in both ways.
+class EitherStage : public ImplicitStage {
+ public:
+  virtual Balance solve_by_newton() = 0;
+  /// By StiffStage; then evaluates the stage there.
+  virtual Balance solve_stiff() = 0;
+  /// Copies the present velocities.
+  virtual void keep() = 0;
+  /// Returns to the copy, and evaluates the stage there.
+  virtual void restore() = 0;
+};
+
+/// Solves a stage in the way that is likely to be quicker, and in the other where that fails; of two failures the
+/// better one is left. What is tried depends on nothing but the stage: a repeated step must give the same bits.
+Balance solve_either_way(EitherStage& stage, const Preset& preset, double h);
+
+}  // namespace tyglab::implicit
