@@ -91,7 +91,9 @@ def main():
         link = "https://example.org/lab/#hanging&k_s=80&W=%5B0,0,0.001%5D"
         difference, _ = programs.compare("a link", link, "--seconds", SECONDS)
         check("a link", difference <= BOUNDS["float"], f"differs by {difference:.3g} m")
-        for words, code in [(["run", "#nothing"], 3), (["run", "hanging", "--set", "k_s=x"], 2), (["render", "hanging"], 2)]:
+        for words, code in [(["run", "#nothing"], 3), (["run", "hanging", "--set", "k_s=x"], 2), (["render", "hanging"], 2),
+                            *((["run", "hanging", "--steps", "1", "--set", f"k_s={number}"], code) for number, code in
+                              [("1e999", 2), ("1e-999", 2), (".5", 0), ("5.", 0), ("0", 0), ("0x10", 2), ("+5", 2), ("inf", 2), ("1e", 2)])]:
             ours, theirs = programs.native(*words).returncode, programs.web(*words).returncode
             check(" ".join(words), ours == theirs == code, f"exit codes {ours} and {theirs}")
     print(f"{checks - len(bad)} of {checks} passed; largest differences: float {worst['float']:.2g} m, double {worst['double']:.2g} m")

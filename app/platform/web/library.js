@@ -79,6 +79,7 @@ addToLibrary({
       const get = gl.getParameter.bind(gl), known = {};
       for (const name of [0x0C10, 0x8009, 0x80C8, 0x80C9, 0x80CA, 0x80CB, 0x883D]) known[name] = get(name);
       gl.getParameter = (name) => known[name] ?? get(name);
+      gl.isProgram = (program) => program instanceof WebGLProgram;  // none is deleted while it can be asked for
       const follow = (name, keep) => {
         const set = gl[name].bind(gl);
         gl[name] = (...values) => {
