@@ -39,6 +39,8 @@ class Window {
   /// Whether nobody sees it: iconified, or a page in the background.
   bool hidden() const;
   void set_title(const std::string& title);
+  /// What goes on, in words, for screen readers; a page alone can say it.
+  void tell(const std::string& state);
   void toggle_full_screen();
   bool full_screen() const;
 

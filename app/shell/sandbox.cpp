@@ -25,9 +25,11 @@
 #include "app/ui/frame/session_report.h"
 #include "app/ui/frame/tour.h"
 #include "app/ui/kit/imgui_compat.h"
+#include "core/integrators/scheme.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -36,6 +38,17 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double settle_time = 0.3;          // s after an event
+
+/// The scene, the method, and whether it runs: what changes seldom, since it is read out.
+std::string state_in_words(const Session& session) {
+  const Preset& preset = session.preset();
+  std::string words =
+      preset.name + ", " + std::string(scheme(preset.integrator).title) + ", dt " + short_number(preset.dt) + " s: ";
+  if (const auto& divergence = session.simulation->divergence())
+    return words + "diverged at t = " + short_number(divergence->t) + " s";
+  return words +
+         (session.pacing.playing ? "running" : "paused at t = " + short_number(session.simulation->time()) + " s");
+}
 
 class Sandbox : public Turns {
  public:
@@ -89,6 +102,7 @@ class Sandbox : public Turns {
   double last_time_ = 0;
   std::optional<Preset> linked_;  ///< whose link the page's address shows
   std::uint64_t linked_document_ = 0;
+  std::string told_;      ///< in words
   double next_link_ = 0;  ///< s, not before which it is looked at again
   Image last_picture_;
   const InterruptGuard guard_;  ///< from the first turn on, Ctrl-C ends it in good order
@@ -205,6 +219,7 @@ bool Sandbox::due() {
 void Sandbox::show_link() {
   if (window_time() < next_link_ || page_address().empty()) return;
   next_link_ = window_time() + 0.5;
+  if (std::string state = state_in_words(session_); state != told_) window_.tell(told_ = std::move(state));
   const Preset preset = session_.requested_preset();
   const bool opened = std::exchange(linked_document_, session_.counts.documents) != session_.counts.documents;
   if (linked_ && *linked_ == preset && !opened) return;

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include "app/render/cloth_renderer.h"
 #include "app/platform/headless_context.h"
+#include "app/render/cloth_renderer.h"
 
 namespace tyglab::test {
 

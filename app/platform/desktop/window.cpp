@@ -224,6 +224,8 @@ void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(parts_->window, title.c_str());
 }
 
+void Window::tell(const std::string&) {}
+
 void Window::toggle_full_screen() {
   const Parts::Place& old = parts_->windowed;
   if (full_screen()) {

@@ -13,8 +13,8 @@ addToLibrary({
       ShiftLeft: 340, ControlLeft: 341, AltLeft: 342, MetaLeft: 341, ShiftRight: 344, ControlRight: 345, AltRight: 346,
       MetaRight: 345,
     },
-    // Those with Ctrl that belong to the browser, whatever a page does or ought to do: Ctrl+T, Ctrl+W, Ctrl+N, Ctrl+Q.
-    kept: 'twnq',
+    // With Ctrl, and with Ctrl and Shift, these belong to the browser, whatever a page does or ought to do.
+    kept: ['twnqr', 'twnqrijc'],
     buttons: [0, 2, 1, 3, 4],
     cursor: '',
     workers: {},
@@ -35,7 +35,7 @@ addToLibrary({
     },
     pressed: (event) => {
       const ctrl = event.ctrlKey || event.metaKey, key = tyglabPage.key(event);
-      if (key < 0 || (ctrl && tyglabPage.kept.includes(event.key.toLowerCase()))) return;
+      if (key < 0 || (ctrl && tyglabPage.kept[Number(event.shiftKey)].includes(event.key.toLowerCase()))) return;
       if (ctrl && !event.altKey && event.key.toLowerCase() === 'v') return;  // its text comes with the event 'paste'
       event.preventDefault();
       _tyglab_on_key(key, event.repeat ? 2 : 1, tyglabPage.mods(event));
@@ -60,9 +60,11 @@ addToLibrary({
     },
     resized: () => {
       const canvas = Module.canvas, scale = window.devicePixelRatio || 1;
+      // A finger needs larger controls than a mouse, where there is room for them.
+      const larger = matchMedia('(pointer: coarse)').matches && canvas.clientWidth >= 700 ? 1.25 : 1;
       canvas.width = Math.max(1, Math.round(canvas.clientWidth * scale));
       canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
-      _tyglab_on_size(canvas.width, canvas.height, scale);
+      _tyglab_on_size(canvas.width, canvas.height, scale * larger);
     },
     // A file of the person's, put where the program finds it.
     take: async (file) => {
@@ -70,6 +72,32 @@ addToLibrary({
       FS.mkdirTree(folder);
       FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
       tyglabPage.withText(path, _tyglab_on_drop);
+    },
+    // Some questions a browser passes on to the process that draws, which answers once it has drawn everything. Dear ImGui
+    // asks them in every frame, so the answers are kept here: SCISSOR_BOX, BLEND_SRC_RGB and the like.
+    answerQuickly: (gl) => {
+      const get = gl.getParameter.bind(gl), known = {};
+      for (const name of [0x0C10, 0x8009, 0x80C8, 0x80C9, 0x80CA, 0x80CB, 0x883D]) known[name] = get(name);
+      gl.getParameter = (name) => known[name] ?? get(name);
+      gl.isProgram = (program) => program instanceof WebGLProgram;  // none is deleted while it can be asked for
+      const follow = (name, keep) => {
+        const set = gl[name].bind(gl);
+        gl[name] = (...values) => {
+          keep(...values);
+          set(...values);
+        };
+      };
+      const functions = (from, to, fromAlpha, toAlpha) => {
+        [known[0x80C9], known[0x80C8], known[0x80CB], known[0x80CA]] = [from, to, fromAlpha, toAlpha];
+      };
+      const equations = (color, alpha) => {
+        [known[0x8009], known[0x883D]] = [color, alpha];
+      };
+      follow('scissor', (...box) => { known[0x0C10] = new Int32Array(box); });
+      follow('blendFunc', (from, to) => functions(from, to, from, to));
+      follow('blendFuncSeparate', functions);
+      follow('blendEquation', (both) => equations(both, both));
+      follow('blendEquationSeparate', equations);
     },
     finger: (phase) => (event) => {
       if (event.pointerType !== 'touch') return;
@@ -151,9 +179,10 @@ addToLibrary({
 
   tyglab_has_canvas: () => (typeof document === 'undefined' ? 0 : 1),
 
-  tyglab_listen__deps: ['$tyglabPage', '$stringToNewUTF8', 'free'],
+  tyglab_listen__deps: ['$tyglabPage', '$GL'],
   tyglab_listen: () => {
     const canvas = Module.canvas;
+    tyglabPage.answerQuickly(GL.currentContext.GLctx);
     tyglabPage.resized();
     new ResizeObserver(tyglabPage.resized).observe(canvas);
     window.addEventListener('resize', tyglabPage.resized);  // zoom
@@ -172,6 +201,9 @@ addToLibrary({
 
   tyglab_set_title: (title) => {
     document.title = UTF8ToString(title);
+  },
+  tyglab_tell: (state) => {
+    document.getElementById('state').textContent = UTF8ToString(state);
   },
   tyglab_full_screen: () => {
     if (document.fullscreenElement) document.exitFullscreen();
@@ -234,7 +266,7 @@ addToLibrary({
 
   // localStorage holds text: JSON as it is, and nothing large.
   tyglab_keep_files: (folder) => {
-    if (typeof localStorage === 'undefined') return;
+    if (typeof localStorage === 'undefined' || Module.embedded) return;  // a course's page changes nothing
     const keep = (path) => {
       for (const name of FS.readdir(path)) {
         const inside = path + '/' + name;

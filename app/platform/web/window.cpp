@@ -20,6 +20,7 @@ extern "C" {
 int tyglab_has_canvas();
 void tyglab_listen();
 void tyglab_set_title(const char* title);
+void tyglab_tell(const char* state);
 void tyglab_full_screen();
 int tyglab_is_full_screen();
 int tyglab_is_hidden();
@@ -194,6 +195,10 @@ void Window::set_title(const std::string& title) {
   if (title == parts_->title) return;
   parts_->title = title;
   tyglab_set_title(title.c_str());
+}
+
+void Window::tell(const std::string& state) {
+  tyglab_tell(state.c_str());
 }
 
 void Window::toggle_full_screen() {

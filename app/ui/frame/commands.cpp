@@ -18,7 +18,7 @@ struct BrowserKeys {
 constexpr BrowserKeys browser_keys[] = {
     {"present", "Alt+P", {GLFW_KEY_P, GLFW_MOD_ALT}},
     {"full_screen", "Alt+F", {GLFW_KEY_F, GLFW_MOD_ALT}},
-    {"theme", "Alt+T", {GLFW_KEY_T, GLFW_MOD_ALT}},
+    {"next_theme", "Alt+T", {GLFW_KEY_T, GLFW_MOD_ALT}},
     {"reset_constants", "Alt+R", {GLFW_KEY_R, GLFW_MOD_ALT}},
     {"reset_everything", "Alt+Shift+R", {GLFW_KEY_R, GLFW_MOD_ALT | GLFW_MOD_SHIFT}}};
 

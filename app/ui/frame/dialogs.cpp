@@ -158,7 +158,8 @@ bool may_write(Ui& ui, const char* verb) {
     dialog.problem = file.string() + " is not a regular file, so it cannot be replaced; choose another name.";
     return false;
   }
-  if (!dialog.overwrite && fs::exists(file, ignored)) {
+  // Browsers give a download another name where there is one of that name.
+  if (!dialog.overwrite && !files_are_handed_out() && fs::exists(file, ignored)) {
     dialog.overwrite = true;
     return false;
   }
@@ -172,8 +173,11 @@ void save_preset_dialog(Ui& ui) {
   const bool renamed = text_field(ui, "##name", dialog.name, ImGui::IsWindowAppearing());
   if (renamed && dialog.path_follows)
     set(dialog.path, (path_of(dialog.path).parent_path() / file_name_for(dialog.name)).string());
-  label(ui, "File");
-  const bool moved = path_field(ui);
+  bool moved = false;
+  if (!files_are_handed_out()) {
+    label(ui, "File");
+    moved = path_field(ui);
+  }
   if (moved) dialog.path_follows = false;
   if (moved || renamed) dialog.overwrite = false, dialog.problem.clear();
   if (!may_write(ui, "Save")) return;
@@ -332,6 +336,8 @@ void open_dialog(Ui& ui, DialogKind kind) {
   dialog.problem.clear();
   dialog.then.reset();
   set(dialog.path, "");
+  std::error_code ignored;
+  const fs::path here = files_are_handed_out() ? fs::path() : fs::current_path(ignored);
   const fs::path own = user_preset_folder();
   if (kind == DialogKind::open || kind == DialogKind::start) {
     fill_gallery(ui, kind == DialogKind::start);
@@ -347,11 +353,9 @@ void open_dialog(Ui& ui, DialogKind kind) {
     set(dialog.path, file.string());
     dialog.path_follows = true;
   } else if (kind == DialogKind::picture) {
-    std::error_code ignored;
-    set(dialog.path, (fs::current_path(ignored) / (ui.session.document.label + ".png")).string());
+    set(dialog.path, (here / (ui.session.document.label + ".png")).string());
   } else if (kind == DialogKind::write_export) {
-    std::error_code ignored;
-    set(dialog.path, (fs::current_path(ignored) / dialog.exporting->writes->file).string());
+    set(dialog.path, (here / dialog.exporting->writes->file).string());
   }
 }
 

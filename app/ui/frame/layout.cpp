@@ -93,7 +93,7 @@ LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   if (left + right > spare) right = 0;
   if (shared) left = std::round(std::min(layout.left_width * ui.theme.scale, std::max(spare, left)));
   // Where not even one has room beside the cloth, all three do.
-  const bool in_turn = left > 0 && left + ui.theme.px(140) > window.x;
+  const bool in_turn = left > 0 && left + ui.theme.px(200) > window.x;
   if (in_turn) left = ui.side_cloth ? 0 : window.x;
 
   float lab = panels ? lab_panel_height(ui, height) : 0;
