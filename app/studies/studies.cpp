@@ -3,7 +3,8 @@
 namespace tyglab {
 
 Wants& Wants::operator|=(const Wants& other) {
-  for (const auto want : {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings, &Wants::map,
+  for (const auto want : {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings,
+                          &Wants::settings_kept, &Wants::map,
                           &Wants::ledger, &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
     this->*want |= other.*want;
   return *this;
@@ -13,7 +14,10 @@ void Studies::update(const Wants& wants, StudyMoment& moment) {
   if (wants.stability) stability.poll(moment);
   wants.accuracy ? accuracy.poll(moment) : accuracy.drop();
   wants.convergence ? convergence.poll(moment) : convergence.drop();
-  wants.settings ? settings.poll(moment) : settings.drop();
+  if (wants.settings)
+    settings.poll(moment);
+  else if (!wants.settings_kept)
+    settings.drop();
   wants.map ? map.poll(moment) : map.drop();
 }
 

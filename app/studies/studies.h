@@ -17,6 +17,7 @@ struct Wants {
   bool accuracy = false;                                ///< errors of the present settings and of other methods
   bool convergence = false;                             ///< the order of convergence
   bool settings = false;                                ///< settings for an error
+  bool settings_kept = false;                           ///< a search for them that was asked for goes on out of sight
   bool map = false;                                     ///< stiffness against dt
   bool ledger = false;                                  ///< where energy comes from and goes
   bool step = false;                                    ///< the picked particle's next step, written out

@@ -72,6 +72,21 @@ Preset first_preset(const UiOptions& options) {
 
 }  // namespace
 
+void SeenPlaces::add_control(std::string_view name) {
+  ControlPlaces::add_control(name);
+  const ImGuiWindow& window = *ImGui::GetCurrentWindowRead();
+  const ImVec2 lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
+  if (hi.y <= window.ClipRect.Min.y || lo.y >= window.ClipRect.Max.y) return;
+  if (lo.x < window.ClipRect.Min.x - 1 || hi.x > window.ClipRect.Max.x + 1)
+    drawing_cut_.insert(std::string(window.RootWindow->Name) + "." + std::string(name));
+}
+
+void SeenPlaces::end_frame() {
+  ControlPlaces::end_frame();
+  cut_.swap(drawing_cut_);
+  drawing_cut_.clear();
+}
+
 NullUi::NullUi(const UiOptions& options) : context_(nullptr) {
   setenv("TYGLAB_CONFIG_DIR", config.path().c_str(), 1);
   static ImFontAtlas none;  // a context that has one given owns none

@@ -10,6 +10,7 @@
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -26,6 +27,17 @@ struct UiOptions {
   glm::ivec2 size{1280, 720};                                  ///< of the window, pixels
   std::function<void(Settings&)> settings = [](Settings&) {};  ///< changes to the settings
   bool patient = true;                                         ///< all steps that are due are made (Pacing)
+};
+
+/// Also knows which controls are seen only in part.
+class SeenPlaces : public ControlPlaces {
+ public:
+  void add_control(std::string_view name) override;
+  void end_frame();
+  const std::set<std::string>& cut_at_sides() const { return cut_; }
+
+ private:
+  std::set<std::string> drawing_cut_, cut_;
 };
 
 class NullUi : public Desk {
@@ -68,6 +80,8 @@ class NullUi : public Desk {
   std::string control_beginning(const std::string& start) const;
   /// All that are seen now, pixels of the window.
   const std::map<std::string, Box>& controls() const { return places_.shown(); }
+  /// Of those that are seen, the ones that the left or right edge of their panel cuts.
+  const std::set<std::string>& cut_at_sides() const { return places_.cut_at_sides(); }
   bool sees(const std::string& name) const { return places_.shown().contains(name); }
   void click(const std::string& name, int button = 0) { click(middle(name), button); }
   /// The point at that part of a slider, 0 at its left end, 1 at its right.
@@ -112,7 +126,7 @@ class NullUi : public Desk {
 
   ImGuiContext* context_;
   GuiInput gui_input_;
-  ControlPlaces places_;
+  SeenPlaces places_;
 };
 
 }  // namespace tyglab::test

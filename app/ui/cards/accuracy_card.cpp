@@ -21,7 +21,14 @@ namespace {
 constexpr const char* stability_heading = card_name::stability;
 constexpr const char* accuracy_heading = card_name::accuracy;
 // Pixels at scale 1.
-constexpr float chart_at_1 = 210, words_at_1 = 40, ways_at_1 = 34, convergence_words_at_1 = 62, ways_room_at_1 = 9;
+constexpr float chart_at_1 = 210, words_at_1 = 40, convergence_words_at_1 = 62;
+constexpr float ways_room_at_1 = 9, under_ways_at_1 = 8;
+constexpr const char* accuracy_way_names[] = {"Errors", "Convergence", "Find settings"};
+
+/// Of the choice between the card's sides with the gap under it, px; it takes as many rows as it needs.
+float ways_height(const Ui& ui, float width) {
+  return segments_size(ui, accuracy_way_names, 3, ways_room_at_1, width).y + ui.theme.px(under_ways_at_1);
+}
 
 /// Words over a chart, in what the card's height leaves.
 void words_and_chart(Ui& ui, float height, const std::string& words, const Chart* chart, float room_at_1 = words_at_1) {
@@ -169,9 +176,10 @@ void stability_card(Ui& ui, float height) {
   end_card(ui);
 }
 
-float accuracy_card_height(const Ui& ui, float) {
+float accuracy_card_height(const Ui& ui, float width) {
+  const float ways_at_1 = ways_height(ui, card_width(ui, width)) / ui.theme.scale;
   if (ui.plots.accuracy == AccuracySide::settings)
-    return card_height(ui, accuracy_heading, ways_at_1 + settings_finder_at_1);
+    return card_height(ui, accuracy_heading, ways_at_1 + settings_finder_at_1(ui, card_width(ui, width)));
   const float words = ui.plots.accuracy == AccuracySide::convergence ? convergence_words_at_1 : words_at_1 + 70;
   return card_height(ui, accuracy_heading, ways_at_1 + words + chart_at_1);
 }
@@ -180,16 +188,19 @@ namespace {
 
 /// Errors of several methods, or the order of the present one; of that what else can be done with it.
 void accuracy_ways(Ui& ui) {
-  static constexpr const char* ways[] = {"Errors", "Convergence", "Find settings"};
   const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float whole = ways_height(ui, card_width(ui));
   AccuracySide& side = ui.plots.accuracy;
-  if (const int k = segments(ui, "accuracy ways", ways, 3, int(side), ways_room_at_1); k >= 0) side = AccuracySide(k);
+  if (const int k = segments(ui, "accuracy ways", accuracy_way_names, 3, int(side), ways_room_at_1, card_width(ui));
+      k >= 0)
+    side = AccuracySide(k);
   tooltip(
       ui, gui::item_id(),
       "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on. Find settings: which methods and dt "
       "keep an error that you choose, and what they cost.");
   const auto at_right = [&](int n) {
-    ImGui::SetCursorScreenPos({lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)), lo.y + ui.theme.px(2)});
+    ImGui::SetCursorScreenPos({lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)),
+                               lo.y + whole - ui.theme.px(under_ways_at_1 + 24)});
   };
   if (side == AccuracySide::convergence) {
     at_right(0);
@@ -199,7 +210,7 @@ void accuracy_ways(Ui& ui) {
     if (quiet_button(ui, "again", icon::restart, "again", "Measure again from now on"))
       ui.command("measure_convergence");
   }
-  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(ways_at_1)});
+  ImGui::SetCursorScreenPos({lo.x, lo.y + whole});
 }
 
 constexpr EffectSet settings_of_the_method{Effect::integrator, Effect::dt, Effect::tolerance};
@@ -239,7 +250,7 @@ void accuracy_card(Ui& ui, float height) {
       words_and_chart(ui, height, "This cloth is too large to be measured here.", nullptr);
     } else {
       accuracy_ways(ui);
-      const float rest = height - ui.theme.px(ways_at_1);
+      const float rest = height - ways_height(ui, card_width(ui));
       constexpr std::array shown{errors_shown, convergence_shown, settings_finder};
       shown[std::size_t(ui.plots.accuracy)](ui, rest);
     }

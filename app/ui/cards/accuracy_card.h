@@ -29,7 +29,7 @@ std::string accuracy_words(const AccuracyStudy& study);
 /// "Find settings" in the card of accuracy (settings_finder.cpp): an error goes in, methods and dt that keep it come
 /// out, the cheapest first, each with a click to use it.
 void settings_finder(Ui& ui, float height);
-inline constexpr float settings_finder_at_1 = 292;  ///< its height, pixels at scale 1
+float settings_finder_at_1(const Ui& ui, float width);  ///< its height in that width (px), pixels at scale 1
 /// The error that is typed there, m; none while it is no number in the range of a tolerance.
 std::optional<double> target_error(const Ui& ui);
 /// What is known for that error, in sentences: how far the search has come, over which time, or why there is nothing.

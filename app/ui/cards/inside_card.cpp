@@ -4,8 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <sstream>
 
 #include "app/base/numbers.h"
+#include "app/base/text_lines.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
@@ -46,13 +48,28 @@ std::string scale_text(const TracedTerm& term) {
   return factor + (factor.empty() || dt.empty() ? "" : " ") + dt;
 }
 
+/// Beside a name that begins at `lo`, or, where it is too long for that, below it in as many lines as it needs.
+void value_text(Ui& ui, ImVec2 lo, const std::string& text, ImU32 color) {
+  const ImFont& mono = *ui.fonts.mono;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float height = ui.theme.px(text_line_at_1), name = ui.theme.px(name_at_1), indent = ui.theme.px(12);
+  const float whole = ImGui::GetContentRegionAvail().x;
+  float baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2)), taken = height;
+  if (text_width(mono, text) <= whole - name) {
+    draw_on_baseline(draw, mono, {lo.x + name, baseline}, color, text);
+  } else {
+    std::istringstream lines(in_lines(mono, with_whole_terms(text), whole - indent));
+    for (std::string row; std::getline(lines, row); taken += height)
+      draw_on_baseline(draw, mono, {lo.x + indent, baseline += height}, color, row);
+  }
+  ImGui::Dummy({whole, taken});
+}
+
 void line(Ui& ui, const std::string& name, const std::string& text, ImU32 color) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = ui.theme.px(text_line_at_1), baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, ui.theme.colors.quiet, name);
-  draw_on_baseline(draw, *ui.fonts.mono, {lo.x + ui.theme.px(name_at_1), baseline}, color, text);
-  ImGui::Dummy({ui.theme.px(name_at_1) + text_width(*ui.fonts.mono, text), height});
+  const float baseline = baseline_at(ui.fonts, std::round(lo.y + ui.theme.px(text_line_at_1) / 2));
+  draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small, {lo.x, baseline}, ui.theme.colors.quiet, name);
+  value_text(ui, lo, text, color);
 }
 
 void words(Ui& ui, const std::string& text, ImU32 color) {
@@ -72,10 +89,7 @@ void force_line(Ui& ui, std::string_view key, const glm::dvec3& value) {
   draw_styled_line(draw, ends, 2, curve_style(ui.theme.colors, key), ui.theme.scale);
   draw_symbol(draw, ui.fonts, {lo.x + sample + ui.theme.px(6), baseline_at(ui.fonts, middle)}, key,
               ui.theme.colors.text);
-  const std::string text = steady_vector(value) + " N";
-  draw_on_baseline(draw, *ui.fonts.mono, {lo.x + ui.theme.px(name_at_1), baseline_at(ui.fonts, middle)},
-                   ui.theme.colors.text, text);
-  ImGui::Dummy({ui.theme.px(name_at_1) + text_width(*ui.fonts.mono, text), height});
+  value_text(ui, lo, steady_vector(value) + " N", ui.theme.colors.text);
 }
 
 /// Every spring: where to, how far it is stretched, what it does.

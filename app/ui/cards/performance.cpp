@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "app/base/numbers.h"
 #include "app/ui/cards/cards.h"
@@ -101,40 +102,68 @@ ImU32 color_of(const Tokens& c, Activity activity) {
   return activity == Activity::on ? c.good : activity == Activity::asleep ? c.accent : c.quiet;
 }
 
+constexpr float state_at_1 = 130, states_from_at_1 = 250;  // pixels at scale 1
+
+/// Where state and time have no room beside a feature's name, they stand below it.
+bool states_below(const Ui& ui, float width) {
+  return width < ui.theme.px(states_from_at_1);
+}
+
 /// Name, state, milliseconds a frame.
 void feature_line(Ui& ui, const FeatureRow& row, float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = ui.theme.px(card::line), baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
+  const bool below = states_below(ui, width);
+  const float line = ui.theme.px(card::line), height = below ? 2 * line : line;
+  const float name_baseline = baseline_at(ui.fonts, std::round(lo.y + line / 2));
+  const float baseline = below ? name_baseline + line : name_baseline;
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
   ImGui::InvisibleButton("feature", {width, height});
   tooltip(ui, gui::item_id(), row.help);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 ink = row.activity == Activity::on ? c.text : c.quiet;
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, ink, row.name);
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(130), baseline}, color_of(c, row.activity),
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x, name_baseline}, ink, row.name);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(below ? 12 : state_at_1), baseline}, color_of(c, row.activity),
                    name_of(row.activity));
   const ImFont& font = row.ms ? *ui.fonts.mono : *ui.fonts.small;
   const std::string time = row.activity != Activity::on ? "–" : row.ms ? text("%.3f ms", *row.ms) : "in the steps";
   draw_on_baseline(draw, font, {lo.x + width - text_width(font, time), baseline}, ink, time);
 }
 
+/// A value in as many lines as it needs; beside its name where one is enough.
+struct FactPlaces {
+  std::string lines;
+  bool beside;
+  float height;  ///< px
+};
+
+FactPlaces fact_places(const Ui& ui, const PerformanceFact& fact, float width) {
+  const ImFont& mono = *ui.fonts.mono;
+  const float room = width - text_width(*ui.fonts.small, fact.name) - ui.theme.px(16);
+  if (text_width(mono, fact.value) <= room) return {fact.value, true, ui.theme.px(card::line)};
+  std::string lines = in_lines(mono, fact.value, width - ui.theme.px(12));
+  const auto count = 2 + std::count(lines.begin(), lines.end(), '\n');
+  return {std::move(lines), false, float(count) * ui.theme.px(card::line)};
+}
+
 void fact_line(Ui& ui, const PerformanceFact& fact, float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const float height = ui.theme.px(card::line), baseline = baseline_at(ui.fonts, std::round(lo.y + height / 2));
+  const FactPlaces places = fact_places(ui, fact, width);
+  float baseline = baseline_at(ui.fonts, std::round(lo.y + ui.theme.px(card::line) / 2));
   ImGui::PushID(fact.name.data(), fact.name.data() + fact.name.size());
-  ImGui::InvisibleButton("fact", {width, height});
+  ImGui::InvisibleButton("fact", {width, places.height});
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, c.quiet, fact.name);
   const ImFont& mono = *ui.fonts.mono;
-  const float room = width - text_width(*ui.fonts.small, fact.name) - ui.theme.px(16);
-  const std::string value = fitted(mono, fact.value, room);  // devices have long names
-  draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, value), baseline}, c.text, value);
-  const std::string cut = value == fact.value ? "" : fact.value;
-  if (const std::string& said = fact.help.empty() ? cut : fact.help; !said.empty()) tooltip(ui, gui::item_id(), said);
+  std::istringstream lines(places.lines);
+  for (std::string value; std::getline(lines, value);) {
+    if (!places.beside) baseline += ui.theme.px(card::line);
+    draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, value), baseline}, c.text, value);
+  }
+  if (!fact.help.empty()) tooltip(ui, gui::item_id(), fact.help);
 }
 
 }  // namespace
@@ -215,8 +244,12 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   return facts;
 }
 
-float performance_card_height(const Ui& ui, float) {
-  return card_height(ui, performance_heading, float(std::size(features) + performance_facts(ui).size()) * card::line);
+float performance_card_height(const Ui& ui, float width) {
+  const float inner = card_width(ui, width);
+  float facts = 0;
+  for (const PerformanceFact& fact : performance_facts(ui)) facts += fact_places(ui, fact, inner).height;
+  const float rows = float(std::size(features)) * (states_below(ui, inner) ? 2 : 1);
+  return card_height(ui, performance_heading, rows * card::line + facts / ui.theme.scale);
 }
 
 void performance_card(Ui& ui, float height) {

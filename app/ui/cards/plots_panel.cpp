@@ -44,8 +44,11 @@ void copies_plot_card(Ui& ui, float height) {
 
 void map_plot_card(Ui& ui, float height) {
   const bool weight = ui.session.preset().kind == Kind::one_weight;
-  const PlotCard card(ui, "map plot", weight ? "Which k and dt are stable" : "Which k_s and dt are stable",
-                      ui.session.studies.map.working() ? "measuring" : "", height, 3);
+  const char* title = weight ? "Which k and dt are stable" : "Which k_s and dt are stable";
+  constexpr int buttons = 3;
+  const bool fits = text_width(*ui.fonts.title, title) <= plot_card_title_width(ui, ui.plots.width, buttons);
+  const PlotCard card(ui, "map plot", fits ? title : card_name::map,
+                      ui.session.studies.map.working() ? "measuring" : "", height, buttons);
   if (card.head_button(ui, 0, "close_map", icon::close, "×", "Close the map")) ui.command("toggle_map");
   if (card.head_button(ui, 1, "csv_map", icon::download, "CSV", "Export the map as CSV…")) ui.command("export_map");
   if (card.head_button(ui, 2, "png_map", icon::picture, "PNG", "Export the map as a PNG image…"))
@@ -272,8 +275,11 @@ void plots_panel(Ui& ui, const Region& region) {
 }
 
 Wants plots_want(const Ui& ui, ImVec2 size) {
-  const ColumnPlan plan = plan_column(ui, column_size(ui, size));
   Wants wants;
+  // Who asked for a search may look at something else meanwhile: it ends with its card.
+  wants.settings_kept = ui.settings.layout.folded.count(card_name::accuracy) == 0;
+  if (size.x <= 0) return wants;
+  const ColumnPlan plan = plan_column(ui, column_size(ui, size));
   const auto add = [&](const Card& card) {
     if (card.wants != nullptr) wants.*card.wants = true;
   };

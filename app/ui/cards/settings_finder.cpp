@@ -14,7 +14,26 @@
 namespace tyglab {
 namespace {
 
-constexpr float finder_field_at_1 = 92, finder_row_at_1 = 21, finder_gap_at_1 = 8;  // pixels at scale 1
+// Pixels at scale 1.
+constexpr float finder_field_at_1 = 92, finder_row_at_1 = 21, finder_gap_at_1 = 8, finder_number_at_1 = 64;
+constexpr float finder_at_1 = 292, finder_rows_at_1 = 10 * finder_row_at_1, finder_button_at_1 = 34;
+
+float asked_width(const Ui& ui) {
+  const ImFont& font = *ui.fonts.text;
+  return text_width(font, "Error at most") + text_width(font, "m") + ui.theme.px(finder_field_at_1 + 2 * finder_gap_at_1);
+}
+
+/// Where the button has no room beside the field, it stands below it.
+bool find_below(const Ui& ui, float width) {
+  const float button = text_width(*ui.fonts.text, "Find") + 2 * ImGui::GetStyle().FramePadding.x;
+  return asked_width(ui) + ui.theme.px(finder_gap_at_1) + button > width;
+}
+
+/// Where a method's name has no room beside its numbers, it stands above them.
+bool methods_above(const Ui& ui, float width) {
+  constexpr float least_name = 70;  // at scale 1
+  return width < ui.theme.px(3 * finder_number_at_1 + least_name);
+}
 
 /// What a refusal says, and what can be promised in its place.
 struct Refusal {
@@ -52,7 +71,8 @@ void target_row(Ui& ui) {
   ImGui::AlignTextToFramePadding();
   wrapped(ui, "Error at most", c.text);
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(ui.theme.px(finder_field_at_1));
+  const float spare = card_width(ui) - (asked_width(ui) - ui.theme.px(finder_field_at_1));
+  ImGui::SetNextItemWidth(std::min(ui.theme.px(finder_field_at_1), spare));
   const bool enter =
       ImGui::InputText("##target", ui.plots.target, sizeof ui.plots.target, ImGuiInputTextFlags_EnterReturnsTrue);
   report_control(ui, "target");
@@ -60,7 +80,10 @@ void target_row(Ui& ui) {
   ImGui::AlignTextToFramePadding();
   wrapped(ui, "m", c.quiet);
   ImGui::PopStyleVar();
-  ImGui::SameLine();
+  if (find_below(ui, card_width(ui)))
+    ImGui::Dummy({0, ui.theme.px(4)});
+  else
+    ImGui::SameLine();
   if (text_button(ui, "Find", true) || enter) ask_for_settings(ui);
   ImGui::PopStyleVar();
   ImGui::Dummy({0, ui.theme.px(6)});
@@ -72,7 +95,8 @@ struct FinderColumns {
 };
 
 FinderColumns finder_columns(const Ui& ui) {
-  const float whole = card_width(ui), number = ui.theme.px(64), cost = whole - ui.theme.px(2);
+  const float whole = card_width(ui), cost = whole - ui.theme.px(2);
+  const float number = std::min(ui.theme.px(finder_number_at_1), cost / 3);
   return {cost - 2 * number, cost - number, cost, whole};
 }
 
@@ -88,7 +112,10 @@ void finder_head(Ui& ui, bool relative) {
   const ImU32 color = ui.theme.colors.quiet;
   finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, s");
   finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
-  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color, relative ? "cost, × now" : "cost, s/s");
+  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color, 
+                methods_above(ui, at.whole) ? (relative ? "× now" : "s/s")
+                : relative                  ? "cost, × now"
+                                            : "cost, s/s");
   ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }
 
@@ -106,7 +133,9 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const FinderColumns at = finder_columns(ui);
-  const float height = ui.theme.px(finder_row_at_1), middle = std::round(lo.y + height / 2);
+  const bool above = methods_above(ui, at.whole);
+  const float row = ui.theme.px(finder_row_at_1), height = above ? 2 * row : row;
+  const float name_middle = std::round(lo.y + row / 2), middle = above ? name_middle + row : name_middle;
   const Preset with = with_setting(ui.session.requested_preset(), point);
   ImGui::PushID(n);
   if (ImGui::InvisibleButton("setting", {at.whole, height}))
@@ -121,10 +150,9 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
               two_digits_of(point.cost) + " s of CPU time per simulated second.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.whole, lo.y + height}, c.field, ui.theme.px(4));
-  const float number = ui.theme.px(64);
-  draw_on_baseline(
-      draw, *ui.fonts.small, {lo.x + ui.theme.px(4), baseline_at(ui.fonts, middle)}, c.text,
-      fitted(*ui.fonts.small, std::string(scheme(point.integrator).title), at.dt - number + ui.theme.px(10)));
+  const float name = above ? at.whole : at.dt - ui.theme.px(finder_number_at_1 - 10);
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(4), baseline_at(ui.fonts, name_middle)}, c.text,
+                   fitted(*ui.fonts.small, std::string(scheme(point.integrator).title), name));
   finder_number(ui, *ui.fonts.mono, lo.x + at.dt, middle, c.text, own ? "own" : two_digits_of(with.dt));
   finder_number(ui, *ui.fonts.mono, lo.x + at.error, middle, c.text, two_digits_of(point.error_rms_m));
   const auto present = present_cost(search);
@@ -181,6 +209,11 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
     words += " Now: error " + two_digits_of(search.present->error_rms_m) + " m, " +
              two_digits_of(search.present->cost) + " s of CPU time per simulated second.";
   return words;
+}
+
+float settings_finder_at_1(const Ui& ui, float width) {
+  return finder_at_1 + (find_below(ui, width) ? finder_button_at_1 : 0) +
+         (methods_above(ui, width) ? finder_rows_at_1 : 0);
 }
 
 void settings_finder(Ui& ui, float) {

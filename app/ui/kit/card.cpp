@@ -15,7 +15,11 @@ float card_height(const UiContext& ui, const char* heading, float content) {
 }
 
 float card_width(const UiContext& ui) {
-  return ImGui::GetWindowWidth() - 2 * ui.theme.px(padding_at_1);
+  return card_width(ui, ImGui::GetWindowWidth());
+}
+
+float card_width(const UiContext& ui, float width) {
+  return width - 2 * ui.theme.px(padding_at_1);
 }
 
 bool begin_card(UiContext& ui, const char* heading, float height, std::string_view note) {

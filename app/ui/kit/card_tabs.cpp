@@ -9,8 +9,8 @@ namespace tyglab {
 namespace {
 
 constexpr float tab_roomy = 11, tab_narrow = 4;  // pixels at scale 1 to both sides of a name
-constexpr float tab_one_row_at_1 = 26,
-                tab_rows_from_at_1 = 300;  // a lower column has no height to spare for a second row
+constexpr float tab_one_row_at_1 = 26, tab_two_rows_at_1 = 56;
+constexpr float tab_rows_from_at_1 = 300;  // a lower column has no height to spare for a second row
 
 }  // namespace
 
@@ -19,7 +19,8 @@ CardTabs::CardTabs(const UiContext& ui, std::span<const char* const> names, ImVe
   const auto size = [&](float width) { return segments_size(ui, names.data(), int(names.size()), padding_, width); };
   if (size(1e9f).x > width_) padding_ = tab_narrow;
   const ImVec2 rows = size(width_);
-  list_ = rows.x > width_ || (rows.y > ui.theme.px(tab_one_row_at_1) && column.y < ui.theme.px(tab_rows_from_at_1));
+  list_ = rows.x > width_ || rows.y > ui.theme.px(tab_two_rows_at_1 + 1) ||
+          (rows.y > ui.theme.px(tab_one_row_at_1) && column.y < ui.theme.px(tab_rows_from_at_1));
   height_ = list_ ? ImGui::GetFontSize() + 2 * ui.theme.px(6) : rows.y;
 }
 

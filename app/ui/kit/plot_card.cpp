@@ -23,7 +23,7 @@ PlotCard::PlotCard(UiContext& ui, const char* id, std::string_view title, std::s
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(lo, {lo.x + width, lo.y + height}, c.panel, ui.theme.px(8));
   const float top = lo.y + padding;
-  const std::string shown = fitted(*ui.fonts.title, std::string(title), width - 2 * padding - heads);
+  const std::string shown = fitted(*ui.fonts.title, std::string(title), plot_card_title_width(ui, width, buttons));
   draw_text(draw, *ui.fonts.title, {lo.x + padding, top}, c.text, shown);
   const ImFont& small = *ui.fonts.small;
   const float note_x = lo.x + width - padding - heads - text_width(small, note);
@@ -52,6 +52,10 @@ bool PlotCard::head_button(UiContext& ui, int n, const char* id, const char* gly
 
 float plot_card_height(const UiContext& ui, float content) {
   return 2 * ui.theme.px(plot_card_padding_at_1) + ui.theme.px(plot_card_title_at_1) + content;
+}
+
+float plot_card_title_width(const UiContext& ui, float width, int buttons) {
+  return plot_card_inner_width(ui, width) - float(buttons) * ui.theme.px(plot_card_button_at_1);
 }
 
 float plot_card_inner_width(const UiContext& ui, float width) {

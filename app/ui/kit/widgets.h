@@ -60,6 +60,7 @@ bool begin_card(UiContext& ui, const char* heading, float height, std::string_vi
 void end_card(UiContext& ui);
 /// Width of what stands in a card that has begun, px.
 float card_width(const UiContext& ui);
+float card_width(const UiContext& ui, float width);  ///< in one that is so wide
 
 /// A combo box; while it is open its list is written with ImGui::Selectable, then end_combo.
 bool begin_combo(UiContext& ui, const char* id, const char* shown, float width);

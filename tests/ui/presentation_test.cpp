@@ -1,0 +1,88 @@
+// Presentation mode on a projector: what a lecture shows is whole, and what it needs is at hand.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "app/base/glfw_keys.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::presentation_test {
+
+test::UiOptions projector(glm::ivec2 size = {1280, 720}, const char* preset = "hanging") {
+  return {.preset = preset, .size = size, .settings = [](Settings& settings) { settings.theme = "projector"; }};
+}
+
+/// Nothing that can be used is cut by the edge of the column beside the cloth.
+void check_whole(test::NullUi& window) {
+  for (const std::string& name : window.cut_at_sides()) {
+    CAPTURE(name);
+    CHECK_FALSE(name.starts_with("plots."));
+  }
+}
+
+TEST_CASE("every card beside the cloth is whole on a projector, and the cloth keeps its two thirds") {
+  test::NullUi window(projector());
+  window.until([&] { return window.t() > 0.1; }, "the cloth to fall a little");
+  window.pause();
+  window.key(GLFW_KEY_F5);
+  window.key(GLFW_KEY_M);
+  window.key(GLFW_KEY_I);
+  window.frames(6);
+  for (const char* name : {"Forces", "Copies", "Stability", "Map", "Accuracy", "Energy", "Step", "Performance"}) {
+    CAPTURE(std::string(name));
+    window.click("plots.cards");  // a list: no rows of tabs that take the card's height
+    window.click("menu." + std::string(name));
+    window.frames(6);
+    CHECK(window.ui.plots.tab == name);
+    check_whole(window);
+    const glm::vec2 cloth = window.ui.viewport.size();
+    CHECK(cloth.x * cloth.y >= 0.65f * 1280 * 720);
+  }
+  CHECK(window.drew("positions are drawn from"));
+  CHECK(window.drew("a copy"));
+  window.find("inside a step");
+  window.until([&] { return window.drew("particle (16, 16)"); }, "the step");
+  CHECK_FALSE(window.drew("..."));
+}
+
+TEST_CASE("on a projector the three sides of Accuracy are reached, and the search with its button") {
+  test::NullUi window(projector());
+  window.pause();
+  window.key(GLFW_KEY_F5);
+  window.find("find settings for an error");
+  window.frames(4);
+  CHECK(window.drew("Find settings"));
+  CHECK(window.sees("plots.target"));
+  CHECK(window.sees("plots.Find"));
+  check_whole(window);
+  window.click("plots.accuracy_ways.2");
+  window.frames(4);
+  CHECK(window.sees("plots.csv_convergence"));
+  CHECK_FALSE(overlap(window.control("plots.csv_convergence"), window.control("plots.accuracy_ways.2")));
+  CHECK_FALSE(overlap(window.control("plots.again"), window.control("plots.accuracy_ways.3")));
+}
+
+TEST_CASE("a search for settings goes on while another card is in front, and ends with its card") {
+  test::NullUi window;
+  window.pause();
+  window.find("find settings for an error");
+  window.frames(4);
+  window.click("plots.Find");
+  window.frames(3);
+  REQUIRE(window.session.studies.settings.tolerance().has_value());
+  window.key(GLFW_KEY_F5);
+  window.frames(4);
+  window.find("forces card");
+  window.frames(4);
+  CHECK(window.session.studies.settings.tolerance().has_value());
+  window.key(GLFW_KEY_F5);
+  window.frames(4);
+  CHECK(window.session.studies.settings.tolerance().has_value());
+  window.find("accuracy card");
+  window.click("plots.Accuracy");
+  window.frames(4);
+  CHECK_FALSE(window.session.studies.settings.tolerance().has_value());
+}
+
+}  // namespace tyglab::presentation_test
