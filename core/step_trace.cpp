@@ -126,7 +126,7 @@ TracedStage Patch::sweep(const Sweep& sweep) {
 
 /// Whether the table's sums, evaluation by evaluation, are all of a step.
 bool is_written_out(const Scheme& scheme) {
-  return !is_implicit(scheme) && !chooses_steps(scheme) && !projects(scheme);
+  return !is_implicit(scheme) && !chooses_steps(scheme) && !projects(scheme) && !solves_damping(scheme);
 }
 
 /// Whether an assignment to `target` in the last sweep begins with that vector: it gathers the result.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <complex>
 #include <utility>
 
 #include "core/analysis/frequency.h"
@@ -27,7 +28,7 @@ void add_curves(StabilityLimits& limits, const Scheme& method) {
 
 StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::optional<Linearisation>& cloth) {
   const Scheme& method = scheme(preset.integrator);
-  StabilityLimits limits{.of = preset, .at = at, .now = {}, .damped = {}, .undamped = {}, .zones = {}};
+  StabilityLimits limits{.of = preset, .at = at, .now = {}, .damped = {}, .undamped = {}, .region = {}, .zones = {}};
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
   const auto add_zones = [&](const ZonedConstant& constant) {
@@ -44,6 +45,7 @@ StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::
     limits.now = dt_crit(method, std::array{limits.fastest, Mode{0, limits.fastest.damping}});
   }
   if (has_step_limit(method)) add_curves(limits, method);
+  if (is_stabilized(method)) limits.region = stability_region(method, preset);
   return limits;
 }
 
@@ -70,6 +72,29 @@ GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h
     break;
   }
   return curve;
+}
+
+StabilityRegion stability_region(const Scheme& method, const Preset& preset) {
+  constexpr int points = 240, looks = 48;
+  const Spectrum spectrum = any_spectrum(preset);
+  StabilityRegion region;
+  region.h = std::min(preset.dt, longest_step(method, spectrum));
+  const StageTable& table = method.tables[table_for(method, spectrum, region.h)];
+  region.stages = table.stages;
+  region.bounds = {region.h * spectrum.radius, region.h * spectrum.circle, region.h * spectrum.fastest};
+  const auto stable = [&](double x, double y) { return std::abs(rkc2_growth(table.stages, {x, y})) <= 1; };
+  const double highest = 2 + table.stages;  // about three times as high as the region is
+  for (int n = 0; n <= points; ++n) {
+    const double x = -table.reach * (points - n) / points;
+    double low = 0, high = highest / looks;
+    while (high < highest && stable(x, high)) low = high, high += highest / looks;
+    for (int halvings = 0; halvings < 12; ++halvings) {
+      const double middle = (low + high) / 2;
+      (stable(x, middle) ? low : high) = middle;
+    }
+    region.x.push_back(x), region.y.push_back(low);
+  }
+  return region;
 }
 
 void StabilityWatch::poll(StudyMoment& moment) {

@@ -25,6 +25,16 @@ struct GrowthCurve {
 /// ζ in proportion to ω, as damping weighs on modes about as their stiffness does: ζ = `zeta_over_h` ω·dt.
 GrowthCurve growth_curve(const Scheme& method, double most_h, double zeta_over_h);
 
+/// Where a stabilized method is stable with the stages that its longest inner step has: the upper half of the region in
+/// the plane of hλ, from left to right, and within it the bounds of the cloth's own hλ.
+struct StabilityRegion {
+  int stages = 0;
+  double h = 0;  ///< of the step, s
+  std::vector<double> x, y;
+  Spectrum bounds;  ///< of hλ
+};
+StabilityRegion stability_region(const Scheme& method, const Preset& preset);
+
 /// Limits of the present method by linear theory (core/analysis/frequency.h). dt in s: 0 where none is stable, infinity
 /// where none is too large.
 struct StabilityLimits {
@@ -37,6 +47,7 @@ struct StabilityLimits {
   double omega = 0;  ///< 1/s, of the fastest mode now, where `now` is there
   Mode fastest{};    ///< that mode; where `now` is not there, what no mode in any configuration exceeds
   GrowthCurve damped, undamped;  ///< the method's growth, for modes damped as the fastest is, and without damping
+  std::optional<StabilityRegion> region;                            ///< of a stabilized method
   std::map<std::string, std::vector<ZoneSpan>, std::less<>> zones;  ///< by the constant's key
 };
 

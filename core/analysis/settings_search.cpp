@@ -11,6 +11,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/model/readable.h"
+#include "core/theory/modes.h"
 
 namespace tyglab {
 namespace {
@@ -21,6 +22,8 @@ using Found = std::function<void(const SettingsSearch&)>;
 /// orders, XPBD's error does not fall with dt alone. What is quick comes first, so that the rest need not go beyond it.
 constexpr std::array candidates{"verlet", "velocity_verlet", "rk4",     "force_gradient4",
                                 "dopri5", "implicit_euler",  "tr_bdf2", "implicit_midpoint"};
+/// Likewise where damping decides over stability.
+constexpr std::array for_heavy_damping{"rkc2", "damped_verlet"};
 constexpr double aim = 0.5;            // of the tolerance
 constexpr double most_effort = 3e9;    // particles times force evaluations of a reference: some ten seconds
 constexpr double search_patience = 8;  // s of processor time for all settings
@@ -171,6 +174,9 @@ class Searcher {
 std::vector<std::string> methods_of(const Preset& preset, const SettingsKeeps& keeps) {
   if (keeps.integrator) return {preset.integrator};
   std::vector<std::string> methods(candidates.begin(), candidates.end());
+  const Mode fastest = any_configuration(preset);
+  if (fastest.damping > fastest.omega())
+    methods.insert(methods.begin(), for_heavy_damping.begin(), for_heavy_damping.end());
   if (preset.engine == EngineKind::opencl)
     std::erase_if(methods, [](const std::string& name) { return !runs_on_opencl(scheme(name)); });
   return methods;

@@ -86,7 +86,7 @@ class StressRun {
     const double particles = simulation_->lattice().size();
     const Scheme& method = scheme(simulation_->preset().integrator);
     // A step of these may take any number of evaluations.
-    const int at_once = is_implicit(method) || chooses_steps(method) ? 1 : steps;
+    const int at_once = is_implicit(method) || chooses_steps(method) || solves_damping(method) ? 1 : steps;
     for (int made = 0; made < steps; made += at_once) {
       const SolveCounts before = simulation_->engine().solves();
       const std::int64_t evaluated = simulation_->engine().inner_steps().force_evaluations;

@@ -83,7 +83,8 @@ Estimate estimate() {
   const Row &last = weights[stages - 1], &before = weights[stages - 2];
   Row stage_a{};
   stage_a[stages - 1] = 1, stage_a[stages - 2] = -1;
-  return {.x = accelerations(through_velocities(error_weights), 2),
+  return {.order = 5,
+          .x = accelerations(through_velocities(error_weights), 2),
           .v = accelerations(error_weights, 1),
           .stage_x = accelerations(difference(through_velocities(last), through_velocities(before)), 2),
           .stage_v = accelerations(difference(last, before), 1),

@@ -21,7 +21,7 @@ A method advances position and velocity from one time step to the next, with $a 
 
 *Order* is that of the whole method, position and velocity, on a smooth motion: order 2 means that half the step )"
     R"(gives a quarter of the error. No method keeps its order where springs switch between pulling and slack. *h* )"
-    R"(is $dt$ (of `dopri5` an inner step), $\omega$ the fastest angular frequency of the cloth, $\zeta$ its damping )"
+    R"(is $dt$ (of `dopri5` and `rkc2` an inner step), $\omega$ the fastest angular frequency of the cloth, $\zeta$ its damping )"
     R"(ratio.
 
 )";

@@ -49,13 +49,24 @@ struct Sweep {
   bool external = false;  ///< a holds gravity and wind alone
   bool projects = false;  ///< instead of evaluating a, projects vectors[position] + vectors[velocity] on the springs'
                           ///< lengths, softened by their compliance; the assignments are followed by a pass of damping
+  double damps = 0;       ///< not 0: instead of evaluating a, takes r in vectors[velocity] to the solution s of
+                          ///< (1 + damps·dt·C) s = r, where -C v is what damping adds to a
 };
 
 /// What a method that chooses its own steps knows of the step it has just tried, as sums of state vectors.
 struct Estimate {
+  int order;                                    ///< power of dt with which the error of a step falls
   std::vector<Term> x, v;                       ///< error of the step, m and m/s
   std::vector<Term> stage_x, stage_v, stage_a;  ///< by how much the last two stages differ, both at the step's end
   std::vector<double> growth;                   ///< coefficients of R(z): a step takes y of y' = λ y to R(λ dt) y
+};
+
+/// A step of a stabilized method with one number of stages: it takes y of y' = λ y to R(λ dt) y.
+struct StageTable {
+  int stages;
+  double reach;  ///< |R(z)| <= 1 for -reach <= z <= 0
+  double disc;   ///< and for |z + disc| <= disc
+  std::vector<Sweep> sweeps;
 };
 
 /// Vector 0 changes in the last sweep alone, or in the only one: bodies act on the way from the old to the new
@@ -81,6 +92,9 @@ struct Scheme {
   std::vector<Assignment> start;
   double lag;  ///< vector 1 lacks the end of the last kick: lag·dt·a(x, v) more is the velocity at the position
   std::optional<Estimate> estimate = {};  ///< it chooses its own steps
+  /// And the number of their stages: a table for each, from the fewest to the most; `sweeps` are those of the first.
+  /// All use the same vectors, and their first sweeps and their last ones make as many assignments.
+  std::vector<StageTable> tables = {};
 };
 
 std::span<const Scheme> schemes();
@@ -99,9 +113,17 @@ inline bool is_implicit(const Scheme& scheme) {
 inline bool chooses_steps(const Scheme& scheme) {
   return scheme.estimate.has_value();
 }
+/// Whether it chooses the number of their stages too (stabilized.h).
+inline bool is_stabilized(const Scheme& scheme) {
+  return !scheme.tables.empty();
+}
 /// Whether it projects positions on the springs' lengths: then no amplification matrix says what a step does.
 inline bool projects(const Scheme& scheme) {
   return scheme.sweeps.back().projects;
+}
+/// Whether damping alone is taken implicitly: a linear system with a matrix that no motion changes.
+inline bool solves_damping(const Scheme& scheme) {
+  return scheme.sweeps.back().damps != 0;
 }
 /// Whether `iterations` bounds what a step does.
 inline bool iterates(const Scheme& scheme) {

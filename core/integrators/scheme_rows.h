@@ -15,6 +15,8 @@ inline constexpr int x = vector_x, v = vector_v, a = acceleration;
 std::vector<Scheme> explicit_schemes();
 std::vector<Scheme> implicit_schemes();
 Scheme dopri5();
+Scheme rkc2();
+Scheme damped_verlet();
 Scheme xpbd();
 
 }  // namespace tyglab

@@ -12,7 +12,9 @@ namespace {
 const std::vector<Scheme>& table() {
   static const std::vector<Scheme> rows = [] {
     std::vector<Scheme> all = explicit_schemes();
+    all.push_back(damped_verlet());
     all.push_back(dopri5());
+    all.push_back(rkc2());
     for (Scheme& row : implicit_schemes()) all.push_back(std::move(row));
     all.push_back(xpbd());
     return all;

@@ -9,7 +9,7 @@
 namespace tyglab {
 namespace {
 
-constexpr double beta = 0.04, exponent = 0.2 - 0.75 * beta;  // of fifth order
+constexpr double beta = 0.04;
 constexpr double safety = 0.9, most_shrink = 5, most_growth = 10;
 constexpr double least_old_error = 1e-4;
 constexpr int steps_near_limit = 6;  // this many stable ones end a phase that stability limits, as Hairer counts
@@ -25,7 +25,8 @@ void StepControl::begin(double first) {
 double StepControl::next(double left, double dt) {
   constexpr double slack = 1.01;  // as Hairer's: no tiny step is left over
   dt_ = dt, shortest_ = shortest_part * dt;
-  wish_ = std::clamp(wish_, shortest_, dt);
+  held_back_ = wish_ > longest_ && longest_ < dt;
+  wish_ = std::clamp(std::min(wish_, longest_), shortest_, dt);
   // As many equal steps as the wish asks for, so that they fill what is left.
   const double steps = std::ceil(left / (slack * wish_));
   return step_ = steps > 1 ? left / steps : left;
@@ -35,7 +36,7 @@ bool StepControl::judge(const TriedStep& tried) {
   const double allowed = std::max(tried.tolerance, tried.last_digit);
   const double error = std::isfinite(tried.error) ? tried.error / allowed : INFINITY;
   const bool met = error <= 1, shortest = wish_ <= shortest_;
-  const double factor = std::pow(error, exponent);
+  const double factor = std::pow(error, 1.0 / order_ - 0.75 * beta);
   if (!met && !shortest) {
     wish_ = step_ / std::min(most_shrink, factor / safety);
     rejected_ = true;
@@ -56,8 +57,9 @@ void StepControl::count_accepted(const TriedStep& tried, bool met) {
   if (!met) ++counts_.too_short;
   if (tried.tolerance < tried.last_digit) ++counts_.below_digits;
   if (tried.unstable) near_limit_ = steps_near_limit;
-  if (near_limit_-- > 0) {
+  if (near_limit_-- > 0 || held_back_) {
     ++counts_.by_stability;
+    near_limit_ = std::max(near_limit_, 0);
     return;
   }
   near_limit_ = 0;

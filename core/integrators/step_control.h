@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 namespace tyglab {
 
@@ -12,7 +13,8 @@ struct Estimate;  // scheme.h
 struct InnerSteps {
   std::int64_t accepted = 0;
   std::int64_t rejected = 0;      ///< thrown away: they erred by more than the tolerance
-  std::int64_t by_stability = 0;  ///< of the accepted: it, or one of the five before, was longer than is stable
+  std::int64_t by_stability = 0;  ///< of the accepted: it, or one of the five before, was longer than is stable, or
+                                  ///< longer ones would be unstable
   std::int64_t by_accuracy = 0;   ///< longer ones would have erred by more than the tolerance
   std::int64_t by_dt = 0;         ///< one of them covered dt
   std::int64_t too_short = 0;     ///< as short as allowed, and erred by more than the tolerance all the same
@@ -36,6 +38,8 @@ class StepControl {
 
   /// Forgets the steps before, but not the counts: something else than their motion has changed.
   void restart() { begun_ = false; }
+  /// For a method with that order of the estimated error, whose steps are to be no longer than `longest`, s.
+  void set_method(int order, double longest) { order_ = order, longest_ = longest; }
   bool begun() const { return begun_; }
   /// With a first step of that length, s.
   void begin(double first);
@@ -50,9 +54,12 @@ class StepControl {
   void count_accepted(const TriedStep& tried, bool met);
 
   bool begun_ = false, rejected_ = false;
-  double wish_ = 0;      ///< length that the error advises, s
-  double step_ = 0;      ///< length of the step that is being tried, s
-  double shortest_ = 0;  ///< s
+  bool held_back_ = false;  ///< the error would have let the present step be longer than the longest
+  int order_ = 5;
+  double longest_ = std::numeric_limits<double>::infinity();  ///< s
+  double wish_ = 0;                                           ///< length that the error advises, s
+  double step_ = 0;                                           ///< length of the step that is being tried, s
+  double shortest_ = 0;                                       ///< s
   double dt_ = 0;
   double old_error_ = 0;  ///< of the accepted step before, in tolerances
   int near_limit_ = 0;    ///< steps that still count as limited by stability

@@ -52,6 +52,8 @@ Matrix amplification(const Scheme& scheme, double h, double zeta) {
         v = (v - b * h * h * x) / (1 + 2 * b * zeta * h + b * b * h * h);
         x += b * v;
       }
+    if (sweep.damps != 0)
+      for (int k = 0; k < n; ++k) now.at(sweep.velocity, k) /= 1 + sweep.damps * 2 * zeta * h;
     for (int k = 0; k < n; ++k)
       force[std::size_t(k)] = -h * h * now.at(sweep.position, k) - 2 * zeta * h * now.at(sweep.velocity, k);
     assign(sweep.assignments);

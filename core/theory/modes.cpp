@@ -43,6 +43,16 @@ std::vector<Mode> worst_modes(const Preset& p) {
   return worst;
 }
 
+Spectrum any_spectrum(const Preset& p) {
+  const Mode fastest = any_configuration(p);
+  const double stiffness = p.kind == Kind::one_weight ? p.k : p.k_s + 4 * p.k_b;  // as in worst_modes
+  return {std::max(fastest.damping, fastest.omega()),
+          stiffness == 0 ? 0
+          : p.k_d > 0    ? stiffness / p.k_d
+                         : infinity,
+          fastest.omega()};
+}
+
 double dt_crit(const Scheme& scheme, std::span<const Mode> modes) {
   double least = infinity;
   if (!has_step_limit(scheme)) return least;

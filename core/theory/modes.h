@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/integrators/scheme.h"
+#include "core/integrators/stabilized.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
@@ -22,6 +23,9 @@ Mode any_configuration(const Preset& preset);
 /// The modes that decide whether a method is stable in any configuration: the fastest, and in a damped cloth also those
 /// between stiffness and damping that some methods take worse (docs/model.md, "What the shape decides").
 std::vector<Mode> worst_modes(const Preset& preset);
+
+/// Where the eigenvalues of all modes lie in any configuration.
+Spectrum any_spectrum(const Preset& preset);
 
 /// Largest dt (s) at which the method lets no mode grow; 0 where no dt is, infinity where none is too large, or where
 /// linear theory has nothing to say of dt (has_step_limit).

@@ -78,7 +78,7 @@ TEST_CASE("a step whose equations were not solved is said once, with what is lef
     });
   };
   while (session.simulation->steps() < 4) session.update(frame, {});
-  CHECK(session.simulation->engine().solves().unconverged_steps > 1);
+  CHECK(session.simulation->engine().solves().unconverged > 1);
   CHECK(warnings() == 1);
 }
 

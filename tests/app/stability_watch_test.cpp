@@ -10,6 +10,7 @@
 
 #include "app/ui/constants/stability_row.h"
 #include "app/ui/state/ui.h"
+#include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
 #include "tests/support/scenes.h"
 
@@ -99,6 +100,28 @@ TEST_CASE("methods without a limit, and those that no dt makes stable, are named
   const StabilityLimits euler = limits_of(simulation);
   CHECK(stability_text(euler, preset.dt) == "always above");
   CHECK(says(stability_words(euler, preset.dt), "No dt is stable"));
+}
+
+TEST_CASE("of rkc2 the region of its stages is drawn, and the cloth's bounds lie within it") {
+  Preset preset = test::cloth(8, 8, "rkc2");
+  preset.k_d = 0.14, preset.k_b = 0, preset.dt = 0.02;
+  const StabilityRegion region = stability_region(scheme("rkc2"), preset);
+  CHECK(region.h < preset.dt);
+  CHECK(region.stages > 4);
+  REQUIRE(region.x.size() == region.y.size());
+  CHECK(region.x.front() <= -region.bounds.radius);
+  CHECK(region.x.back() == 0);
+  for (std::size_t n = 0; n + 1 < region.x.size(); ++n) {
+    const double x = region.x[n], circle = region.bounds.circle;
+    CHECK(region.y[n] * region.y[n] >= -x * (2 * circle + x));
+    CHECK(std::abs(rkc2_growth(region.stages, {x, 0.999 * region.y[n]})) <= 1);
+    CHECK(std::abs(rkc2_growth(region.stages, {x, 1.01 * region.y[n] + 0.02})) > 1);
+  }
+  Simulation simulation(preset);
+  const StabilityLimits limits = limits_of(simulation);
+  REQUIRE(limits.region.has_value());
+  CHECK(limits.region->stages == region.stages);
+  CHECK(stability_text(limits, preset.dt) == "no limit");
 }
 
 TEST_CASE("a cloth too large to look at while it moves has the limit of any configuration alone") {

@@ -63,6 +63,27 @@ TEST_CASE("steps settle where the error meets the tolerance") {
   CHECK(control.counts().rejected < 3);
 }
 
+TEST_CASE("no step is longer than the method's longest, and where that holds them back it is said to be stability") {
+  StepControl control;
+  control.set_method(3, 0.01);
+  control.begin(1e-3);
+  for (int n = 0; n < 100; ++n) {
+    CHECK(control.next(1, 1) <= 0.0101);
+    control.judge({.error = 1e-12, .tolerance = 1e-5});
+  }
+  CHECK(control.counts().by_stability > 90);
+  CHECK(control.counts().by_stability + control.counts().by_accuracy == 100);
+  // Of third order, an error of C h³ is met where it is.
+  control.set_method(3, infinity);
+  double h = 0;
+  for (int n = 0; n < 200; ++n) {
+    h = control.next(1, 1);
+    control.judge({.error = 1e3 * std::pow(h, 3), .tolerance = 1e-6});
+  }
+  CHECK(1e3 * std::pow(h, 3) < 1e-6);
+  CHECK(1e3 * std::pow(h, 3) > 0.2e-6);
+}
+
 TEST_CASE("R(z) of dopri5 is that of its table") {
   const Estimate& estimate = *scheme("dopri5").estimate;
   const double known[] = {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 600};

@@ -51,9 +51,17 @@ ChartSeries mark_at(const std::string& name, double x, ImU32 color, LineStyle li
   return {name, {color, line, 1.6f}, true, 0, {x, x}, {lo, hi}};
 }
 
+std::string region_sentence(const StabilityRegion& region) {
+  const Spectrum& of = region.bounds;
+  return "Inner steps of up to " + short_number(rounded(region.h, 2)) + " s have " + std::to_string(region.stages) +
+         " stages: damping takes hλ to −" + short_number(rounded(of.radius, 2)) +
+         (of.circle <= of.radius ? ", oscillations stay in the half circle." : ", oscillations are nearly undamped.");
+}
+
 std::string stability_sentence(const StabilityLimits& limits) {
   const Scheme& method = scheme(limits.of.integrator);
   if (projects(method)) return "XPBD projects positions: linear theory does not cover it.";
+  if (limits.region) return region_sentence(*limits.region);
   if (chooses_steps(method)) return "This method keeps its own steps stable, as far as dt allows.";
   const double h = limits.fastest.omega() * limits.of.dt;
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
@@ -103,6 +111,29 @@ Chart stability_chart(const Tokens& c, const StabilityLimits& limits) {
   chart.series.push_back({"", {c.quiet, LineStyle::solid, 1}, true, 0, {0, most}, {1, 1}});
   if (limits.now) chart.series.push_back(mark_at("this cloth", now, c.text, LineStyle::solid, least, hi));
   chart.series.push_back(mark_at("worst case", bound, c.warning, LineStyle::dashed, least, hi));
+  return chart;
+}
+
+Chart region_chart(const Tokens& c, const StabilityRegion& region) {
+  Chart chart;
+  chart.padding = 0;
+  chart.x.title = "Re hλ", chart.y.title = "Im hλ";
+  const CurveStyle style = integrator_style(c, "rkc2");
+  chart.series.push_back(
+      {"stable with " + std::to_string(region.stages) + " stages", style, true, 0, region.x, region.y});
+  ChartSeries bounds{"any shape", {c.text, LineStyle::dashed, 1.6f}, true, 0, {}, {}};
+  const Spectrum& of = region.bounds;
+  constexpr int points = 60;
+  bounds.x.push_back(-of.radius), bounds.y.push_back(0);
+  if (std::isfinite(of.circle) && of.circle > 0)
+    for (int n = 0; n <= points; ++n) {
+      const double x = -std::min(of.radius, 2 * of.circle) * (points - n) / points;
+      const double y = std::sqrt(std::max(-x * (2 * of.circle + x), 0.0));
+      if (std::hypot(x, y) <= of.fastest) bounds.x.push_back(x), bounds.y.push_back(y);
+    }
+  else
+    bounds.x.push_back(0), bounds.y.push_back(of.fastest);
+  chart.series.push_back(std::move(bounds));
   return chart;
 }
 
@@ -169,8 +200,10 @@ void stability_card(Ui& ui, float height) {
     if (const auto& limits = ui.session.studies.stability.limits()) {
       const Scheme& method = scheme(limits->of.integrator);
       const bool drawn = has_step_limit(method);
-      const Chart chart = drawn ? stability_chart(ui.theme.colors, *limits) : Chart{};
-      words_and_chart(ui, height, stability_sentence(*limits), drawn ? &chart : nullptr);
+      const Chart chart = drawn            ? stability_chart(ui.theme.colors, *limits)
+                          : limits->region ? region_chart(ui.theme.colors, *limits->region)
+                                           : Chart{};
+      words_and_chart(ui, height, stability_sentence(*limits), drawn || limits->region ? &chart : nullptr);
     }
   }
   end_card(ui);

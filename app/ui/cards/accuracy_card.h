@@ -37,5 +37,7 @@ std::string finder_words(const SettingsSearch& search, double tolerance);
 
 /// The chart of a method's spectral radius.
 Chart stability_chart(const Tokens& colors, const StabilityLimits& limits);
+/// The region of a stabilized method in the plane of hλ, and in it the bounds of the cloth's hλ in any shape.
+Chart region_chart(const Tokens& c, const StabilityRegion& region);
 
 }  // namespace tyglab

@@ -49,6 +49,7 @@ struct ResolvedSweep {
   std::vector<ResolvedAssignment> assignments;
   bool external = false, projects = false;  ///< as in Sweep
   double solve_dt = 0;                      ///< not 0: an implicit stage over that time is solved first
+  double damps_dt = 0;                      ///< not 0: the damping is solved for over that time
   std::vector<ResolvedAssignment> before;   ///< made before the solve
   Update update = Update::force;            ///< by the pair sweep itself; force: assignments follow row by row
   double v_to_x = 0, force_to_x = 0, force_to_v = 0;  ///< for the other kinds

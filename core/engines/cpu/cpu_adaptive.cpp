@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/engines/cpu/cpu_engine.h"
+#include "core/theory/modes.h"
 
 namespace tyglab::cpu {
 namespace {
@@ -36,6 +37,22 @@ void CpuEngine<R, Present>::resolve_estimate() {
   last.resize(1);
   sweeps_.back().estimate = &estimate_;
   cloth_.measures.resize(std::size_t(cloth_.lattice.rows));
+  resolve_tables();
+  if (is_stabilized(*scheme_)) change_dt(cloth_.dt);
+}
+
+/// All of them now, so that steps allocate nothing.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::resolve_tables() {
+  tables_.clear();
+  spectrum_ = any_spectrum(cloth_.preset);
+  if (!is_stabilized(*scheme_)) return;
+  tables_.resize(table_for(*scheme_, spectrum_, cloth_.preset.dt) + 1);
+  for (std::size_t n = 1; n < tables_.size(); ++n) {
+    for (const Sweep& sweep : scheme_->tables[n].sweeps) tables_[n].push_back(resolve(sweep));
+    tables_[n].back().assignments.resize(1);
+    tables_[n].back().estimate = &estimate_;
+  }
 }
 
 template <class R, unsigned Present>
@@ -50,13 +67,19 @@ void CpuEngine<R, Present>::scale_estimate() {
   scale(from.stage_x, &Share::stage_x), scale(from.stage_v, &Share::stage_v), scale(from.stage_a, &Share::stage_a);
 }
 
-/// Nothing but the terms' factors depends on it; what the last sweep assigns besides a does not at all.
+/// Nothing but the terms' factors depends on it, and the number of stages; what the last sweep assigns besides a does
+/// not at all.
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::change_dt(double dt) {
   cloth_.dt = dt;
+  if (is_stabilized(*scheme_)) {
+    sweeps_.swap(tables_[table_]);
+    table_ = std::min(table_for(*scheme_, spectrum_, dt), tables_.size() - 1);
+    sweeps_.swap(tables_[table_]);
+  }
   for (std::size_t n = 0; n < sweeps_.size(); ++n)
     for (std::size_t k = 0; k < sweeps_[n].assignments.size(); ++k)
-      scale(scheme_->sweeps[n].assignments[k], sweeps_[n].assignments[k]);
+      scale(table()[n].assignments[k], sweeps_[n].assignments[k]);
   const auto& first = sweeps_.front().assignments;
   std::copy(first.begin() + 1, first.end(), next_stage_.begin());
   scale_estimate();
@@ -86,7 +109,7 @@ void CpuEngine<R, Present>::begin_control(const Tears& tears) {
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (std::ptrdiff_t n = 0; n < a.pitch(); ++n)
       change = std::max(change, std::abs(double(changed.row(i)[n]) - double(a.row(i)[n])));
-  control_.begin(first_step(cloth_.preset.tolerance, largest_v, largest_a, change, probe, scheme_->order_undamped));
+  control_.begin(first_step(cloth_.preset.tolerance, largest_v, largest_a, change, probe, scheme_->estimate->order));
   control_.count_evaluations(2);
   knows_first_a_ = true;
 }
@@ -98,6 +121,9 @@ void CpuEngine<R, Present>::take_next_dt() {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::begin_interval(const Tears& tears) {
+  constexpr double safety = 0.98;  // inner steps may be a hundredth longer than the control wishes
+  control_.set_method(scheme_->estimate->order, is_stabilized(*scheme_) ? safety * longest_step(*scheme_, spectrum_)
+                                                                        : std::numeric_limits<double>::infinity());
   left_of_dt_ = cloth_.preset.dt;
   for (const Contact& contact : inner_contacts_) inner_contact_of_[std::size_t(contact.particle)] = -1;
   inner_contacts_.clear();

@@ -74,6 +74,7 @@ ResolvedSweep CpuEngine<R, Present>::resolve(const Sweep& sweep) const {
   out.position = sweep.position, out.velocity = sweep.velocity;
   out.k_d = cloth_.preset.k_d * power(cloth_.dt, sweep.velocity_dt_power);
   out.solve_dt = sweep.solves * cloth_.dt;
+  out.damps_dt = sweep.damps * cloth_.dt;
   out.external = sweep.external, out.projects = sweep.projects;
   for (const Assignment& assignment : sweep.assignments) out.assignments.push_back(resolve(assignment));
   for (const Assignment& assignment : sweep.before) out.before.push_back(resolve(assignment));
@@ -136,6 +137,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::swap(Resolved& other) {
   std::swap(cloth_.dt, other.dt), sweeps_.swap(other.sweeps), std::swap(start_, other.start);
   std::swap(estimate_, other.estimate);
+  tables_.swap(other.tables), std::swap(table_, other.table), std::swap(spectrum_, other.spectrum);
   next_stage_.swap(other.next_stage), accepting_.swap(other.accepting);
 }
 
@@ -158,6 +160,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::set_dt(double dt) {
   cloth_.dt = dt;
   sweeps_.clear();
+  table_ = 0;
   for (const Sweep& sweep : scheme_->sweeps) classify(sweeps_.emplace_back(resolve(sweep)), *scheme_);
   if (chooses_steps(*scheme_)) resolve_estimate();
 }
@@ -180,7 +183,7 @@ int CpuEngine<R, Present>::steps_of_wave(int threads) const {
   const int rows = cloth_.lattice.rows;
   const int sweeps = std::min(rows / rows_per_sweep, most * threads);
   const std::size_t state = cloth_.vectors.size() * rows * cloth_.vector(vector_x).pitch() * sizeof(R);
-  if (is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_) ||
+  if (is_implicit(*scheme_) || chooses_steps(*scheme_) || projects(*scheme_) || solves_damping(*scheme_) ||
       cloth_.preset.kind == Kind::one_weight || sweeps < threads || (threads == 1 && state <= own_cache))
     return 0;
   const int steps = sweeps / int(sweeps_.size());
@@ -352,6 +355,10 @@ void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_stored(state);
   if (scheme_->lag == 0) return;
   accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
+  if (solves_damping(*scheme_)) {
+    prepare_damping(tears);
+    constant_.solve(acceleration_, 0, cloth_.lattice.rows, [] {});
+  }
   const double lag = scheme_->lag * cloth_.preset.dt;  // s; in double: what a float would lose is shown in plots
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
@@ -410,13 +417,21 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
-  std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + cloth_.fixed.size() +
-                      guards_.size() + (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
+  std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + constant_.bytes() +
+                      cloth_.fixed.size() + guards_.size() +
+                      (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
     for (const auto& band : *list) total += band->bytes();
   for (const auto* fields : {&cloth_.vectors, &backup_})
     for (const Field& field : *fields) total += field.bytes();
   return total;
+}
+
+template <class R, unsigned Present>
+SolveCounts CpuEngine<R, Present>::solves() const {
+  SolveCounts counts = solver_.counts();
+  counts.linear += damping_products_;
+  return guard_.with_steps(counts);
 }
 
 template <class R, unsigned Present>

@@ -29,6 +29,7 @@
 #include <span>
 
 #include "core/engines/cpu/band.h"
+#include "core/engines/cpu/constant_solve.h"
 #include "core/engines/cpu/implicit.h"
 #include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
@@ -36,6 +37,7 @@
 #include "core/engines/engine.h"
 #include "core/engines/step_guard.h"
 #include "core/integrators/scheme.h"
+#include "core/integrators/stabilized.h"
 
 namespace tyglab::cpu {
 
@@ -62,7 +64,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   int threads_at_work() const override { return team_->size(); }
   /// For tests: from now on every few steps are made by as many threads as this says, 1 … threads().
   void force_threads(std::function<int()> next) { forced_threads_ = std::move(next); }
-  SolveCounts solves() const override { return guard_.with_steps(solver_.counts()); }
+  SolveCounts solves() const override;
   InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
@@ -82,12 +84,21 @@ class CpuEngine final : public Engine, private GuardedSteps {
     ResolvedSweep start;  ///< the method's own start; without assignments where it has none
     ResolvedEstimate estimate;
     std::vector<ResolvedSweep::ResolvedAssignment> next_stage, accepting;
+    std::vector<std::vector<ResolvedSweep>> tables;
+    std::size_t table = 0;
+    Spectrum spectrum;
   };
   void swap(Resolved& other);
   void resolve();
   /// Takes other constants, but where memory fails. Returns those before.
   Preset exchange(const Preset& preset);
   void resolve_estimate();
+  /// Each number of stages of a stabilized method that steps may take.
+  void resolve_tables();
+  /// The sweeps that are made now, as their method has them.
+  const std::vector<Sweep>& table() const {
+    return is_stabilized(*scheme_) ? scheme_->tables[table_].sweeps : scheme_->sweeps;
+  }
   void write_fixed_velocities();
   void make_waves();
   /// Whether a step may take so long that it asks to be stopped within, which costs a backup before it.
@@ -150,6 +161,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// A sweep that projects, with its assignments. Returns false, to all threads, where it was stopped.
   bool project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
   void read_hand(const Tears& tears);
+  /// For a method that solves for the damping: the matrix, where springs or what is fixed have changed.
+  void prepare_damping(const Tears& tears);
   /// How many of the `left` steps can follow each other through the rows before one must be examined: 1 or more.
   int steps_in_wave(int left) const;
   /// Makes that many steps in one pass over the rows: each sweep is two rows behind the one before it, so that rows are
@@ -166,6 +179,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once the step is accepted
   double left_of_dt_ = 0;                                      ///< that inner steps have yet to cover, s
   bool knows_first_a_ = false, accepted_ = false;
+  std::vector<std::vector<ResolvedSweep>> tables_;  ///< sweeps by the number of stages; those in use are in sweeps_
+  std::size_t table_ = 0;                           ///< that is in use
+  Spectrum spectrum_;
   std::vector<Field> backup_;
   Field acceleration_;                ///< used only between steps (readouts, starts)
   std::vector<std::uint8_t> guards_;  ///< nonzero at particles whose springs do not tear
@@ -177,8 +193,10 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<int> inner_contact_of_;  ///< where a particle's sum is; -1: it has none
   ImplicitSolver<R> solver_;
   Projector<R> projector_;
+  ConstantSolver<R> constant_;
+  std::int64_t damping_products_ = 0;  ///< of a method that solves for the damping, in all steps
   int projected_torn_ = 0;
-  bool springs_changed_ = true;  ///< or what is fixed, since the projector was prepared
+  bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made
   std::unique_ptr<Team> team_;
   ThreadGovernor governor_;
   std::function<int()> forced_threads_;

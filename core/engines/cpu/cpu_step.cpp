@@ -80,7 +80,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
   }
   if (hand && projected) result.hand_force = hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
-  result.residual = solver_.residual_left();
+  result.residual = solves_damping(*scheme_) ? constant_.missed() : solver_.residual_left();
   return result;
 }
 
@@ -103,11 +103,29 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
       team_->barrier();
       continue;
     }
+    if (sweep.damps_dt != 0) {
+      if (number == 0) prepare_damping(tears), damping_products_ += 2 * constant_.products();
+      team_->barrier();
+      constant_.solve(cloth_.vector(sweep.velocity), band_begin(number), band_begin(number + 1),
+                      [&] { team_->barrier(); });
+      band.assign(sweep.assignments, last);
+      team_->barrier();
+      continue;
+    }
     band.copy_halo(sweep);
     team_->barrier();
     band.sweep(sweep, tears, last);
     team_->barrier();
   }
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
+  const Preset& p = cloth_.preset;
+  constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
+  constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m, 0}, tolerance,
+                    springs_changed_ || projected_torn_ != tears.torn_count());
+  springs_changed_ = false, projected_torn_ = tears.torn_count();
 }
 
 template <class R, unsigned Present>
@@ -283,6 +301,7 @@ Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   template bool CpuEngine<R, (present)>::find_runaway(const MotionLimit&, Fault&); \
   template Motion CpuEngine<R, (present)>::motion(const Tears&);                   \
   template StateView<R> CpuEngine<R, (present)>::view() const;                     \
+  template void CpuEngine<R, (present)>::prepare_damping(const Tears&);            \
   template void CpuEngine<R, (present)>::keep_backup();                            \
   template void CpuEngine<R, (present)>::repeat(int, Tears&);
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)

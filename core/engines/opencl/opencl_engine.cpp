@@ -394,10 +394,12 @@ void OpenClEngine<R>::accept_changes(const Tears& tears) {
 
 std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width) {
   const Scheme& method = scheme(preset.integrator);
-  const char* why = projects(method) ? "moves particles one after the other" : "chooses its own steps";
+  const char* why = projects(method)         ? "moves particles one after the other"
+                    : solves_damping(method) ? "solves for the damping"
+                                             : "chooses its own steps";
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +
-                      "; use the CPU engine (--engine cpu), or an integrator with a fixed dt, such as verlet");
+                      "; use the CPU engine (--engine cpu), or an integrator that it runs, such as verlet");
   // Where there is no device, open_device() says so.
   if (!opencl_devices().devices.empty()) try_program(preset, false);
   std::shared_ptr<Device> device = open_device(preset.device);

@@ -1,0 +1,106 @@
+#include "core/engines/cpu/constant_solve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/engines/cpu/constant_rows.h"
+
+namespace tyglab::cpu {
+namespace {
+
+constexpr int ghost_rows = 2;  // above and below, to which no spring reaches
+
+template <class R>
+constexpr std::ptrdiff_t mask_stride(int stride) {
+  return stride + widest_vector / std::ptrdiff_t(sizeof(R));  // what lies left of a row's first column is 0
+}
+
+}  // namespace
+
+template <class R>
+void ConstantSolver<R>::make_masks(const Cloth<R>& cloth, const Tears& tears) {
+  const Lattice& lattice = cloth.lattice;
+  const std::ptrdiff_t width = mask_stride<R>(stride_), pitch = std::ptrdiff_t(directions.size()) * width;
+  whole_.assign(std::size_t((rows_ + ghost_rows + 1) * pitch), R(0));
+  free_.assign(std::size_t(rows_) * stride_ + widest_vector / sizeof(R), R(0));
+  for (int i = 0; i < rows_; ++i)
+    for (int j = 0; j < columns_; ++j) {
+      const bool fixed = !cloth.fixed.empty() && cloth.fixed[std::size_t(i) * columns_ + j] != 0;
+      free_[std::size_t(i) * stride_ + j] = fixed ? R(0) : R(1);
+      for (int d = 0; d < int(directions.size()); ++d)
+        if (lattice.has_spring(d, i, j) && tears.whole(d, i, j))
+          whole_[std::size_t((i + ghost_rows) * pitch + d * width + j)] = R(1);
+    }
+}
+
+template <class R>
+void ConstantSolver<R>::prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance,
+                                bool changed) {
+  weight_ = cloth.preset.kind == Kind::one_weight ? 1 + weights.stretch : 0;
+  if (weight_ != 0) return;
+  if (rows_ == 0) {
+    a_.resize(cloth.lattice.rows + 2 * ghost_rows, cloth.stride);
+    b_.resize(cloth.lattice.rows + 2 * ghost_rows, cloth.stride);
+    columns_ = cloth.lattice.columns, stride_ = cloth.stride, rows_ = cloth.lattice.rows;
+    changed = true;
+  }
+  if (changed) make_masks(cloth, tears);
+  if (weights == weights_ && tolerance == tolerance_) return;
+  weights_ = weights, tolerance_ = tolerance;
+  // What no lattice's sums of squared differences exceed, times the squares: 12 along stretch springs, 8 along bending
+  // ones. Fewer springs and fixed particles make them less.
+  kappa_ = 1 + 12 * weights.stretch + 8 * weights.bending;
+  products_ = 0, left_ = 0;
+  if (kappa_ == 1) return;
+  // Each round of n leaves 1/T_n((κ + 1)/(κ - 1)) at most.
+  const double rate = std::acosh((kappa_ + 1) / (kappa_ - 1));
+  products_ = int(std::clamp(std::ceil(std::acosh(1 / std::sqrt(tolerance)) / rate), 1.0, double(most_products)));
+  left_ = 1 / std::pow(std::cosh(products_ * rate), 2);
+}
+
+/// From a_ and, unless it is the first of a round, b_ before it to b_: all of the rows.
+template <class R>
+void ConstantSolver<R>::iterate(const Field& r, int begin, int end, double omega, bool first) {
+  const double per_middle = 2 / (kappa_ + 1);
+  const std::ptrdiff_t width = mask_stride<R>(stride_), pitch = std::ptrdiff_t(directions.size()) * width;
+  for (int i = begin; i < end; ++i) {
+    const Field& before = first ? a_ : b_;
+    iterate_row(ConstantRow<R>{a_.row(i + ghost_rows), before.row(i + ghost_rows), r.row(i), b_.row(i + ghost_rows),
+                               whole_.data() + (i + ghost_rows) * pitch, free_.data() + std::ptrdiff_t(i) * stride_,
+                               stride_, width, columns_, weights_.stretch, weights_.bending, per_middle, omega});
+  }
+}
+
+template <class R>
+void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<void()>& barrier) {
+  if (weight_ != 0) {
+    if (begin == 0) r.row(0, 1)[0] = R(double(r.row(0, 1)[0]) / weight_);
+    barrier();
+    return;
+  }
+  if (products_ == 0) return;
+  // a_ and b_ change places after each product: by one thread, between two barriers.
+  const auto exchange = [&] {
+    barrier();
+    if (begin == 0) std::swap(a_, b_);
+    barrier();
+  };
+  const double middle = (kappa_ + 1) / 2, half = (kappa_ - 1) / 2, ratio = half * half / (4 * middle * middle);
+  for (int i = begin; i < end; ++i) std::fill_n(a_.row(i + ghost_rows), a_.pitch(), R(0));
+  barrier();
+  for (int round = 0; round < 2; ++round) {
+    double omega = 2;
+    for (int n = 0; n < products_; ++n) {
+      iterate(r, begin, end, n == 0 ? 1 : omega, n == 0);
+      omega = 1 / (1 - omega * ratio);
+      exchange();
+    }
+  }
+  for (int i = begin; i < end; ++i)
+    for (int c = 0; c < 3; ++c) std::copy_n(a_.row(i + ghost_rows, c), columns_, r.row(i, c));
+}
+
+template class ConstantSolver<float>;
+template class ConstantSolver<double>;
+
+}  // namespace tyglab::cpu

@@ -1,0 +1,52 @@
+// Linear systems on the lattice whose matrix no motion changes: A = 1 + Σ over whole springs of β (e_i - e_j)(e_i -
+// e_j)ᵀ, the same for x, y and z, where pinned and held particles keep 0. By Chebyshev's iteration, which needs bounds
+// of the eigenvalues and nothing else, so that a solution has the same bits for any number of threads.
+#pragma once
+
+#include <functional>
+
+#include "core/engines/cpu/band.h"
+
+namespace tyglab::cpu {
+
+/// β of stretch and of bending springs.
+struct SpringWeights {
+  double stretch = 0, bending = 0;
+  bool operator==(const SpringWeights&) const = default;
+};
+
+template <class R>
+class ConstantSolver {
+ public:
+  using Field = RowField<R>;
+  static constexpr int most_products = 500;  ///< in each of the two rounds
+
+  /// Prepares solutions whose residual is at most `tolerance` of the right-hand side's norm, on one thread. `changed`:
+  /// whether springs or fixed particles may differ from the last call.
+  void prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance, bool changed);
+  /// Replaces r by the solution of A s = r in rows [begin, end). Called by all threads together, each with its rows;
+  /// `barrier` waits for the others.
+  void solve(Field& r, int begin, int end, const std::function<void()>& barrier);
+  /// Products with A in each of the two rounds.
+  int products() const { return products_; }
+  /// Bound of what a solution leaves of the residual, as a part of it.
+  double left() const { return left_; }
+  /// The same where it is more than the tolerance; else 0.
+  double missed() const { return left_ > tolerance_ * (1 + 1e-9) ? left_ : 0; }
+  std::size_t bytes() const { return a_.bytes() + b_.bytes() + (whole_.size() + free_.size()) * sizeof(R); }
+
+ private:
+  void make_masks(const Cloth<R>& cloth, const Tears& tears);
+  void iterate(const Field& r, int begin, int end, double omega, bool first);
+
+  int rows_ = 0, columns_ = 0, stride_ = 0;
+  double weight_ = 0;  ///< not 0: the matrix of a mass on a spring, a number
+  SpringWeights weights_;
+  double tolerance_ = 0, kappa_ = 1, left_ = 0;
+  int products_ = 0;
+  Array<R> whole_;  ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
+  Array<R> free_;   ///< 0 for fixed particles and beyond the columns, else 1
+  Field a_, b_;     ///< of the iteration, with two rows of zeros above and below
+};
+
+}  // namespace tyglab::cpu

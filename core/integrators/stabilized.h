@@ -1,0 +1,32 @@
+// Stabilized Runge-Kutta-Chebyshev methods: how many stages a step needs, and how long it may be.
+#pragma once
+
+#include <complex>
+#include <cstddef>
+
+#include "core/integrators/scheme.h"
+
+namespace tyglab {
+
+/// Where the eigenvalues λ of a linearized cloth lie, 1/s: real ones in [-radius, 0], complex ones in the disc
+/// |λ + circle| <= circle, none with |λ| > radius. Of a mode with stiffness ω² and damping c, λ² + cλ + ω² = 0; where
+/// ω² <= circle · c for all modes, complex pairs have |λ|² = ω² and Re λ = -c/2, thus |λ|² <= -2 circle Re λ.
+struct Spectrum {
+  double radius = 0;
+  double circle = 0;   ///< infinity without damping
+  double fastest = 0;  ///< ω of the fastest mode, which no complex eigenvalue exceeds in size
+};
+
+/// The step that goes farthest for each stage, s, of those that are stable with such eigenvalues: the stages reach over
+/// the real ones, and the complex ones lie within the disc of stability or, where damping is weak, are so small that
+/// they hardly grow (|λ| h <= 0.5, by 0.8 % a step at most). Infinity where there are none.
+double longest_step(const Scheme& scheme, const Spectrum& spectrum);
+
+/// Index of the table with the fewest stages that are stable for a step of h seconds. Where no number of stages is
+/// stable for the complex eigenvalues, of the fewest that reach over all sizes, or of the most.
+std::size_t table_for(const Scheme& scheme, const Spectrum& spectrum, double h);
+
+/// R(z) of the method of Runge, Kutta and Chebyshev of second order: a step takes y of y' = λy to R(λh) y.
+std::complex<double> rkc2_growth(int stages, std::complex<double> z);
+
+}  // namespace tyglab
