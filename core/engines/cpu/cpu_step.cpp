@@ -80,7 +80,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
   }
   if (hand && projected) result.hand_force = hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
-  result.residual = solver_.residual_left();
+  result.residual = solver_.solved().residual, result.converged = solver_.solved().solved;
   return result;
 }
 

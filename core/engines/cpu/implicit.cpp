@@ -44,7 +44,7 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
   const Balance balance = solve_either_way(*this, cloth.preset, dt);
-  if (!balance.solved) residual_left_ = std::max(residual_left_, balance.residual);
+  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
   return !stopped_;
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <span>
 
 #include "core/engines/implicit/stiffness.h"
 
@@ -204,7 +204,6 @@ Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   const double corrector = lattice_.size() < 128 * 128 ? corrector_tolerance : corrector_tolerance / 2;
   for (int n = 0;; ++n) {
     const double products = linearize(), mu = products / std::max(springs_, 1.0);
-    if (getenv("IPM_LOG")) fprintf(stderr, "%3d mu %.3g residual %.3g force %.3g linear %ld\n", n, mu, residual_, force_, (long)counts.linear);
     if (residual_ < least) least = residual_, least_force = force_, best_ = x_;
     if (n == 0) first = residual_;
     if (residual_ <= allowed()) return {true, residual_ / force_};

@@ -59,7 +59,7 @@ bool DeviceSolver<R>::solve(const Task& task) {
   state_.copy(state_.vector(position), start_x_.get()), state_.copy(state_.vector(velocity), start_v_.get());
   read_scene();
   const Balance balance = solve_either_way(*this, *task.preset, task.h);
-  if (!balance.solved) residual_left_ = std::max(residual_left_, balance.residual);
+  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
   return !stopped_;
 }
 
