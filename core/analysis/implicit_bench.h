@@ -12,13 +12,13 @@ namespace tyglab {
 struct ImplicitRow {
   Preset preset;
   int threads = 1;
-  int steps = 0;            ///< that were measured
-  double ms_per_step = 0;   ///< median
+  int steps = 0;           ///< that were measured
+  double ms_per_step = 0;  ///< median
   double newton_per_step = 0, linear_per_step = 0;
   double residual = 0;      ///< the largest of a step, in parts of the largest force
   double strain_error = 0;  ///< of the last step's largest strain, relative to that of its exact solution
   double bytes_per_particle = 0;
-  bool converged = false;   ///< every step
+  bool converged = false;  ///< every step
 };
 
 /// The hanging cloth in double, by size, stiffness and dt, smallest first. `quick`: fewer.

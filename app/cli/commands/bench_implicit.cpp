@@ -43,10 +43,9 @@ Json implicit_json(const ImplicitRow& row) {
 void print_implicit(std::ostream& out, const ImplicitRow& row) {
   const Preset& p = row.preset;
   std::array<char, 256> line;
-  std::snprintf(line.data(), line.size(),
-                "%4d x %-4d  %8.0f  %8.5f  %9.2f  %7.1f  %8.1f  %9.1e  %9.1e  %6.0f  %s\n", p.rows, p.columns, p.k_s,
-                p.dt, row.ms_per_step, row.newton_per_step, row.linear_per_step, row.residual, row.strain_error,
-                row.bytes_per_particle, row.converged ? "yes" : "no");
+  std::snprintf(line.data(), line.size(), "%4d x %-4d  %8.0f  %8.5f  %9.2f  %7.1f  %8.1f  %9.1e  %9.1e  %6.0f  %s\n",
+                p.rows, p.columns, p.k_s, p.dt, row.ms_per_step, row.newton_per_step, row.linear_per_step, row.residual,
+                row.strain_error, row.bytes_per_particle, row.converged ? "yes" : "no");
   out << line.data() << std::flush;
   flush_standard_output();
 }

@@ -65,6 +65,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Field& position() { return task_.cloth->vector(task_.position); }
   Field& velocity() { return task_.cloth->vector(task_.velocity); }
   void resize();
+  void resize_newton();
   void linearize_row(int direction, int i);
   void invert_blocks();
   bool conjugate_gradients();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_iterations = 100;
 constexpr int most_gradients = 200;
-constexpr double to_border = 0.995;        // of the way to where a tension or slack becomes 0
+constexpr double to_border = 0.995;  // of the way to where a tension or slack becomes 0
 constexpr double predictor_tolerance = 0.05, corrector_tolerance = 0.02;
 constexpr double least_centering = 0.01;
 
