@@ -69,7 +69,7 @@ StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault&
     if (tear) tear_budget_ = engine.tear_overloaded(tears);
     if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, StepsEnd::fault};
     if (fast && engine.find_runaway(limit_, fault)) return {n, StepsEnd::fault};
-    if (step.residual > 0) ++unconverged_steps_, worst_residual_ = std::max(worst_residual_, step.residual);
+    unconverged_steps_ += !step.converged, worst_residual_ = std::max(worst_residual_, step.residual);
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
     if (release) return {n + 1, StepsEnd::released};
   }

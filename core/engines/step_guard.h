@@ -40,7 +40,8 @@ struct StepOutcome {
   int left_inside = 0;                   ///< free particles inside a body
   std::optional<glm::dvec3> hand_force;  ///< on the held particle, N, if there is one
   std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
-  double residual = 0;                   ///< of a stage that did not converge, as Balance has it; 0: none
+  double residual = 0;                   ///< of equations that the step has solved, as Balance has it
+  bool converged = true;                 ///< whether that counts as solved
 };
 
 /// What the guard asks of an engine.

@@ -48,13 +48,13 @@ std::string solves_missed(const SolveCounts& solves, int iterations) {
   const bool one = solves.unconverged == 1;
   const double worst = solves.worst_residual;
   const std::string left = !std::isfinite(worst) ? "forces that are no numbers were left"
-                           : worst < 1 ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
-                                       : "up to " + short_number(worst, 2) + " times the largest force was left over";
+                           : worst < 1
+                               ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
+                               : "up to " + short_number(worst, 2) + " times the largest force was left over";
   const std::string said = std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" +
                            left + "), so the motion is not quite the method's. ";
-  if (iterations == 1)
-    return said + "With iterations = 1 every step is linearised: use more iterations, or a smaller dt.";
-  return said + "Use a smaller dt or more iterations.";
+  return said + (iterations == 1 ? "With iterations = 1 a step is a single linear solve. " : "") +
+         "Use a smaller dt or more iterations.";
 }
 
 namespace {

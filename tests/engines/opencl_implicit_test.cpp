@@ -93,7 +93,6 @@ TEST_CASE("solves: where conjugate gradients do not get there, the host solves d
   Pair pair(preset);
   pair.advance(1);
   CHECK(pair.opencl.engine().solves().linear == max_gradient_steps(lattice_of(preset)));
-  CHECK(pair.opencl.engine().solves().unconverged == 0);
   pair.check();
 }
 

@@ -168,7 +168,7 @@ Json solves_json(const Engine& engine) {
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
-          {"worst_residual", counts.unconverged > 0 ? finite_json(counts.worst_residual) : Json()}};
+          {"worst_residual", finite_json(counts.worst_residual)}};
 }
 
 /// The ledger at the end, J; null where none was kept.

@@ -80,7 +80,11 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
   }
   if (hand && projected) result.hand_force = hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
-  result.residual = solves_damping(*scheme_) ? constant_.missed() : solver_.residual_left();
+  if (solves_damping(*scheme_)) {
+    result.residual = constant_.missed(), result.converged = result.residual == 0;
+  } else {
+    result.residual = solver_.solved().residual, result.converged = solver_.solved().solved;
+  }
   return result;
 }
 

@@ -12,12 +12,18 @@ template <class R>
 void ImplicitSolver<R>::resize() {
   if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return;
   const int rows = cloth().lattice.rows, stride = cloth().stride;
-  for (Field* field :
-       {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
-    field->resize(rows + 3, stride);
-  blocks_.assign(std::size_t(rows + 2) * 6 * stride, R(0));
-  coefficients_.assign(std::size_t(rows) * coefficient_pitch(stride), R(0));
+  for (Field* field : {&start_x_, &start_v_, &acceleration_, &residual_}) field->resize(rows + 3, stride);
   rows_ = rows, stride_ = stride;  // now that all of the memory is there
+}
+
+/// What only Newton's method needs.
+template <class R>
+void ImplicitSolver<R>::resize_newton() {
+  const std::size_t blocks = std::size_t(rows_ + 2) * 6 * stride_;
+  if (blocks_.size() == blocks) return;
+  for (Field* field : {&before_, &step_, &direction_, &product_, &preconditioned_}) field->resize(rows_ + 3, stride_);
+  coefficients_.assign(std::size_t(rows_) * coefficient_pitch(stride_), R(0));
+  blocks_.assign(blocks, R(0));  // the last, which says that all of the memory is there
 }
 
 template <class R>
@@ -44,15 +50,15 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
   const Balance balance = solve_either_way(*this, cloth.preset, dt);
-  if (!balance.solved) residual_left_ = std::max(residual_left_, balance.residual);
+  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
   return !stopped_;
 }
 
 template <class R>
 Balance ImplicitSolver<R>::solve_by_newton() {
-  return tyglab::solve(*this,
-                       {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt},
-                       counts_);
+  resize_newton();
+  return tyglab::solve(
+      *this, {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt}, counts_);
 }
 
 template <class R>

@@ -26,9 +26,9 @@ class ImplicitSolver final : private implicit::EitherStage {
   };
 
   /// A step begins, whose stages come next.
-  void begin_step() { residual_left_ = 0; }
-  /// The largest residual of a stage of the step that has not converged, in parts of the largest force; 0: all have.
-  double residual_left() const { return residual_left_; }
+  void begin_step() { solved_ = {true, 0}; }
+  /// The stages of the step: whether all are solved, and the largest residual.
+  const Balance& solved() const { return solved_; }
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
   /// Returns false where it was stopped; the vectors may then hold anything.
   bool solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
@@ -65,6 +65,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Field& position() { return task_.cloth->vector(task_.position); }
   Field& velocity() { return task_.cloth->vector(task_.velocity); }
   void resize();
+  void resize_newton();
   void linearize_row(int direction, int i);
   void invert_blocks();
   bool conjugate_gradients();
@@ -75,7 +76,7 @@ class ImplicitSolver final : private implicit::EitherStage {
 
   Task task_{};
   bool stopped_ = false;
-  double residual_left_ = 0;
+  Balance solved_{true, 0};
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs
   Field start_x_, start_v_;  ///< c_x and c_v

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
+#include <span>
 
 #include "core/engines/implicit/stiffness.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr int most_iterations = 100;
 constexpr int most_gradients = 200;
-constexpr double to_border = 0.995;        // of the way to where a tension or slack becomes 0
+constexpr double to_border = 0.995;  // of the way to where a tension or slack becomes 0
 constexpr double predictor_tolerance = 0.05, corrector_tolerance = 0.02;
 constexpr double least_centering = 0.01;
 

@@ -71,9 +71,9 @@ class InteriorPoint {
   Field c_, y_, x_, best_, forces_, right_, moved_;
   Array<double> tension_, slack_, d_tension_, d_slack_, whole_, free_;
   bool torn_ = false;
-  double springs_ = 0;           ///< stretch springs
+  double springs_ = 0;               ///< stretch springs
   double residual_ = 0, force_ = 0;  ///< the largest, m
-  double size_ = 0;              ///< largest coordinate, m
+  double size_ = 0;                  ///< largest coordinate, m
   RowField<R> step_, r_, p_, q_;
   Array<R> coefficients_;
   Multigrid<R> multigrid_;

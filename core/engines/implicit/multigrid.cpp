@@ -16,8 +16,8 @@ int coarser(int n) {
 }
 
 /// Chebyshev's iteration for eigenvalues between a tenth of the largest and the largest. On the lattice itself B A has
-/// none above 2, since (x_i - x_j)ᵀ K (x_i - x_j) is at most twice x_iᵀ K x_i + x_jᵀ K x_j; on coarser ones interpolation
-/// leads to at most 2 · 4/3 along a direction in which all springs pull.
+/// none above 2, since (x_i - x_j)ᵀ K (x_i - x_j) is at most twice x_iᵀ K x_i + x_jᵀ K x_j; on coarser ones
+/// interpolation leads to at most 2 · 4/3 along a direction in which all springs pull.
 constexpr double largest_eigenvalue(bool finest) {
   return finest ? 2 : 8.0 / 3;
 }
@@ -93,8 +93,7 @@ void Multigrid<R>::build_nine_point_row(int i) {
   Level& at = levels_[0];
   R* row = scratch(i % 2);
   if (i == 0)
-    for (int c = 0; c < block_parts; ++c)
-      std::fill_n(row + c * work_stride_, at.columns, c < 3 ? R(matrix_.m) : R(0));
+    for (int c = 0; c < block_parts; ++c) std::fill_n(row + c * work_stride_, at.columns, c < 3 ? R(matrix_.m) : R(0));
   const R* coefficients = matrix_.coefficients + i * coefficient_pitch(at.stride);
   const R* free = free_.data() + std::ptrdiff_t(i) * free_stride_;
   nine_point_row<R>({coefficients, i > 0 ? coefficients - coefficient_pitch(at.stride) : nullptr, at.stride, at.columns,
@@ -195,8 +194,7 @@ void Multigrid<R>::multiply(std::size_t level, int i) {
     multiply_row(ProductTask<R>{matrix_.coefficients + i * coefficient_pitch(at.stride), at.d.row(i), at.q.row(i),
                                 at.stride, at.columns, i == 0, matrix_.m});
   } else {
-    multiply_blocks_row(
-        BlockProduct<R>{at.block_row(i), at.d.row(i), at.q.row(i), at.stride, at.columns, i == 0});
+    multiply_blocks_row(BlockProduct<R>{at.block_row(i), at.d.row(i), at.q.row(i), at.stride, at.columns, i == 0});
   }
 }
 
@@ -218,8 +216,8 @@ void Multigrid<R>::leave_residual(std::size_t level) {
   Level& at = levels_[level];
   for (int i = 0; i < at.rows; ++i) {
     multiply(level, i);
-    subtract_row(SmoothTask<R>{at.q.row(i), at.inverse_row(i), at.r.row(i), nullptr, nullptr, at.stride, at.columns, 0,
-                               0});
+    subtract_row(
+        SmoothTask<R>{at.q.row(i), at.inverse_row(i), at.r.row(i), nullptr, nullptr, at.stride, at.columns, 0, 0});
   }
 }
 

@@ -1,7 +1,7 @@
 // Multigrid for the linear systems of an implicit stage: a V cycle as the preconditioner of conjugate gradients. Each
 // coarser lattice has every other row and column, down to three by three; between two of them positions are
-// interpolated bilinearly, which leads from one operator to the next (Galerkin's Pᵀ A P). Chebyshev's iteration with the
-// blocks on the diagonal smooths twice before and twice after. The coarser operators see a nine-point operator, in
+// interpolated bilinearly, which leads from one operator to the next (Galerkin's Pᵀ A P). Chebyshev's iteration with
+// the blocks on the diagonal smooths twice before and twice after. The coarser operators see a nine-point operator, in
 // which each bending spring is spread over its two halves; everything on the lattice itself uses the true one.
 // U. Trottenberg, C. W. Oosterlee, A. Schüller, Multigrid (2001), 2 and 4; M. Adams et al., J. Comput. Phys. 188, 593
 // (2003).
@@ -23,8 +23,8 @@ using simd::RowField;
 /// A x = b with A of stiffness.h, in which fixed particles do not move.
 template <class R>
 struct SpringMatrix {
-  const R* coefficients;              ///< rows of stiffness.h
-  double m;                           ///< diagonal of A without the springs
+  const R* coefficients;                ///< rows of stiffness.h
+  double m;                             ///< diagonal of A without the springs
   std::span<const std::uint8_t> fixed;  ///< 1 at i·columns + j if fixed; empty if none is
 };
 
@@ -76,8 +76,8 @@ class Multigrid {
   SpringMatrix<R> matrix_{};
   std::vector<Level> levels_;
   Array<R> zeros_;
-  Array<R> scratch_[7];   ///< rows of an operator or of a field
-  Array<R> free_;         ///< of the finest lattice, row by row: 1 at free particles
+  Array<R> scratch_[7];  ///< rows of an operator or of a field
+  Array<R> free_;        ///< of the finest lattice, row by row: 1 at free particles
   int free_stride_ = 0, work_stride_ = 0;
   std::vector<double> coarsest_;  ///< inverse of its matrix
   const std::function<bool()>* stops_ = nullptr;

@@ -176,8 +176,7 @@ void restriction(const R* p, std::ptrdiff_t stride, R* t, std::ptrdiff_t coarse_
   for (int part = 0; part < parts; ++part)
     for (int j = 0; j < coarse_columns; j += int(hn::MaxLanes(D()))) {
       const Three<D> at = Three<D>::load(p + part * stride + 2 * j);
-      within<D>(coarse_columns, j, multiply_add(half, at.before + at.after, at.at))
-          .store(t + part * coarse_stride + j);
+      within<D>(coarse_columns, j, multiply_add(half, at.before + at.after, at.at)).store(t + part * coarse_stride + j);
     }
 }
 
@@ -293,9 +292,8 @@ void coarser_columns(const R* row, std::ptrdiff_t stride, R* coarse, std::ptrdif
   const L half = L::all(0.5), quarter = L::all(0.25);
   for (int part = 0; part < block_parts; ++part)
     for (int j = 0; j < coarse_columns; j += int(hn::MaxLanes(D()))) {
-      const auto at = [&](int which) HWY_ATTR {
-        return Three<D>::load(row + (which * block_parts + part) * stride + 2 * j);
-      };
+      const auto at = [&](int which)
+                          HWY_ATTR { return Three<D>::load(row + (which * block_parts + part) * stride + 2 * j); };
       const Three<D> d = at(0), E = at(1), S = at(2), SE = at(3), SW = at(4);
       const L sums[] = {
           multiply_add(quarter, d.before + d.after, d.at) + (E.before + E.at),
@@ -330,11 +328,21 @@ void coarser_rows(const R* above, const R* at, const R* below, R* coarse, std::p
 }
 
 #define TYGLAB_DEFINE(R, name)                                                                                   \
-  void multiply_blocks_##name(const BlockProduct<R>& t) { multiply_blocks(t); }                                  \
-  void smooth_##name(const SmoothTask<R>& t) { smooth(t); }                                                      \
-  void start_##name(const SmoothTask<R>& t) { start_smoothing(t); }                                              \
-  void subtract_##name(const SmoothTask<R>& t) { subtract(t); }                                                  \
-  double descend_##name(const SmoothTask<R>& t, double part) { return descend(t, part); }                        \
+  void multiply_blocks_##name(const BlockProduct<R>& t) {                                                        \
+    multiply_blocks(t);                                                                                          \
+  }                                                                                                              \
+  void smooth_##name(const SmoothTask<R>& t) {                                                                   \
+    smooth(t);                                                                                                   \
+  }                                                                                                              \
+  void start_##name(const SmoothTask<R>& t) {                                                                    \
+    start_smoothing(t);                                                                                          \
+  }                                                                                                              \
+  void subtract_##name(const SmoothTask<R>& t) {                                                                 \
+    subtract(t);                                                                                                 \
+  }                                                                                                              \
+  double descend_##name(const SmoothTask<R>& t, double part) {                                                   \
+    return descend(t, part);                                                                                     \
+  }                                                                                                              \
   void invert_##name(Given<R> blocks, Filled<R> inverse, std::ptrdiff_t stride, int columns) {                   \
     invert_blocks(blocks, inverse, stride, columns);                                                             \
   }                                                                                                              \
@@ -353,7 +361,9 @@ void coarser_rows(const R* above, const R* at, const R* below, R* coarse, std::p
   void diagonal_##name(Given<R> coefficients, Filled<R> to, std::ptrdiff_t stride, int columns) {                \
     diagonal(coefficients, to, stride, columns);                                                                 \
   }                                                                                                              \
-  void nine_point_##name(const NinePointTask<R>& t) { nine_point(t); }                                           \
+  void nine_point_##name(const NinePointTask<R>& t) {                                                            \
+    nine_point(t);                                                                                               \
+  }                                                                                                              \
   void columns_##name(Given<R> row, std::ptrdiff_t stride, Filled<R> coarse, std::ptrdiff_t to, int columns) {   \
     coarser_columns(row, stride, coarse, to, columns);                                                           \
   }                                                                                                              \
@@ -372,77 +382,77 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tyglab::implicit {
 
-#define TYGLAB_EXPORT(R, name)                                                                                     \
-  HWY_EXPORT(multiply_blocks_##name);                                                                              \
-  HWY_EXPORT(smooth_##name);                                                                                       \
-  HWY_EXPORT(start_##name);                                                                                        \
-  HWY_EXPORT(subtract_##name);                                                                                     \
-  HWY_EXPORT(descend_##name);                                                                                      \
-  HWY_EXPORT(invert_##name);                                                                                       \
-  HWY_EXPORT(restrict_##name);                                                                                     \
-  HWY_EXPORT(prolong_##name);                                                                                      \
-  HWY_EXPORT(combine_##name);                                                                                      \
-  HWY_EXPORT(correct_##name);                                                                                      \
-  HWY_EXPORT(diagonal_##name);                                                                                     \
-  HWY_EXPORT(nine_point_##name);                                                                                   \
-  HWY_EXPORT(columns_##name);                                                                                      \
+#define TYGLAB_EXPORT(R, name)        \
+  HWY_EXPORT(multiply_blocks_##name); \
+  HWY_EXPORT(smooth_##name);          \
+  HWY_EXPORT(start_##name);           \
+  HWY_EXPORT(subtract_##name);        \
+  HWY_EXPORT(descend_##name);         \
+  HWY_EXPORT(invert_##name);          \
+  HWY_EXPORT(restrict_##name);        \
+  HWY_EXPORT(prolong_##name);         \
+  HWY_EXPORT(combine_##name);         \
+  HWY_EXPORT(correct_##name);         \
+  HWY_EXPORT(diagonal_##name);        \
+  HWY_EXPORT(nine_point_##name);      \
+  HWY_EXPORT(columns_##name);         \
   HWY_EXPORT(rows_##name);
-#define TYGLAB_DISPATCH(R, name)                                                                                   \
-  template <>                                                                                                      \
-  void multiply_blocks_row(const BlockProduct<R>& t) {                                                             \
-    HWY_DYNAMIC_DISPATCH(multiply_blocks_##name)(t);                                                               \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void smooth_row(const SmoothTask<R>& t) {                                                                        \
-    HWY_DYNAMIC_DISPATCH(smooth_##name)(t);                                                                        \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void start_smoothing_row(const SmoothTask<R>& t) {                                                               \
-    HWY_DYNAMIC_DISPATCH(start_##name)(t);                                                                         \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void subtract_row(const SmoothTask<R>& t) {                                                                      \
-    HWY_DYNAMIC_DISPATCH(subtract_##name)(t);                                                                      \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  double descend_row(const SmoothTask<R>& t, double part) {                                                        \
-    return HWY_DYNAMIC_DISPATCH(descend_##name)(t, part);                                                          \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void invert_blocks_row(Given<R> blocks, Filled<R> inverse, std::ptrdiff_t stride, int columns) {                 \
-    HWY_DYNAMIC_DISPATCH(invert_##name)(blocks, inverse, stride, columns);                                         \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void restrict_columns(Given<R> p, std::ptrdiff_t stride, Filled<R> t, std::ptrdiff_t to, int columns, int n) {   \
-    HWY_DYNAMIC_DISPATCH(restrict_##name)(p, stride, t, to, columns, n);                                           \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void prolong_columns(Given<R> t, std::ptrdiff_t from, Filled<R> p, std::ptrdiff_t stride, int columns, int n) {  \
-    HWY_DYNAMIC_DISPATCH(prolong_##name)(t, from, p, stride, columns, n);                                          \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void combine_rows(double a, Given<R> p, double b, Given<R> q, Filled<R> sum, int count) {                        \
-    HWY_DYNAMIC_DISPATCH(combine_##name)(a, p, b, q, sum, count);                                                  \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void add_correction_row(Given<R> p, Given<R> inverse, Filled<R> d, Filled<R> x, std::ptrdiff_t stride, int n) {  \
-    HWY_DYNAMIC_DISPATCH(correct_##name)(p, inverse, d, x, stride, n);                                             \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void diagonal_row(Given<R> coefficients, Filled<R> to, std::ptrdiff_t stride, int columns) {                     \
-    HWY_DYNAMIC_DISPATCH(diagonal_##name)(coefficients, to, stride, columns);                                      \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void nine_point_row(const NinePointTask<R>& t) {                                                                 \
-    HWY_DYNAMIC_DISPATCH(nine_point_##name)(t);                                                                    \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void coarsen_columns(Given<R> row, std::ptrdiff_t stride, Filled<R> coarse, std::ptrdiff_t to, int columns) {    \
-    HWY_DYNAMIC_DISPATCH(columns_##name)(row, stride, coarse, to, columns);                                        \
-  }                                                                                                                \
-  template <>                                                                                                      \
-  void coarsen_rows(Given<R> above, Given<R> at, Given<R> below, Filled<R> to, std::ptrdiff_t stride, int n) {     \
-    HWY_DYNAMIC_DISPATCH(rows_##name)(above, at, below, to, stride, n);                                            \
+#define TYGLAB_DISPATCH(R, name)                                                                                  \
+  template <>                                                                                                     \
+  void multiply_blocks_row(const BlockProduct<R>& t) {                                                            \
+    HWY_DYNAMIC_DISPATCH(multiply_blocks_##name)(t);                                                              \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void smooth_row(const SmoothTask<R>& t) {                                                                       \
+    HWY_DYNAMIC_DISPATCH(smooth_##name)(t);                                                                       \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void start_smoothing_row(const SmoothTask<R>& t) {                                                              \
+    HWY_DYNAMIC_DISPATCH(start_##name)(t);                                                                        \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void subtract_row(const SmoothTask<R>& t) {                                                                     \
+    HWY_DYNAMIC_DISPATCH(subtract_##name)(t);                                                                     \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  double descend_row(const SmoothTask<R>& t, double part) {                                                       \
+    return HWY_DYNAMIC_DISPATCH(descend_##name)(t, part);                                                         \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void invert_blocks_row(Given<R> blocks, Filled<R> inverse, std::ptrdiff_t stride, int columns) {                \
+    HWY_DYNAMIC_DISPATCH(invert_##name)(blocks, inverse, stride, columns);                                        \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void restrict_columns(Given<R> p, std::ptrdiff_t stride, Filled<R> t, std::ptrdiff_t to, int columns, int n) {  \
+    HWY_DYNAMIC_DISPATCH(restrict_##name)(p, stride, t, to, columns, n);                                          \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void prolong_columns(Given<R> t, std::ptrdiff_t from, Filled<R> p, std::ptrdiff_t stride, int columns, int n) { \
+    HWY_DYNAMIC_DISPATCH(prolong_##name)(t, from, p, stride, columns, n);                                         \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void combine_rows(double a, Given<R> p, double b, Given<R> q, Filled<R> sum, int count) {                       \
+    HWY_DYNAMIC_DISPATCH(combine_##name)(a, p, b, q, sum, count);                                                 \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void add_correction_row(Given<R> p, Given<R> inverse, Filled<R> d, Filled<R> x, std::ptrdiff_t stride, int n) { \
+    HWY_DYNAMIC_DISPATCH(correct_##name)(p, inverse, d, x, stride, n);                                            \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void diagonal_row(Given<R> coefficients, Filled<R> to, std::ptrdiff_t stride, int columns) {                    \
+    HWY_DYNAMIC_DISPATCH(diagonal_##name)(coefficients, to, stride, columns);                                     \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void nine_point_row(const NinePointTask<R>& t) {                                                                \
+    HWY_DYNAMIC_DISPATCH(nine_point_##name)(t);                                                                   \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void coarsen_columns(Given<R> row, std::ptrdiff_t stride, Filled<R> coarse, std::ptrdiff_t to, int columns) {   \
+    HWY_DYNAMIC_DISPATCH(columns_##name)(row, stride, coarse, to, columns);                                       \
+  }                                                                                                               \
+  template <>                                                                                                     \
+  void coarsen_rows(Given<R> above, Given<R> at, Given<R> below, Filled<R> to, std::ptrdiff_t stride, int n) {    \
+    HWY_DYNAMIC_DISPATCH(rows_##name)(above, at, below, to, stride, n);                                           \
   }
 TYGLAB_EXPORT(float, float)
 TYGLAB_EXPORT(double, double)

@@ -64,7 +64,7 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
   });
   typename InteriorPoint<S>::Task inner{.constants = {p.k_s * scale, p.k_b * scale, p.k_d * h / p.m, p.L},
                                         .gravity = h * h * p.g,
-                                        .tolerance = balance_tolerance<R>,
+                                        .tolerance = task.tolerance,
                                         .tears = &task.tears,
                                         .fixed = task.fixed,
                                         .others = {},

@@ -40,6 +40,7 @@ struct StiffTask {
   std::ptrdiff_t stride;
   std::function<bool()> stops;
   std::function<void(double part)> progress;
+  double tolerance = balance_tolerance<R>;
 };
 
 class StiffStage {

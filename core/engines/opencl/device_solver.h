@@ -59,8 +59,9 @@ class DeviceSolver final : private implicit::EitherStage {
   bool solve(const Task& task);
   const SolveCounts& counts() const { return counts_; }
   /// As of the CPU engine's solver.
-  void begin_step() { residual_left_ = 0; }
-  double residual_left() const { return residual_left_; }
+  void begin_step() { solved_ = {true, 0}; }
+  /// The stages of the step: whether all are solved, and the largest residual.
+  const Balance& solved() const { return solved_; }
   std::size_t bytes() const;
 
  private:
@@ -128,7 +129,7 @@ class DeviceSolver final : private implicit::EitherStage {
   std::vector<std::uint8_t> fixed_;  ///< likewise: 1 at i·columns + j
   Task task_{};
   bool stopped_ = false;
-  double residual_left_ = 0;
+  Balance solved_{true, 0};
   bool away_ = false;  ///< a velocity is being tried
   double start_size_ = 0;
   int last_count_ = 16;  ///< iterations for the last system: about as many are likely again

@@ -147,7 +147,7 @@ StepOutcome OpenClEngine<R>::outcome(int step) {
   StepOutcome result;
   result.elongation = max_elongation(report.way), result.dt = preset_.dt;
   result.left_inside = int(report.left_inside);
-  if (solver_) result.residual = solver_->residual_left();
+  if (solver_) result.residual = solver_->solved().residual, result.converged = solver_->solved().solved;
   if (tears_each_) result.tear_budget = tear_slack(report), tears_unread_ |= report.torn != 0;
   if (held_.particle >= 0) {
     const R* f = hand_forces_.data() + 4 * std::size_t(step);

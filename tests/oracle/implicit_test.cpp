@@ -1,0 +1,167 @@
+// Implicit methods' steps against the oracle: the forces that docs/model.md gives at a step's end, spring after spring,
+// must balance the change of velocity, however stiff the springs, to a millionth of the largest of them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/cloth/lattice.h"
+#include "core/simulation.h"
+#include "tests/oracle/oracle.h"
+#include "tests/support/scenes.h"
+
+namespace tyglab::implicit_test {
+
+using oracle::Vec;
+
+/// x = c_x + h v, v = c_v + h a(x, v), which a step has solved; one entry a particle.
+struct Stage {
+  std::vector<Vec> x, v, c_v;
+  double h;
+};
+
+std::vector<Vec> vectors(const VectorField<double>& from) {
+  std::vector<Vec> to;
+  for (std::size_t p = 0; p < from.x.size(); ++p) to.push_back({from.x[p], from.y[p], from.z[p]});
+  return to;
+}
+
+std::vector<Vec> combined(double a, const std::vector<Vec>& x, double b, const std::vector<Vec>& y) {
+  std::vector<Vec> sum;
+  for (std::size_t p = 0; p < x.size(); ++p) sum.push_back(a * x[p] + b * y[p]);
+  return sum;
+}
+
+/// The last stage of the step between two states.
+Stage stage_of(const Preset& preset, const State& before, const State& after) {
+  const double dt = preset.dt;
+  const auto x = vectors(before.x), v = vectors(before.v), next_x = vectors(after.x), next_v = vectors(after.v);
+  if (preset.integrator == "implicit_midpoint")
+    return {combined(0.5, x, 0.5, next_x), combined(0.5, v, 0.5, next_v), v, dt / 2};
+  if (preset.integrator == "implicit_euler") return {next_x, next_v, v, dt};
+  // TR-BDF2: x' = (x_γ - (1 - γ)² x)/(γ (2 - γ)) + γ/2 dt v' gives x_γ, the trapezium rule then v_γ.
+  const double gamma = 2 - std::sqrt(2.0), h = gamma / 2 * dt, c = gamma * (2 - gamma), b = (1 - gamma) * (1 - gamma);
+  const auto inner_x = combined(c, combined(1, next_x, -h, next_v), b, x);
+  const auto inner_v = combined(1 / h, combined(1, inner_x, -1, x), -1, v);
+  return {next_x, next_v, combined(1 / c, inner_v, -b / c, v), h};
+}
+
+/// The largest force on a free particle that nothing balances, in parts of the largest force of a spring.
+double imbalance(Preset preset, Simulation& simulation, const Stage& stage) {
+  preset.integrator = "euler";
+  oracle::Cloth cloth(preset);
+  for (int i = 0; i < preset.rows; ++i)
+    for (int j = 0; j < preset.columns; ++j) {
+      const std::size_t p = std::size_t(i) * preset.columns + j;
+      cloth.at(i, j).x = stage.x[p], cloth.at(i, j).v = stage.v[p];
+      for (int k = 0; k < 8; ++k) {
+        const int oi = i + oracle::ring[k].di, oj = j + oracle::ring[k].dj;
+        if (oi < 0 || oi >= preset.rows || oj < 0 || oj >= preset.columns) continue;
+        for (int d = 0; d < stretch_directions; ++d) {
+          const Direction& to = directions[std::size_t(d)];
+          if (i + to.di == oi && j + to.dj == oj) cloth.at(i, j).whole[k] = simulation.tears().whole(d, i, j);
+          if (oi + to.di == i && oj + to.dj == j) cloth.at(i, j).whole[k] = simulation.tears().whole(d, oi, oj);
+        }
+      }
+    }
+  double left = 0, most = preset.m * preset.g;
+  for (int i = 0; i < preset.rows; ++i)
+    for (int j = 0; j < preset.columns; ++j) {
+      const std::size_t p = std::size_t(i) * preset.columns + j;
+      for (int k = 0; k < 8; ++k) {
+        const int oi = i + oracle::ring[k].di, oj = j + oracle::ring[k].dj;
+        if (oi < 0 || oi >= preset.rows || oj < 0 || oj >= preset.columns || !cloth.at(i, j).whole[k]) continue;
+        const double rest = preset.L * std::sqrt(double(std::abs(oi - i) + std::abs(oj - j)));
+        const double length = glm::length(stage.x[std::size_t(oi) * preset.columns + oj] - stage.x[p]);
+        most = std::max(most, preset.k_s * (length - rest));
+      }
+      if (cloth.at(i, j).pinned) continue;
+      const Vec change = preset.m / stage.h * (stage.v[p] - stage.c_v[p]);
+      left = std::max(left, glm::length(cloth.forces(i, j).F() - change));
+    }
+  return left / most;
+}
+
+Preset stiff_cloth(int side, double k_s, const std::string& method) {
+  Preset preset = test::cloth(side, side, method);
+  preset.k_s = k_s, preset.dt = 1.0 / 60;
+  return preset;
+}
+
+/// The largest imbalance of some steps; all must count as converged.
+double largest_imbalance(const Preset& preset, int steps, const std::vector<Edit>& edits = {}) {
+  Simulation simulation(preset);
+  for (const Edit& edit : edits) simulation.apply(edit);
+  double most = 0;
+  for (int n = 0; n < steps; ++n) {
+    const State before = simulation.read();
+    simulation.advance(1);
+    most = std::max(most, imbalance(preset, simulation, stage_of(preset, before, simulation.read())));
+  }
+  CHECK(simulation.engine().solves().unconverged == 0);
+  CHECK(simulation.engine().solves().worst_residual <= (preset.precision == Precision::double_ ? 1e-6 : 1e-4));
+  return most;
+}
+
+// What a reading of positions and velocities adds by rounding; most of it from TR-BDF2's inner point.
+constexpr double slack = 1.1e-6;
+
+TEST_CASE("forces balance after an implicit step, soft or stiff, at the default number of iterations") {
+  for (const char* method : {"implicit_euler", "implicit_midpoint", "tr_bdf2"})
+    for (const double k_s : {50.0, 1e3, 1e5}) {
+      CAPTURE(std::string(method));
+      CAPTURE(k_s);
+      CHECK(largest_imbalance(stiff_cloth(16, k_s, method), 8) <= slack);
+    }
+  CHECK(largest_imbalance(stiff_cloth(32, 1e5, "implicit_euler"), 2) <= slack);
+}
+
+TEST_CASE("they balance with cuts, other pins, wind, heavy damping, without bending, in narrow cloths") {
+  const std::vector<Edit> cuts{edit::Cut{{{5, 4}, {6, 5}, {6, 6}}}};
+  Preset preset = stiff_cloth(16, 1e5, "implicit_euler");
+  CHECK(largest_imbalance(preset, 6, cuts) <= slack);
+  preset.pins.mode = Pins::Mode::left_column, preset.W = {0, 0, 0.002};
+  CHECK(largest_imbalance(preset, 6) <= slack);
+  preset.pins.mode = Pins::Mode::boundary, preset.k_b = 0, preset.k_d = 5;
+  CHECK(largest_imbalance(preset, 6) <= slack);
+  for (const int columns : {1, 2, 7}) {
+    CAPTURE(columns);
+    Preset narrow = stiff_cloth(20, 1e5, "implicit_midpoint");
+    narrow.columns = columns, narrow.pins.mode = Pins::Mode::top_row;
+    CHECK(largest_imbalance(narrow, 6) <= slack);
+  }
+}
+
+TEST_CASE("in float a step converges to a ten-thousandth, and one linearised step says that it has not") {
+  for (const double k_s : {50.0, 1e5}) {
+    Preset preset = stiff_cloth(24, k_s, "implicit_euler");
+    preset.precision = Precision::float_;
+    Simulation simulation(preset);
+    simulation.advance(8);
+    CHECK(simulation.engine().solves().unconverged == 0);
+    CHECK(simulation.engine().solves().worst_residual <= 1e-4);
+  }
+  Preset preset = stiff_cloth(24, 1e5, "implicit_euler");
+  preset.iterations = 1;
+  Simulation simulation(preset);
+  const State before = simulation.read();
+  simulation.advance(1);
+  const double left = imbalance(preset, simulation, stage_of(preset, before, simulation.read()));
+  CHECK(left > 1e-6);
+  CHECK(simulation.engine().solves().unconverged == 1);
+  CHECK(simulation.engine().solves().worst_residual == doctest::Approx(left).epsilon(1e-3));
+}
+
+TEST_CASE("stiff steps end with the same bits on any number of threads, on a body and with tears") {
+  Preset preset = stiff_cloth(48, 1e4, "implicit_euler");
+  preset.pins.mode = Pins::Mode::top_corners, preset.F_max = 2;
+  preset.bodies.push_back({.c = {0, 0.6, 0.1}, .r = 0.2});
+  Simulation one(preset, 1), three(preset, 3);
+  one.advance(6), three.advance(6);
+  CHECK(test::identical(one.read(), three.read()));
+  CHECK(one.tears().torn_count() == three.tears().torn_count());
+  CHECK(one.engine().solves().unconverged == 0);
+}
+
+}  // namespace tyglab::implicit_test
