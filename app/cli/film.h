@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
+#include "app/platform/headless_context.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/field_colors.h"
-#include "app/platform/headless_context.h"
 #include "core/simulation.h"
 
 namespace tyglab {

@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// After windows.h, which it needs.
+// Last, since it needs the other.
 #include <shellapi.h>
 
 #include <cstdio>

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/platform/headless_context.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/drawn_cloth.h"
 #include "app/render/field_colors.h"
-#include "app/platform/headless_context.h"
 #include "app/ui/cards/performance.h"
 #include "app/ui/kit/color_legend.h"
 #include "tests/app/desk.h"

@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <span>
 
+#include "app/platform/headless_context.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_topology.h"
 #include "app/render/drawn_cloth.h"
-#include "app/platform/headless_context.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 
