@@ -3,7 +3,7 @@
 #include <fcntl.h>
 #include <io.h>
 #include <windows.h>
-// After windows.h, which it needs.
+// Last, since it needs the other.
 #include <shellapi.h>
 
 #include <cstdio>
@@ -42,7 +42,7 @@ namespace {
 
 std::ostringstream* last_words = nullptr;  ///< since the console was left
 
-/// Whether nobody reads what is printed: it has no console, or one that was made for it alone.
+/// Whether what is printed is lost: without a console, or with one that was made for this program alone.
 bool has_no_reader() {
   const HANDLE error = ::GetStdHandle(STD_ERROR_HANDLE);
   if (error == nullptr || error == INVALID_HANDLE_VALUE) return true;

@@ -67,7 +67,7 @@ bool is_stream(const std::filesystem::path& file);
 bool may_write(const std::filesystem::path& file);
 bool may_write_into(const std::filesystem::path& folder);
 
-/// Whether a descriptor takes bytes within so many milliseconds; of -1, which takes none, the wait alone.
+/// Whether a descriptor takes bytes within that time; of -1, which takes none, the wait alone.
 bool takes_bytes_within(int milliseconds, int descriptor);
 /// Whether the pipe that standard output is has lost its reader.
 bool output_has_no_reader();

@@ -76,8 +76,7 @@ std::string advice_on_dt(const Preset& p, double own, double verlet, const std::
     return "No dt that is allowed (" + seconds(least_dt) + " or more) is stable here: use a smaller " + stiffness +
            " or a larger m, or implicit Euler, which is stable at any stiffness, and restart.";
   if (own < verlet)
-    return "Use Verlet" + (p.dt <= verlet ? "" : " with dt = " + seconds(verlet) + " or less") +
-           " and restart; " +
+    return "Use Verlet" + (p.dt <= verlet ? "" : " with dt = " + seconds(verlet) + " or less") + " and restart; " +
            (own >= least_dt ? "this method itself needs dt below about " + seconds(own)
             : own > 0       ? "this method itself is stable at no dt that is allowed"
                             : "without damping this method is unstable at every dt") +
@@ -113,8 +112,7 @@ std::string advice(const Preset& p) {
   if (chooses_steps(scheme(p.integrator)))
     return "Use " +
            std::string(p.dt > least_dt ? "a smaller dt (its inner steps may be a ten-thousandth of it) or " : "") +
-           "a smaller " + stiffness +
-           ", and restart; or use implicit Euler, which is stable at any stiffness.";
+           "a smaller " + stiffness + ", and restart; or use implicit Euler, which is stable at any stiffness.";
   if (projects(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
            "more iterations, and restart: this method has no limit of dt, but with few iterations its springs are "
