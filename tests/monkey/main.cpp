@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 
+#include "app/platform/headless_context.h"
 #include "app/process/driver_probe.h"
 #include "app/render/graphics_error.h"
-#include "app/platform/headless_context.h"
 #include "tests/monkey/child.h"
 #include "tests/monkey/chooser.h"
 #include "tests/monkey/player.h"

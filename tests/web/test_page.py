@@ -65,7 +65,9 @@ def command(page, words):
     page.key(*PALETTE)
     wait_for(page, "the palette", lambda now: now["palette"])
     page.type(words)
-    time.sleep(0.5)
+    # A frame shows the field one key at most.
+    typed = report(page)["frames"] + len(words) + 4
+    wait_for(page, "the words are typed", lambda now: now["frames"] >= typed)
     page.key("Enter", "Enter", 13)
     wait_for(page, "the palette closes", lambda now: not now["palette"])
 
