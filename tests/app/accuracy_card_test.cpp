@@ -82,9 +82,10 @@ TEST_CASE("the finder says how far it is, what it found, and what can be promise
   search.seconds = 0.4;
   CHECK(finder_words(search, 1e-3).find("whole second") != std::string::npos);
   search.done = false, search.methods_done = 3;
-  CHECK(finder_words(search, 1e-3) == "Trying methods: 3 of 8…");
+  CHECK(finder_words(search, 1e-3) ==
+        "Trying methods: 3 of 8 done, " + std::to_string(search.points.size()) + " settings tried.");
   search.methods = 0;
-  CHECK(finder_words(search, 1e-3).find("finely") != std::string::npos);
+  CHECK(finder_words(search, 1e-3).find("fine run") != std::string::npos);
 }
 
 TEST_CASE("its chart has a line for each method, and leaves out what cannot be told or diverged") {

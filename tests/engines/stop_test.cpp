@@ -121,8 +121,8 @@ TEST_CASE("a step that takes many iterations asks in each of them, and tells how
     CHECK(least < 0.2);
     CHECK(most > 0.3);
     CHECK(most <= 1);
-    // Newton iterations alone would tell as many parts as there are of them.
-    if (method == std::string("implicit_euler")) CHECK(int(told.size()) > 2 * preset.iterations);
+    if (method == std::string("implicit_euler"))
+      CHECK(told.size() > 10);  // about one for each interior-point iteration
   }
 }
 

@@ -85,4 +85,22 @@ TEST_CASE("a search for settings goes on while another card is in front, and end
   CHECK_FALSE(window.session.studies.settings.tolerance().has_value());
 }
 
+TEST_CASE("presentation mode says how near to real time it runs") {
+  for (const char* theme : {"dark", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window({.settings = [theme](Settings& settings) { settings.theme = theme; }});
+    window.key(GLFW_KEY_F5);
+    window.frames(6);
+    CHECK(window.sees("podium.real_time"));
+  }
+}
+
+TEST_CASE("the palette finds a copy by its method's key") {
+  test::NullUi window;
+  window.pause();
+  window.find("add a copy: rk4");
+  window.until([&] { return window.session.copies.lockstep.size() == 1; }, "the copy");
+  CHECK(window.session.copies.lockstep[0].simulation->preset().integrator == "rk4");
+}
+
 }  // namespace tyglab::presentation_test

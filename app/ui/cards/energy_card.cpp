@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* energy_heading = card_name::energy;
 constexpr std::string_view height_row = "height";
-constexpr float gap_at_1 = 7;  // pixels at scale 1
+constexpr float gap_at_1 = 7, restart_at_1 = 36;  // pixels at scale 1
 
 ImU32 color_of(const Tokens& c, double share) {
   return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
@@ -60,7 +60,7 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
 }
 
 /// Since when all this has been counted: the ledger is kept only while somebody wants it.
-void since_line(Ui& ui, const LedgerReading& reading, float width) {
+void since_line(Ui& ui, const LedgerReading& reading) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool late = reading.began > 0;
   const std::string text = late ? "counted since t = " + time_number(reading.began, ui.session.preset().dt) + " s"
@@ -69,9 +69,10 @@ void since_line(Ui& ui, const LedgerReading& reading, float width) {
                    {lo.x, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)},
                    late ? ui.theme.colors.warning : ui.theme.colors.quiet, text);
   if (!late) return;
-  ImGui::SetCursorScreenPos({lo.x + width - ui.theme.px(22), lo.y - ui.theme.px(1)});
-  if (quiet_button(ui, "count_from_start", icon::restart, "Restart", "Restart the motion, and count from its start"))
-    ui.command("restart");
+  ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(card::line + 4)});
+  if (text_button(ui, "Restart and count")) ui.command("restart");
+  report_control(ui, "count_from_start");
+  tooltip(ui, gui::item_id(), "Restarts the motion, and counts from its start", "R");
 }
 
 }  // namespace
@@ -100,7 +101,9 @@ std::string share_text(const LedgerReading& reading) {
 }
 
 float energy_card_height(const Ui& ui, float) {
-  return card_height(ui, energy_heading, float(energy_rows({}).size() + 1) * card::line + 3 * gap_at_1);
+  const auto ledger = ui.session.simulation->ledger();
+  const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
+  return card_height(ui, energy_heading, float(energy_rows({}).size() + 1) * card::line + 3 * gap_at_1 + button);
 }
 
 void energy_card(Ui& ui, float height) {
@@ -118,7 +121,7 @@ void energy_card(Ui& ui, float height) {
       energy_line(ui, row, *reading, largest, width);
     }
     ImGui::Dummy({width, ui.theme.px(gap_at_1)});
-    since_line(ui, *reading, width);
+    since_line(ui, *reading);
   }
   end_card(ui);
 }

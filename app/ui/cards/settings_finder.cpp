@@ -20,7 +20,8 @@ constexpr float finder_at_1 = 292, finder_rows_at_1 = 10 * finder_row_at_1, find
 
 float asked_width(const Ui& ui) {
   const ImFont& font = *ui.fonts.text;
-  return text_width(font, "Error at most") + text_width(font, "m") + ui.theme.px(finder_field_at_1 + 2 * finder_gap_at_1);
+  return text_width(font, "Error at most") + text_width(font, "m") +
+         ui.theme.px(finder_field_at_1 + 2 * finder_gap_at_1);
 }
 
 /// Where the button has no room beside the field, it stands below it.
@@ -112,7 +113,7 @@ void finder_head(Ui& ui, bool relative) {
   const ImU32 color = ui.theme.colors.quiet;
   finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, s");
   finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
-  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color, 
+  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color,
                 methods_above(ui, at.whole) ? (relative ? "× now" : "s/s")
                 : relative                  ? "cost, × now"
                                             : "cost, s/s");
@@ -195,8 +196,10 @@ std::optional<double> target_error(const Ui& ui) {
 
 std::string finder_words(const SettingsSearch& search, double tolerance) {
   if (!search.done) {
-    if (search.methods == 0) return "Following the motion from t = " + short_number(search.t) + " s finely…";
-    return "Trying methods: " + std::to_string(search.methods_done) + " of " + std::to_string(search.methods) + "…";
+    if (search.methods == 0)
+      return "First a fine run to compare with, from t = " + short_number(search.t) + " s; no setting tried yet.";
+    return "Trying methods: " + std::to_string(search.methods_done) + " of " + std::to_string(search.methods) +
+           " done, " + std::to_string(search.points.size()) + " settings tried.";
   }
   if (const auto refusal = refusal_of(search, tolerance)) return refusal->words;
   std::string words = "Largest errors over the " + two_digits_of(search.seconds) +

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/base/numbers.h"
+#include "app/base/text_lines.h"
 #include "app/ui/constants/constant_row.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
@@ -41,7 +42,7 @@ std::string count_of(const Preset& preset) {
 bool answer(Ui& ui, const char* label, const std::string& result, bool strong) {
   const bool clicked = text_button(ui, label, strong);
   ImGui::PushFont(ui.fonts.small);
-  wrapped(ui, result, ui.theme.colors.quiet);
+  wrapped(ui, in_lines(*ui.fonts.small, with_whole_terms(result), ui.row_width), ui.theme.colors.quiet);
   ImGui::PopFont();
   return clicked;
 }
@@ -55,7 +56,8 @@ void question_part(Ui& ui, const ResolutionQuestion& question) {
   const Preset& now = ui.session.requested_preset();
   const Preset& more = question.more;
   const bool grows = std::int64_t(more.rows) * more.columns > std::int64_t(now.rows) * now.columns;
-  wrapped(ui, count_of(now) + " → " + count_of(more) + ": what is meant?", ui.theme.colors.text);
+  const std::string asks = count_of(now) + " → " + count_of(more) + ": what is meant?";
+  wrapped(ui, in_lines(*ui.fonts.text, with_whole_terms(asks), ui.row_width), ui.theme.colors.text);
   if (const auto& same = question.same_size) {
     const std::string result = count_of(*same) + ", " + size_of(now) +
                                " as now; L = " + short_number(rounded(same->L, 3)) +

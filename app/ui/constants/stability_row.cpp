@@ -115,7 +115,7 @@ double gauge_position(const StabilityLimits& limits, double dt) {
 
 std::string stability_text(const StabilityLimits& limits, double dt) {
   if (std::isinf(limits.any)) return "no limit";
-  return limits.any > 0 ? percent(dt / limits.any) : "always above";
+  return limits.any > 0 ? percent(dt / limits.any) : "unstable at any dt";
 }
 
 std::string part_words(const StabilityLimits& limits, double dt) {

@@ -15,7 +15,7 @@ struct Ui;
 /// every shape is unstable. Each mark has a tooltip, and the bar one for all.
 void stability_row(Ui& ui);
 
-/// The gauge's number: "57 %", "no limit", "always above".
+/// The gauge's number: "57 %", "no limit", "unstable at any dt".
 std::string stability_text(const StabilityLimits& limits, double dt);
 /// "dt is 75 % of the worst-case limit and 58 % of this cloth's own, as it hangs now." Of the mass on a spring "dt is
 /// 75 % of the limit." Empty where there is no limit, or none that is stable.

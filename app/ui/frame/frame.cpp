@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "app/ui/frame/keys.h"
 #include "app/ui/frame/panels.h"
@@ -58,6 +59,8 @@ void draw_panels(Ui& ui) {
   slider.order = 0;
   slider.focused_seen = false;
   ui.hover_seen = false;
+  if (std::exchange(ui.pointer_before, ui.input.at) != ui.input.at) ui.keys_since_move = false;
+  if (!ui.input.keys.empty()) ui.keys_since_move = true;
   ui.covered = ui.help;
   draw_layout(ui, ImGui::GetIO().DisplaySize);
   // A slider that is no longer drawn (folded, hidden) gives its keys back; so does one when the cloth is pressed.

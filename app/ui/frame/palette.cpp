@@ -103,9 +103,17 @@ void add_constants(const Ui& ui, std::vector<PaletteEntry>& list) {
                       [key = row.key](Ui& u) { show_constant(u, key); }});
 }
 
+/// The method that it differs in, as presets write it: "rk4"; empty where it has the same.
+std::string method_of_copy(const CopyChoice& choice) {
+  for (const Difference& difference : choice.differences)
+    if (const std::string* method = difference.value_of(&Preset::integrator)) return *method;
+  return {};
+}
+
 void add_copies(const Ui& ui, std::vector<PaletteEntry>& list) {
   for (const CopyChoice& choice : copy_choices(ui.session.requested_preset()))
-    list.push_back({"Copy", "Add a copy: " + choice.label, "", "with beside compare", "", [choice](Ui& u) {
+    list.push_back({"Copy", "Add a copy: " + choice.label, "", "with beside compare " + method_of_copy(choice), "",
+                    [choice](Ui& u) {
                       u.session.request(request::AddCopy{choice.differences, choice.reference});
                     }});
 }

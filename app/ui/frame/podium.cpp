@@ -25,9 +25,18 @@ void large_transport(Ui& ui, ImVec2 at) {
   ui.tour.transport = {{at.x, at.y}, {hi.x, hi.y}};
   const ImFont& mono = *ui.fonts.mono;
   const std::string time = "t = " + time_number(ui.session.simulation->time(), ui.session.preset().dt) + " s";
-  draw_on_baseline(*ImGui::GetWindowDrawList(), mono,
-                   {at.x, baseline_at(ui.fonts, (hi.y + at.y + ui.theme.px(podium_content_at_1)) / 2)},
-                   ui.theme.colors.text, fitted(mono, time, hi.x - at.x));
+  const float baseline = baseline_at(ui.fonts, (hi.y + at.y + ui.theme.px(podium_content_at_1)) / 2);
+  draw_on_baseline(*ImGui::GetWindowDrawList(), mono, {at.x, baseline}, ui.theme.colors.text,
+                   fitted(mono, time, hi.x - at.x));
+  const RealTime real = real_time(ui);
+  const std::string after = "× " + real.text;
+  const float left = std::max(at.x + text_width(mono, time) + ui.theme.px(10), hi.x - text_width(mono, after));
+  if (left + text_width(mono, after) > hi.x + ui.theme.px(podium_gap_at_1 - 4)) return;
+  ImGui::SetCursorScreenPos({left, hi.y});
+  ImGui::InvisibleButton("real_time", {text_width(mono, after), ui.theme.px(podium_content_at_1 - podium_button_at_1)});
+  report_control(ui, "real_time");
+  tooltip(ui, gui::item_id(), real_time_tip);
+  draw_on_baseline(*ImGui::GetWindowDrawList(), mono, {left, baseline}, real.color, after);
 }
 
 /// Rows below each other, as wide as they are in the column of constants.

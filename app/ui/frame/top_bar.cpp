@@ -136,9 +136,6 @@ void readings(Ui& ui, float x, float end) {
   const auto time = [&](double t) { return "t = " + time_number(t, ui.session.preset().dt) + " s"; };
   x = reading(ui, x, end, "", time(ui.session.simulation->time()), time(10).c_str(), c.text, "Simulated time");
   x = speed(ui, x, end);
-  const double part = ui.session.pacing.aim() > 0 ? ui.session.pacing.reached() / ui.session.pacing.aim() : 0;
-  std::snprintf(text, sizeof text, "%.0f %%", 100 * ui.session.pacing.reached());
-  const bool running = ui.session.pacing.playing && !ui.session.simulation->divergence() && !ui.session.asleep();
   if (const std::string step = step_under_way(ui.session); !step.empty()) {
     const std::string label = "step " + std::to_string(ui.session.simulation->steps() + 1);
     reading(ui, x, end, label.c_str(), step, "100 %, 00.0 s", c.warning,
@@ -146,12 +143,8 @@ void readings(Ui& ui, float x, float end) {
             "that it has taken. A change to the cloth stops it and starts it again; a change of view does not.");
     return;
   }
-  x = reading(ui, x, end, "real time", running ? text : "–", "100 %",
-              !running      ? c.quiet
-              : part > 0.95 ? c.good
-                            : c.warning,
-              "Simulated time to real time, over the last half second. Amber: the machine does not reach the "
-              "requested speed.");
+  const RealTime real = real_time(ui);
+  x = reading(ui, x, end, "real time", real.text, "100 %", real.color, real_time_tip);
   std::snprintf(text, sizeof text, "%d", ui.session.pacing.steps_per_frame());
   x = reading(ui, x, end, "steps/frame", text, "000", c.text, "Steps of dt per frame");
   reading(ui, x, end, "dt", short_number(ui.session.preset().dt) + " s", "1.234e-4 s", c.text,

@@ -70,6 +70,15 @@ ImVec2 transport_buttons(Ui& ui, ImVec2 at, float side) {
   return ImGui::GetItemRectMax();
 }
 
+RealTime real_time(const Ui& ui) {
+  const Pacing& pacing = ui.session.pacing;
+  const Tokens& c = ui.theme.colors;
+  const bool running = pacing.playing && !ui.session.simulation->divergence() && !ui.session.asleep();
+  if (!running) return {"–", c.quiet};
+  const bool reached = pacing.aim() > 0 && pacing.reached() / pacing.aim() > 0.95;
+  return {short_number(std::round(100 * pacing.reached()), 4) + " %", reached ? c.good : c.warning};
+}
+
 ImVec2 speed_control_size(const Ui& ui, float width) {
   const SpeedLabels all = speed_labels(ui);
   return segments_size(ui, all.labels.data(), int(all.labels.size()), beside_label_at_1, width);

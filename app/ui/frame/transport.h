@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string>
+
 namespace tyglab {
 
 struct Ui;
@@ -15,5 +17,14 @@ ImVec2 transport_size(const Ui& ui, float side = 32);
 /// The speeds to choose from, in one row or, where that is wider than `width` (px), in more.
 void speed_control(Ui& ui, ImVec2 at, float width);
 ImVec2 speed_control_size(const Ui& ui, float width);
+
+/// Simulated time to real time, over the last half second, "98 %", and the color to say it in.
+struct RealTime {
+  std::string text;
+  ImU32 color;
+};
+RealTime real_time(const Ui& ui);
+inline constexpr const char* real_time_tip =
+    "Simulated time to real time, over the last half second. Amber: the machine does not reach the requested speed.";
 
 }  // namespace tyglab

@@ -71,12 +71,15 @@ struct UiContext {
   unsigned hovered = 0;   ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
-  bool hover_used = false;     ///< it was pressed or typed into since: no tooltip any more
-  glm::vec2 tooltip_size{0};   ///< of the last tooltip, pixels
-  bool close_lists = false;    ///< Esc was pressed: open menus and combo boxes close in this frame
-  bool covered = false;        ///< something lies over everything: no tooltips
-  bool wheel_scrolls = false;  ///< the wheel scrolls the column of plots, and zooms a plot only with Ctrl
-  float row_width = 0;         ///< of what is laid out in rows, pixels
+  bool hover_used = false;       ///< it was pressed or typed into since: no tooltip any more
+  glm::vec2 tooltip_size{0};     ///< of the last tooltip, pixels
+  float tooltip_wrap = 0;        ///< where lines end in the one that is being written, pixels; 0: there is none
+  bool keys_since_move = false;  ///< a key was pressed since the pointer moved last: no tooltips
+  glm::vec2 pointer_before{-1};  ///< pixels
+  bool close_lists = false;      ///< Esc was pressed: open menus and combo boxes close in this frame
+  bool covered = false;          ///< something lies over everything: no tooltips
+  bool wheel_scrolls = false;    ///< the wheel scrolls the column of plots, and zooms a plot only with Ctrl
+  float row_width = 0;           ///< of what is laid out in rows, pixels
 };
 
 /// Names the item drawn last for the control log, if there is one: the region or "dialog" or "menu" that it stands in,

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "app/base/text_lines.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 
@@ -28,24 +30,70 @@ bool list_opened(UiContext& ui) {
   return true;
 }
 
-/// Where the next tooltip goes, so that what it explains stays in sight: beside the panel or list of which the last
-/// item takes up the width, else under the item, or above it where there is no room.
-void place_tooltip(const UiContext& ui) {
+constexpr float widest_tooltip = 340, narrowest_tooltip = 120, tooltip_padding_at_1 = 12;  // pixels at scale 1
+
+/// Where the last item's tooltip goes, px.
+struct TooltipPlace {
+  ImVec2 at;
+  float wrap;  ///< where its lines end
+};
+
+/// A place as near as possible to that height at which a box covers no mark over the cloth.
+float clear_of_marks(const UiContext& ui, Box box) {
+  const float gap = ui.theme.px(8), first = box.lo.y, height = box.hi.y - box.lo.y;
+  const float most = ImGui::GetIO().DisplaySize.y - gap;
+  std::vector<float> tops{first};
+  for (const auto& mark : ui.placing.marks())
+    tops.insert(tops.end(), {mark.box.lo.y - gap - height, mark.box.hi.y + gap});
+  std::sort(tops.begin(), tops.end(), [first](float a, float b) { return std::abs(a - first) < std::abs(b - first); });
+  for (const float top : tops) {
+    const Box there{{box.lo.x, top}, {box.hi.x, top + height}};
+    const auto& marks = ui.placing.marks();
+    const bool taken = std::any_of(marks.begin(), marks.end(), [&](const auto& m) { return overlap(m.box, there); });
+    if (!taken && top >= gap && top + height <= most) return top;
+  }
+  return first;
+}
+
+/// So that what it explains stays in sight: beside the panel or list of which the last item takes up the width, as
+/// narrow as it must be for that, else under the item, or above it where there is no room.
+TooltipPlace tooltip_place(const UiContext& ui) {
   const ImVec2 window = ImGui::GetIO().DisplaySize, lo = ImGui::GetItemRectMin(), hi = ImGui::GetItemRectMax();
   const ImGuiWindow& panel = *ImGui::GetCurrentWindowRead()->RootWindow;
   const float gap = ui.theme.px(8), left = panel.Pos.x, right = left + panel.Size.x;
+  const float around = 2 * gap + 2 * ui.theme.px(tooltip_padding_at_1);
+  const float room_right = window.x - right - around, room_left = left - around;
   const glm::vec2 size = ui.tooltip_size;
   const bool row = hi.x - lo.x > 0.4f * panel.Size.x;
-  ImVec2 at{lo.x, hi.y + gap / 2};
-  if (row && right + gap + size.x <= window.x) {
-    at = {right + gap, lo.y};
-  } else if (row && left - gap - size.x >= 0) {
-    at = {left - gap - size.x, lo.y};
-  } else if (at.y + size.y > window.y) {
-    at.y = lo.y - gap / 2 - size.y;
-  }
   const auto inside = [gap](float x, float most) { return std::max(std::min(x, most - gap), std::min(gap, x)); };
-  ImGui::SetNextWindowPos({inside(at.x, window.x - size.x), inside(at.y, window.y - size.y)});
+  float wrap = std::min(ui.theme.px(widest_tooltip), window.x - ui.theme.px(48));
+  if (row && std::max(room_right, room_left) >= ui.theme.px(narrowest_tooltip)) {
+    const bool at_right = room_right >= std::min(wrap, room_left);
+    wrap = std::min(wrap, at_right ? room_right : room_left);
+    const float x = at_right ? right + gap : left - gap - size.x, y = inside(lo.y, window.y - size.y);
+    return {{x, clear_of_marks(ui, {{x, y}, {x + size.x, y + size.y}})}, wrap};
+  }
+  const float x = inside(lo.x, window.x - size.x);
+  const auto free = [&](float y) {
+    const Box box{{x, y}, {x + size.x, y + size.y}};
+    const auto& marks = ui.placing.marks();
+    return y >= 0 && y + size.y <= window.y &&
+           std::none_of(marks.begin(), marks.end(), [&](const auto& m) { return overlap(m.box, box); });
+  };
+  const float below = hi.y + gap / 2, above = lo.y - gap / 2 - size.y;
+  if (free(below)) return {{x, below}, wrap};
+  if (free(above)) return {{x, above}, wrap};
+  return {{x, inside(below + size.y <= window.y ? below : above, window.y - size.y)}, wrap};
+}
+
+void open_tooltip(UiContext& ui, float wrap) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(tooltip_padding_at_1), ui.theme.px(10)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(6), ui.theme.px(4)));
+  ImGui::BeginTooltip();
+  // Dear ImGui hides it in the frame in which it measures it.
+  if (ImGui::IsWindowAppearing()) ui.draw_by = ui.now;
+  ui.tooltip_wrap = wrap;
+  ImGui::PushTextWrapPos(wrap);
 }
 
 /// Where choices in rows stand, px from the first one's corner.
@@ -82,6 +130,8 @@ bool tooltip_due(UiContext& ui, ImGuiID id) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return false;
   if (ui.covered) return false;
   ui.hover_seen = true;
+  // Who types looks elsewhere, and what a key has opened is not to be covered.
+  if (ui.keys_since_move) return false;
   const bool enabled = ImGui::IsItemHovered();  // a press on what is disabled asks why it is
   if ((enabled && ImGui::IsMouseDown(ImGuiMouseButton_Left)) || ui.slider.typing != 0) {
     ui.hovered = id, ui.hover_used = true;
@@ -99,27 +149,32 @@ bool tooltip_due(UiContext& ui, ImGuiID id) {
 }
 
 void begin_tooltip(UiContext& ui) {
-  place_tooltip(ui);
-  begin_tooltip_at_pointer(ui);
+  const TooltipPlace place = tooltip_place(ui);
+  ImGui::SetNextWindowPos(place.at);
+  open_tooltip(ui, place.wrap);
 }
 
 void begin_tooltip_at_pointer(UiContext& ui) {
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(12), ui.theme.px(10)));
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(6), ui.theme.px(4)));
-  ImGui::BeginTooltip();
-  // Dear ImGui hides it in the frame in which it measures it.
-  if (ImGui::IsWindowAppearing()) ui.draw_by = ui.now;
-  ImGui::PushTextWrapPos(std::min(ui.theme.px(340), ImGui::GetIO().DisplaySize.x - ui.theme.px(48)));
+  open_tooltip(ui, std::min(ui.theme.px(widest_tooltip), ImGui::GetIO().DisplaySize.x - ui.theme.px(48)));
 }
 
 void end_tooltip(UiContext& ui) {
   ImGui::PopTextWrapPos();
+  ui.tooltip_wrap = 0;
   ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
   ImGui::EndTooltip();
   ImGui::PopStyleVar(2);
 }
 
-void wrapped(UiContext&, std::string_view text, ImU32 color) {
+void wrapped(UiContext& ui, std::string_view text, ImU32 color) {
+  // A number and its unit stay on one line.
+  if (ui.tooltip_wrap > 0) {
+    const std::string lines =
+        in_lines(*ImGui::GetFont(), with_whole_terms(std::string(text)), ui.tooltip_wrap - ImGui::GetCursorPosX());
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::TextUnformatted(lines.c_str());
+    return ImGui::PopStyleColor();
+  }
   ImGui::PushStyleColor(ImGuiCol_Text, color);
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopStyleColor();

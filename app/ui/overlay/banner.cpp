@@ -19,6 +19,7 @@ namespace tyglab {
 namespace {
 
 constexpr float least_banner = 380;  // pixels at scale 1, of the width
+constexpr const char* replay_label = "Replay slowly";
 
 float height_of(const ImFont& font, const std::string& lines) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
@@ -119,16 +120,15 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   }
   if (!advice.springs_too_weak) add_retries(ui, advice, past, ways);
   if (nothing_to_replay(ui.session).empty())
-    ways.push_back({"Replay slowly",
-                    "The last 50 steps in some seconds, colored by strain; what breaks first is ringed", "",
-                    [](Ui& u) { u.command("replay"); }});
+    ways.push_back({replay_label, "The last 50 steps in some seconds, colored by strain; what breaks first is ringed",
+                    "", [](Ui& u) { u.command("replay"); }});
   if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;
 }
 
 /// Places the buttons from the left, in as many lines as they need; returns where each begins, relative to the first.
-std::vector<ImVec2> flow(Ui& ui, const std::vector<Way>& ways, float width) {
+std::vector<ImVec2> flow(const Ui& ui, const std::vector<Way>& ways, float width) {
   const float gap = ui.theme.px(8), line = ui.theme.px(30) + gap;
   std::vector<ImVec2> places;
   ImVec2 at{0, 0};
@@ -149,97 +149,148 @@ void way_buttons(Ui& ui, const std::vector<Way>& ways, const std::vector<ImVec2>
   }
 }
 
-/// In the middle of the lower end of a picture of that size, above the names of cloths where there is room.
-Box place_of_banner(const Ui& ui, glm::vec2 picture, glm::vec2 size) {
-  const glm::vec2 lo = ui.viewport.box.lo;
-  const float left = std::round(lo.x + (picture.x - size.x) / 2),
-              under = std::clamp((picture.y - size.y) / 2, 0.f, ui.theme.px(20)),
-              foot = std::round(lo.y + picture.y - under);
-  const auto free = ui.placing.in_corner({{left, lo.y}, {left + size.x, foot}}, size, ScreenCorner::lower_left);
-  return free.value_or(Box{{left, foot - size.y}, {left + size.x, foot}});
+/// The banner on a line or a few: what is said and offered wherever the whole would leave the cloth too little room.
+struct FoldedBanner {
+  std::string words;
+  std::vector<Way> ways;
+  std::vector<ImVec2> places;  ///< of their buttons, px from the first one's corner
+  bool under = false;          ///< the buttons stand below the words
+  glm::vec2 size{0};           ///< px
+};
+
+float buttons_width(const Ui& ui, const std::vector<Way>& ways) {
+  float sum = -ui.theme.px(8);
+  for (const Way& way : ways)
+    sum += text_width(*ui.fonts.text, way.label) + 2 * ImGui::GetStyle().FramePadding.x + ui.theme.px(8);
+  return sum;
 }
 
-/// All in a line, where the whole would hide what happened: the first way out, and the rest on demand.
-void folded_banner(Ui& ui, const std::vector<Way>& ways, double over_limit, glm::vec2 picture) {
+/// The first way out, the replay and the details, beside as many words as have room, or below them.
+FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double over_limit, float most) {
+  const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
+  std::vector<Way> shown{ways.front()};
+  for (std::size_t k = 1; k < ways.size(); ++k)
+    if (ways[k].label == replay_label) shown.push_back(ways[k]);
+  shown.push_back({"Details", "What happened, why, and every way out", "", [](Ui& u) { u.banner_whole = true; }});
+  const float room = most - 2 * padding, buttons = std::min(buttons_width(ui, shown), room);
+  const std::vector<ImVec2> places = flow(ui, shown, room);
+  const float rows = places.back().y + line;
+  const std::string limit =
+      over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit" : std::string();
+  const std::string texts[] = {"The simulation diverged" + limit, "The simulation diverged", "Diverged"};
+  FoldedBanner folded;
+  for (const bool under : {false, true})
+    for (const std::string& text : texts) {
+      const float words = icon + text_width(*ui.fonts.title, text);
+      const float width = 2 * padding + (under ? std::max(words, buttons) : words + 2 * gap + buttons);
+      folded = {text, shown, places, under, {std::min(width, most), (under ? line : 0) + rows + 2 * gap}};
+      if (width <= most && (under || rows == line)) return folded;
+    }
+  return folded;
+}
+
+/// All that the banner needs to know before it is drawn: how high it is decides how much room the cloth has.
+struct BannerPlan {
+  std::vector<Way> ways;
+  FoldedBanner folded;
+  std::string happened, why;
+  std::vector<ImVec2> places;
+  float width = 0, height = 0, indent = 0;  ///< px, of the whole
+  bool whole = false;
+  bool strip = false;  ///< what is shown has a strip of its own
+};
+
+BannerPlan plan_banner(Ui& ui, const Divergence& divergence, glm::vec2 region) {
+  constexpr float most_of_it = 0.4f, most_presented = 0.2f;  // of the region's height
+  BannerPlan plan;
+  const Preset& then = ui.session.simulation->diverged_preset();
+  const Advice& advice = advice_for(then, ui);
+  plan.ways = ways_out(ui, advice);
+  const float most = region.x - ui.theme.px(32), padding = ui.theme.px(16), gap = ui.theme.px(6);
+  plan.folded = folded_banner(ui, plan.ways, advice.largest_dt > 0 ? then.dt / advice.largest_dt : 0, most);
+  plan.width = std::min(ui.theme.px(600), most);
+  // In a narrow one the text begins under the icon.
+  plan.indent = plan.width < ui.theme.px(least_banner) ? 0 : ui.theme.px(30);
+  const float inner = plan.width - 2 * padding - plan.indent;
+  const ImFont& text = *ui.fonts.text;
+  plan.happened = in_lines(text, with_whole_terms(what_happened(divergence, then, advice.largest_dt)), inner);
+  plan.why = in_lines(text, with_whole_terms(why_and_what_now(ui, divergence)), inner);
+  plan.places = flow(ui, plan.ways, inner);
+  plan.height = 2 * padding + ui.fonts.title->FontSize + 2 * gap + height_of(text, plan.happened) +
+                height_of(text, plan.why) + ui.theme.px(12) + plan.places.back().y + ui.theme.px(30);
+  plan.strip = plan.height <= (ui.presenting ? most_presented : most_of_it) * region.y;
+  plan.whole = ui.banner_whole.value_or(plan.strip);
+  return plan;
+}
+
+constexpr float banner_margin_at_1 = 8;  // above and below it in its strip
+
+/// In the middle of the strip; what is too high for it reaches up over the cloth.
+Box place_of_banner(const Ui& ui, const Box& region, glm::vec2 size) {
+  const float left = std::round((region.lo.x + region.hi.x - size.x) / 2),
+              foot = region.hi.y - ui.theme.px(banner_margin_at_1);
+  return {{left, std::max(region.lo.y, foot - size.y)}, {left + size.x, std::max(region.lo.y, foot - size.y) + size.y}};
+}
+
+void banner_ground(Ui& ui, const Box& box) {
+  const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(lo, hi, ui.theme.colors.panel, ui.theme.px(8));
+  draw.AddRect(lo, hi, ui.theme.colors.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
+  cover_viewport(ui, lo, hi);
+  ui.placing.take("banner", box);
+}
+
+void draw_folded(Ui& ui, const FoldedBanner& folded, const Box& box) {
   const Tokens& c = ui.theme.colors;
   const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
   const ImFont& font = *ui.fonts.title;
-  const float most = picture.x - ui.theme.px(32), frame = 2 * ImGui::GetStyle().FramePadding.x;
-  const float buttons =
-      text_width(*ui.fonts.text, ways.front().label) + text_width(*ui.fonts.text, "Details") + 2 * frame + gap;
-  float words = 0;
-  std::string shown;
-  const std::string limit =
-      over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit" : std::string();
-  for (const std::string& text :
-       {"The simulation diverged" + limit, std::string("The simulation diverged"), std::string("Diverged")}) {
-    const float width = text_width(font, text) + 2 * gap;
-    if (2 * padding + icon + width + buttons <= most && words == 0) words = width, shown = text;
-  }
-  const Box box = place_of_banner(ui, picture, {2 * padding + icon + words + buttons, line + 2 * gap});
-  const ImVec2 lo = {box.lo.x, box.lo.y}, hi = {box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(8));
-  draw.AddRect(lo, hi, c.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
-  const float baseline = baseline_at(ui.fonts, (lo.y + hi.y) / 2);
-  draw_on_baseline(draw, *ui.fonts.text, {lo.x + padding, baseline}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
-  draw_on_baseline(draw, font, {lo.x + padding + icon, baseline}, c.text, shown);
-  way_buttons(ui, {ways.front()}, {{0, 0}}, {lo.x + padding + icon + words, lo.y + gap});
-  ImGui::SameLine(0, gap);
-  if (text_button(ui, "Details")) ui.banner_whole = true;
-  tooltip(ui, gui::item_id(), "What happened, why, and every way out");
-  cover_viewport(ui, lo, hi);
-  ui.placing.take("banner", box);
+  const float baseline = baseline_at(ui.fonts, box.lo.y + gap + line / 2), x = box.lo.x + padding;
+  draw_on_baseline(draw, *ui.fonts.text, {x, baseline}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
+  draw_on_baseline(draw, font, {x + icon, baseline}, c.text, folded.words);
+  const ImVec2 at = folded.under ? ImVec2(x, box.lo.y + gap + line)
+                                 : ImVec2(x + icon + text_width(font, folded.words) + 2 * gap, box.lo.y + gap);
+  way_buttons(ui, folded.ways, folded.places, at);
+}
+
+void draw_whole(Ui& ui, const BannerPlan& plan, const Box& box) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont &title = *ui.fonts.title, &text = *ui.fonts.text;
+  const float padding = ui.theme.px(16), gap = ui.theme.px(6);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  float y = box.lo.y + padding;
+  const float left = box.lo.x + padding, x = left + plan.indent;
+  draw_text(draw, text, {left, y}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
+  draw_text(draw, title, {left + ui.theme.px(30), y}, c.text, "The simulation diverged");
+  y += title.FontSize + gap;
+  draw_text(draw, text, {x, y}, c.text, plan.happened);
+  y += height_of(text, plan.happened) + gap;
+  draw_text(draw, text, {x, y}, c.quiet, plan.why);
+  y += height_of(text, plan.why) + ui.theme.px(12);
+  way_buttons(ui, plan.ways, plan.places, {x, y});
+  ImGui::SetCursorScreenPos({box.hi.x - ui.theme.px(34), box.lo.y + ui.theme.px(8)});
+  if (quiet_button(ui, "fold", icon::close, "x", "Only one line, so that more of the cloth is seen"))
+    ui.banner_whole = false;
 }
 
 }  // namespace
 
-void banner(Ui& ui) {
+float banner_strip(Ui& ui, glm::vec2 region) {
+  const auto& divergence = ui.session.simulation->divergence();
+  if (!divergence) return 0;
+  const BannerPlan plan = plan_banner(ui, *divergence, region);
+  return (plan.whole && plan.strip ? plan.height : plan.folded.size.y) + 2 * ui.theme.px(banner_margin_at_1);
+}
+
+void banner(Ui& ui, const Box& region) {
   const auto& divergence = ui.session.simulation->divergence();
   if (!divergence) return ui.banner_whole.reset();
-  const Tokens& c = ui.theme.colors;
-  // In the original's picture where it has room for it, so that its copies can still be seen.
-  const bool roomy = ui.viewport.size().x >= ui.theme.px(least_banner);
-  const glm::vec2 size = roomy ? ui.viewport.size() : ui.viewport.whole();
-  const float width = std::min(ui.theme.px(600), size.x - ui.theme.px(32)), padding = ui.theme.px(16);
-  // In a narrow one the text begins under the icon.
-  const float icon = ui.theme.px(30), indent = width < ui.theme.px(least_banner) ? 0 : icon;
-  const float inner = width - 2 * padding - indent;
-  const ImFont &title = *ui.fonts.title, &text = *ui.fonts.text;
-  const Preset& then = ui.session.simulation->diverged_preset();
-  const Advice& advice = advice_for(then, ui);
-  const std::string happened =
-                        in_lines(text, with_whole_terms(what_happened(*divergence, then, advice.largest_dt)), inner),
-                    why = in_lines(text, with_whole_terms(why_and_what_now(ui, *divergence)), inner);
-  const std::vector<Way> ways = ways_out(ui, advice);
-  const std::vector<ImVec2> places = flow(ui, ways, inner);
-  const float gap = ui.theme.px(6), buttons = places.back().y + ui.theme.px(30);
-  const float happened_height = height_of(text, happened), why_height = height_of(text, why);
-  const float height =
-      2 * padding + title.FontSize + gap + happened_height + gap + why_height + ui.theme.px(12) + buttons;
-  constexpr float most_covered = 0.4f;  // of the picture's height
-  if (!ui.banner_whole.value_or(height <= most_covered * size.y))
-    return folded_banner(ui, ways, advice.largest_dt > 0 ? then.dt / advice.largest_dt : 0, size);
-  const Box box = place_of_banner(ui, size, {width, height});
-  const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(8));
-  draw.AddRect(lo, hi, c.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
-  draw_text(draw, text, {lo.x + padding, lo.y + padding}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
-  float y = lo.y + padding;
-  const float x = lo.x + padding + indent;
-  draw_text(draw, title, {lo.x + padding + icon, y}, c.text, "The simulation diverged");
-  y += title.FontSize + gap;
-  draw_text(draw, text, {x, y}, c.text, happened);
-  y += happened_height + gap;
-  draw_text(draw, text, {x, y}, c.quiet, why);
-  y += why_height + ui.theme.px(12);
-  way_buttons(ui, ways, places, {x, y});
-  ImGui::SetCursorScreenPos({hi.x - ui.theme.px(34), lo.y + ui.theme.px(8)});
-  if (quiet_button(ui, "fold", icon::close, "x", "Only one line, so that more of the cloth is seen"))
-    ui.banner_whole = false;
-  cover_viewport(ui, lo, hi);
-  ui.placing.take("banner", box);
+  const BannerPlan plan = plan_banner(ui, *divergence, region.hi - region.lo);
+  const Box box = place_of_banner(ui, region, plan.whole ? glm::vec2(plan.width, plan.height) : plan.folded.size);
+  banner_ground(ui, box);
+  if (plan.whole) return draw_whole(ui, plan, box);
+  draw_folded(ui, plan.folded, box);
 }
 
 void message_list(Ui& ui) {

@@ -44,14 +44,17 @@ std::array<std::optional<Box>, 12> pause_places(const Ui& ui, const Box& row, gl
 
 }  // namespace
 
+glm::vec2 pause_mark_size(const Ui& ui) {
+  return {std::ceil(text_width(*ui.fonts.brand, paused_word) + 2 * ui.theme.px(12)), ui.theme.px(26)};
+}
+
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row) {
   if (ui.session.pacing.playing || ui.session.simulation->divergence()) return ui.pause_place.reset();
   const Tokens& c = ui.theme.colors;
   const ImFont &bold = *ui.fonts.brand, &text = *ui.fonts.text;
   const char* how = ways_on(ui);
   const float pad = ui.theme.px(12), height = ui.theme.px(26), word_width = text_width(bold, paused_word);
-  const glm::vec2 brief{std::ceil(word_width + 2 * pad), height},
-      full{std::ceil(word_width + text_width(text, how) + 3 * pad), height};
+  const glm::vec2 brief = pause_mark_size(ui), full{std::ceil(word_width + text_width(text, how) + 3 * pad), height};
   const auto list = pause_places(ui, row, full, brief);
   ui.pause_place = choose_place(list, drawn_parts(ui), ui.pause_place);
   if (!ui.pause_place) return;

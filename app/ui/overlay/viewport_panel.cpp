@@ -1,5 +1,6 @@
 // The picture of the cloth, and the buttons over it.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/ui/kit/imgui_compat.h"
@@ -42,23 +43,49 @@ void bending_check(Ui& ui, const Region& region, const Box& buttons) {
   cover(ui, "bending", box);
 }
 
-/// "1 Triangles" … or, where the viewport is narrow, the numbers alone.
-void view_buttons(Ui& ui, const Region& region) {
-  static constexpr const char* numbers[] = {"1", "2", "3", "4", "5"};
-  const float margin = ui.theme.px(16), room = region.size.x - 2 * margin;
-  const auto width = [&](const auto& labels) {
-    float sum = 0;
-    for (const char* label : labels) sum += text_width(*ui.fonts.text, label) + 2 * ui.theme.px(11) + 1;
-    return sum;
+constexpr std::array<const char*, 5> view_numbers{"1", "2", "3", "4", "5"};
+
+/// "1 Triangles" … or, where the viewport is narrow, the numbers alone; then the menu of colors.
+struct ViewRow {
+  const char* const* labels;
+  float padding;         ///< at scale 1
+  float buttons, width;  ///< px, without and with the menu
+};
+
+ViewRow view_row(const Ui& ui, float viewport) {
+  const float room = viewport - 2 * ui.theme.px(16), gap = ui.theme.px(12), beside = gap + color_menu_width(ui);
+  const auto width = [&](const auto& labels, float padding) {
+    return segments_size(ui, labels.data(), int(labels.size()), padding).x;
   };
-  const float gap = ui.theme.px(12), beside = gap + color_menu_width(ui);
-  const bool roomy = width(view_names) + beside < room;
-  const float padding = roomy || width(numbers) + beside < room ? 11.f : 4.f;
+  const bool roomy = width(view_names, 11) + beside < room;
+  const auto& labels = roomy ? view_names : view_numbers;
+  const float padding = width(labels, 11) + beside < room ? 11.f : 4.f, buttons = width(labels, padding);
+  return {labels.data(), padding, buttons,
+          buttons + gap + std::clamp(room - buttons - gap, ui.theme.px(48), color_menu_width(ui))};
+}
+
+/// Height that legend and PAUSED take below the view buttons, px: there they cover no cloth that is framed.
+float marks_height(const Ui& ui, float viewport, bool under_buttons) {
+  const float gap = ui.theme.px(6), room = viewport - 2 * ui.theme.px(16);
+  const ImVec2 legend = legend_line_size(ui.theme, room);
+  const glm::vec2 paused = pause_mark_size(ui);
+  const bool colored = shown_colors(ui.scene) != nullptr;
+  const bool paused_in_row = !ui.presenting && view_row(ui, viewport).width + gap + paused.x <= room;
+  if (ui.presenting) return colored ? legend.y + gap : 0;
+  float height = under_buttons ? 0 : ui.theme.px(12);
+  if (colored) height += legend.y + gap;
+  const bool shared = colored && legend.x + gap + paused.x <= room;
+  if (!paused_in_row && !shared) height += paused.y + gap;
+  return colored || !paused_in_row ? height : 0;
+}
+
+void view_buttons(Ui& ui, const Region& region) {
+  const float margin = ui.theme.px(16), room = region.size.x - 2 * margin, gap = ui.theme.px(12);
+  const ViewRow shown = view_row(ui, region.size.x);
   const ImVec2 lo{region.at.x + margin, region.at.y + ui.theme.px(12)};
   ImGui::SetCursorScreenPos(lo);
   const int mode = ui.session.requested_preset().mode;
-  if (const int k = segments(ui, "views", roomy ? view_names.data() : numbers, 5, mode - 1, padding);
-      k >= 0 && k + 1 != mode)
+  if (const int k = segments(ui, "views", shown.labels, 5, mode - 1, shown.padding); k >= 0 && k + 1 != mode)
     set_mode(ui, k + 1);
   tooltip(ui, gui::item_id(), "How the cloth is drawn (2.4)", "Keys 1 to 5");
   ImVec2 hi = ImGui::GetItemRectMax();
@@ -104,7 +131,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     draw.ChannelsSetCurrent(notes);
     message_list(ui);
     draw.ChannelsSetCurrent(fixed);
-    banner(ui);
+    banner(ui, {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}});
     draw.ChannelsSetCurrent(pointer);
     knife_stroke(ui, draw);
     pointer_overlay(ui, draw);
@@ -119,7 +146,9 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
 }  // namespace
 
 void viewport_panel(Ui& ui, const Region& region) {
-  ui.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}};
+  const float strip = banner_strip(ui, {region.size.x, region.size.y});
+  const float foot = std::max(region.at.y + region.size.y - strip, region.at.y + 1);
+  ui.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, foot}};
   // Buttons stand over a picture, but above several, whose tops they would cover, and above a low one, which they would
   // cover too much of, unless it would become too small.
   const bool buttons = ui.session.requested_preset().kind == Kind::cloth && !ui.presenting;
@@ -127,9 +156,11 @@ void viewport_panel(Ui& ui, const Region& region) {
                    region.size.y >= ui.theme.px(least_picture + buttons_above);
   const bool above = !ui.presenting && (ui.session.copies.tiles() > 1 || low);
   if (above) ui.viewport.box.lo.y += ui.theme.px(buttons_above);
-  ui.viewport.buttons = above || !buttons ? 0 : ui.theme.px(buttons_above);
-  ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.divide(ui.session.copies.tiles());
+  ui.viewport.buttons = above || !buttons ? 0 : ui.theme.px(buttons_above);
+  if ((buttons || ui.presenting) && ui.session.copies.tiles() == 1)
+    ui.viewport.buttons += marks_height(ui, ui.viewport.size().x, !above);
+  ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.covers.clear();
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
   ImDrawList& draw = *ImGui::GetWindowDrawList();

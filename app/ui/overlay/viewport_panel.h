@@ -18,7 +18,10 @@ void color_menu(Ui& ui, float width);
 /// As wide as it should be.
 float color_menu_width(const Ui& ui);
 void color_legend(Ui& ui);
-void banner(Ui& ui);
+void banner(Ui& ui, const Box& region);
+/// Height at the foot of a region of that size that is the banner's own, so that it covers no cloth, px; 0 while there
+/// is none.
+float banner_strip(Ui& ui, glm::vec2 region);
 void message_list(Ui& ui);
 
 }  // namespace tyglab
