@@ -8,6 +8,7 @@
 #include "app/process/interrupt.h"
 #include "core/analysis/machine.h"
 #include "core/io/destination.h"
+#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {

@@ -3,9 +3,9 @@
 namespace tyglab {
 
 Wants& Wants::operator|=(const Wants& other) {
-  for (const auto want : {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings,
-                          &Wants::settings_kept, &Wants::map,
-                          &Wants::ledger, &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
+  for (const auto want :
+       {&Wants::stability, &Wants::accuracy, &Wants::convergence, &Wants::settings, &Wants::settings_kept, &Wants::map,
+        &Wants::ledger, &Wants::step, &Wants::forces, &Wants::height, &Wants::copies})
     this->*want |= other.*want;
   return *this;
 }

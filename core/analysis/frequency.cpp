@@ -167,8 +167,8 @@ double Linearisation::inner(const Field& a, const Field& b) const {
 double Linearisation::multiply(const Array<double>& a, const Field& p, Field& q) const {
   double sum = 0;
   for (int i = 0; i < rows_; ++i)
-    sum += implicit::multiply_row(implicit::ProductTask<double>{a.data() + i * coefficient_pitch(stride_), p.row(i), q.row(i),
-                                                      stride_, columns_, i == 0, 0});
+    sum += implicit::multiply_row(implicit::ProductTask<double>{a.data() + i * coefficient_pitch(stride_), p.row(i),
+                                                                q.row(i), stride_, columns_, i == 0, 0});
   for (const int n : fixed_)
     for (int c = 0; c < 3; ++c) q.row(n / columns_, c)[n % columns_] = 0;
   return sum;

@@ -34,8 +34,8 @@ class SkipCase {
  public:
   /// Makes the first step, which costs more than others. Where `state` is absent, the preset's precision must be float.
   SkipCase(const SkipFeature& feature, SkipState state);
-  /// Makes the steps (bench_instructions_posix.cpp counts inside this function); returns nanoseconds per particle and step.
-  /// Throws std::runtime_error if the scene diverges or tears.
+  /// Makes the steps (bench_instructions_posix.cpp counts inside this function); returns nanoseconds per particle and
+  /// step. Throws std::runtime_error if the scene diverges or tears.
   double advance(int steps);
   std::string engine_name() const { return engine_->name(); }
 

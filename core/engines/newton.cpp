@@ -10,8 +10,8 @@ namespace {
 constexpr double flat_enough = 0.2;  // slope along a step where it ends, of that at its beginning
 constexpr int most_tries = 20;
 
-/// Finds the step; directly where conjugate gradients do not get there, and from then on in this stage. Where that, too,
-/// is not possible, the step is what conjugate gradients have left.
+/// Finds the step; directly where conjugate gradients do not get there, and from then on in this stage. Where that,
+/// too, is not possible, the step is what conjugate gradients have left.
 void find_step(ImplicitStage& stage, bool& direct) {
   if (direct && stage.solve_directly()) return;
   if (stage.gradients() || stage.stops()) return;

@@ -117,6 +117,7 @@ std::complex<double> rkc2_growth(int stages, std::complex<double> z) {
 Scheme rkc2() {
   using namespace chebyshev;
   std::vector<StageTable> tables;
+  tables.reserve(std::size(stage_numbers));
   for (const int stages : stage_numbers) tables.push_back(table(stages));
   return {
       .name = "rkc2",

@@ -220,8 +220,8 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
   window.type_value("k_s", "90");
   window.until([&] { return window.drew("The constants have changed"); }, "the ranking to be taken back");
   CHECK_FALSE(window.sees("plots.setting1"));
-  window.click("plots.accuracy_ways.1");
-  window.until([&] { return !search().has_value(); }, "the search to end with the sight of it");
+  window.click("plots.Accuracy");
+  window.until([&] { return !search().has_value(); }, "the search to end with its card");
 }
 
 TEST_CASE("an error that cannot be promised is refused, and the tightest that can be is a click away" *

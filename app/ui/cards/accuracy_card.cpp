@@ -232,8 +232,8 @@ void accuracy_ways(Ui& ui) {
       "Convergence: the error with dt, dt/2, dt/4, … of the motion from now on. Find settings: which methods and dt "
       "keep an error that you choose, and what they cost.");
   const auto at_right = [&](int n) {
-    ImGui::SetCursorScreenPos({lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)),
-                               lo.y + whole - ui.theme.px(under_ways_at_1 + 24)});
+    ImGui::SetCursorScreenPos(
+        {lo.x + card_width(ui) - ui.theme.px(26.f * float(n + 1)), lo.y + whole - ui.theme.px(under_ways_at_1 + 24)});
   };
   if (side == AccuracySide::convergence) {
     at_right(0);

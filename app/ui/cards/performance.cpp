@@ -124,8 +124,8 @@ void feature_line(Ui& ui, const FeatureRow& row, float width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 ink = row.activity == Activity::on ? c.text : c.quiet;
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, name_baseline}, ink, row.name);
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(below ? 12 : state_at_1), baseline}, color_of(c, row.activity),
-                   name_of(row.activity));
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(below ? 12 : state_at_1), baseline},
+                   color_of(c, row.activity), name_of(row.activity));
   const ImFont& font = row.ms ? *ui.fonts.mono : *ui.fonts.small;
   const std::string time = row.activity != Activity::on ? "–" : row.ms ? text("%.3f ms", *row.ms) : "in the steps";
   draw_on_baseline(draw, font, {lo.x + width - text_width(font, time), baseline}, ink, time);

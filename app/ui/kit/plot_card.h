@@ -27,7 +27,7 @@ class PlotCard {
 /// Height of a card with that much in it, and width of what a card of that width holds, px.
 float plot_card_height(const UiContext& ui, float content);
 float plot_card_inner_width(const UiContext& ui, float width);
-/// What its title has of that beside so many buttons, px.
+/// The width that is left for its title beside that many buttons, px.
 float plot_card_title_width(const UiContext& ui, float width, int buttons);
 
 }  // namespace tyglab
