@@ -1,5 +1,6 @@
 // What must be decided or known now, over the viewport: the banner after a divergence, and messages.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -300,7 +301,7 @@ void message_list(Ui& ui) {
   const float padding = ui.theme.px(12), icon_width = ui.theme.px(24), close = ui.theme.px(22);
   const float most = std::min(ui.theme.px(460), ui.viewport.whole().x - ui.theme.px(32));
   float y = ui.notes_from;
-  const Box* paused = ui.placing.find("paused");
+  const std::array marks{ui.placing.find("paused"), ui.placing.find("legend")};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto& list = ui.session.messages.list();
   std::size_t dismissed = list.size();
@@ -311,8 +312,9 @@ void message_list(Ui& ui) {
     const std::string text = in_lines(font, capitalised(message.text), most - 2 * padding - icon_width - close);
     const float height = std::max(height_of(font, text) + 2 * ui.theme.px(9), ui.theme.px(36));
     ImVec2 lo{ui.viewport.box.lo.x + ui.theme.px(16), y}, hi{lo.x + most, y + height};
-    if (paused != nullptr && overlap(*paused, {{lo.x, lo.y}, {hi.x, hi.y}}))
-      lo.y = paused->hi.y + ui.theme.px(8), hi.y = lo.y + height;
+    for (const Box* mark : marks)
+      if (mark != nullptr && overlap(*mark, {{lo.x, lo.y}, {hi.x, hi.y}}))
+        lo.y = mark->hi.y + ui.theme.px(8), hi.y = lo.y + height;
     draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(6));
     draw.AddRectFilled(lo, {lo.x + ui.theme.px(3), hi.y}, color, ui.theme.px(6), ImDrawFlags_RoundCornersLeft);
     draw_text(draw, font, {lo.x + padding, lo.y + ui.theme.px(10)}, color,

@@ -128,6 +128,9 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   if (!bare) {
     arrow_scales(ui, draw);
     pause_mark(ui, draw, row);
+  }
+  color_legend(ui);
+  if (!bare) {
     draw.ChannelsSetCurrent(notes);
     message_list(ui);
     draw.ChannelsSetCurrent(fixed);
@@ -137,7 +140,6 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     pointer_overlay(ui, draw);
     draw.ChannelsSetCurrent(fixed);
   }
-  color_legend(ui);
   draw.ChannelsSetCurrent(arrows);
   if (!bare) wind_overlay(ui, draw), picked_overlay(ui, draw), divergence_mark(ui, draw);
   draw.ChannelsMerge();
