@@ -102,11 +102,11 @@ Estimate estimate() {
 }  // namespace
 }  // namespace chebyshev
 
-std::complex<double> rkc2_growth(int stages, std::complex<double> z) {
-  const chebyshev::Chebyshev c(stages);
+std::complex<double> rkc2_growth(int count, std::complex<double> z) {
+  const chebyshev::Chebyshev c(count);
   const std::complex<double> w = c.w_0 + c.w_1 * z;
   std::complex<double> before = 1, now = w;
-  for (int j = 2; j <= stages; ++j) {
+  for (int j = 2; j <= count; ++j) {
     const std::complex<double> next = 2.0 * w * now - before;
     before = now, now = next;
   }
@@ -118,7 +118,7 @@ Scheme rkc2() {
   using namespace chebyshev;
   std::vector<StageTable> tables;
   tables.reserve(std::size(stage_numbers));
-  for (const int stages : stage_numbers) tables.push_back(table(stages));
+  for (const int count : stage_numbers) tables.push_back(table(count));
   return {
       .name = "rkc2",
       .title = "Runge-Kutta-Chebyshev 2",

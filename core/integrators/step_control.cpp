@@ -89,8 +89,8 @@ bool beyond_stability(const Estimate& estimate, const StageProducts& s, double h
   const Complex root = std::sqrt(Complex(q * q / 4 - p));
   for (const Complex z : {-q / 2 + root, -q / 2 - root}) {
     // What truly grows, or hardly moves within a step, is no instability of the method.
-    constexpr double slow = 0.9;
-    if (!(std::abs(z) > slow) || z.real() > 0.1 * std::abs(z)) continue;
+    constexpr double least = 0.9;
+    if (!(std::abs(z) > least) || z.real() > 0.1 * std::abs(z)) continue;
     Complex growth = 0;
     for (auto it = estimate.growth.rbegin(); it != estimate.growth.rend(); ++it) growth = growth * z + *it;
     if (std::abs(growth) > 1) return true;

@@ -9,7 +9,7 @@ namespace tyglab {
 namespace {
 
 /// The longest beginning that is a decimal number: a minus sign, digits with a point among them, an exponent.
-const char* end_of_number(const char* at, const char* last) {
+[[maybe_unused]] const char* end_of_number(const char* at, const char* last) {
   const auto digits = [&] {
     const char* const from = at;
     while (at != last && std::isdigit(static_cast<unsigned char>(*at)) != 0) ++at;
