@@ -16,8 +16,9 @@ namespace {
 
 constexpr double frame = 1 / 60.0;
 
-/// Stiff cloth whose step takes many times as long as a frame may.
-Preset long_steps(int side = 96) {
+/// Stiff cloth whose step takes many times as long as a frame may: the default where it is stopped, 96 particles a side
+/// where a test waits for it.
+Preset long_steps(int side = 256) {
   if (test::sanitized) side /= 3;  // which makes steps long enough
   Preset preset = test::cloth(side, side, "implicit_euler");
   preset.k_s = 1e5, preset.dt = 1 / 60.0, preset.iterations = 50;
@@ -42,7 +43,7 @@ struct Under {
 }  // namespace
 
 TEST_CASE("while a step is being made, the session shows the cloth before it, and goes on") {
-  Under under(long_steps(48));
+  Under under(long_steps(96));
   Session& session = under.desk.session;
   const State start = Simulation(session.preset()).read();
   int updates = 0;
@@ -95,7 +96,7 @@ TEST_CASE("a change of constants stops the step at once, and counts from the las
 }
 
 TEST_CASE("what is only seen is changed without stopping the step, and stays when the step is there") {
-  Under under(long_steps(48));
+  Under under;
   Session& session = under.desk.session;
   Preset other = session.preset();
   other.mode = other.mode == 1 ? 2 : 1;
@@ -131,7 +132,7 @@ TEST_CASE("the hand, the knife, pins, restart and rewind stop the step") {
 }
 
 TEST_CASE("a pause lets the step end, a single step is made beside the frames too") {
-  Under under(long_steps(48));
+  Under under(long_steps(96));
   Session& session = under.desk.session;
   session.pacing.playing = false;
   while (session.background_steps.busy()) session.update(frame, {});
@@ -144,7 +145,7 @@ TEST_CASE("a pause lets the step end, a single step is made beside the frames to
 }
 
 TEST_CASE("copies whose steps take long are made beside the frames with the cloth's own") {
-  Preset preset = long_steps(48);
+  Preset preset = long_steps(96);
   preset.integrator = "verlet", preset.dt = 1e-5;
   test::Desk desk(preset);
   Session& session = desk.session;
