@@ -94,7 +94,7 @@ Preset some_preset() {
 
 }  // namespace
 
-TEST_CASE("files that are written") {
+TEST_CASE("files that are written" * doctest::test_suite("slow")) {
   Simulation cloth(some_preset());
   cloth.advance(3);
   const State state = cloth.read();

@@ -160,7 +160,7 @@ TEST_CASE("threads that cannot be started: fewer of them make the same bits") {
   }
 }
 
-TEST_CASE("an edit of constants") {
+TEST_CASE("an edit of constants" * doctest::test_suite("slow")) {
   edit_of("edit of k_s", busy(), changed([](Preset& p) { p.k_s *= 1.5; }));
   edit_of("edit of dt", busy(), changed([](Preset& p) { p.dt *= 0.5; }));
   edit_of("edit of dt, velocity Verlet", busy("velocity_verlet"), changed([](Preset& p) { p.dt *= 0.5; }));

@@ -157,7 +157,8 @@ Preset taut(double zeta, double part, Precision precision) {
   return p;
 }
 
-TEST_CASE("a heavily damped sheet comes to rest at nearly twice 1/ω, where Verlet and velocity Verlet diverge") {
+TEST_CASE("a heavily damped sheet comes to rest at nearly twice 1/ω, where Verlet and velocity Verlet diverge" *
+          doctest::test_suite("slow")) {
   for (const Precision precision : {Precision::float_, Precision::double_})
     for (const double zeta : {0.5, 20.0, 1e6}) {
       CAPTURE(zeta);
