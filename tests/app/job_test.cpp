@@ -16,7 +16,7 @@ class Held {
  public:
   void wait() {
     begun_ = true;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(5);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (!free_ && std::chrono::steady_clock::now() < end) std::this_thread::yield();
   }
   void let_go() { free_ = true; }
