@@ -36,7 +36,7 @@ class Projector {
     int lambda;  ///< index into lambda_
   };
   void project_color(Cloth<R>& cloth, int q, const Color& color, int i);
-  /// `both_free`, `one_free`: of the relative velocity of a spring's ends, if so many of them are free.
+  /// `both_free`, `one_free`: of the relative velocity of a spring's ends, by how many of them are free.
   void damp_color(Cloth<R>& cloth, const Color& color, int i, const Decay& both_free, const Decay& one_free);
   void project_weight(Cloth<R>& cloth, int q);
   template <class Row>
