@@ -32,3 +32,30 @@ function(tyglab_own_license variable)
   file(READ ${PROJECT_SOURCE_DIR}/LICENSE text)
   set(${variable} "Tyglab\n======\n\n${text}" PARENT_SCOPE)
 endfunction()
+
+# tyglab_license_of(<variable> <name> <file>…): that of something whose source, with its license in these files, is
+# compiled in.
+function(tyglab_license_of variable name)
+  string(REGEX REPLACE "." "=" line "${name}, compiled in")
+  set(all "${${variable}}\n\n${name}, compiled in\n${line}\n")
+  foreach(file ${ARGN})
+    file(READ ${file} text)
+    string(APPEND all "\n${text}")
+  endforeach()
+  set(${variable} "${all}" PARENT_SCOPE)
+endfunction()
+
+# tyglab_versions(<variable> <package>…): appends a line for each Debian package; all of them have to be installed.
+function(tyglab_versions variable)
+  set(all "${${variable}}")
+  foreach(package ${ARGN})
+    execute_process(COMMAND dpkg-query -W -f=\${Version} ${package} OUTPUT_VARIABLE version RESULT_VARIABLE missing
+                    ERROR_QUIET)
+    if(missing)
+      message(FATAL_ERROR "What is built includes parts of ${package}, which is not installed. Install it with: "
+                          "apt-get install ${package}")
+    endif()
+    string(APPEND all "${package} ${version}\n")
+  endforeach()
+  set(${variable} "${all}" PARENT_SCOPE)
+endfunction()

@@ -26,8 +26,8 @@ endif()
 add_library(tyglab_glad INTERFACE)
 target_include_directories(tyglab_glad SYSTEM INTERFACE ${PROJECT_SOURCE_DIR}/app/platform/web/include)
 add_library(tyglab::glad ALIAS tyglab_glad)
-# Of GLFW the names of keys, which Emscripten has; there is no EGL.
-foreach(absent glfw egl)
+# Of GLFW the names of keys, which Emscripten has; a page needs no library of a window system.
+foreach(absent glfw window_system)
   add_library(tyglab::${absent} INTERFACE IMPORTED GLOBAL)
 endforeach()
 

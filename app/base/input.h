@@ -46,6 +46,7 @@ struct InputQueue {
   std::bitset<most_keys> keys_down;    ///< now
   std::bitset<most_buttons> buttons;   ///< likewise
   bool focused = true, inside = true;  ///< the window has the keyboard; the pointer is over it
+  bool by_touch = false;               ///< fingers point, on a screen that they touch: no buttons, no hovering
   bool scale_changed = false;          ///< the window went to a monitor with another content scale
   bool anything = false;               ///< an event of any kind arrived
   bool unread = false;                 ///< Dear ImGui has not yet been shown everything that was typed

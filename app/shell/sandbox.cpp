@@ -217,7 +217,8 @@ bool Sandbox::due() {
 /// Shows the experiment's link in the page's address; a preset that is opened is a step that the browser goes back
 /// from.
 void Sandbox::show_link() {
-  if (window_time() < next_link_ || page_address().empty()) return;
+  // What the browser went to is opened first, or its address would be overwritten.
+  if (window_time() < next_link_ || !input_.dropped.empty() || page_address().empty()) return;
   next_link_ = window_time() + 0.5;
   if (std::string state = state_in_words(session_); state != told_) window_.tell(told_ = std::move(state));
   const Preset preset = session_.requested_preset();

@@ -15,15 +15,7 @@ tyglab_licenses(licenses "included" ${fonts})
 
 set(versions "Tyglab ${PROJECT_VERSION}, built by GCC ${CMAKE_CXX_COMPILER_VERSION} for 64-bit Windows 10 and 11, with what \
 these Debian packages hold:\n\n")
-foreach(package ${compiled_in} libboost-dev ${runtime} ${fonts})
-  execute_process(COMMAND dpkg-query -W -f=\${Version} ${package} OUTPUT_VARIABLE version RESULT_VARIABLE missing
-                  ERROR_QUIET)
-  if(missing)
-    message(FATAL_ERROR "The folder for Windows includes parts of ${package}, which is not installed. Install it with: "
-                        "apt-get install ${package}")
-  endif()
-  string(APPEND versions "${package} ${version}\n")
-endforeach()
+tyglab_versions(versions ${compiled_in} libboost-dev ${runtime} ${fonts})
 
 file(READ ${PROJECT_SOURCE_DIR}/cmake/windows/README.txt first_steps)
 set(texts ${PROJECT_BINARY_DIR}/package)

@@ -7,7 +7,7 @@ namespace tyglab {
 
 double thread_seconds() {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) return wall_seconds();
   return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 

@@ -5,7 +5,8 @@
 
 namespace tyglab {
 
-/// Processor time of this thread so far, s: what another process takes meanwhile is not in it.
+/// Processor time of this thread so far, s: what another process takes meanwhile is not in it. Where no clock measures
+/// it, as in a browser, time on the wall stands for it.
 double thread_seconds();
 
 /// A clock on the wall, s: a device's work is not this thread's.

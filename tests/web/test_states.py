@@ -88,6 +88,8 @@ def main():
                                                  "--set", "rows=12", "--set", "columns=12", "--seconds", *span)
                 worst[precision] = max(worst[precision], difference)
                 check(f"{method} {precision}", difference <= bound, f"differs by {difference:.3g} m")
+        found = programs.web("run", "hanging", "--set", "rows=8", "--set", "columns=8", "--seconds", "0.05", "--tolerance", "1e-3").stderr
+        check("costs of methods", "CPU time" in found and "takes 0 s" not in found and "NaN" not in found, found)
         link = "https://example.org/lab/#hanging&k_s=80&W=%5B0,0,0.001%5D"
         difference, _ = programs.compare("a link", link, "--seconds", SECONDS)
         check("a link", difference <= BOUNDS["float"], f"differs by {difference:.3g} m")

@@ -17,6 +17,7 @@ addToLibrary({
     kept: ['twnqr', 'twnqrijc'],
     buttons: [0, 2, 1, 3, 4],
     cursor: '',
+    visited: false,  // the browser came to the address, by back, forward or a link, and the program follows
     workers: {},
     // In a worker: the memory of the page becomes this instance's, and the work is done.
     becomeCopy: (memory, parts) => {
@@ -60,11 +61,12 @@ addToLibrary({
     },
     resized: () => {
       const canvas = Module.canvas, scale = window.devicePixelRatio || 1;
-      // A finger needs larger controls than a mouse, where there is room for them.
-      const larger = matchMedia('(pointer: coarse)').matches && canvas.clientWidth >= 700 ? 1.25 : 1;
+      // A finger needs rows of 44 pixels, where there is room for them: not on a phone, which is narrow one way.
+      const touch = matchMedia('(pointer: coarse)').matches;
+      const larger = touch && Math.min(canvas.clientWidth, canvas.clientHeight) >= 600 ? 1.6 : 1;
       canvas.width = Math.max(1, Math.round(canvas.clientWidth * scale));
       canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
-      _tyglab_on_size(canvas.width, canvas.height, scale * larger);
+      _tyglab_on_size(canvas.width, canvas.height, scale * larger, touch ? 5 * scale : 0);
     },
     // A file of the person's, put where the program finds it.
     take: async (file) => {
@@ -186,6 +188,7 @@ addToLibrary({
     tyglabPage.resized();
     new ResizeObserver(tyglabPage.resized).observe(canvas);
     window.addEventListener('resize', tyglabPage.resized);  // zoom
+    matchMedia('(pointer: coarse)').addEventListener('change', tyglabPage.resized);  // a mouse is plugged in
     tyglabPage.listenToPointer(canvas);
     tyglabPage.listenToKeys(canvas);
     window.addEventListener('dragover', (event) => event.preventDefault());
@@ -194,8 +197,10 @@ addToLibrary({
       for (const file of event.dataTransfer.files) tyglabPage.take(file);
     });
     window.addEventListener('hashchange', () => {
-      if (location.hash !== tyglabPage.shown) tyglabPage.withText(location.hash || '#', _tyglab_on_drop);
+      if (location.hash === tyglabPage.shown) return;
       tyglabPage.shown = location.hash;
+      tyglabPage.visited = true;
+      tyglabPage.withText(location.hash || '#', _tyglab_on_drop);
     });
   },
 
@@ -289,9 +294,11 @@ addToLibrary({
   },
   tyglab_show_in_address__deps: ['$tyglabPage'],
   tyglab_show_in_address: (link, further) => {
-    const shown = UTF8ToString(link);
+    const shown = UTF8ToString(link), visited = further && tyglabPage.visited;
+    if (further) tyglabPage.visited = false;
     if (typeof history === 'undefined' || shown === tyglabPage.shown) return;
     tyglabPage.shown = shown;
-    history[further ? 'pushState' : 'replaceState'](null, '', location.pathname + location.search + shown);
+    const add = further && !visited;
+    history[add ? 'pushState' : 'replaceState'](null, '', location.pathname + location.search + shown);
   },
 });

@@ -38,6 +38,7 @@ struct Canvas {
   InputQueue* queue = nullptr;
   int width = 1, height = 1;  ///< of its buffer, pixels
   float scale = 1;            ///< pixels for one of a page's
+  float around = 0;           ///< pixels around a control where a finger still means it; 0: a mouse points
   std::string clipboard;
   Fingers fingers;
 };
@@ -82,11 +83,13 @@ void release_everything(InputQueue& queue) {
 extern "C" {
 using tyglab::canvas;
 
-EMSCRIPTEN_KEEPALIVE void tyglab_on_size(int width, int height, float scale) {
+EMSCRIPTEN_KEEPALIVE void tyglab_on_size(int width, int height, float scale, float around) {
   auto& it = canvas();
+  it.around = around;
   const bool rescaled = std::exchange(it.scale, scale) != scale;
   it.width = width, it.height = height;
   if (it.queue == nullptr) return;
+  it.queue->by_touch = around > 0;
   it.queue->anything = true;
   it.queue->scale_changed |= rescaled;
 }
@@ -249,6 +252,7 @@ void GuiBackend::begin_frame() {
   const double now = window_time();
   io.DeltaTime = float(std::clamp(now - std::exchange(last, now), 1e-4, 1.0));
   io.DisplaySize = ImVec2(float(canvas().width), float(canvas().height));
+  ImGui::GetStyle().TouchExtraPadding = ImVec2(canvas().around, canvas().around);
   tyglab_set_cursor(cursor_name(ImGui::GetMouseCursor()));
   tyglab_type_by_touch(io.WantTextInput ? 1 : 0);
 }

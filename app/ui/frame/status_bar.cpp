@@ -83,7 +83,11 @@ void status_bar(Ui& ui, const Region& region) {
   const float facts_x = draw_facts(ui, draw, {region.at.x + region.size.x - margin, y}, region.size.x - 2 * margin);
   const ImVec2 at{region.at.x + margin, y};
   const float end = facts_x - ui.theme.px(16);
-  if (ui.session.preset().kind == Kind::cloth) {
+  if (ui.input.by_touch) {
+    const bool cuts = ui.tools.finger_cuts, cloth = ui.session.preset().kind == Kind::cloth;
+    if (cloth) hints(ui, draw, at, end, {{"One finger", cuts ? "cuts" : "grabs"}, {"Two", "turn and zoom"}});
+    if (!cloth) hints(ui, draw, at, end, {{"Two fingers", "turn and zoom"}});
+  } else if (ui.session.preset().kind == Kind::cloth) {
     hints(ui, draw, at, end,
           {{"Right drag", "grabs"},
            {"Left drag", ui.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},

@@ -11,8 +11,9 @@ namespace {
 
 constexpr const char* paused_word = "PAUSED";
 
-/// How to go on from a pause: the keys that reach the transport now.
+/// How to go on from a pause: the keys that reach the transport now, if there are any.
 const char* ways_on(const Ui& ui) {
+  if (ui.input.by_touch) return "";
   if (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter accepts · Esc cancels";
   if (ui.slider.focused != 0) return "Space runs · O makes one step · → moves the slider until Esc";
   return "Space runs · → makes one step";
@@ -54,7 +55,8 @@ void pause_mark(Ui& ui, ImDrawList& draw, const Box& row) {
   const ImFont &bold = *ui.fonts.brand, &text = *ui.fonts.text;
   const char* how = ways_on(ui);
   const float pad = ui.theme.px(12), height = ui.theme.px(26), word_width = text_width(bold, paused_word);
-  const glm::vec2 brief = pause_mark_size(ui), full{std::ceil(word_width + text_width(text, how) + 3 * pad), height};
+  const glm::vec2 brief = pause_mark_size(ui);
+  const glm::vec2 full{*how == 0 ? brief.x : std::ceil(word_width + text_width(text, how) + 3 * pad), height};
   const auto list = pause_places(ui, row, full, brief);
   ui.pause_place = choose_place(list, drawn_parts(ui), ui.pause_place);
   if (!ui.pause_place) return;

@@ -75,14 +75,14 @@ void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int
 }
 
 template <class R>
-void Projector<R>::damp_color(Cloth<R>& cloth, const Color& color, int i) {
+void Projector<R>::damp_color(Cloth<R>& cloth, const Color& color, int i, const Decay& both_free,
+                              const Decay& one_free) {
   const Direction& to = directions[std::size_t(color.direction)];
-  const double decay = cloth.preset.k_d * cloth.dt / cloth.preset.m;
   DampingRow<R> row;
   int upper = 0, lower = 0;
   if (!place(cloth, color, i, row, upper, lower)) return;
   row.v_a = cloth.row(vector_v, i, 0) + upper, row.v_b = cloth.row(vector_v, i + to.di, 0) + lower;
-  row.both = -std::expm1(-2 * decay) / 2, row.one = -std::expm1(-decay);
+  row.both = both_free.lost / 2, row.one = one_free.lost;
   damp_row(row);
 }
 
@@ -147,12 +147,15 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
 template <class R>
 void Projector<R>::damp(Cloth<R>& cloth, int begin, int end, Team& team) {
   if (cloth.preset.k_d == 0) return;
+  const double times = cloth.preset.k_d * cloth.dt / cloth.preset.m;  // of the decay of one particle: dt over it
+  const Decay one_free = decay_over(times), both_free = decay_over(2 * times);
   if (cloth.preset.kind == Kind::one_weight) {
-    if (begin == 0) cloth.row(vector_v, 0, 1)[0] *= R(std::exp(-cloth.preset.k_d * cloth.dt / cloth.preset.m));
+    if (begin == 0) cloth.row(vector_v, 0, 1)[0] *= R(one_free.kept);
     team.barrier();
     return;
   }
-  in_colors(begin, end, false, team, [&](const Color& color, int i) { damp_color(cloth, color, i); });
+  in_colors(begin, end, false, team,
+            [&](const Color& color, int i) { damp_color(cloth, color, i, both_free, one_free); });
 }
 
 template <class R>

@@ -8,6 +8,7 @@
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/projection_rows.h"
 #include "core/engines/cpu/team.h"
+#include "core/integrators/decay.h"
 
 namespace tyglab::cpu {
 
@@ -35,7 +36,8 @@ class Projector {
     int lambda;  ///< index into lambda_
   };
   void project_color(Cloth<R>& cloth, int q, const Color& color, int i);
-  void damp_color(Cloth<R>& cloth, const Color& color, int i);
+  /// `both_free`, `one_free`: of the relative velocity of a spring's ends, by how many of them are free.
+  void damp_color(Cloth<R>& cloth, const Color& color, int i, const Decay& both_free, const Decay& one_free);
   void project_weight(Cloth<R>& cloth, int q);
   template <class Row>
   bool place(const Cloth<R>& cloth, const Color& color, int i, Row& row, int& upper, int& lower) const;
