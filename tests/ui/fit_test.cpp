@@ -121,4 +121,16 @@ TEST_CASE("a lab's strip takes the height that its step needs, and shrinks only 
   CHECK(window.ui.viewport.box.hi.y == foot);
 }
 
+TEST_CASE("once a step is done, all of why is seen without scrolling") {
+  test::NullUi window;
+  begin_lab(window.session, "03_stiffness");
+  window.frames(4);
+  LabRun& run = *window.session.labs.run;
+  run.record().predicted = run.record().done = run.show_explanation = true;
+  window.move({10, 300});
+  window.frames(6);
+  CHECK(window.drew("a flat sheet never comes to the worst. CHECK: DONE"));  // not below what was checked
+  for (const std::string& text : window.cut_texts()) CHECK_FALSE(text.starts_with("lab"));
+}
+
 }  // namespace tyglab::fit_test

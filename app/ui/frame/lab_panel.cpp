@@ -149,6 +149,25 @@ void waiting_part(Ui& ui) {
   back_button(ui);
 }
 
+void task_part(Ui& ui, const LabStep& step) {
+  if (step.todo.empty()) return;
+  small_head(ui, "DO", ui.theme.colors.accent);
+  paragraphs_of(ui, step.todo, ui.theme.colors.text);
+}
+
+void checks_part(Ui& ui, const LabStep& step, const StepRecord& record) {
+  const Tokens& c = ui.theme.colors;
+  if (step.checks.empty()) return;
+  small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
+  for (std::size_t k = 0; k < step.checks.size(); ++k)
+    if (k < record.checks.size() && k < record.seen.size())
+      check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
+  const std::string& awaited = ui.session.labs.run->awaited;
+  if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
+    marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
+}
+
+/// The task, and what is checked; a task that is done stands last.
 void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   const Tokens& c = ui.theme.colors;
   if (lab_waits(ui.session)) return waiting_part(ui);
@@ -160,15 +179,9 @@ void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
                            : "This machine has no OpenCL device, so there is nothing to do here; read on.",
                        c.text);
   if (first) return set_text(ui, "Predict first; then the task appears here.", c.quiet);
-  if (!step.todo.empty()) small_head(ui, "DO", c.accent), paragraphs_of(ui, step.todo, c.text);
-  if (step.checks.empty()) return;
-  small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
-  for (std::size_t k = 0; k < step.checks.size(); ++k)
-    if (k < record.checks.size() && k < record.seen.size())
-      check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
-  const std::string& awaited = ui.session.labs.run->awaited;
-  if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
-    marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
+  if (!record.done) task_part(ui, step);
+  checks_part(ui, step, record);
+  if (record.done) task_part(ui, step);
 }
 
 void explanation_part(Ui& ui, LabRun& run) {
@@ -330,8 +343,11 @@ void lab_panel(Ui& ui, const Region& region) {
     contents = end_lab_column(ui),
     begin_lab_column(ui, ("do" + id).c_str(), left + column + gap, top, {column, height});
   if (beside) prediction_part(ui, run.now(), run.record());
+  // Once a step is done, why comes first: it is what is left to be read.
+  const bool waits = lab_waits(ui.session);
+  if (!waits) explanation_part(ui, run);
   doing_part(ui, run.now(), run.record());
-  explanation_part(ui, run);
+  if (waits) explanation_part(ui, run);
   end_part(ui, run);
   fit_height(ui, region, std::max(contents, end_lab_column(ui)));
   end_region();
