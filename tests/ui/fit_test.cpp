@@ -37,7 +37,7 @@ void check_texts(test::NullUi& window, const std::string& region) {
   }
 }
 
-TEST_CASE("every card of the start page shows its title and its goal whole") {
+TEST_CASE("every card of the start page shows its title and its goal whole" * doctest::test_suite("slow")) {
   in_each_layout("hanging", [](test::NullUi& window) {
     window.ui.command("start_page");
     window.frames(4);
@@ -54,7 +54,8 @@ TEST_CASE("every card of the start page shows its title and its goal whole") {
   });
 }
 
-TEST_CASE("the texts of the top bar have room, and the speed can be chosen in every theme") {
+TEST_CASE("the texts of the top bar have room, and the speed can be chosen in every theme" *
+          doctest::test_suite("slow")) {
   for (const char* preset : {"hanging", "sphere", "fold_without_k_b"})
     in_each_layout(preset, [](test::NullUi& window) {
       window.frames(2);
@@ -64,7 +65,7 @@ TEST_CASE("the texts of the top bar have room, and the speed can be chosen in ev
     });
 }
 
-TEST_CASE("presentation mode names its scene, and its texts have room") {
+TEST_CASE("presentation mode names its scene, and its texts have room" * doctest::test_suite("slow")) {
   in_each_layout("sphere", [](test::NullUi& window) {
     window.key(GLFW_KEY_F5);
     window.frames(4);
@@ -78,7 +79,7 @@ TEST_CASE("presentation mode names its scene, and its texts have room") {
   });
 }
 
-TEST_CASE("every lab's first step has its texts whole, in a strip that is no higher than they need") {
+TEST_CASE("every lab's first step has its texts whole" * doctest::test_suite("slow")) {
   in_each_layout("hanging", [](test::NullUi& window) {
     std::vector<std::string> labs;
     for (const Lab& lab : find_labs(window.session)) labs.push_back(lab.label);
