@@ -114,10 +114,12 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   command
       .add_option(
           "--tolerance", tolerance,
-          "Choose --integrator and --dt, and --precision if float is too coarse, so that the error of positions is at\n"
-          "most this (m, root mean square) in the first second: by trial runs of the same scene, for a few seconds,\n"
-          "at most half a minute; Ctrl-C ends it. Where that accuracy cannot be promised, as with contact it often\n"
-          "cannot, the tightest tolerance that can be is said. A method or a precision given as an option is kept")
+          "Choose --integrator and --dt, and --precision double if float is too coarse, so that the error of "
+          "positions\n"
+          "in the first second is at most M (m, root mean square). They are found by short trial runs of the scene,\n"
+          "which take a few seconds, at most about half a minute on an idle machine; Ctrl-C ends them. Where that\n"
+          "accuracy cannot be promised, as is often so with contact, nothing is run, and the message names the\n"
+          "tightest tolerance that can be. A method or a precision given as an option is kept")
       ->type_name("M")
       ->transform(number_between(1e-12, 1, "m"));
   add_engine(command);

@@ -127,26 +127,57 @@ SceneSketch sketch_of(const Preset& preset, const Stop& stop) {
   return projected(simulation, grid);
 }
 
-const SceneSketch* SceneSketches::of(const Preset& preset) {
+SceneSketch sketch_at_start(const Preset& preset) {
+  if (preset.kind == Kind::one_weight) return weight_sketch();
+  const Simulation simulation(coarse(preset));
+  return projected(simulation, read_grid(simulation));
+}
+
+namespace {
+
+/// Empty where not even the start can be had.
+SceneSketch first_sketch(const Preset& preset) {
+  try {
+    return sketch_at_start(preset);
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+}  // namespace
+
+const SceneSketch& SceneSketches::of(const Preset& preset) {
   auto found = std::find_if(all_.begin(), all_.end(), [&](const Made& made) { return made.preset == preset; });
-  if (found == all_.end()) found = all_.insert(all_.end(), {preset, {}});
-  return found->sketch ? &*found->sketch : nullptr;
+  if (found == all_.end()) found = all_.insert(all_.end(), {preset, first_sketch(preset)});
+  found->asked = frame_;
+  return found->sketch;
+}
+
+bool SceneSketches::moved(const Preset& preset) const {
+  return std::any_of(all_.begin(), all_.end(), [&](const Made& made) { return made.moved && made.preset == preset; });
+}
+
+/// What is looked at now, in its order; then what was.
+SceneSketches::Made* SceneSketches::next() {
+  Made* best = nullptr;
+  for (Made& made : all_)
+    if (!made.moved && (best == nullptr || made.asked > best->asked)) best = &made;
+  return best;
 }
 
 bool SceneSketches::poll() {
   if (work_.ready()) {
     auto outcome = work_.take();
-    auto* sketch = std::get_if<SceneSketch>(&outcome);
-    std::exchange(making_, nullptr)->sketch = sketch != nullptr ? std::move(*sketch) : SceneSketch{};
+    Made& made = *std::exchange(making_, nullptr);
+    made.moved = true;
+    if (auto* sketch = std::get_if<SceneSketch>(&outcome)) made.sketch = std::move(*sketch);
   }
-  if (work_.busy()) return true;
-  const auto next = std::find_if(all_.begin(), all_.end(), [](const Made& made) { return !made.sketch; });
-  if (next == all_.end()) return false;
-  making_ = &*next;
-  work_.start(Priority::below_frames, [preset = next->preset](const JobControl& control) {
-    return sketch_of(preset, [&] { return control.cancelled(); });
-  });
-  return true;
+  if (!work_.busy() && (making_ = next()) != nullptr)
+    work_.start(Priority::below_frames, [preset = making_->preset](const JobControl& control) {
+      return sketch_of(preset, [&] { return control.cancelled(); });
+    });
+  ++frame_;
+  return work_.busy();
 }
 
 }  // namespace tyglab

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <list>
-#include <optional>
 #include <vector>
 
 #include "app/studies/job.h"
@@ -43,21 +42,30 @@ void visit_parts(Visit&& visit, SceneSketch& sketch) {
 /// EngineError, std::bad_alloc.
 SceneSketch sketch_of(const Preset& preset, const Stop& stop);
 
-/// The sketches of presets that were asked for, made one after the other.
+/// How it stands before it moves: known at once. Throws EngineError, std::bad_alloc.
+SceneSketch sketch_at_start(const Preset& preset);
+
+/// The sketches of presets that were asked for, made one after the other: first those that are being looked at.
 class SceneSketches {
  public:
-  /// Null until it is made.
-  const SceneSketch* of(const Preset& preset);
-  /// Takes what is made, and goes on; returns whether there is more to come.
+  /// How it starts, until it is known how it moves.
+  const SceneSketch& of(const Preset& preset);
+  bool moved(const Preset& preset) const;  ///< what it gives for that preset is no longer how it starts
+  /// Called once a frame: takes what is made, and goes on; returns whether there is more to come.
   bool poll();
 
  private:
   struct Made {
     Preset preset;
-    std::optional<SceneSketch> sketch;  ///< once it is there
+    SceneSketch sketch;
+    bool moved = false;
+    std::uint64_t asked = 0;  ///< the frame in which it was last asked for
   };
-  std::list<Made> all_;  ///< in the order that they are made; what is handed out stays where it is
+  Made* next();
+
+  std::list<Made> all_;  ///< in the order in which they were first asked for; what is handed out stays where it is
   Made* making_ = nullptr;
+  std::uint64_t frame_ = 1;
   Job<SceneSketch> work_;
 };
 

@@ -9,7 +9,8 @@
 namespace tyglab {
 namespace {
 
-constexpr std::array methods{"verlet", "velocity_verlet", "rk4", "dopri5", "implicit_euler", "implicit_midpoint"};
+constexpr std::array<const char*, AccuracyWatch::methods> compared_methods{
+    "verlet", "velocity_verlet", "rk4", "dopri5", "implicit_euler", "implicit_midpoint"};
 constexpr double again = 4;      // s from one study of a moving cloth to the next
 constexpr double enough = 1e-7;  // m
 constexpr StudyEffort effort{.reference = 1e8, .point = 3e7};
@@ -30,21 +31,31 @@ std::optional<AccuracyStudy> AccuracyWatch::study() const {
   return shown_ ? std::optional(shown_->findings()) : std::nullopt;
 }
 
+std::optional<AccuracyStudy> AccuracyWatch::measuring() const {
+  std::optional<AccuracyStudy> newest = work_.findings();
+  if (!newest || newest->present || newest->done || !newest->problem.empty()) return std::nullopt;
+  return newest;
+}
+
 /// Fills the study in as it goes, so that what is known first is seen first.
 void AccuracyWatch::work(Work::Shared& shared, const StudyStart& start, const JobControl& control) {
   const Stop stop = [&] { return control.cancelled(); };
   try {
-    const StudyReference reference = study_reference(start, window, effort, stop);
+    const StudyReference reference = study_reference(start, window, effort, stop, [&](double seconds, double part) {
+      shared.update([&](AccuracyStudy& study) { study.reference.seconds = seconds, study.reference_part = part; });
+    });
     const ErrorPoint present = measure_point(start, reference, stop);
     StudyReference shown = reference;
     shown.track.clear();  // not for people, and copied in every frame
     shared.update([&](AccuracyStudy& study) { study.reference = std::move(shown), study.present = present; });
-    for (const char* method : methods) {
+    for (const char* method : compared_methods) {
       StudyStart other = start;
       other.preset.integrator = method;
       const std::vector<ErrorPoint> ladder = error_ladder(other, reference, enough, effort, stop);
-      shared.update(
-          [&](AccuracyStudy& study) { study.points.insert(study.points.end(), ladder.begin(), ladder.end()); });
+      shared.update([&](AccuracyStudy& study) {
+        study.points.insert(study.points.end(), ladder.begin(), ladder.end());
+        ++study.methods_done;
+      });
     }
   } catch (const Stopped&) {
   } catch (const std::exception& error) {

@@ -19,22 +19,25 @@ struct AccuracyStudy {
   Preset of;      ///< the constants
   MotionMark at;  ///< the moment
   StudyReference reference;
+  double reference_part = 0;          ///< of the steps of the runs that all are compared with, 0 to 1
   std::optional<ErrorPoint> present;  ///< the settings as they are
   std::vector<ErrorPoint> points;     ///< those of other methods, a method's one after the other
+  int methods_done = 0;               ///< of AccuracyWatch::methods
   bool done = false;
   std::string problem;  ///< why there is nothing to show
 };
 
 template <class Visit>
 void visit_parts(Visit&& visit, AccuracyStudy& study) {
-  auto& [of, at, reference, present, points, done, problem] = study;
-  visit(of, at, reference, present, points, done, problem);
+  auto& [of, at, reference, reference_part, present, points, methods_done, done, problem] = study;
+  visit(of, at, reference, reference_part, present, points, methods_done, done, problem);
 }
 
 class AccuracyWatch {
  public:
   static constexpr int largest = 256 * 256;  ///< particles that are checked beside the window
   static constexpr double window = 0.25;     ///< s of motion, where it does not take too long
+  static constexpr int methods = 6;          ///< that are measured beside the present one
 
   /// Called in every frame in which it is wanted: begins a study where constants have changed, where the cloth stands
   /// at another moment than that of the last, and every few seconds while it moves.
@@ -43,6 +46,9 @@ class AccuracyWatch {
   void drop();
   /// A copy of what is known; none while nothing is.
   std::optional<AccuracyStudy> study() const;
+  /// What is being measured, before it has anything to show; none where nothing is.
+  std::optional<AccuracyStudy> measuring() const;
+  double begun() const { return begun_; }  ///< s on the session's clock, of what is being measured
 
  private:
   using Work = Study<AccuracyStudy>;

@@ -28,7 +28,9 @@ double coarser_reference_dt(const Preset& preset, double finer) {
   return std::clamp(std::min(stable_dt(preset, "verlet"), slowest) / finer, least_dt, slowest);
 }
 
-Track follow(const StudyStart& start, const Preset& preset, int steps, const Stop& stop) {
+/// `sampled`: told the number of samples taken, after each.
+Track follow(const StudyStart& start, const Preset& preset, int steps, const Stop& stop,
+             const std::function<void(int)>& sampled = {}) {
   const auto of = begin_study(start, preset);
   Simulation& simulation = *of;
   Track track;
@@ -36,6 +38,7 @@ Track follow(const StudyStart& start, const Preset& preset, int steps, const Sto
     advance_study(simulation, steps, stop);
     if (simulation.divergence()) throw std::runtime_error("the motion diverged: " + simulation.divergence()->cause);
     track.push_back(positions_of(simulation));
+    if (sampled) sampled(n + 1);
   }
   return track;
 }
@@ -56,15 +59,23 @@ double reference_effort(const Preset& preset, double seconds, double finer) {
          coarser_reference_dt(preset, finer);  // two runs, the second of twice the steps
 }
 
-StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop) {
+StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop,
+                              const ReferenceProgress& progress) {
   Preset preset = start.preset;
   preset.precision = Precision::double_, preset.integrator = reference_method(preset);
   StudyReference reference{.seconds = seconds, .track = {}, .method = preset.integrator, .over = over};
   int steps = 0;
   preset.dt = whole_dt(seconds, coarser_reference_dt(preset, finer), steps);
-  const Track coarser = follow(start, preset, steps, stop);
+  // Two runs, the second of twice the steps.
+  const auto done = [&](double before, double share) {
+    return [=, &progress](int samples) {
+      if (progress) progress(seconds, before + share * samples / accuracy_samples);
+    };
+  };
+  if (progress) progress(seconds, 0);
+  const Track coarser = follow(start, preset, steps, stop, done(0, 1.0 / 3));
   reference.dt = preset.dt = preset.dt / 2;
-  reference.track = follow(start, preset, 2 * steps, stop);
+  reference.track = follow(start, preset, 2 * steps, stop, done(1.0 / 3, 2.0 / 3));
   reference.agreement_rms_m = reference.error_of(coarser);
   return reference;
 }
@@ -81,7 +92,8 @@ void check_by_another_method(const StudyStart& start, StudyReference& reference,
       std::max(reference.agreement_rms_m, reference.error_of(follow(start, preset, steps, stop)));
 }
 
-StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop) {
+StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop,
+                               const ReferenceProgress& progress) {
   constexpr double finer = 16;  // than the coarsest stable dt of Verlet
   const Preset& preset = start.preset;
   seconds = std::min(seconds, effort.reference / reference_effort(preset, 1, finer));
@@ -93,7 +105,7 @@ StudyReference study_reference(const StudyStart& start, double seconds, const St
   } else {
     seconds = std::max(seconds, accuracy_samples * coarser_reference_dt(preset, finer));
   }
-  return reference_over(start, seconds, finer, ErrorOver::all_times, stop);
+  return reference_over(start, seconds, finer, ErrorOver::all_times, stop, progress);
 }
 
 namespace {

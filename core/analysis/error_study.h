@@ -64,13 +64,19 @@ struct StudyEffort {
   double cost = 1e9;       ///< processor seconds for a simulated second that a setting available may take
 };
 
+/// Told how far the runs of a reference are: the time that they cover, s, and the part of their steps that is made, 0
+/// to 1.
+using ReferenceProgress = std::function<void(double seconds, double part)>;
+
 /// The reference from that start over at most `seconds`: less where a cloth is so large, or so stiff, that it would
 /// take more than the effort. Throws Stopped, and std::runtime_error where the motion cannot be followed.
-StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop);
+StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop,
+                               const ReferenceProgress& progress = {});
 
 /// The reference over exactly that time, with `finer` times as many steps as the coarsest stable dt of Verlet asks for.
 /// Throws as study_reference does.
-StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop);
+StudyReference reference_over(const StudyStart& start, double seconds, double finer, ErrorOver over, const Stop& stop,
+                              const ReferenceProgress& progress = {});
 /// Particles times force evaluations that it takes.
 double reference_effort(const Preset& preset, double seconds, double finer);
 /// Follows the motion once more, by a method of another kind, and raises the reference's disagreement to how far that

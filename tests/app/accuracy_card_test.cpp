@@ -26,7 +26,6 @@ ErrorPoint point(const char* method, double error, double cost, bool told = true
 
 TEST_CASE("the accuracy card says what is known, and why where nothing is") {
   AccuracyStudy study = study_of(test::cloth(8, 8, "verlet"));
-  CHECK(accuracy_words(study) == "Measuring…");
   study.present = point("verlet", 2.13e-5, 0.0123);
   CHECK(accuracy_words(study) ==
         "Verlet's error is 2.1e-5 m (rms) over the next 0.25 s from t = 0.000 s; it takes 0.012 s of CPU time per "
@@ -39,6 +38,29 @@ TEST_CASE("the accuracy card says what is known, and why where nothing is") {
   CHECK(accuracy_time(study) == "over the next 0.25 s");
   study.problem = "it cannot be followed";
   CHECK(accuracy_words(study).find("it cannot be followed") != std::string::npos);
+}
+
+TEST_CASE(
+    "while nothing is known yet the accuracy card says what is measured, how much is done and how long it takes") {
+  AccuracyStudy study;
+  study.of = test::cloth(8, 8, "verlet");
+  study.of.dt = 0.001;
+  CHECK(measuring_words(study, 0) ==
+        "Measuring the error of Verlet at dt = 0.001 s. First come two fine runs to compare with: 0 % done; this "
+        "usually takes a few seconds.");
+  study.reference.seconds = 0.25, study.reference_part = 0.25;
+  CHECK(measuring_words(study, 1.5) ==
+        "Measuring the error of Verlet at dt = 0.001 s over the next 0.25 s. First come two fine runs to compare with: "
+        "25 % done, about 5 s left.");
+  CHECK(measuring_words(study, 0.1).find("less than 1 s left") != std::string::npos);
+  study.reference_part = 1;
+  CHECK(measuring_words(study, 3).find("the run with these settings follows") != std::string::npos);
+  CHECK(other_methods_words(study).empty());
+  study.present = point("verlet", 1e-4, 0.1);
+  study.methods_done = 2;
+  CHECK(other_methods_words(study) == " Other methods: 2 of 6 measured.");
+  study.done = true;
+  CHECK(other_methods_words(study).empty());
 }
 
 TEST_CASE("the accuracy card says over which time its error is, and why that is short") {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -34,25 +35,44 @@ TEST_CASE("every shipped preset has a picture that fits its frame, those that di
   }
 }
 
-TEST_CASE("pictures are made beside the frames, one for each preset that differs") {
+void finish(SceneSketches& sketches) {
+  while (sketches.poll()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+}
+
+TEST_CASE("a picture is there at once, of the start, and is followed by one of the motion made beside the frames") {
   SceneSketches sketches;
-  const auto made = [&](const Preset& preset) {
-    const SceneSketch* sketch = nullptr;
-    for (int n = 0; n < 1000 && (sketch = sketches.of(preset)) == nullptr; ++n) {
-      sketches.poll();
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    REQUIRE(sketch != nullptr);
-    return sketch;
-  };
   Preset hanging, weight;
   weight.kind = Kind::one_weight;
-  CHECK(sketches.of(hanging) == nullptr);
-  const SceneSketch* first = made(hanging);
-  CHECK(made(weight) != first);
-  CHECK(made(hanging) == first);
-  while (sketches.poll()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const SceneSketch& first = sketches.of(hanging);
+  CHECK(first.triangles.size() > 8);
+  CHECK(inside(first));
+  const glm::vec2 corner = first.corners[first.corners.size() / 2].at;
+  CHECK_FALSE(sketches.moved(hanging));
+  CHECK(sketches.of(weight).line.size() > 8);
+  CHECK(&sketches.of(hanging) == &first);  // one for each preset that differs
+  finish(sketches);
+  CHECK(sketches.moved(hanging));
+  CHECK(sketches.moved(weight));
+  CHECK_FALSE(first.corners[first.corners.size() / 2].at == corner);
   CHECK_FALSE(sketches.poll());
+}
+
+TEST_CASE("what is looked at is made before what was asked for earlier and is out of sight") {
+  SceneSketches sketches;
+  std::array<Preset, 4> scenes;
+  for (int n = 0; n < 4; ++n) scenes[std::size_t(n)].k_s += n;
+  for (const Preset& scene : scenes) sketches.of(scene);
+  sketches.poll();  // begins the first
+  while (!sketches.moved(scenes[3])) {
+    sketches.of(scenes[3]);  // the only one that is still seen
+    sketches.poll();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  CHECK(sketches.moved(scenes[0]));
+  CHECK_FALSE(sketches.moved(scenes[1]));
+  CHECK_FALSE(sketches.moved(scenes[2]));
+  finish(sketches);
+  CHECK(sketches.moved(scenes[2]));
 }
 
 }  // namespace tyglab::sketch_test

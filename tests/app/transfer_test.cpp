@@ -49,6 +49,7 @@ TEST_CASE("a study of accuracy comes back whole, but for the reference's track")
   study.reference.method = "rk4", study.reference.agreement_rms_m = 1e-9;
   study.present = point_of("verlet", std::numeric_limits<double>::infinity());
   study.points = {point_of("rk4", 1e-5), point_of("a method whose name is longer than a short string", 2e-5)};
+  study.reference_part = 0.5, study.methods_done = 2;
   study.problem = "none";
   const AccuracyStudy back = there_and_back(study);
   CHECK(back.of == study.of);
@@ -60,6 +61,8 @@ TEST_CASE("a study of accuracy comes back whole, but for the reference's track")
   check_same(*back.present, *study.present);
   REQUIRE(back.points.size() == 2);
   check_same(back.points[1], study.points[1]);
+  CHECK(back.reference_part == 0.5);
+  CHECK(back.methods_done == 2);
   CHECK(back.problem == "none");
   CHECK_FALSE(back.done);
   CHECK_FALSE(there_and_back(AccuracyStudy{}).present);

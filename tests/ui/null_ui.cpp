@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <memory>
@@ -316,6 +317,52 @@ std::filesystem::path NullUi::write_export(const std::string& name) {
 
 bool NullUi::drew(std::string_view text) const {
   return drawn_text().find(without_spaces(text)) != std::string::npos;
+}
+
+/// The letter that a triangle begins with, if it is the first of a letter's two, and its box.
+struct DrawnLetter {
+  ImWchar letter;
+  ImVec2 lo, hi;
+};
+
+std::optional<DrawnLetter> letter_at(const ImDrawList& list, const BuiltFonts& fonts, const ImDrawIdx* triangle) {
+  const ImDrawVert &first = list.VtxBuffer[triangle[0]], &last = list.VtxBuffer[triangle[2]];
+  const auto it = fonts.letters.find({first.uv.x, first.uv.y});
+  if (it == fonts.letters.end() || last.uv.x <= first.uv.x || last.uv.y <= first.uv.y) return std::nullopt;
+  return DrawnLetter{it->second, first.pos, last.pos};
+}
+
+std::vector<std::string> NullUi::cut_texts() const {
+  std::vector<std::string> cut;
+  const BuiltFonts& fonts = fonts_of(ui.theme.scale);
+  const ImDrawData& data = *ImGui::GetDrawData();
+  constexpr float seen = 0.6f;  // pixels of a letter's edge, which is smoothed
+  for (int n = 0; n < data.CmdListsCount; ++n) {
+    const ImDrawList& list = *data.CmdLists[n];
+    const std::string owner = list._OwnerName != nullptr ? list._OwnerName : "";
+    const bool scrolls = owner.find('/') != std::string::npos;
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      const ImVec4& clip = command.ClipRect;
+      std::string text;
+      float row = -1;
+      bool cuts = false;
+      const auto end_text = [&] {
+        if (cuts) cut.push_back(owner + ": " + text);
+        text.clear(), cuts = false;
+      };
+      for (unsigned k = 0; k + 2 < command.ElemCount; k += 3) {
+        const auto drawn = letter_at(list, fonts, &list.IdxBuffer[int(command.IdxOffset + k)]);
+        if (!drawn || drawn->hi.y <= clip.y || drawn->lo.y >= clip.w) continue;
+        if (std::abs(drawn->lo.y - row) > 12) end_text();
+        row = drawn->lo.y;
+        append_utf8(text, drawn->letter);
+        cuts |= drawn->lo.x < clip.x - seen || drawn->hi.x > clip.z + seen;
+        cuts |= !scrolls && (drawn->lo.y < clip.y - seen || drawn->hi.y > clip.w + seen);
+      }
+      end_text();
+    }
+  }
+  return cut;
 }
 
 bool NullUi::said(std::string_view part) const {

@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/ui/frame/gui_input.h"
 #include "app/ui/kit/control_places.h"
@@ -102,6 +103,9 @@ class NullUi : public Desk {
 
   /// Whether the last frame drew this text, wherever lines were broken.
   bool drew(std::string_view text) const;
+  /// Texts of the last frame of which a letter is cut at the left or right, or at the top or bottom of what does not
+  /// scroll: "region: text".
+  std::vector<std::string> cut_texts() const;
   bool said(std::string_view part) const;  ///< by a message
   bool typing() const;                     ///< a text field takes keys
   std::optional<Box> tooltip() const;

@@ -83,7 +83,7 @@ std::string why_short(const AccuracyStudy& study) {
   const std::string what = of.kind == Kind::one_weight
                                ? "a spring this stiff"
                                : std::to_string(of.rows) + " × " + std::to_string(of.columns) + " particles";
-  return " No more is compared, since fine runs of " + what + " would take too long.";
+  return " The time is this short because fine runs of " + what + " would take too long.";
 }
 
 }  // namespace
@@ -144,7 +144,6 @@ std::string accuracy_time(const AccuracyStudy& study) {
 
 std::string accuracy_words(const AccuracyStudy& study) {
   if (!study.problem.empty()) return "There is no reference to compare with: " + study.problem + ".";
-  if (!study.present) return "Measuring…";
   const ErrorPoint& now = *study.present;
   const std::string over = " over the next " + short_number(rounded(study.reference.seconds, 2)) +
                            " s from t = " + time_number(study.at.t, now.dt) + " s";
@@ -160,6 +159,27 @@ std::string accuracy_words(const AccuracyStudy& study) {
                                          : "below " + short_number(rounded(std::max(floor, now.error_rms_m), 2));
   return method + "'s error is " + error + " m (rms)" + over + "; it takes " + short_number(rounded(now.cost, 2)) +
          " s of CPU time per simulated second." + short_time;
+}
+
+std::string measuring_words(const AccuracyStudy& study, double elapsed) {
+  const Preset& of = study.of;
+  std::string words = "Measuring the error of " + std::string(scheme(of.integrator).title);
+  if (!chooses_steps(scheme(of.integrator))) words += " at dt = " + short_number(of.dt) + " s";
+  if (study.reference.seconds > 0)
+    words += " over the next " + short_number(rounded(study.reference.seconds, 2)) + " s";
+  const double part = study.reference_part;
+  if (part >= 1) return words + ". The fine runs to compare with are done; the run with these settings follows.";
+  words += ". First come two fine runs to compare with: " + std::to_string(int(100 * part)) + " % done";
+  constexpr double telling = 0.05;  // before that, the time so far says little
+  if (part < telling) return words + "; this usually takes a few seconds.";
+  const double left = elapsed * (1 - part) / part;
+  return words + (left < 1 ? ", less than 1 s left." : ", about " + short_number(std::ceil(left), 3) + " s left.");
+}
+
+std::string other_methods_words(const AccuracyStudy& study) {
+  if (study.done || !study.present) return {};
+  return " Other methods: " + std::to_string(study.methods_done) + " of " + std::to_string(AccuracyWatch::methods) +
+         " measured.";
 }
 
 Chart accuracy_chart(const Tokens& c, const AccuracyStudy& study, std::optional<double> target) {
@@ -248,12 +268,22 @@ void accuracy_ways(Ui& ui) {
 
 constexpr EffectSet settings_of_the_method{Effect::integrator, Effect::dt, Effect::tolerance};
 
+/// What there is to wait for while there is no result for the present constants.
+std::string waiting_words(const Ui& ui) {
+  const Session& session = ui.session;
+  if (session.simulation->divergence()) return "Nothing is measured once the cloth has diverged: restart it.";
+  const AccuracyWatch& watch = session.studies.accuracy;
+  const auto measuring = watch.measuring();
+  if (measuring && changes(measuring->of, session.preset()).within(motionless))
+    return measuring_words(*measuring, session.now - watch.begun());
+  if (session.simulation->held()) return "The error is measured once you let go of the cloth.";
+  return "The error is measured as soon as the constants stand still for a moment.";
+}
+
 /// Shows an earlier study only as far as it is true of the present constants.
 void errors_shown(Ui& ui, float height) {
   auto study = ui.session.studies.accuracy.study();
-  const std::string waiting = ui.session.simulation->divergence()
-                                  ? "Nothing is measured once the cloth has diverged: restart it."
-                                  : "Measuring…";
+  const std::string waiting = waiting_words(ui);
   if (!study) return words_and_chart(ui, height, waiting, nullptr);
   const EffectSet since = changes(study->of, ui.session.preset());
   const bool stale = !since.within(motionless);
@@ -261,7 +291,22 @@ void errors_shown(Ui& ui, float height) {
   const bool charted = study->present && since.within(motionless | settings_of_the_method);
   if (stale) study->present.reset();
   const Chart chart = accuracy_chart(ui.theme.colors, *study, target_error(ui));
-  words_and_chart(ui, height, stale ? waiting : accuracy_words(*study), charted ? &chart : nullptr);
+  const bool known = !stale && (study->present || !study->problem.empty());
+  words_and_chart(ui, height, known ? accuracy_words(*study) + other_methods_words(*study) : waiting,
+                  charted ? &chart : nullptr);
+}
+
+/// How far the measurement of the order is.
+std::string order_words(const Ui& ui, const std::optional<Convergence>& study) {
+  const std::string method(scheme(ui.session.preset().integrator).title);
+  if (!study) return "The order of " + method + " is measured as soon as the constants stand still for a moment.";
+  const std::string over = " over the next " + short_number(rounded(study->seconds, 2)) + " s";
+  if (study->points.empty())
+    return "Measuring the order of " + method + (study->seconds > 0 ? over : "") +
+           ". First come fine runs to compare with, then " + std::to_string(convergence_levels) +
+           " runs with dt, dt/2, dt/4, …";
+  return "Measuring the order of " + method + over + ": " + std::to_string(study->points.size()) + " of " +
+         std::to_string(convergence_levels) + " runs done; each takes about twice as long as the one before it.";
 }
 
 void convergence_shown(Ui& ui, float height) {
@@ -270,7 +315,7 @@ void convergence_shown(Ui& ui, float height) {
                                        " s from t = " + time_number(study->t, study->of.dt) + " s, in double."
                                  : "";
   const Chart chart = study ? convergence_chart(ui.theme.colors, *study) : Chart{};
-  words_and_chart(ui, height, !study || !study->done ? "Measuring…" : convergence_words(*study) + over,
+  words_and_chart(ui, height, study && study->done ? convergence_words(*study) + over : order_words(ui, study),
                   chart.series.empty() ? nullptr : &chart, convergence_words_at_1);
 }
 

@@ -26,6 +26,10 @@ Chart accuracy_chart(const Tokens& colors, const AccuracyStudy& study, std::opti
 std::string accuracy_time(const AccuracyStudy& study);
 /// Its sentences: "Verlet: error 2.1e-05 m (rms) over the next 0.25 s from t = 1.2 s; …", and why that time is short.
 std::string accuracy_words(const AccuracyStudy& study);
+/// What is being measured, how much of it is done, and how long it may take; `elapsed`: s since it began.
+std::string measuring_words(const AccuracyStudy& study, double elapsed);
+/// How many other methods stand in the chart by now, after the rest; empty where none is to come.
+std::string other_methods_words(const AccuracyStudy& study);
 /// "Find settings" in the card of accuracy (settings_finder.cpp): an error goes in, methods and dt that keep it come
 /// out, the cheapest first, each with a click to use it.
 void settings_finder(Ui& ui, float height);

@@ -72,7 +72,7 @@ void since_line(Ui& ui, const LedgerReading& reading) {
   ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(card::line + 4)});
   if (text_button(ui, "Restart and count")) ui.command("restart");
   report_control(ui, "count_from_start");
-  tooltip(ui, gui::item_id(), "Restarts the motion, and counts from its start", "R");
+  tooltip(ui, gui::item_id(), "Restarts the motion and counts from its start", "R");
 }
 
 }  // namespace

@@ -206,7 +206,8 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
                       " s from t = " + short_number(search.t) + " s. Click a setting to use it.";
   if (search.seconds < 0.99 * search.goal.seconds)
     words +=
-        " No more is compared: fine runs of a whole second of this cloth would take too long, and no contact or tear "
+        " The time is this short because fine runs of a whole second of this cloth would take too long, and no contact "
+        "or tear "
         "follows in the rest of it.";
   if (search.present && std::isfinite(search.present->error_rms_m))
     words += " Now: error " + two_digits_of(search.present->error_rms_m) + " m, " +
@@ -230,7 +231,7 @@ void settings_finder(Ui& ui, float) {
   if (ui.session.simulation->divergence() && !watch.search())
     return finder_text(ui, "The motion has diverged; restart it first.");
   const auto search = watch.search();
-  if (!search) return finder_text(ui, "It begins once nothing is held and the cloth can be read.");
+  if (!search) return finder_text(ui, "The search begins once you let go of the cloth and its present step is done.");
   finder_answer(ui, *search, *watch.tolerance());
 }
 

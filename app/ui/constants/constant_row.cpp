@@ -275,6 +275,9 @@ void draw_line(Ui& ui, const Line& line) {
 }  // namespace
 
 RowColumns row_columns(const Ui& ui) {
+  constexpr float narrow_at_1 = 240;  // rows under which the sliders are to keep most of the width
+  if (ui.row_width < ui.theme.px(narrow_at_1))
+    return {ui.theme.px(26), ui.theme.px(34), ui.theme.px(56), ui.theme.px(36), ui.theme.px(4)};
   return {ui.theme.px(26), ui.theme.px(56), ui.theme.px(64), ui.theme.px(44), ui.theme.px(4)};
 }
 

@@ -109,8 +109,9 @@ bool is_shipped(const fs::path& file) {
 
 void open_presets(Ui& ui) {
   Dialog& dialog = ui.dialog;
-  title(ui, "Open a preset");
-  gallery(ui, ImGui::GetIO().DisplaySize.y - ui.theme.px(236));
+  gallery(ui, [&](bool low) {
+    if (!low) title(ui, "Open a preset");
+  });
   if (dialog.kind != DialogKind::open) return;
   if (files_are_handed_out()) {
     if (text_button(ui, "Choose a file…", true)) ask_for_file(".json"), close(ui);
@@ -289,13 +290,14 @@ void large_dialog(Ui& ui) {
 }
 
 void start_page(Ui& ui) {
-  title(ui, "Tyglab");
-  wrapped(ui,
-          "A cloth to take in your hands: change every constant of the model while it moves, and see where numerical "
-          "methods work and where they fail.",
-          ui.theme.colors.text);
-  ImGui::Dummy({0, ui.theme.px(2)});
-  gallery(ui, ImGui::GetIO().DisplaySize.y - ui.theme.px(218));
+  gallery(ui, [&](bool low) {
+    if (!low) title(ui, "Tyglab");
+    wrapped(ui,
+            "A simulated cloth to pull, cut and tear: change any constant of the model while it moves, and see where "
+            "numerical methods work and where they fail.",
+            ui.theme.colors.text);
+    ImGui::Dummy({0, ui.theme.px(2)});
+  });
   if (ui.dialog.kind != DialogKind::start) return;
   if (text_button(ui, ui.dialog.first_start ? "Start with this cloth" : "Continue with the cloth", true))
     return close(ui);
@@ -382,8 +384,10 @@ void dialogs(Ui& ui) {
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   const bool cards = dialog.kind == DialogKind::open || dialog.kind == DialogKind::start;
   const float width = ui.theme.px(question ? 460 : cards ? 960 : 620);
-  ImGui::SetNextWindowSize({std::min(width, window.x - ui.theme.px(24)), 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(24), ui.theme.px(20)));
+  const bool small = cards && window.x < width;
+  ImGui::SetNextWindowSize({std::min(width, window.x - ui.theme.px(small ? 12 : 24)), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      small ? ImVec2(ui.theme.px(14), ui.theme.px(10)) : ImVec2(ui.theme.px(24), ui.theme.px(20)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   if (ImGui::BeginPopupModal("dialog", nullptr,
@@ -393,6 +397,7 @@ void dialogs(Ui& ui) {
     // Enter waits until the field has the text that was typed before it.
     const bool enter = std::exchange(dialog.enter, dialog.enter && !ui.input.unread);
     contents(ui);
+    if (cards) end_gallery(ui);
     dialog.enter = enter && ui.input.unread;
     if (dialog.kind == DialogKind::none) ImGui::CloseCurrentPopup();
     ImGui::PopTextWrapPos();

@@ -8,10 +8,9 @@
 #include "app/base/data_files.h"
 #include "app/base/preset_files.h"
 #include "app/session/lab_state.h"
+#include "app/ui/frame/gallery_card.h"
 #include "app/ui/frame/palette.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/scene_picture.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/io/preset_io.h"
 
@@ -20,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char *recent = "Recent work", *scenes = "Scenes", *yours = "Your presets", *labs = "Labs";
-constexpr float least_card = 206, narrow_card = 160, between_at_1 = 12, inset = 12,
-                lines_below = 2;  // sizes at scale 1
+constexpr float least_card = 190, narrow_card = 160, between_at_1 = 12;  // sizes at scale 1
+constexpr float low_window_at_1 = 480, lowest_list_at_1 = 60, highest_list_at_1 = 560;
 
 GalleryCard preset_card(const char* section, const fs::path& file, bool shipped) {
   GalleryCard card{section, {}, {}, {}};
@@ -61,57 +60,6 @@ GalleryCard lab_card(const Ui& ui, const Lab& lab) {
     break;
   }
   return card;
-}
-
-/// As much of the text as that many lines hold.
-std::string in_some_lines(const ImFont& font, const std::string& text, float width, int most) {
-  const std::string lines = in_lines(font, text, width);
-  std::size_t end = 0;
-  for (int line = 0; line < most; ++line) {
-    end = lines.find('\n', end);
-    if (end == std::string::npos) return lines;
-    if (line + 1 < most) ++end;
-  }
-  const std::size_t last = lines.rfind('\n', end - 1);
-  const std::size_t start = last == std::string::npos ? 0 : last + 1;
-  return lines.substr(0, start) + fitted(font, lines.substr(start, end - start) + "…", width);
-}
-
-struct CardSize {
-  float width, picture, height;
-};
-
-CardSize card_size(const Ui& ui, float width) {
-  const float picture = std::round(width / SceneSketch::aspect);
-  return {width, picture,
-          picture + ui.theme.px(2 * inset) + ui.fonts.title->FontSize + lines_below * ui.fonts.small->FontSize};
-}
-
-void draw_card(Ui& ui, const GalleryCard& card, ImVec2 lo, const CardSize& size, bool lit) {
-  const Tokens& c = ui.theme.colors;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImVec2 hi{lo.x + size.width, lo.y + size.height};
-  const float round = ui.theme.px(6), padding = ui.theme.px(inset), width = size.width - 2 * padding;
-  draw.AddRectFilled(lo, hi, lit ? c.field_hover : c.field, round);
-  const ImVec2 corner{hi.x, lo.y + size.picture};
-  draw.AddRectFilled(lo, corner, c.ground, round, ImDrawFlags_RoundCornersTop);
-  if (const SceneSketch* sketch = card.problem.empty() ? ui.sketches.of(card.preset) : nullptr)
-    draw_scene(draw, ui.theme, *sketch, lo, corner);
-  if (lit) draw.AddRect(lo, hi, c.accent, round, 0, ui.theme.px(2));
-  const ImFont &title = *ui.fonts.title, &small = *ui.fonts.small;
-  float y = corner.y + ui.theme.px(8);
-  const std::string number = card.entry.number.empty() ? "" : card.entry.number + "  ";
-  const std::string progress = card.section == labs ? card.entry.keys : "";
-  draw_text(draw, title, {lo.x + padding, y}, c.text, fitted(title, number + card.entry.title, width));
-  y += title.FontSize + ui.theme.px(4);
-  const std::string& text = card.problem.empty() ? card.entry.purpose : card.problem;
-  draw_text(draw, small, {lo.x + padding, y}, card.problem.empty() ? c.quiet : c.warning,
-            in_some_lines(small, text, width, int(lines_below)));
-  if (progress.empty()) return;
-  const float wide = text_width(small, progress) + ui.theme.px(16), high = small.FontSize + ui.theme.px(8);
-  const ImVec2 at{hi.x - wide - ui.theme.px(8), lo.y + ui.theme.px(8)};
-  draw.AddRectFilled(at, {at.x + wide, at.y + high}, c.panel, ui.theme.px(4));
-  draw_text(draw, small, {at.x + ui.theme.px(8), at.y + ui.theme.px(4)}, c.text, progress);
 }
 
 void choose(Ui& ui, const GalleryCard& card) {
@@ -162,34 +110,72 @@ std::vector<int> found_cards(const Gallery& gallery) {
   return found;
 }
 
+/// Cards of one section that stand beside each other.
+struct CardRow {
+  const char* section;
+  std::vector<int> places;  ///< among those that are found
+  float height = 0;         ///< px, of the highest
+};
+
+std::vector<CardRow> card_rows(const Ui& ui, const std::vector<int>& found, int columns, const CardShape& shape) {
+  std::vector<CardRow> rows;
+  for (int n = 0; n < int(found.size()); ++n) {
+    const GalleryCard& card = ui.gallery.cards[std::size_t(found[std::size_t(n)])];
+    if (rows.empty() || rows.back().section != card.section || int(rows.back().places.size()) == columns)
+      rows.push_back({card.section, {}});
+    CardRow& row = rows.back();
+    row.places.push_back(n);
+    row.height = std::max(row.height, card_text(ui, card, shape).height);
+  }
+  return rows;
+}
+
+/// Returns whether it was clicked.
+bool one_card(Ui& ui, const GalleryCard& card, const CardShape& shape, float height, bool chosen) {
+  const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + shape.width, lo.y + height};
+  const bool clicked = ImGui::InvisibleButton("card", {shape.width, height});
+  report_control(ui, "entry." + (card.section == scenes ? card.entry.keys : card.entry.title));
+  if (ImGui::IsItemHovered() && !card_text(ui, card, shape).whole) tooltip(ui, gui::item_id(), card.entry.purpose);
+  if (ImGui::IsRectVisible(lo, hi)) draw_gallery_card(ui, card, lo, shape, height, chosen || ImGui::IsItemHovered());
+  return clicked;
+}
+
 /// Returns the card that was clicked, or -1.
 int cards(Ui& ui, const std::vector<int>& found, bool moved) {
   const Gallery& gallery = ui.gallery;
   const float room = ImGui::GetContentRegionAvail().x - ui.theme.px(4), between = ui.theme.px(between_at_1);
   const int usual = int((room + between) / (ui.theme.px(least_card) + between));
   const int columns = std::max(usual, room > ui.theme.px(3 * narrow_card) ? 3 : 1);
-  const CardSize size = card_size(ui, std::floor((room - float(columns - 1) * between) / float(columns)));
-  int clicked = -1, column = 0;
+  const CardShape shape =
+      card_shape(ui, std::floor((room - float(columns - 1) * between) / float(columns)), columns == 1);
+  int clicked = -1;
   const char* section = nullptr;
-  for (int n = 0; n < int(found.size()); ++n) {
-    const GalleryCard& card = gallery.cards[std::size_t(found[std::size_t(n)])];
-    if (section != card.section) section = card.section, column = 0, heading(ui, section);
-    if (column > 0) ImGui::SameLine(0, between);
-    ImGui::PushID(found[std::size_t(n)]);
-    const ImVec2 lo = ImGui::GetCursorScreenPos();
-    if (ImGui::InvisibleButton("card", {size.width, size.height})) clicked = found[std::size_t(n)];
-    report_control(ui, "entry." + (card.section == scenes ? card.entry.keys : card.entry.title));
-    if (!card.entry.purpose.empty()) tooltip(ui, gui::item_id(), card.entry.purpose);
-    const bool chosen = n == gallery.selected;
-    if (moved && chosen) ImGui::SetScrollHereY(0.5f);
-    if (ImGui::IsRectVisible(lo, {lo.x + size.width, lo.y + size.height}))
-      draw_card(ui, card, lo, size, chosen || ImGui::IsItemHovered());
-    ImGui::PopID();
-    column = (column + 1) % columns;
-    if (column == 0) ImGui::Dummy({0, between - ImGui::GetStyle().ItemSpacing.y * 2});
+  for (const CardRow& row : card_rows(ui, found, columns, shape)) {
+    if (section != row.section) section = row.section, heading(ui, section);
+    for (std::size_t k = 0; k < row.places.size(); ++k) {
+      const int n = row.places[k], card = found[std::size_t(n)];
+      if (k > 0) ImGui::SameLine(0, between);
+      ImGui::PushID(card);
+      if (one_card(ui, gallery.cards[std::size_t(card)], shape, row.height, n == gallery.selected)) clicked = card;
+      if (moved && n == gallery.selected) ImGui::SetScrollHereY(0.5f);
+      ImGui::PopID();
+    }
+    ImGui::Dummy({0, between - ImGui::GetStyle().ItemSpacing.y * 2});
   }
   if (found.empty()) wrapped(ui, "Nothing has that name. Try another word, or fewer.", ui.theme.colors.quiet);
   return clicked;
+}
+
+/// Whether the window is so low that what stands over the cards scrolls with them.
+bool low_window(const Ui& ui) {
+  return ImGui::GetIO().DisplaySize.y < ui.theme.px(low_window_at_1);
+}
+
+/// What the window leaves between what stands over the list and what stood below it in the last frame, px.
+float list_height(const Ui& ui) {
+  const float room = ImGui::GetIO().DisplaySize.y - ui.theme.px(16) - ImGui::GetCursorPosY() - ui.gallery.below -
+                     ImGui::GetStyle().WindowPadding.y;
+  return std::clamp(room, ui.theme.px(lowest_list_at_1), ui.theme.px(highest_list_at_1));
 }
 
 }  // namespace
@@ -197,6 +183,7 @@ int cards(Ui& ui, const std::vector<int>& found, bool moved) {
 void fill_gallery(Ui& ui, bool with_labs) {
   Gallery& gallery = ui.gallery;
   gallery = Gallery{};
+  gallery.below = ui.theme.px(with_labs ? 44 : 132);  // until it is measured
   std::error_code ignored;
   for (const std::string& file : ui.settings.recent)
     if (fs::is_regular_file(file, ignored)) gallery.cards.push_back(preset_card(recent, file, false));
@@ -206,16 +193,24 @@ void fill_gallery(Ui& ui, bool with_labs) {
   for (const Lab& lab : find_labs(ui.session)) gallery.cards.push_back(lab_card(ui, lab));
 }
 
-void gallery(Ui& ui, float height) {
+void gallery(Ui& ui, const std::function<void(bool low)>& head) {
   Gallery& gallery = ui.gallery;
+  const bool low = low_window(ui);
+  if (!low) head(false);
   find_field(ui);
   const std::vector<int> found = found_cards(gallery);
   if (std::exchange(gallery.narrowed, gallery.find) != gallery.find) gallery.selected = *gallery.find != 0 ? 0 : -1;
   const int go = std::exchange(gallery.go, 0);
   gallery.selected = std::clamp(gallery.selected + go, -1, int(found.size()) - 1);
-  gui::begin_child("list", {0, std::clamp(height, ui.theme.px(120), ui.theme.px(560))});
+  gui::begin_child("list", {0, list_height(ui)});
+  if (low) {
+    ImGui::PushTextWrapPos(0);
+    head(true);
+    ImGui::PopTextWrapPos();
+  }
   int chosen = cards(ui, found, go != 0);
   ImGui::EndChild();
+  gallery.end = ImGui::GetCursorPosY();
   if (ui.sketches.poll()) ui.draw_by = std::min(ui.draw_by, ui.now + 0.05);
   if (ui.dialog.enter && gallery.selected >= 0) chosen = found[std::size_t(gallery.selected)];
   // Enter has taken the keys from the field.
@@ -223,6 +218,10 @@ void gallery(Ui& ui, float height) {
   if (chosen < 0) return;
   ui.dialog.enter = false;
   choose(ui, gallery.cards[std::size_t(chosen)]);
+}
+
+void end_gallery(Ui& ui) {
+  ui.gallery.below = ImGui::GetCursorPosY() - ui.gallery.end;
 }
 
 }  // namespace tyglab

@@ -17,7 +17,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float header_at_1 = 46;  // pixels at scale 1
+constexpr float header_at_1 = 46, lowest_strip_at_1 = 130;  // pixels at scale 1
 
 /// Small capitals over a part; what is above keeps its distance, what is below stands close.
 void small_head(Ui& ui, const char* text, ImU32 color) {
@@ -149,6 +149,25 @@ void waiting_part(Ui& ui) {
   back_button(ui);
 }
 
+void task_part(Ui& ui, const LabStep& step) {
+  if (step.todo.empty()) return;
+  small_head(ui, "DO", ui.theme.colors.accent);
+  paragraphs_of(ui, step.todo, ui.theme.colors.text);
+}
+
+void checks_part(Ui& ui, const LabStep& step, const StepRecord& record) {
+  const Tokens& c = ui.theme.colors;
+  if (step.checks.empty()) return;
+  small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
+  for (std::size_t k = 0; k < step.checks.size(); ++k)
+    if (k < record.checks.size() && k < record.seen.size())
+      check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
+  const std::string& awaited = ui.session.labs.run->awaited;
+  if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
+    marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
+}
+
+/// The task, and what is checked; a task that is done stands last.
 void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   const Tokens& c = ui.theme.colors;
   if (lab_waits(ui.session)) return waiting_part(ui);
@@ -160,15 +179,9 @@ void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
                            : "This machine has no OpenCL device, so there is nothing to do here; read on.",
                        c.text);
   if (first) return set_text(ui, "Predict first; then the task appears here.", c.quiet);
-  if (!step.todo.empty()) small_head(ui, "DO", c.accent), paragraphs_of(ui, step.todo, c.text);
-  if (step.checks.empty()) return;
-  small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
-  for (std::size_t k = 0; k < step.checks.size(); ++k)
-    if (k < record.checks.size() && k < record.seen.size())
-      check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
-  const std::string& awaited = ui.session.labs.run->awaited;
-  if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
-    marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
+  if (!record.done) task_part(ui, step);
+  checks_part(ui, step, record);
+  if (record.done) task_part(ui, step);
 }
 
 void explanation_part(Ui& ui, LabRun& run) {
@@ -215,12 +228,27 @@ void more_below(Ui& ui) {
   draw.AddTriangleFilled({x - r, y}, {x + r, y}, {x, y + r}, c.text);
 }
 
-void end_lab_column(Ui& ui) {
+/// Returns how high its contents are, px.
+float end_lab_column(Ui& ui) {
+  const float height = ImGui::GetCursorPosY();
   ImGui::Dummy({0, ui.theme.px(4)});
   more_below(ui);
   ImGui::PopTextWrapPos();
   ImGui::PopStyleVar();
   ImGui::EndChild();
+  return height;
+}
+
+/// The strip becomes as high as its text needs; lower only when the pointer is elsewhere, so that no button moves away
+/// from under it.
+void fit_height(Ui& ui, const Region& region, float contents) {
+  const float needs = std::round(ui.theme.px(header_at_1 + 12) + contents);
+  const ImVec2 pointer = ImGui::GetIO().MousePos;
+  const bool inside = pointer.x >= region.at.x && pointer.x < region.at.x + region.size.x && pointer.y >= region.at.y &&
+                      pointer.y < region.at.y + region.size.y;
+  if (needs == ui.lab_needs || (needs < ui.lab_needs && inside)) return;
+  ui.lab_needs = needs;
+  ui.draw_by = std::min(ui.draw_by, ui.now);
 }
 
 /// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …"
@@ -230,7 +258,7 @@ std::string lab_result(const LabRun& run) {
     if (run.lab.steps[k].prediction && run.records[k].predicted) ++asked, right += run.records[k].right;
   std::string text = "“" + run.lab.title + "” is done";
   if (asked > 0) text += "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
-  return text + ". The next lab is under the cap in the top bar.";
+  return text + ". Ctrl+L lists the next ones.";
 }
 
 /// Buttons at the right of the header; returns where they begin.
@@ -288,7 +316,8 @@ bool lab_header(Ui& ui, LabRun& run, const Region& region) {
 
 float lab_panel_height(const Ui& ui, float available) {
   if (!ui.session.labs.run) return 0;
-  return std::round(std::min(ui.theme.px(290), 0.45f * available));
+  const float most = std::round(std::min(ui.theme.px(290), 0.45f * available));
+  return ui.lab_needs > 0 ? std::min(std::max(ui.lab_needs, ui.theme.px(lowest_strip_at_1)), most) : most;
 }
 
 void lab_panel(Ui& ui, const Region& region) {
@@ -309,12 +338,18 @@ void lab_panel(Ui& ui, const Region& region) {
   // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
   const bool beside = two && to_be_predicted(run.now(), run.record());
   if (!beside) prediction_part(ui, run.now(), run.record());
-  if (two) end_lab_column(ui), begin_lab_column(ui, ("do" + id).c_str(), left + column + gap, top, {column, height});
+  float contents = 0;
+  if (two)
+    contents = end_lab_column(ui),
+    begin_lab_column(ui, ("do" + id).c_str(), left + column + gap, top, {column, height});
   if (beside) prediction_part(ui, run.now(), run.record());
+  // Once a step is done, why comes first: it is what is left to be read.
+  const bool waits = lab_waits(ui.session);
+  if (!waits) explanation_part(ui, run);
   doing_part(ui, run.now(), run.record());
-  explanation_part(ui, run);
+  if (waits) explanation_part(ui, run);
   end_part(ui, run);
-  end_lab_column(ui);
+  fit_height(ui, region, std::max(contents, end_lab_column(ui)));
   end_region();
 }
 

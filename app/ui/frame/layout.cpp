@@ -63,13 +63,21 @@ struct LayoutPlan {
   bool lab_with_side = false;  ///< the lab stands with the constants, not with the plots
 };
 
+}  // namespace
+
+float presented_card_width(const Ui& ui, float window) {
+  const float width = std::round(0.225f * window);
+  return width < ui.theme.px(200) ? 0 : width;
+}
+
+namespace {
+
 /// The cloth, below it the few controls, and beside it one card where there is room.
 LayoutPlan plan_presentation(const Ui& ui, ImVec2 window) {
   LayoutPlan plan;
-  const float low = podium_height(ui), height = std::max(window.y - low, 1.f), least = ui.theme.px(200);
+  const float low = podium_height(ui), height = std::max(window.y - low, 1.f);
   const float lab = lab_panel_height(ui, height);
-  float right = ui.presented_card ? std::round(0.225f * window.x) : 0;
-  if (right < least) right = 0;
+  const float right = ui.presented_card ? presented_card_width(ui, window.x) : 0;
   plan.viewport = {{0, 0}, {window.x - right, std::max(height - lab, 1.f)}};
   plan.lab = {{0, height - lab}, {window.x - right, lab}};
   plan.podium = {{0, height}, {window.x, low}};
@@ -128,6 +136,7 @@ void draw_layout(Ui& ui, ImVec2 window) {
   const Region& viewport = plan.viewport;
   const float left = viewport.at.x, right = left + viewport.size.x;
   ui.viewport_left = left;
+  ui.time_in_picture = plan.podium.size.y > 0 && !time_on_podium(ui, window.x);
   if (viewport.size.x > 0) {
     viewport_panel(ui, viewport);
   } else {

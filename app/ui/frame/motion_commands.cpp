@@ -47,7 +47,7 @@ void choose_fastest_engine(Ui& ui) {
 void toggle_slow_hand(Ui& ui) {
   bool& slow = ui.settings.handling.slow_hand;
   slow = !slow;
-  ui.messages.note(slow ? "Time runs at a quarter of the speed while you grab or cut."
+  ui.messages.note(slow ? "Time runs at a quarter of its speed while you grab or cut."
                         : "Time runs at full speed while you grab or cut.");
 }
 

@@ -20,6 +20,10 @@ inline constexpr float lab_two_columns = 544;
 /// What presentation mode has in place of bars and columns, below the cloth.
 void podium(Ui& ui, const Region& region);
 float podium_height(const Ui& ui);
+/// Whether it has the simulated time, in a window of that width, px; otherwise that is in the picture.
+bool time_on_podium(const Ui& ui, float width);
+/// Of the card beside the cloth, in a window of that width, px; 0 where it has no room.
+float presented_card_width(const Ui& ui, float window);
 
 /// All regions, with the borders between them that drag.
 void draw_layout(Ui& ui, ImVec2 window);

@@ -59,6 +59,11 @@ float menu_button(Ui& ui, float x) {
   return x + width;
 }
 
+/// What the preset's name takes with all that belongs to it, px.
+float document_width(const Ui& ui) {
+  return text_width(*ui.fonts.text, ui.session.preset().name) + ui.theme.px(16 + (unsaved(ui.session) ? 18 : 0));
+}
+
 /// Name of the preset, with a dot while it is not saved; leads to others. Returns where it ends.
 float document_name(Ui& ui, float x, float width) {
   const Tokens& c = ui.theme.colors;
@@ -89,6 +94,11 @@ float transport(Ui& ui, float x) {
   return hi.x;
 }
 
+/// With what is between it and the next one, px.
+float after_reading(const Ui& ui, float width) {
+  return width + ui.theme.px(18);
+}
+
 /// A quiet label with a number after it. Returns where the next one begins; where the bar has no room for this one it
 /// is left out, and so are all after it: they stand in the order of their use.
 float reading(Ui& ui, float x, float end, const char* label, const std::string& value, const char* widest, ImU32 color,
@@ -107,15 +117,33 @@ float reading(Ui& ui, float x, float end, const char* label, const std::string& 
   const float baseline = std::round(y + height / 2 + mono.FontSize * 0.36f);
   draw_text(draw, small, {x, baseline - small.Ascent}, ui.theme.colors.quiet, label);
   draw_text(draw, mono, {x + label_width, baseline - mono.Ascent}, color, value);
-  return x + width + ui.theme.px(18);
+  return x + after_reading(ui, width);
 }
 
-/// Left out where it has no room, as readings are.
+std::string time_text(const Ui& ui, double t) {
+  return "t = " + time_number(t, ui.session.preset().dt) + " s";
+}
+
+/// What the simulated time takes, px.
+float time_room(const Ui& ui) {
+  return after_reading(ui, text_width(*ui.fonts.mono, time_text(ui, std::max(10.0, ui.session.simulation->time()))));
+}
+
+/// What all speeds beside each other take, px.
+float speeds_room(const Ui& ui) {
+  return after_reading(ui, speed_control_size(ui, 1e9f).x);
+}
+
+/// All of them, or the list where they have no room; left out where that has none either, as readings are.
 float speed(Ui& ui, float x, float end) {
-  const ImVec2 size = speed_control_size(ui, end);
-  if (x + size.x > end) return end;
-  speed_control(ui, {x, bar_middle(ui, size.y)}, end);
-  return x + size.x + ui.theme.px(18);
+  const ImVec2 all = speed_control_size(ui, 1e9f), list = speed_list_size(ui);
+  if (x + all.x <= end) {
+    speed_control(ui, {x, bar_middle(ui, all.y)}, 1e9f);
+    return x + after_reading(ui, all.x);
+  }
+  if (x + list.x > end) return end;
+  speed_list(ui, {x, bar_middle(ui, list.y)});
+  return x + after_reading(ui, list.x);
 }
 
 /// How far a step is that takes long; empty where none does.
@@ -133,8 +161,10 @@ std::string step_under_way(const Session& session) {
 void readings(Ui& ui, float x, float end) {
   const Tokens& c = ui.theme.colors;
   char text[64];
-  const auto time = [&](double t) { return "t = " + time_number(t, ui.session.preset().dt) + " s"; };
-  x = reading(ui, x, end, "", time(ui.session.simulation->time()), time(10).c_str(), c.text, "Simulated time");
+  // The speed is a control, and the time can also be read off a plot.
+  if (x + time_room(ui) + speed_list_size(ui).x <= end)
+    x = reading(ui, x, end, "", time_text(ui, ui.session.simulation->time()), time_text(ui, 10).c_str(), c.text,
+                "Simulated time");
   x = speed(ui, x, end);
   if (const std::string step = step_under_way(ui.session); !step.empty()) {
     const std::string label = "step " + std::to_string(ui.session.simulation->steps() + 1);
@@ -151,7 +181,12 @@ void readings(Ui& ui, float x, float end) {
           "Time step, set in the left column");
 }
 
-void window_buttons(Ui& ui, float x) {
+/// Of the buttons at the right: all, or the first two, which a lecture needs and no key is as quick as.
+float buttons_width(const Ui& ui, int count) {
+  return float(count) * ui.theme.px(32) + float(count - 1) * ui.theme.px(6);
+}
+
+void window_buttons(Ui& ui, float x, int count) {
   ImGui::SetCursorScreenPos({x, bar_middle(ui, ui.theme.px(32))});
   if (icon_button(
           ui, {"labs", icon::labs, "Labs", "Labs: predict, try it, check", "Ctrl+L", ui.session.labs.run.has_value()}))
@@ -161,6 +196,7 @@ void window_buttons(Ui& ui, float x) {
   ImGui::SameLine(0, ui.theme.px(6));
   if (icon_button(ui, {"present", icon::screen, "Present", "Presentation mode: a large cloth, few controls", "F5"}))
     ui.command("present");
+  if (count < 4) return;
   ImGui::SameLine(0, ui.theme.px(6));
   if (icon_button(ui, {"screen", ui.full_screen ? icon::compress : icon::expand, "Full", "Full screen", "F11"}))
     ui.command("full_screen");
@@ -173,31 +209,40 @@ void window_buttons(Ui& ui, float x) {
 void top_bar(Ui& ui, const Region& region) {
   const Tokens& c = ui.theme.colors;
   if (!begin_region("top", region, c.panel, {0, 0})) return end_region();
-  const float margin = ui.theme.px(16), button = ui.theme.px(32), gap = ui.theme.px(6), combo = ui.theme.px(124);
-  // In a narrow window, or with large text, transport and menu keep their places to the last.
-  float room = region.size.x - 2 * margin - 3 * button - 2 * gap - 2 * ui.theme.px(18) - menu_width(ui);
-  const float least_name = ui.theme.px(72), buttons = 4 * button + 3 * gap;
-  const bool with_buttons = room > buttons;
-  if (with_buttons) room -= buttons;
+  const float margin = ui.theme.px(16), combo = ui.theme.px(124), gap_at_right = ui.theme.px(12);
+  // In a narrow window, or with large text, transport and menu keep their places to the last. Full screen and help,
+  // which have keys and are in the menu, make room for the speeds.
+  float room = region.size.x - 2 * margin - transport_size(ui).x - 2 * ui.theme.px(18) - menu_width(ui);
+  const float least_name = ui.theme.px(72), speeds = speed_list_size(ui).x + ui.theme.px(16);
+  const int count = room > buttons_width(ui, 4) + speeds ? 4 : room > buttons_width(ui, 2) ? 2 : 0;
+  const bool with_buttons = count > 0;
+  const float buttons = with_buttons ? buttons_width(ui, count) : 0;
+  room -= buttons + speeds;
   const float title = text_width(*ui.fonts.brand, "Tyglab") + ui.theme.px(14);
   float x = margin;
   if (room > title) x = brand(ui, x) + ui.theme.px(2), room -= title;
   x = menu_button(ui, x);
   const float name_width = std::min({ui.theme.px(240), std::max(region.size.x * 0.2f, least_name), room});
-  if (room > least_name) x = document_name(ui, x, name_width);
+  // A long name may be shortened, but not to a few letters.
+  if (room > least_name && name_width >= std::min(document_width(ui), ui.theme.px(160)))
+    x = document_name(ui, x, name_width);
   x += ui.theme.px(16);
-  // Over the viewport's left edge where there is room, as if it belonged to it.
-  const float left = ui.settings.layout.left && ui.panels ? ui.viewport_left + ui.theme.px(12) : x;
-  x = transport(ui, left > x && left < region.size.x * 0.4f ? left : x) + ui.theme.px(18);
-  const float right = region.size.x - margin - (with_buttons ? buttons : 0);
+  const float right = region.size.x - margin - buttons;
   const float engine = right - ui.theme.px(16) - combo;
-  const bool room_for_engine = engine > x + ui.theme.px(120);
-  readings(ui, x, (room_for_engine ? engine : right) - ui.theme.px(12));
+  const float controls = transport_size(ui).x + ui.theme.px(18) + time_room(ui) + speeds_room(ui) - ui.theme.px(18);
+  // Over the viewport's left edge where there is room, as if it belonged to it. All speeds come before that, and before
+  // the engine, which the menu has too.
+  const float left = ui.settings.layout.left && ui.panels ? ui.viewport_left + ui.theme.px(12) : x;
+  const bool aligned = left > x && left < region.size.x * 0.4f && left + controls <= engine - gap_at_right;
+  x = transport(ui, aligned ? left : x) + ui.theme.px(18);
+  const float needed = x + time_room(ui) + speeds_room(ui) - ui.theme.px(18);
+  const bool room_for_engine = engine > x + ui.theme.px(120) && needed <= engine - gap_at_right;
+  readings(ui, x, (room_for_engine ? engine : right) - gap_at_right);
   if (room_for_engine) {
     ImGui::SetCursorScreenPos({engine, bar_middle(ui, ui.theme.px(26))});
     engine_menu(ui, combo);
   }
-  if (with_buttons) window_buttons(ui, right);
+  if (with_buttons) window_buttons(ui, right, count);
   end_region();
 }
 

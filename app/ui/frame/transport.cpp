@@ -44,6 +44,17 @@ SpeedLabels speed_labels(const Ui& ui) {
   return all;
 }
 
+const char* speed_tip(const Pacing& pacing) {
+  return pacing.slowed != 1 ? "Slow motion while you grab or cut (H)"
+                            : "Speed: simulated seconds per real second. Below 1 is slow motion; → makes single steps.";
+}
+
+void choose_speed(Pacing& pacing, int k) {
+  if (k < 0 || k >= int(offered_speeds.size())) return;
+  pacing.speed = offered_speeds[std::size_t(k)].value;
+  pacing.restart_measure();
+}
+
 }  // namespace
 
 ImVec2 transport_size(const Ui& ui, float side) {
@@ -85,17 +96,28 @@ ImVec2 speed_control_size(const Ui& ui, float width) {
 }
 
 void speed_control(Ui& ui, ImVec2 at, float width) {
-  Pacing& pacing = ui.session.pacing;
   const SpeedLabels all = speed_labels(ui);
   ImGui::SetCursorScreenPos(at);
   const int k = segments(ui, "speed", all.labels.data(), int(all.labels.size()), all.chosen, beside_label_at_1, width);
-  tooltip(ui, gui::item_id(),
-          pacing.slowed != 1 ? "Slow motion while you grab or cut (H)"
-                             : "Speed: simulated seconds per real second. Below 1 is slow motion; → makes single "
-                               "steps.");
-  if (k < 0 || k >= int(offered_speeds.size())) return;
-  pacing.speed = offered_speeds[std::size_t(k)].value;
-  pacing.restart_measure();
+  tooltip(ui, gui::item_id(), speed_tip(ui.session.pacing));
+  choose_speed(ui.session.pacing, k);
+}
+
+ImVec2 speed_list_size(const Ui& ui) {
+  return {text_width(*ui.fonts.text, "1/100 ×") + ui.theme.px(34), ui.theme.px(26)};
+}
+
+void speed_list(Ui& ui, ImVec2 at) {
+  const SpeedLabels all = speed_labels(ui);
+  ImGui::SetCursorScreenPos(at);
+  if (!begin_combo(ui, "##speed", (all.texts[std::size_t(all.chosen)] + " ×").c_str(), speed_list_size(ui).x))
+    return tooltip(ui, gui::item_id(), speed_tip(ui.session.pacing));
+  for (int k = 0; k < int(all.texts.size()); ++k) {
+    if (ImGui::Selectable((all.texts[std::size_t(k)] + " ×").c_str(), k == all.chosen))
+      choose_speed(ui.session.pacing, k);
+    report_control(ui, "speed_" + std::to_string(k + 1));
+  }
+  end_combo();
 }
 
 }  // namespace tyglab

@@ -17,6 +17,9 @@ ImVec2 transport_size(const Ui& ui, float side = 32);
 /// The speeds to choose from, in one row or, where that is wider than `width` (px), in more.
 void speed_control(Ui& ui, ImVec2 at, float width);
 ImVec2 speed_control_size(const Ui& ui, float width);
+/// The same choice as a list that shows the present speed, where the speeds have no room beside each other.
+void speed_list(Ui& ui, ImVec2 at);
+ImVec2 speed_list_size(const Ui& ui);
 
 /// Simulated time to real time, over the last half second, "98 %", and the color to say it in.
 struct RealTime {

@@ -121,8 +121,9 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   }
   if (!advice.springs_too_weak) add_retries(ui, advice, past, ways);
   if (nothing_to_replay(ui.session).empty())
-    ways.push_back({replay_label, "The last 50 steps in some seconds, colored by strain; what breaks first is ringed",
-                    "", [](Ui& u) { u.command("replay"); }});
+    ways.push_back({replay_label,
+                    "The last 50 steps in a few seconds, colored by strain; what diverges first is ringed", "",
+                    [](Ui& u) { u.command("replay"); }});
   if (past) ways.push_back(rewind);
   ways.push_back(restart);
   return ways;
@@ -271,7 +272,7 @@ void draw_whole(Ui& ui, const BannerPlan& plan, const Box& box) {
   y += height_of(text, plan.why) + ui.theme.px(12);
   way_buttons(ui, plan.ways, plan.places, {x, y});
   ImGui::SetCursorScreenPos({box.hi.x - ui.theme.px(34), box.lo.y + ui.theme.px(8)});
-  if (quiet_button(ui, "fold", icon::close, "x", "Only one line, so that more of the cloth is seen"))
+  if (quiet_button(ui, "fold", icon::close, "x", "Fold to one line, so that more of the cloth is visible"))
     ui.banner_whole = false;
 }
 

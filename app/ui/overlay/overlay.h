@@ -37,6 +37,8 @@ void picked_overlay(Ui& ui, ImDrawList& draw);
 void divergence_mark(Ui& ui, ImDrawList& draw);
 /// The pointer with its tool, and the particle that it would take.
 void pointer_overlay(Ui& ui, ImDrawList& draw);
+/// Which scene it is, in presentation mode, where no bar says so. `row`: the picture's upper edge.
+void scene_name(Ui& ui, ImDrawList& draw, const Box& row);
 /// Of PAUSED without its keys, px.
 glm::vec2 pause_mark_size(const Ui& ui);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.

@@ -12,7 +12,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float buttons_above = 46, least_picture = 260, low_picture = 480;  // pixels at scale 1
+constexpr float buttons_above = 46, least_picture = 260, low_picture = 480, least_with_buttons = 110;  // px at scale 1
 
 void set_mode(Ui& ui, int mode) {
   Preset next = ui.session.requested_preset();
@@ -71,7 +71,10 @@ float marks_height(const Ui& ui, float viewport, bool under_buttons) {
   const glm::vec2 paused = pause_mark_size(ui);
   const bool colored = shown_colors(ui.scene) != nullptr;
   const bool paused_in_row = !ui.presenting && view_row(ui, viewport).width + gap + paused.x <= room;
-  if (ui.presenting) return colored ? legend.y + gap : 0;
+  if (ui.presenting) {
+    const float name = ui.time_in_picture ? paused.y + ui.theme.px(12) : 0;  // longer than what stands beside a cloth
+    return name + (colored ? legend.y + gap : 0);
+  }
   float height = under_buttons ? 0 : ui.theme.px(12);
   if (colored) height += legend.y + gap;
   const bool shared = colored && legend.x + gap + paused.x <= room;
@@ -97,6 +100,12 @@ void view_buttons(Ui& ui, const Region& region) {
   if (mode == 2) bending_check(ui, region, {{lo.x, lo.y}, {hi.x, hi.y}});
 }
 
+/// A very low picture is left to the cloth: keys and menu have the views too.
+bool has_buttons(const Ui& ui, const Region& region) {
+  return ui.session.requested_preset().kind == Kind::cloth && !ui.presenting &&
+         region.size.y >= ui.theme.px(least_with_buttons);
+}
+
 /// The cloth's picture, and those of its copies beside it.
 void pictures(Ui& ui, ImDrawList& draw) {
   const glm::vec2 size = ui.viewport.size();
@@ -116,14 +125,15 @@ void pictures(Ui& ui, ImDrawList& draw) {
 /// round, so that no arrow runs over a number.
 void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   enum Layer : int { arrows, pointer, fixed, notes, count };
-  const bool bare = ui.picture && !ui.picture->whole_window, cloth = ui.session.requested_preset().kind == Kind::cloth;
+  const bool bare = ui.picture && !ui.picture->whole_window;
   const float margin = ui.theme.px(16), top = region.at.y + ui.theme.px(12);
   const Box row{{region.at.x + margin, top}, {region.at.x + region.size.x - margin, top + ui.theme.px(26)}};
   // In a picture that is saved the legend stands as it was shown.
   bare ? ui.placing.back_to("legend") : ui.placing.begin(ui.theme.px(6));
   draw.ChannelsSplit(count);
   draw.ChannelsSetCurrent(fixed);
-  if (!bare && cloth && !ui.presenting) view_buttons(ui, region);
+  if (!bare && has_buttons(ui, region)) view_buttons(ui, region);
+  if (!bare && ui.presenting && ui.panels) scene_name(ui, draw, row);
   cloth_names(ui, draw);
   if (!bare) {
     arrow_scales(ui, draw);
@@ -153,7 +163,7 @@ void viewport_panel(Ui& ui, const Region& region) {
   ui.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, foot}};
   // Buttons stand over a picture, but above several, whose tops they would cover, and above a low one, which they would
   // cover too much of, unless it would become too small.
-  const bool buttons = ui.session.requested_preset().kind == Kind::cloth && !ui.presenting;
+  const bool buttons = has_buttons(ui, region);
   const bool low = buttons && region.size.y < ui.theme.px(low_picture) &&
                    region.size.y >= ui.theme.px(least_picture + buttons_above);
   const bool above = !ui.presenting && (ui.session.copies.tiles() > 1 || low);

@@ -66,6 +66,8 @@ struct Gallery {
   std::string narrowed;  ///< the text for which `selected` counts
   int selected = -1;     ///< among those that are found; -1: none
   int go = 0;            ///< cards to go on, by the keys of this frame
+  float end = 0;         ///< px: where its list ends in the dialog
+  float below = 0;       ///< px that the rest of the dialog takes
 };
 
 /// A question or a file dialog over everything else.
@@ -161,10 +163,12 @@ struct Ui : UiContext {
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
   bool constants_to_top = false;         ///< another preset was taken: its constants are shown from the first one on
   std::optional<AskedLattice> asked_lattice;
-  bool lab_enter = false;   ///< Enter was pressed in the field of a lab's prediction
-  float viewport_left = 0;  ///< pixels
-  bool side_plots = false;  ///< where both columns have no room, the plots stand in the constants' place
-  bool side_cloth = true;   ///< where not even one has room beside the cloth: the cloth is shown, and neither
+  bool lab_enter = false;        ///< Enter was pressed in the field of a lab's prediction
+  float viewport_left = 0;       ///< pixels
+  float lab_needs = 0;           ///< height of a lab's strip that shows all of its step, pixels; 0: not known yet
+  bool time_in_picture = false;  ///< presentation mode has no other place for the simulated time
+  bool side_plots = false;       ///< where both columns have no room, the plots stand in the constants' place
+  bool side_cloth = true;        ///< where not even one has room beside the cloth: the cloth is shown, and neither
 
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
   bool full_screen = false;             ///< as the window is

@@ -1,0 +1,137 @@
+// Every text has room: on the start page, in the top bar, in presentation mode and in every lab, at each size of the
+// window, in each theme, with usual and with large text.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/base/glfw_keys.h"
+#include "app/session/lab_state.h"
+#include "app/ui/frame/dialogs.h"
+#include "tests/ui/null_ui.h"
+
+namespace tyglab::fit_test {
+
+/// Lays the window out in every way that is promised.
+void in_each_layout(const char* preset, const std::function<void(test::NullUi&)>& look) {
+  for (const char* theme : {"dark", "light", "projector"})
+    for (const glm::ivec2 size : {glm::ivec2{1280, 720}, {1920, 1080}, {900, 600}})
+      for (const double text : {1.0, 1.5}) {
+        const std::string layout = std::string(theme) + ", " + std::to_string(size.x) + ", " + std::to_string(text);
+        CAPTURE(layout);
+        test::NullUi window({.preset = preset, .size = size, .settings = [&](Settings& settings) {
+                               settings.theme = theme, settings.ui_scale = text;
+                             }});
+        window.pause();
+        look(window);
+      }
+}
+
+/// In the windows whose names begin so, nothing is cut or shortened.
+void check_texts(test::NullUi& window, const std::string& region) {
+  for (const std::string& text : window.cut_texts()) {
+    CAPTURE(text);
+    CHECK_FALSE(text.starts_with(region));
+  }
+}
+
+TEST_CASE("every card of the start page shows its title and its goal whole" * doctest::test_suite("slow")) {
+  in_each_layout("hanging", [](test::NullUi& window) {
+    window.ui.command("start_page");
+    window.frames(4);
+    CHECK(window.sees("dialog.Continue_with_the_cloth"));
+    CHECK(window.sees("dialog.Take_the_tour"));
+    const Box list = window.control("dialog.find");
+    window.move({(list.lo.x + list.hi.x) / 2, list.hi.y + 60});
+    for (int n = 0; n < 60; ++n) {
+      check_texts(window, "dialog");
+      CHECK_FALSE(window.drew("…"));
+      window.wheel(-1.5f);
+    }
+    CHECK(window.sees("dialog.entry.Wind_gusts_and_a_swinging_sheet"));
+  });
+}
+
+TEST_CASE("the texts of the top bar have room, and the speed can be chosen in every theme" *
+          doctest::test_suite("slow")) {
+  for (const char* preset : {"hanging", "sphere", "fold_without_k_b"})
+    in_each_layout(preset, [](test::NullUi& window) {
+      window.frames(2);
+      check_texts(window, "top");
+      CHECK_FALSE(window.drew(window.preset().name.substr(0, 6) + "…"));
+      CHECK((window.sees("top.speed.4") || window.sees("top.speed")));
+    });
+}
+
+TEST_CASE("presentation mode names its scene, and its texts have room" * doctest::test_suite("slow")) {
+  in_each_layout("sphere", [](test::NullUi& window) {
+    window.key(GLFW_KEY_F5);
+    window.frames(4);
+    CHECK(window.drew(window.preset().name));
+    check_texts(window, "podium");
+    check_texts(window, "viewport");
+    CHECK((window.sees("podium.speed.4") || window.sees("podium.speed")));
+    CHECK(window.sees("podium.card") == (window.ui.viewport.size().x < ImGui::GetIO().DisplaySize.x));
+    window.key(GLFW_KEY_F5);
+    window.frames(4);
+  });
+}
+
+TEST_CASE("every lab's first step has its texts whole" * doctest::test_suite("slow")) {
+  in_each_layout("hanging", [](test::NullUi& window) {
+    std::vector<std::string> labs;
+    for (const Lab& lab : find_labs(window.session)) labs.push_back(lab.label);
+    for (const std::string& lab : labs) {
+      CAPTURE(lab);
+      begin_lab(window.session, lab);
+      window.rest();
+      window.frames(6);
+      check_texts(window, "lab");
+      check_texts(window, "top");
+    }
+  });
+}
+
+TEST_CASE("a lab's strip takes the height that its step needs, and shrinks only when the pointer has left it") {
+  test::NullUi window;
+  window.pause();
+  begin_lab(window.session, "05_order");
+  window.move({10, 300});
+  window.frames(6);
+  constexpr float most = 290;
+  const float foot = window.ui.viewport.box.hi.y, strip = window.ui.lab_needs;
+  CHECK(strip < most - 40);
+  CHECK(std::abs(720 - foot - strip) < 40);    // but for the line below it
+  CHECK(window.drew("Nothing else changed"));  // the last of its checks
+
+  // A step with more to say: it grows at once, and keeps its height while the pointer may be about to click in it.
+  window.move({500, 640});
+  begin_lab(window.session, "02_euler");
+  enter_step(window.session, 1);
+  window.frames(6);
+  const float higher = window.ui.lab_needs;
+  CHECK(higher > strip + 10);
+  begin_lab(window.session, "05_order");
+  window.frames(6);
+  CHECK(window.ui.lab_needs == higher);
+  window.move({10, 300});
+  window.frames(6);
+  CHECK(window.ui.lab_needs == strip);
+  CHECK(window.ui.viewport.box.hi.y == foot);
+}
+
+TEST_CASE("once a step is done, all of why is seen without scrolling") {
+  test::NullUi window;
+  begin_lab(window.session, "03_stiffness");
+  window.frames(4);
+  LabRun& run = *window.session.labs.run;
+  run.record().predicted = run.record().done = run.show_explanation = true;
+  window.move({10, 300});
+  window.frames(6);
+  CHECK(window.drew("a flat sheet never comes to the worst. CHECK: DONE"));  // not below what was checked
+  for (const std::string& text : window.cut_texts()) CHECK_FALSE(text.starts_with("lab"));
+}
+
+}  // namespace tyglab::fit_test
