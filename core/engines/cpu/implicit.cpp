@@ -72,7 +72,7 @@ void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accel
                                       const Watch& watch, int passes) {
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   evaluate();
-  counts_.newton += passes, counts_.force_evaluations += passes + 1;
+  counts_.newton += passes, counts_.force_evaluations += 2 * passes + 1;  // before and after each particle's step
   note_balance(balance());
 }
 
