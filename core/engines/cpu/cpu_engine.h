@@ -124,8 +124,10 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// The same by passes of all threads.
   bool descend(int number, const ResolvedSweep& sweep, const Tears& tears);
   bool begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears);
-  /// Whether springs or what is fixed have changed since the last call.
-  bool take_spring_changes(const Tears& tears);
+  /// Whether springs or what is fixed have changed since the last accept_springs().
+  bool springs_changed(const Tears& tears) const { return springs_changed_ || known_torn_ != tears.torn_count(); }
+  /// What follows from them has been made: only then, since memory may fail while it is.
+  void accept_springs(const Tears& tears) { springs_changed_ = false, known_torn_ = tears.torn_count(); }
   /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
   /// The same in place, for inner steps, where it happens often.
@@ -205,7 +207,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   ConstantSolver<R> constant_;
   BlockDescent<R> descent_;
   std::int64_t damping_products_ = 0;  ///< of a method that solves for the damping, in all steps
-  int projected_torn_ = 0;
+  int known_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made
   std::unique_ptr<Team> team_;
   ThreadGovernor governor_;

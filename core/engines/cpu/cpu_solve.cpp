@@ -4,13 +4,6 @@
 namespace tyglab::cpu {
 
 template <class R, unsigned Present>
-bool CpuEngine<R, Present>::take_spring_changes(const Tears& tears) {
-  const bool changed = springs_changed_ || projected_torn_ != tears.torn_count();
-  springs_changed_ = false, projected_torn_ = tears.torn_count();
-  return changed;
-}
-
-template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears) {
   // A mass on a spring is linear: one step of Newton's method solves it.
   if (scheme_->solver == Solver::blocks && cloth_.preset.kind == Kind::cloth) return descend(number, sweep, tears);
@@ -23,10 +16,13 @@ template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   for (const auto& band : bands()) band->assign(sweep.before, false);
   const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
-  return solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-                       [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
-                       {repeating_ ? never_ : stop(), [&](double part) { set_step_progress((stage + part) / stages); }},
-                       {scheme_->solver, take_spring_changes(tears)});
+  const bool solved =
+      solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
+                    [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
+                    {repeating_ ? never_ : stop(), [&](double part) { set_step_progress((stage + part) / stages); }},
+                    {scheme_->solver, springs_changed(tears)});
+  if (solved) accept_springs(tears);
+  return solved;
 }
 
 template <class R, unsigned Present>
@@ -37,7 +33,8 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   team_->barrier();
   if (number == 0) {
     solver_.begin_stage(cloth_, sweep.position, sweep.velocity);
-    descent_.prepare(cloth_, tears, sweep.solve_dt, take_spring_changes(tears));
+    descent_.prepare(cloth_, tears, sweep.solve_dt, springs_changed(tears));
+    accept_springs(tears);
   }
   team_->barrier();
   descent_.begin(x, v, begin, end);
@@ -78,8 +75,7 @@ bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep
   return true;
 }
 
-#define TYGLAB_MAKE(R, present)                                             \
-  template bool CpuEngine<R, (present)>::take_spring_changes(const Tears&); \
+#define TYGLAB_MAKE(R, present) \
   template bool CpuEngine<R, (present)>::solve_stage(int, const ResolvedSweep&, const Tears&);
 TYGLAB_FOR_EACH_CPU_ENGINE(TYGLAB_MAKE)
 #undef TYGLAB_MAKE

@@ -126,13 +126,14 @@ void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
   const Preset& p = cloth_.preset;
   constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
   constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m, 0}, tolerance,
-                    take_spring_changes(tears));
+                    springs_changed(tears));
+  accept_springs(tears);
 }
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last) {
   const int begin = band_begin(number), end = band_begin(number + 1);
-  if (number == 0) projector_.prepare(cloth_, tears, take_spring_changes(tears));
+  if (number == 0) projector_.prepare(cloth_, tears, springs_changed(tears)), accept_springs(tears);
   team_->barrier();
   const int iterations = cloth_.preset.iterations;
   const bool finished = projector_.project(cloth_, sweep.velocity, begin, end, *team_, [&](int n) {
