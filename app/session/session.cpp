@@ -173,7 +173,7 @@ void Session::warn_of(const Advance& advance) {
     messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
     warned_left_inside = true;
   }
-  std::string missed = solves_missed(simulation->engine().solves(), simulation->preset().iterations);
+  std::string missed = solves_missed(simulation->engine().solves(), simulation->preset());
   if (missed.empty()) missed = tolerance_missed(simulation->preset(), simulation->engine().inner_steps());
   if (!missed.empty() && !warned_unconverged) {
     messages.warning(missed);

@@ -45,4 +45,25 @@ void BandedCholesky::solve(std::span<double> b) const {
   }
 }
 
+void BandedCholesky::solve(std::span<std::array<double, 4>> b) const {
+  assert(b.size() == std::size_t(size_));
+  for (int k = 0; k < size_; ++k) {
+    const int first = std::max(0, k - band_);
+    const double* row = elements_.data() + index(k, first);
+    std::array<double, 4> sum = b[k];
+    for (int c = first; c < k; ++c)
+      for (int n = 0; n < 4; ++n) sum[n] -= row[c - first] * b[c][n];
+    for (int n = 0; n < 4; ++n) b[k][n] = sum[n] / at(k, k);
+  }
+  for (int k = size_ - 1; k >= 0; --k) {
+    const int first = std::max(0, k - band_);
+    const double* row = elements_.data() + index(k, first);
+    std::array<double, 4> now = b[k];
+    for (double& part : now) part /= at(k, k);
+    b[k] = now;
+    for (int c = first; c < k; ++c)
+      for (int n = 0; n < 4; ++n) b[c][n] -= row[c - first] * now[n];
+  }
+}
+
 }  // namespace tyglab

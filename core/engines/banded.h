@@ -3,6 +3,7 @@
 // two such lines. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems (1981), 4.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstddef>
 #include <span>
@@ -25,6 +26,8 @@ class BandedCholesky {
   bool factor(const Stop& stop = {});
   /// Replaces the right-hand side by the solution.
   void solve(std::span<double> b) const;
+  /// The same for four of them at once, each in its place of every element.
+  void solve(std::span<std::array<double, 4>> b) const;
   std::size_t bytes() const { return (elements_.capacity() + column_.capacity()) * sizeof(double); }
 
   /// Approximate number of multiplications in factor().

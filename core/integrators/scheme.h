@@ -69,6 +69,13 @@ struct StageTable {
   std::vector<Sweep> sweeps;
 };
 
+/// How the equations of an implicit stage are solved.
+enum class Solver {
+  newton,       ///< to the end: by Newton's method or an interior-point method
+  alternation,  ///< by `iterations` alternations of a local and a global step: projective dynamics
+  blocks,       ///< by `iterations` passes in which each particle solves for itself: vertex block descent
+};
+
 /// Vector 0 changes in the last sweep alone, or in the only one: bodies act on the way from the old to the new
 /// position. Where there is an `estimate`, dt is covered with as many steps as the tolerance asks, the first assignment
 /// of every sweep keeps its a, the last sweep's a is the next step's first, and all other assignments of the last sweep
@@ -95,6 +102,7 @@ struct Scheme {
   /// And the number of their stages: a table for each, from the fewest to the most; `sweeps` are those of the first.
   /// All use the same vectors, and their first sweeps and their last ones make as many assignments.
   std::vector<StageTable> tables = {};
+  Solver solver = Solver::newton;  ///< of the sweeps that solve
 };
 
 std::span<const Scheme> schemes();
@@ -129,9 +137,13 @@ inline bool solves_damping(const Scheme& scheme) {
 inline bool iterates(const Scheme& scheme) {
   return is_implicit(scheme) || projects(scheme);
 }
+/// Whether a step makes as many passes over its equations as `iterations` says, whatever they leave.
+inline bool counts_passes(const Scheme& scheme) {
+  return scheme.solver != Solver::newton;
+}
 /// Whether linear theory can say from which dt on the method is unstable (infinity where it is at none).
 inline bool has_step_limit(const Scheme& scheme) {
-  return !chooses_steps(scheme) && !projects(scheme);
+  return !chooses_steps(scheme) && !projects(scheme) && !counts_passes(scheme);
 }
 /// The scheme of that name; the name must be known (is_integrator).
 const Scheme& scheme(std::string_view name);

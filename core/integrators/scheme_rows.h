@@ -17,6 +17,8 @@ std::vector<Scheme> implicit_schemes();
 Scheme dopri5();
 Scheme rkc2();
 Scheme damped_verlet();
+Scheme projective_dynamics();
+Scheme vbd();
 Scheme xpbd();
 
 }  // namespace tyglab

@@ -16,6 +16,8 @@ const std::vector<Scheme>& table() {
     all.push_back(dopri5());
     all.push_back(rkc2());
     for (Scheme& row : implicit_schemes()) all.push_back(std::move(row));
+    all.push_back(projective_dynamics());
+    all.push_back(vbd());
     all.push_back(xpbd());
     return all;
   }();

@@ -72,8 +72,8 @@ const std::array<PresetRow, 25> rows{{
      logarithmic, tolerance, "", "Error allowed in a step by methods that choose their own steps."},
     {"solver", "iterations", "n_iter", "Largest number of iterations in a step", "Iterationer", "", &Preset::iterations,
      1, 1000, logarithmic, tolerance, "",
-     "Implicit methods: largest number of Newton steps in a solve; 1 makes a single linear solve. xpbd: passes over "
-     "the springs per step."},
+     "Implicit methods: largest number of Newton steps in a solve; 1 makes a single linear solve. "
+     "projective_dynamics, vbd, xpbd: passes per step."},
 
     {"view", "mode", "", "View", "Vy", "", &Preset::mode, 1, 5, linear, view, "",
      "1 triangles, 2 connections, 3 both, 4 outlines, 5 points."},

@@ -43,7 +43,7 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
          "tolerance.";
 }
 
-std::string solves_missed(const SolveCounts& solves, int iterations) {
+std::string solves_missed(const SolveCounts& solves, const Preset& p) {
   if (solves.unconverged == 0) return "";
   const bool one = solves.unconverged == 1;
   const double worst = solves.worst_residual;
@@ -52,9 +52,14 @@ std::string solves_missed(const SolveCounts& solves, int iterations) {
                                ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
                                : "up to " + short_number(worst, 2) + " times the largest force was left over";
   const std::string said = std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" +
-                           left + "), so the motion is not quite the method's. ";
-  return said + (iterations == 1 ? "With iterations = 1 a step is a single linear solve. " : "") +
-         "Use a smaller dt or more iterations.";
+                           left + "), so the motion is not quite " +
+                           (counts_passes(scheme(p.integrator)) ? "implicit Euler's. " : "the method's. ");
+  const std::string passes = counts_passes(scheme(p.integrator))
+                                 ? "A step of it ends after " + std::to_string(p.iterations) +
+                                       (p.iterations == 1 ? " pass, " : " passes, ") + "whatever is left. "
+                             : p.iterations == 1 ? "With iterations = 1 a step is a single linear solve. "
+                                                 : "";
+  return said + passes + "Use a smaller dt or more iterations.";
 }
 
 namespace {
@@ -113,6 +118,11 @@ std::string advice(const Preset& p) {
     return "Use " +
            std::string(p.dt > least_dt ? "a smaller dt (its inner steps may be a ten-thousandth of it) or " : "") +
            "a smaller " + stiffness + ", and restart; or use implicit Euler, which is stable at any stiffness.";
+  if (counts_passes(scheme(p.integrator)))
+    return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
+           "more iterations, and restart: this method has no limit of dt, but bodies, wind and what few iterations "
+           "leave of a step may overstretch springs" +
+           or_verlet(p, verlet_dt) + ".";
   if (projects(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
            "more iterations, and restart: this method has no limit of dt, but with few iterations its springs are "

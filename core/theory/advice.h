@@ -22,8 +22,8 @@ double advised_dt(const Preset& preset, const std::string& integrator);
 /// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
 std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 
-/// Whether steps of an implicit method with that many `iterations` did not converge, and what to do, likewise.
-std::string solves_missed(const SolveCounts& solves, int iterations);
+/// Whether steps of an implicit method did not converge, and what to do, likewise.
+std::string solves_missed(const SolveCounts& solves, const Preset& preset);
 
 /// What linear theory says of the method at the preset's dt, as the cause of a divergence (zones.h): words that go on
 /// after a colon.

@@ -49,6 +49,8 @@ TEST_CASE("with k_b = 0 every damped method comes to rest in the same drape") {
                                        {"implicit_euler", 1e-2},
                                        {"tr_bdf2", 1e-2},
                                        {"dopri5", 1e-2},
+                                       {"projective_dynamics", 1e-2},
+                                       {"vbd", 1e-2},
                                        {"xpbd", 5e-4}}) {
     CAPTURE(std::string(integrator));
     const State state = drape(integrator, dt);

@@ -78,7 +78,7 @@ TEST_CASE("copies of a cloth on OpenCL take the CPU engine along where their met
 
 TEST_CASE("a method of the CPU engine alone brings it along: one change, one undo, and a note") {
   if (test::skipped_without_device()) return;
-  for (const char* method : {"xpbd", "dopri5"}) {
+  for (const char* method : {"xpbd", "dopri5", "vbd"}) {
     CAPTURE(std::string(method));
     test::Desk desk(on_opencl());
     Preset next = desk.session.preset();

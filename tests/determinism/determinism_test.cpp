@@ -32,7 +32,8 @@ bool skipped_here(const std::string& integrator, Precision precision) {
 }
 
 TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "xpbd"}) {
+  for (const char* integrator :
+       {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "projective_dynamics", "vbd", "xpbd"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       if (skipped_here(integrator, precision)) continue;
       CAPTURE(std::string(integrator));
@@ -53,7 +54,8 @@ TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
 }
 
 TEST_CASE("reading, and edits that change nothing, do not disturb a run") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "xpbd"}) {
+  for (const char* integrator :
+       {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "projective_dynamics", "vbd", "xpbd"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       CAPTURE(std::string(integrator));
       const Preset preset = busy(integrator, precision);
@@ -88,7 +90,8 @@ std::vector<int> team_sizes() {
 constexpr int some_steps = test::fewer(60, 12);
 
 TEST_CASE("threads change nothing, to the last bit") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "xpbd"}) {
+  for (const char* integrator :
+       {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "projective_dynamics", "vbd", "xpbd"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       if (skipped_here(integrator, precision)) continue;
       CAPTURE(std::string(integrator));
@@ -132,8 +135,8 @@ void switch_threads(Simulation& simulation, std::set<int>& seen) {
 }
 
 TEST_CASE("threads that come and go in the middle of a run change nothing, to the last bit") {
-  for (const char* integrator :
-       {"verlet", "euler", "rk4", "dopri5", "rkc2", "damped_verlet", "xpbd", "implicit_euler"}) {
+  for (const char* integrator : {"verlet", "euler", "rk4", "dopri5", "rkc2", "damped_verlet", "projective_dynamics",
+                                 "vbd", "xpbd", "implicit_euler"}) {
     for (const Precision precision : {Precision::float_, Precision::double_}) {
       const bool implicit = std::string(integrator) == "implicit_euler";
       if (skipped_here(integrator, precision) || (implicit && test::sanitized)) continue;

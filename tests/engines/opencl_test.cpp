@@ -240,7 +240,7 @@ TEST_CASE("what does not run says so and how to go on") {
   CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains("--engine cpu"), EngineError);
   preset.device = -1;
   if (test::skipped_without_device()) return;
-  for (const char* integrator : {"dopri5", "xpbd"}) {
+  for (const char* integrator : {"dopri5", "projective_dynamics", "vbd", "xpbd"}) {
     preset.integrator = integrator;
     CHECK_THROWS_WITH_AS(Simulation{preset}, doctest::Contains(integrator), EngineError);
   }

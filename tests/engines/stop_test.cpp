@@ -100,7 +100,7 @@ TEST_CASE("the same on an OpenCL device") {
 }
 
 TEST_CASE("a step that takes many iterations asks in each of them, and tells how far it is") {
-  for (const char* method : {"implicit_euler", "xpbd", "dopri5"}) {
+  for (const char* method : {"implicit_euler", "projective_dynamics", "vbd", "xpbd", "dopri5"}) {
     CAPTURE(std::string(method));
     Preset preset = busy(method);
     preset.iterations = 40, preset.tolerance = 1e-9, preset.k_s = 1e5, preset.dt = 0.01;

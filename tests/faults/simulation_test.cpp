@@ -227,6 +227,8 @@ TEST_CASE("steps: what is whole when memory fails stays, and is the same as ever
   }());
   steps("steps of a method that chooses its steps", busy("dopri5"));
   steps("steps of a method that projects", busy("xpbd"));
+  steps("steps that alternate", busy("projective_dynamics"));
+  steps("steps in which each particle solves for itself", busy("vbd"));
   steps("steps that diverge", explodes);
   steps("steps with a ledger", busy(), 1, true);
   steps("steps with a ledger in which springs break", tearing, 1, true);
@@ -237,6 +239,8 @@ TEST_CASE("steps: what is whole when memory fails stays, and is the same as ever
   steps("steps of four threads that choose their length", wide, 4);
   wide.integrator = "xpbd";
   steps("steps of four threads that project", wide, 4);
+  wide.integrator = "vbd";
+  steps("steps of four threads in which each particle solves for itself", wide, 4);
 }
 
 TEST_CASE("the way back") {

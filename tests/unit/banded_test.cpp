@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -30,10 +31,16 @@ TEST_CASE("a banded system is solved to rounding, at the ends of the matrix too"
     for (double& value : x) value = any(random);
     for (int r = 0; r < size; ++r)
       for (int c = 0; c < size; ++c) b[r] += at(r, c) * x[c];
+    std::vector<std::array<double, 4>> four;
+    for (const double value : b) four.push_back({value, 0, -2 * value, 3 * value});
     REQUIRE(matrix.factor());
-    matrix.solve(b);
+    matrix.solve(b), matrix.solve(four);
     double error = 0;
-    for (int r = 0; r < size; ++r) error = std::max(error, std::abs(b[r] - x[r]));
+    for (int r = 0; r < size; ++r) {
+      const std::array<double, 4> wanted{x[r], 0, -2 * x[r], 3 * x[r]};
+      error = std::max(error, std::abs(b[r] - x[r]));
+      for (std::size_t n = 0; n < 4; ++n) error = std::max(error, std::abs(four[std::size_t(r)][n] - wanted[n]));
+    }
     CHECK(error < 1e-12);
   }
 }

@@ -60,7 +60,8 @@ double worst_depth_in_ulp(Simulation& simulation) {
   return worst;
 }
 
-const char* const methods[] = {"verlet", "euler", "improved_euler", "rk4", "dopri5", "rkc2", "damped_verlet", "xpbd"};
+const char* const methods[] = {"verlet", "euler",         "improved_euler",      "rk4", "dopri5",
+                               "rkc2",   "damped_verlet", "projective_dynamics", "vbd", "xpbd"};
 
 TEST_CASE("a plane takes the normal velocity and leaves the tangential one") {
   for (const char* integrator : methods) {

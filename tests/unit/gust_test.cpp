@@ -73,7 +73,8 @@ TEST_CASE("where gusts are off, or there is no wind, not a bit changes") {
 }
 
 TEST_CASE("gusts move the cloth, and however the steps are asked for it moves alike") {
-  for (const char* integrator : {"verlet", "velocity_verlet", "rk4", "dopri5", "implicit_euler", "xpbd"}) {
+  for (const char* integrator :
+       {"verlet", "velocity_verlet", "rk4", "dopri5", "implicit_euler", "projective_dynamics", "vbd", "xpbd"}) {
     CAPTURE(std::string(integrator));
     Simulation whole(windy(integrator)), pieces(windy(integrator));
     Preset steady = windy(integrator);

@@ -46,7 +46,8 @@ void handle(Pair& cloths) {
 }
 
 TEST_CASE("copies with equal settings stay equal to the bit, from the start or from mid-run") {
-  for (const char* integrator : {"verlet", "euler", "velocity_verlet", "rk4", "implicit_euler", "xpbd"})
+  for (const char* integrator :
+       {"verlet", "euler", "velocity_verlet", "rk4", "implicit_euler", "projective_dynamics", "vbd", "xpbd"})
     for (const Precision precision : {Precision::float_, Precision::double_})
       for (const int before : {0, 37}) {
         CAPTURE(std::string(integrator));

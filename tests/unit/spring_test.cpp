@@ -85,7 +85,8 @@ TEST_CASE("a diagonal spring rests at the square root of two times L") {
 }
 
 TEST_CASE("particles on one spot have no force between them, never NaN") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "xpbd"}) {
+  for (const char* integrator :
+       {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "projective_dynamics", "vbd", "xpbd"}) {
     for (const Precision precision : {Precision::double_, Precision::float_}) {
       Preset preset = springs(precision);
       preset.integrator = integrator;

@@ -155,7 +155,8 @@ TEST_CASE("a row of cuts lets the lower part fall freely") {
 }
 
 TEST_CASE("the held particle follows the hand evenly and then rests there") {
-  for (const char* integrator : {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "xpbd"}) {
+  for (const char* integrator :
+       {"verlet", "euler", "improved_euler", "dopri5", "rkc2", "damped_verlet", "projective_dynamics", "vbd", "xpbd"}) {
     for (const Precision precision : {Precision::double_, Precision::float_}) {
       Preset preset = test::cloth(8, 8, integrator);
       preset.precision = precision;

@@ -130,7 +130,7 @@ TEST_CASE("damping that heals Euler, and too much of it, both show") {
 }
 
 TEST_CASE("methods without a limit are stable all along") {
-  for (const char* method : {"implicit_euler", "tr_bdf2", "dopri5", "xpbd"}) {
+  for (const char* method : {"implicit_euler", "tr_bdf2", "dopri5", "projective_dynamics", "vbd", "xpbd"}) {
     const auto zones = stability_zones(undamped(method), &Preset::k_s, 0.05, 1e9);
     REQUIRE(zones.size() == 1);
     CHECK(zones.front().zone == Zone::stable);

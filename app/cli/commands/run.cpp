@@ -321,8 +321,7 @@ int run(const RunOptions& options) {
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
-  const int iterations = simulation.preset().iterations;
-  if (const std::string missed = solves_missed(simulation.engine().solves(), iterations); !missed.empty())
+  if (const std::string missed = solves_missed(simulation.engine().solves(), simulation.preset()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
   if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';

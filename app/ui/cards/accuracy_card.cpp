@@ -61,6 +61,9 @@ std::string region_sentence(const StabilityRegion& region) {
 std::string stability_sentence(const StabilityLimits& limits) {
   const Scheme& method = scheme(limits.of.integrator);
   if (projects(method)) return "XPBD projects positions: linear theory does not cover it.";
+  if (counts_passes(method))
+    return std::string(method.title) + " stops after " + std::to_string(limits.of.iterations) +
+           (limits.of.iterations == 1 ? " pass" : " passes") + ": linear theory does not cover what they leave.";
   if (limits.region) return region_sentence(*limits.region);
   if (chooses_steps(method)) return "This method keeps its own steps stable, as far as dt allows.";
   const double h = limits.fastest.omega() * limits.of.dt;

@@ -36,6 +36,8 @@ CurveStyle integrator_style(const Tokens& c, std::string_view name) {
                                      {"implicit_euler", 0xD23E52, 0x440802, LineStyle::dashed},
                                      {"implicit_midpoint", 0x6C68E4, 0x916DDE, LineStyle::dotted},
                                      {"tr_bdf2", 0xF4C7A8, 0x550073, LineStyle::dash_dot},
+                                     {"projective_dynamics", 0xA13DFF, 0x7A8800, LineStyle::dashed},
+                                     {"vbd", 0x6D7873, 0xFC045C, LineStyle::sparse_dots},
                                      {"xpbd", 0xA5FF80, 0x06232C, LineStyle::dotted}};
   for (const Style& style : styles)
     if (style.name == name) return {rgb(c.light ? style.light : style.dark), style.line, 1.8f};

@@ -323,22 +323,17 @@ void CpuEngine<R, Present>::write_fixed_velocities() {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step) {
-  if (out.empty()) out.resize(array_rows(), cloth_.stride);
   ResolvedSweep look;
   look.position = position, look.velocity = velocity;
   look.k_d = cloth_.preset.k_d / cloth_.velocity_scale();
-  for (const auto& band : bands()) band->copy_halo(look);
-  for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
+  accelerations(look, tears, out, of_step);
 }
 
 template <class R, unsigned Present>
-bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
-  for (const auto& band : bands()) band->assign(sweep.before, false);
-  const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
-  return solver_.solve(
-      cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-      [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
-      {repeating_ ? never_ : stop(), [&](double part) { set_step_progress((stage + part) / stages); }});
+void CpuEngine<R, Present>::accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step) {
+  if (out.empty()) out.resize(array_rows(), cloth_.stride);
+  for (const auto& band : bands()) band->copy_halo(look);
+  for (const auto& band : bands()) band->accelerations(look, tears, out, of_step);
 }
 
 template <class R, unsigned Present>
@@ -418,7 +413,7 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
 template <class R, unsigned Present>
 std::size_t CpuEngine<R, Present>::bytes() const {
   std::size_t total = acceleration_.bytes() + solver_.bytes() + projector_.bytes() + constant_.bytes() +
-                      cloth_.fixed.size() + guards_.size() +
+                      descent_.bytes() + cloth_.fixed.size() + guards_.size() +
                       (cloth_.fixed_columns.size() + cloth_.fixed_begin.size()) * sizeof(int);
   for (const auto* list : {&bands_, &waves_})
     for (const auto& band : *list) total += band->bytes();

@@ -29,6 +29,7 @@
 #include <span>
 
 #include "core/engines/cpu/band.h"
+#include "core/engines/cpu/block_descent.h"
 #include "core/engines/cpu/constant_solve.h"
 #include "core/engines/cpu/implicit.h"
 #include "core/engines/cpu/projection.h"
@@ -115,8 +116,18 @@ class CpuEngine final : public Engine, private GuardedSteps {
   ResolvedSweep::ResolvedAssignment resolve(const Assignment& assignment) const;
   /// F/m at two of the vectors. `of_step`: as Band has it.
   void accelerations(int position, int velocity, const Tears& tears, Field& out, bool of_step = false);
-  /// The implicit stage of a sweep, on this thread alone. Returns false where it was stopped.
+  void accelerations(const ResolvedSweep& look, const Tears& tears, Field& out, bool of_step);
+  /// The implicit stage of a sweep. Returns false, to all threads, where it was stopped.
+  bool solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears);
+  /// The same on this thread alone.
   bool solve(const ResolvedSweep& sweep, const Tears& tears);
+  /// The same by passes of all threads.
+  bool descend(int number, const ResolvedSweep& sweep, const Tears& tears);
+  bool begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears);
+  /// Whether springs or what is fixed have changed since the last accept_springs().
+  bool springs_changed(const Tears& tears) const { return springs_changed_ || known_torn_ != tears.torn_count(); }
+  /// What follows from them has been made: only then, since memory may fail while it is.
+  void accept_springs(const Tears& tears) { springs_changed_ = false, known_torn_ = tears.torn_count(); }
   /// Computes the coefficients for steps of that length.
   void set_dt(double dt);
   /// The same in place, for inner steps, where it happens often.
@@ -194,8 +205,9 @@ class CpuEngine final : public Engine, private GuardedSteps {
   ImplicitSolver<R> solver_;
   Projector<R> projector_;
   ConstantSolver<R> constant_;
+  BlockDescent<R> descent_;
   std::int64_t damping_products_ = 0;  ///< of a method that solves for the damping, in all steps
-  int projected_torn_ = 0;
+  int known_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made
   std::unique_ptr<Team> team_;
   ThreadGovernor governor_;

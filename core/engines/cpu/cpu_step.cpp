@@ -100,9 +100,7 @@ void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
       continue;
     }
     if (sweep.solve_dt != 0) {
-      if (number == 0) abandoned_ = !solve(sweep, tears);
-      team_->barrier();
-      if (abandoned_) return;
+      if (!solve_stage(number, sweep, tears)) return;
       band.assign(sweep.assignments, last);
       team_->barrier();
       continue;
@@ -128,17 +126,14 @@ void CpuEngine<R, Present>::prepare_damping(const Tears& tears) {
   const Preset& p = cloth_.preset;
   constexpr double tolerance = sizeof(R) == 8 ? 1e-12 : 1e-6;
   constant_.prepare(cloth_, tears, {scheme_->sweeps.back().damps * p.dt * p.k_d / p.m, 0}, tolerance,
-                    springs_changed_ || projected_torn_ != tears.torn_count());
-  springs_changed_ = false, projected_torn_ = tears.torn_count();
+                    springs_changed(tears));
+  accept_springs(tears);
 }
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last) {
   const int begin = band_begin(number), end = band_begin(number + 1);
-  if (number == 0) {
-    projector_.prepare(cloth_, tears, springs_changed_ || projected_torn_ != tears.torn_count());
-    springs_changed_ = false, projected_torn_ = tears.torn_count();
-  }
+  if (number == 0) projector_.prepare(cloth_, tears, springs_changed(tears)), accept_springs(tears);
   team_->barrier();
   const int iterations = cloth_.preset.iterations;
   const bool finished = projector_.project(cloth_, sweep.velocity, begin, end, *team_, [&](int n) {

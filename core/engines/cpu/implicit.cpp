@@ -32,7 +32,7 @@ std::size_t ImplicitSolver<R>::bytes() const {
   for (const Field* field :
        {&start_x_, &start_v_, &acceleration_, &before_, &residual_, &step_, &direction_, &product_, &preconditioned_})
     total += field->bytes();
-  return total + kept_.bytes() + direct_.bytes() + stiff_.bytes();
+  return total + kept_.bytes() + direct_.bytes() + stiff_.bytes() + global_.bytes();
 }
 
 template <class R>
@@ -44,14 +44,36 @@ double ImplicitSolver<R>::inner(const Field& a, const Field& b) const {
 
 template <class R>
 bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
-                              const Accelerations& accelerations, const Watch& watch) {
-  task_ = {&cloth, position, velocity, dt, &tears, &accelerations, &watch};
+                              const Accelerations& accelerations, const Watch& watch, Way way) {
+  begin_stage(cloth, position, velocity);
+  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
+  // A mass on a spring is linear: Newton's method solves it in one step.
+  const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
+  const Balance balance = alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt);
+  note_balance(balance);
+  return !stopped_;
+}
+
+template <class R>
+void ImplicitSolver<R>::note_balance(const Balance& balance) {
+  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
+}
+
+template <class R>
+void ImplicitSolver<R>::begin_stage(Cloth<R>& cloth, int position, int velocity) {
+  task_ = {&cloth, position, velocity, 0, nullptr, nullptr, nullptr};
   stopped_ = false;
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
-  const Balance balance = solve_either_way(*this, cloth.preset, dt);
-  solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
-  return !stopped_;
+}
+
+template <class R>
+void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accelerations& accelerations,
+                                      const Watch& watch, int passes) {
+  task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
+  evaluate();
+  counts_.newton += passes, counts_.force_evaluations += 2 * passes + 1;  // before and after each particle's step
+  note_balance(balance());
 }
 
 template <class R>
@@ -59,6 +81,26 @@ Balance ImplicitSolver<R>::solve_by_newton() {
   resize_newton();
   return tyglab::solve(
       *this, {cloth().preset.iterations, newton_tolerance<R>, std::numeric_limits<R>::epsilon(), task_.dt}, counts_);
+}
+
+/// Projective dynamics: with each spring's nearest vector of an allowed length, the energy is quadratic, and the next
+/// positions make it least. In terms of the residual r that is A s = r, where A depends on no position (global_step.h).
+template <class R>
+Balance ImplicitSolver<R>::alternate(bool changed) {
+  const int most = cloth().preset.iterations;
+  if (!global_.prepare(cloth(), *task_.tears, task_.dt, changed, [this] { return stops(); })) return {};
+  evaluate();
+  ++counts_.force_evaluations;
+  for (int n = 0; n < most; ++n) {
+    note_progress(double(n) / most);
+    if (stops()) return {};
+    counts_.linear += global_.solve(residual_);
+    const std::span<R> v = velocity().all();
+    for (std::size_t k = 0; k < v.size(); ++k) v[k] += residual_.all()[k];
+    evaluate();
+    ++counts_.newton, ++counts_.force_evaluations;
+  }
+  return balance();
 }
 
 template <class R>

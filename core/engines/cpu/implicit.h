@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/engines/cpu/band.h"
+#include "core/engines/cpu/global_step.h"
 #include "core/engines/direct_solve.h"
 #include "core/engines/implicit/stiff_stage.h"
 #include "core/engines/implicit/stiffness.h"
@@ -24,6 +25,11 @@ class ImplicitSolver final : private implicit::EitherStage {
     const Stop& stop;
     std::function<void(double part)> progress;
   };
+  /// How to solve, and whether springs or what is fixed may differ from the last call.
+  struct Way {
+    Solver solver;
+    bool changed;
+  };
 
   /// A step begins, whose stages come next.
   void begin_step() { solved_ = {true, 0}; }
@@ -32,7 +38,11 @@ class ImplicitSolver final : private implicit::EitherStage {
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
   /// Returns false where it was stopped; the vectors may then hold anything.
   bool solve(Cloth<R>& cloth, int position, int velocity, double dt, const Tears& tears,
-             const Accelerations& accelerations, const Watch& watch);
+             const Accelerations& accelerations, const Watch& watch, Way way);
+  /// For a stage that others solve: keeps c_x and c_v, which the two vectors hold.
+  void begin_stage(Cloth<R>& cloth, int position, int velocity);
+  /// What the velocities that `passes` passes have found leave of that stage's equations.
+  void measure_stage(double dt, const Tears& tears, const Accelerations& accelerations, const Watch& watch, int passes);
   const SolveCounts& counts() const { return counts_; }
   std::size_t bytes() const;
 
@@ -66,6 +76,8 @@ class ImplicitSolver final : private implicit::EitherStage {
   Field& velocity() { return task_.cloth->vector(task_.velocity); }
   void resize();
   void resize_newton();
+  Balance alternate(bool changed);
+  void note_balance(const Balance& balance);
   void linearize_row(int direction, int i);
   void invert_blocks();
   bool conjugate_gradients();
@@ -88,6 +100,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Array<R> coefficients_;
   DirectSolver direct_;
   implicit::StiffStage stiff_;
+  GlobalStep<R> global_;
   SolveCounts counts_;
 };
 

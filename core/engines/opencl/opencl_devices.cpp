@@ -51,7 +51,7 @@ int preferred_device(const std::vector<OpenClDevice>& devices) {
 }
 
 bool runs_on_opencl(const Scheme& method) {
-  return !projects(method) && !chooses_steps(method) && !solves_damping(method);
+  return !projects(method) && !chooses_steps(method) && !solves_damping(method) && !counts_passes(method);
 }
 
 }  // namespace tyglab

@@ -396,6 +396,7 @@ std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& 
   const Scheme& method = scheme(preset.integrator);
   const char* why = projects(method)         ? "moves particles one after the other"
                     : solves_damping(method) ? "solves for the damping"
+                    : counts_passes(method)  ? "solves in passes of its own"
                                              : "chooses its own steps";
   if (!runs_on_opencl(method))
     throw EngineError("The OpenCL engine does not run " + std::string(method.name) + ", which " + why +

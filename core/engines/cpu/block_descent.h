@@ -1,0 +1,65 @@
+// Vertex block descent on the lattice: a pass visits the particles color by color, and each takes a step of Newton's
+// method for the energy of implicit Euler's step (docs/model.md) in its own three coordinates. With the color (i + 2j)
+// mod 5 no spring, bending ones included, joins two particles of one color, so all of them move at once, and the result
+// has the same bits for any number of threads. A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, ACM Trans. Graph. 43, 116
+// (2024).
+//
+// Each component of a row is stored as five parts, columns 0, 5, 10 …, then 1, 6, 11 … and so on, so that particles of
+// one color are neighbors in memory, and so are theirs in each direction.
+#pragma once
+
+#include "core/engines/cpu/band.h"
+#include "core/engines/cpu/block_rows.h"
+#include "core/engines/cpu/team.h"
+
+namespace tyglab::cpu {
+
+template <class R>
+class BlockDescent {
+ public:
+  using Field = RowField<R>;
+  static constexpr int colors = 5;
+
+  /// Prepares a step over h, s, on one thread. `changed`: whether springs or fixed particles may differ from the last.
+  void prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed);
+  /// Takes c_x and c_v of rows [begin, end), and begins where inertia alone leads.
+  void begin(const Field& c_x, const Field& c_v, int begin, int end);
+  /// Takes `a`, of gravity and wind, in place of gravity alone.
+  void accelerate(const Field& c_v, const Field& a, int begin, int end);
+  /// A pass over all particles; called by all threads together, each with its rows.
+  void pass(int begin, int end, Team& team);
+  /// Writes the present x = c_x + q.
+  void write_positions(Field& x, int begin, int end) const;
+  /// Writes v = q/h of free particles.
+  void write_velocities(Field& v, int begin, int end) const;
+  std::size_t bytes() const { return (c_.size() + q_.size() + y_.size() + whole_.size() + free_.size()) * sizeof(R); }
+
+ private:
+  static constexpr int lanes = widest_vector / int(sizeof(R)), ghost_rows = 2;  // above and below
+  void make_masks(const Cloth<R>& cloth, const Tears& tears);
+  /// Where column j of a component begins, from its row's begin.
+  std::ptrdiff_t place(int j) const {
+    // A column left of the first lies in the zeros before its part.
+    const int part = ((j % colors) + colors) % colors;
+    return part * part_ + lanes + (j - part) / colors;
+  }
+  std::ptrdiff_t component() const { return colors * part_; }
+  std::size_t at(int i, int c, int j) const {
+    return std::size_t((std::ptrdiff_t(i + ghost_rows) * 3 + c) * component() + place(j));
+  }
+  std::size_t mask_at(int i, int d, int j) const {
+    return std::size_t((std::ptrdiff_t(i + ghost_rows) * std::ptrdiff_t(directions.size()) + d) * component() +
+                       place(j));
+  }
+  void descend(int i, int part);
+
+  int rows_ = 0, columns_ = 0;
+  std::ptrdiff_t part_ = 0;  ///< numbers in a part: zeros, its columns, zeros up to a whole vector
+  double h_ = 0, gravity_ = 0;
+  BlockConstants constants_{};
+  Array<R> c_, q_, y_;  ///< as in BlockRow
+  Array<R> whole_;      ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
+  Array<R> free_;
+};
+
+}  // namespace tyglab::cpu

@@ -1,0 +1,44 @@
+// The global step of projective dynamics: A s = r with A = 1 + h²/m (k_s L_s + k_b L_b) + h k_d/m L_s, where L_s and
+// L_b are the graph Laplacians of the whole stretch and bending springs, pinned and held particles kept at 0. A is the
+// same for x, y and z and no motion changes it, so it is factorized once, where its factor is small enough and quicker
+// than products; else Chebyshev's iteration solves. S. Bouaziz et al., ACM Trans. Graph. 33, 154 (2014), 3; T. Liu et
+// al., ACM Trans. Graph. 32, 214 (2013).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/engines/banded.h"
+#include "core/engines/cpu/constant_solve.h"
+
+namespace tyglab::cpu {
+
+template <class R>
+class GlobalStep {
+ public:
+  using Field = RowField<R>;
+
+  /// Prepares solutions for a stage over h, s. `changed`: whether springs or fixed particles may differ from the last
+  /// call. Returns false where it was stopped; the next call starts over.
+  bool prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed, const Stop& stop);
+  /// Replaces r by the solution. Returns how many products with A that took.
+  int solve(Field& r);
+  std::size_t bytes() const {
+    return products_.bytes() + factor_.bytes() + free_.capacity() + sides_.capacity() * sizeof(std::array<double, 4>);
+  }
+
+ private:
+  bool factorize(const Cloth<R>& cloth, const Tears& tears, const Stop& stop);
+  /// The number of a particle, along the lattice's shorter side.
+  int number(int i, int j) const { return by_rows_ ? i * columns_ + j : j * rows_ + i; }
+
+  int rows_ = 0, columns_ = 0;
+  bool by_rows_ = true, ready_ = false, factorized_ = false;
+  SpringWeights weights_;
+  ConstantSolver<R> products_;
+  BandedCholesky factor_;
+  std::vector<std::uint8_t> free_;            ///< by number
+  std::vector<std::array<double, 4>> sides_;  ///< right-hand sides, then solutions: x, y, z and 0
+};
+
+}  // namespace tyglab::cpu
