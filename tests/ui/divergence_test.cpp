@@ -84,6 +84,22 @@ TEST_CASE("in a small window the banner is one line; its details come and go wit
   CHECK(window.sees("viewport.Restart"));  // there is room, and what was wanted once is forgotten
 }
 
+/// Whether parts of a ring in the color of danger are drawn round a middle outside the picture.
+bool ring_without_middle(const test::NullUi& window) {
+  const Box banner = *window.ui.placing.find("banner"), picture = window.ui.viewport.box;
+  glm::vec2 sum{0};
+  float count = 0;
+  const ImDrawData& data = *ImGui::GetDrawData();
+  for (int n = 0; n < data.CmdListsCount; ++n) {
+    if (std::string(data.CmdLists[n]->_OwnerName) != "viewport") continue;
+    for (const ImDrawVert& corner : data.CmdLists[n]->VtxBuffer) {
+      const glm::vec2 at(corner.pos.x, corner.pos.y);
+      if (corner.col == window.ui.theme.colors.danger && !overlap(banner, {at - 4.f, at + 4.f})) sum += at, ++count;
+    }
+  }
+  return count > 0 && !picture.contains(sum / count);
+}
+
 TEST_CASE("the banner has a strip of its own: no mark covers where the cloth is framed, and a replay is offered") {
   struct Case {
     glm::ivec2 size;
@@ -120,6 +136,7 @@ TEST_CASE("the banner has a strip of its own: no mark covers where the cloth is 
     CHECK(window.drew("iverged"));
     CHECK(window.sees("viewport.Replay_slowly"));
     CHECK(window.sees("viewport.Verlet"));
+    CHECK_FALSE(ring_without_middle(window));
   }
 }
 

@@ -89,6 +89,7 @@ TooltipPlace tooltip_place(const UiContext& ui) {
 void open_tooltip(UiContext& ui, float wrap) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(tooltip_padding_at_1), ui.theme.px(10)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(6), ui.theme.px(4)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(6));
   ImGui::BeginTooltip();
   // Dear ImGui hides it in the frame in which it measures it.
   if (ImGui::IsWindowAppearing()) ui.draw_by = ui.now;
@@ -163,7 +164,7 @@ void end_tooltip(UiContext& ui) {
   ui.tooltip_wrap = 0;
   ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
   ImGui::EndTooltip();
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
 }
 
 void wrapped(UiContext& ui, std::string_view text, ImU32 color) {

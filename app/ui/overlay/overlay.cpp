@@ -47,8 +47,15 @@ void divergence_mark(Ui& ui, ImDrawList& draw) {
   const auto to = particle_on_screen(ui, 0, {of->i + of->di, of->j + of->dj});
   if (!from || !to) return;
   const ImVec2 middle{(from->x + to->x) / 2, (from->y + to->y) / 2};
+  // A spring that has left the picture is named by the banner; a part of its ring over the buttons says nothing.
+  const glm::vec2 lo = ui.viewport.origin(0), hi = lo + ui.viewport.size();
+  const Box* buttons = ui.placing.find("views");
+  if (!Box{lo, hi}.contains({middle.x, middle.y}) || (buttons != nullptr && buttons->contains({middle.x, middle.y})))
+    return;
   const float half = std::hypot(to->x - from->x, to->y - from->y) / 2 / ui.theme.scale;
+  draw.PushClipRect(vec(lo), vec(hi), true);
   ring(ui, draw, middle, std::clamp(half + 8, 11.f, 40.f), ui.theme.colors.danger, 3);
+  draw.PopClipRect();
 }
 
 void picked_overlay(Ui& ui, ImDrawList& draw) {
