@@ -33,8 +33,9 @@ bool finite(const VectorField<double>& field) {
 /// One case while it runs.
 class StressRun {
  public:
-  StressRun(std::uint64_t seed, std::uint64_t number) : random_(seed, number) {
-    result_.preset = random_preset(random_);
+  StressRun(std::uint64_t seed, std::uint64_t number, const std::string& integrator)
+      : random_(seed, number), keeps_integrator_(!integrator.empty()) {
+    result_.preset = random_preset(random_, integrator);
     result_.threads = 1 + random_.below(2);
   }
 
@@ -61,7 +62,7 @@ class StressRun {
 
   void edit() {
     std::string what;
-    const Edit next = random_edit(*simulation_, random_, what);
+    const Edit next = random_edit(*simulation_, random_, keeps_integrator_, what);
     result_.edits.push_back("step " + std::to_string(result_.steps) + ": " + what);
     simulation_->apply(next);
   }
@@ -164,6 +165,7 @@ class StressRun {
   }
 
   StressRandom random_;
+  bool keeps_integrator_;
   StressResult result_;
   std::optional<Simulation> simulation_;
   double work_ = 0, products_ = 0;
@@ -175,13 +177,13 @@ std::string_view name_of(StressStatus status) {
   return status == StressStatus::bounded ? "bounded" : status == StressStatus::diverged ? "diverged" : "failed";
 }
 
-Preset stress_preset(std::uint64_t seed, std::uint64_t number) {
+Preset stress_preset(std::uint64_t seed, std::uint64_t number, const std::string& integrator) {
   StressRandom random(seed, number);
-  return random_preset(random);
+  return random_preset(random, integrator);
 }
 
-StressResult run_stress(std::uint64_t seed, std::uint64_t number) {
-  return StressRun(seed, number).run();
+StressResult run_stress(std::uint64_t seed, std::uint64_t number, const std::string& integrator) {
+  return StressRun(seed, number, integrator).run();
 }
 
 }  // namespace tyglab

@@ -31,9 +31,10 @@ struct StressResult {
   std::string problem;
 };
 
-/// The scene of case `number` of a seed, which depends on nothing else.
-Preset stress_preset(std::uint64_t seed, std::uint64_t number);
+/// The scene of case `number` of a seed, which depends on nothing else. `integrator`: its method, which no edit changes
+/// then; empty: any.
+Preset stress_preset(std::uint64_t seed, std::uint64_t number, const std::string& integrator = "");
 /// Runs that case to its end: that many steps that all take about the same time, fewer than 4,000.
-StressResult run_stress(std::uint64_t seed, std::uint64_t number);
+StressResult run_stress(std::uint64_t seed, std::uint64_t number, const std::string& integrator = "");
 
 }  // namespace tyglab

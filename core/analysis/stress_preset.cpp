@@ -105,7 +105,7 @@ double StressRandom::decades(double low, double high) {
   return std::clamp(std::exp(uniform(std::log(low), std::log(high))), low, high);
 }
 
-Preset random_preset(StressRandom& random) {
+Preset random_preset(StressRandom& random, const std::string& integrator) {
   Preset p;
   p.name = "Stress";
   choose_size(p, random);
@@ -117,6 +117,7 @@ Preset random_preset(StressRandom& random) {
   if (random.chance(0.05)) p.kind = Kind::one_weight;
   const auto names = integrator_names();
   p.integrator = names[std::size_t(random.below(int(names.size())))];
+  if (!integrator.empty()) p.integrator = integrator;
   p.precision = random.chance(0.5) ? Precision::float_ : Precision::double_;
   p.pins = random_pins(p, random);
   for (int n = std::max(0, random.below(6) - 2); n > 0; --n) p.bodies.push_back(random_body(p, random));
@@ -125,7 +126,7 @@ Preset random_preset(StressRandom& random) {
   return p;
 }
 
-Preset changed(const Preset& preset, StressRandom& random, std::string& what) {
+Preset changed(const Preset& preset, StressRandom& random, bool keeps_integrator, std::string& what) {
   const auto rows = notation();
   for (;;) {
     Preset next = preset;
@@ -142,11 +143,12 @@ Preset changed(const Preset& preset, StressRandom& random, std::string& what) {
     } else {
       randomise(next, row, random);
     }
+    if (keeps_integrator) next.integrator = preset.integrator;
     if (next != preset && check_preset(next).empty()) return next;
   }
 }
 
-Edit random_edit(const Simulation& simulation, StressRandom& random, std::string& what) {
+Edit random_edit(const Simulation& simulation, StressRandom& random, bool keeps_integrator, std::string& what) {
   const Lattice& lattice = simulation.lattice();
   const Preset& preset = simulation.preset();
   const int i = random.below(lattice.rows), j = random.below(lattice.columns);
@@ -179,7 +181,7 @@ Edit random_edit(const Simulation& simulation, StressRandom& random, std::string
       if (random.chance(0.3)) return what = "restart", edit::Restart{};
       [[fallthrough]];
     default: {
-      const Preset next = changed(preset, random, what);
+      const Preset next = changed(preset, random, keeps_integrator, what);
       return edit::Change{next};
     }
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 
 #include "core/edit.h"
 #include "core/model/preset.h"
@@ -25,10 +26,11 @@ class StressRandom {
   std::mt19937_64 bits_;
 };
 
-Preset random_preset(StressRandom& random);
-/// The preset with one constant, integrator or precision changed, `what` being its key; valid.
-Preset changed(const Preset& preset, StressRandom& random, std::string& what);
+/// `integrator`: of the preset; empty: any.
+Preset random_preset(StressRandom& random, const std::string& integrator);
+/// The preset with one constant, precision or, unless it is kept, the integrator changed, `what` being its key; valid.
+Preset changed(const Preset& preset, StressRandom& random, bool keeps_integrator, std::string& what);
 /// An edit that fits the simulation, `what` being its name.
-Edit random_edit(const Simulation& simulation, StressRandom& random, std::string& what);
+Edit random_edit(const Simulation& simulation, StressRandom& random, bool keeps_integrator, std::string& what);
 
 }  // namespace tyglab

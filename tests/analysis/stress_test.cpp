@@ -23,6 +23,23 @@ TEST_CASE("every scene is valid and depends on its seed and number alone") {
   }
 }
 
+TEST_CASE("a method that is asked for is every scene's, from the beginning to the end") {
+  for (std::uint64_t number = 1; number <= 50; ++number) {
+    CAPTURE(number);
+    const Preset preset = stress_preset(4, number, "vbd");
+    CHECK(check_preset(preset) == "");
+    CHECK(preset.integrator == "vbd");
+    CHECK(preset.k_s == stress_preset(4, number).k_s);
+  }
+  int edits = 0;
+  for (std::uint64_t number = 1; number <= 20; ++number)
+    for (const std::string& edit : run_stress(4, number, "verlet").edits) {
+      ++edits;
+      CHECK(edit.find("integrator") == std::string::npos);
+    }
+  CHECK(edits > 10);
+}
+
 TEST_CASE("scenes reach into the first and last decade of every logarithmic constant, and take every method") {
   std::map<std::string_view, std::pair<double, double>> reached;
   std::set<std::string> methods;

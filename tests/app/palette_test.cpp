@@ -45,7 +45,7 @@ TEST_CASE("what is typed finds commands, presets, methods, labs, constants and v
   CHECK(first_for(desk, "no such thing").empty());
   for (const char* card : {"Forces", "Copies", "Stability", "Accuracy", "Energy", "Performance"})
     CHECK(first_for(desk, card) == "Command: " + std::string(card) + " card");
-  CHECK(first_for(desk, "stiff") == "Lab: k_s and the critical time step");
+  CHECK(first_for(desk, "stiffness") == "Lab: k_s and the critical time step");
   const std::vector<PaletteEntry> entries = palette_entries(desk.ui);
   const std::vector<int> found = matching(entries, "stiffness against stretching");
   REQUIRE_FALSE(found.empty());

@@ -14,8 +14,10 @@
 #include "app/process/interrupt.h"
 #include "core/analysis/machine.h"
 #include "core/analysis/stress.h"
+#include "core/integrators/names.h"
 #include "core/io/destination.h"
 #include "core/io/preset_io.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -26,7 +28,12 @@ using Json = nlohmann::ordered_json;
 struct StressOptions : BenchOptions {
   std::int64_t cases = 0;  ///< 0: 1,000, or fewer where quick
   std::int64_t seed = 1, from = 1;
-  std::int64_t only = 0;  ///< 0: all
+  std::int64_t only = 0;   ///< 0: all
+  std::string integrator;  ///< empty: any
+  /// What repeats these cases, but for their numbers.
+  std::string repeated() const {
+    return (integrator.empty() ? "" : "--integrator " + integrator + " ") + "--seed " + std::to_string(seed);
+  }
 };
 
 Json case_json(std::int64_t number, const StressResult& result) {
@@ -51,12 +58,13 @@ Json case_json(std::int64_t number, const StressResult& result) {
 }
 
 /// A case in its own process: what is thrown there is a violation too.
-std::string run_case(std::uint64_t seed, std::int64_t number) {
+std::string run_case(const StressOptions& options, std::int64_t number) {
+  const auto seed = std::uint64_t(options.seed);
   StressResult result;
   try {
-    result = run_stress(seed, std::uint64_t(number));
+    result = run_stress(seed, std::uint64_t(number), options.integrator);
   } catch (const std::exception& error) {
-    result.preset = stress_preset(seed, std::uint64_t(number));
+    result.preset = stress_preset(seed, std::uint64_t(number), options.integrator);
     result.status = StressStatus::failed;
     result.problem = std::string("an error was thrown: ") + error.what();
   }
@@ -64,11 +72,11 @@ std::string run_case(std::uint64_t seed, std::int64_t number) {
 }
 
 /// The row of a case, also where its process did not come to its end.
-Json row_of(std::uint64_t seed, std::int64_t number, const ChildExit& outcome) {
+Json row_of(const StressOptions& options, std::int64_t number, const ChildExit& outcome) {
   Json row = outcome.result.empty() ? Json() : Json::parse(outcome.result, nullptr, false);
   if (!row.is_object()) {
     StressResult lost;
-    lost.preset = stress_preset(seed, std::uint64_t(number));
+    lost.preset = stress_preset(std::uint64_t(options.seed), std::uint64_t(number), options.integrator);
     lost.status = StressStatus::failed;
     lost.problem = outcome.timed_out     ? "it hung and was killed after a minute"
                    : outcome.signal != 0 ? "it crashed: " + signal_words(outcome.signal)
@@ -115,13 +123,13 @@ int stress(const StressOptions& options) {
   InterruptGuard guard;
   Progress progress("stability stress");
   const auto ended = [&](std::int64_t number, const ChildExit& outcome) {
-    const Json row = row_of(seed, number, outcome);
+    const Json row = row_of(options, number, outcome);
     ++counts[row["integrator"]][row["status"]];
     if (row["status"] == "failed") {
       ++failed;
       progress.clear();
-      out << "case " << number << " failed: " << row["problem"].get<std::string>()
-          << " (tyglab stability stress --seed " << seed << " --only " << number << ")\n"
+      out << "case " << number << " failed: " << row["problem"].get<std::string>() << " (tyglab stability stress "
+          << options.repeated() << " --only " << number << ")\n"
           << std::flush;
     }
     rows.push_back(row);
@@ -130,7 +138,7 @@ int stress(const StressOptions& options) {
   run_child_cases({.from = options.from,
                    .count = count,
                    .at_a_time = options.threads > 0 ? options.threads : processors(),
-                   .work = [&](std::int64_t number) { return run_case(seed, number); },
+                   .work = [&](std::int64_t number) { return run_case(options, number); },
                    .ended = ended,
                    .stop = InterruptGuard::interrupted});
   progress.clear();
@@ -141,8 +149,8 @@ int stress(const StressOptions& options) {
     write_output(options.json, all.dump(2) + "\n", bench_reach());
   }
   if (InterruptGuard::interrupted())
-    std::cerr << "tyglab: Continue with --seed " << seed << " --from " << options.from + std::int64_t(rows.size())
-              << " --cases " << count - std::int64_t(rows.size()) << "\n";
+    std::cerr << "tyglab: Continue with " << options.repeated() << " --from "
+              << options.from + std::int64_t(rows.size()) << " --cases " << count - std::int64_t(rows.size()) << "\n";
   if (const int code = bench_exit(options.outputs()); code != exit_done) return code;
   if (failed == 0) return exit_done;
   std::cerr << "tyglab: " << counted(failed, "case") << " failed; see above.\n";
@@ -154,8 +162,8 @@ int only(const StressOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   const auto seed = std::uint64_t(options.seed), number = std::uint64_t(options.only);
-  out << preset_to_json(stress_preset(seed, number)) << std::flush;
-  const StressResult result = run_stress(seed, number);
+  out << preset_to_json(stress_preset(seed, number, options.integrator)) << std::flush;
+  const StressResult result = run_stress(seed, number, options.integrator);
   const Json row = case_json(options.only, result);
   out << row.dump(2) << '\n' << std::flush;
   if (!options.json.empty())
@@ -190,10 +198,21 @@ void add_stability_stress(CLI::App& stability, Action& action) {
       ->excludes(quick)
       ->excludes("--cases")
       ->excludes(from);
+  command
+      ->add_option("--integrator", options->integrator, "Only this method, which no edit changes then (default: any)")
+      ->type_name("NAME")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            return is_integrator(name)
+                       ? std::string()
+                       : "no integrator is called " + name + did_you_mean(name, integrator_names(), ".");
+          },
+          ""));
   add_threads(*command, *options, "Simultaneous cases");
   add_json(*command, *options, "Write every case for programs");
   command->footer(
       "Examples: tyglab stability stress --cases 1000 --seed 1\n"
+      "          tyglab stability stress --cases 2000 --integrator vbd\n"
       "          tyglab stability stress --seed 1 --only 17");
   command->callback(
       [&action, options] { action = [options] { return options->only > 0 ? only(*options) : stress(*options); }; });
