@@ -134,4 +134,16 @@ TEST_CASE("once a step is done, all of why is seen without scrolling") {
   for (const std::string& text : window.cut_texts()) CHECK_FALSE(text.starts_with("lab"));
 }
 
+TEST_CASE("in a small window with the largest text some lines of a lab are seen at once") {
+  test::NullUi window({.size = {900, 600},
+                       .settings = [](Settings& settings) { settings.theme = "projector", settings.ui_scale = 1.5; }});
+  window.click("side.columns.3");
+  begin_lab(window.session, "05_order");
+  window.frames(6);
+  CHECK(window.drew("The taut sheet without damping"));
+  const float cloth = window.ui.viewport.whole().y;
+  CHECK(cloth < 140);
+  CHECK(cloth > 100);
+}
+
 }  // namespace tyglab::fit_test
