@@ -100,8 +100,9 @@ LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   const bool shared = left > 0 && left + right > spare;
   if (left + right > spare) right = 0;
   if (shared) left = std::round(std::min(layout.left_width * ui.theme.scale, std::max(spare, left)));
-  // Where not even one has room beside the cloth, all three do.
-  const bool in_turn = left > 0 && left + ui.theme.px(200) > window.x;
+  // Where not even one has room beside the cloth, all three do. For a finger sliders must not be short.
+  const bool short_sliders = ui.input.by_touch && left < ui.theme.px(280);
+  const bool in_turn = left > 0 && (short_sliders || left + ui.theme.px(200) > window.x);
   if (in_turn) left = ui.side_cloth ? 0 : window.x;
 
   float lab = panels ? lab_panel_height(ui, height) : 0;
