@@ -40,7 +40,7 @@ def main():
         script = pathlib.Path(__file__).resolve().parent / "program.js"
         programs = {"best vectors": ([args.tyglab], {})}
         for name, disabled in WIDER.items():
-            library = pathlib.Path(folder) / f"{name}.so"
+            library = pathlib.Path(folder) / f"{name.replace(' ', '_')}.so"  # a space ends a name there
             subprocess.run(["g++", "-shared", "-fPIC", "-x", "c++", "-", "-o", library, "-lhwy"], input=LIMIT % disabled,
                            text=True, check=True)
             programs[name] = ([args.tyglab], {"LD_PRELOAD": str(library)})

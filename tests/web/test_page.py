@@ -321,6 +321,8 @@ class Tests:
             page = self.open("?report#hanging", **size)
             time.sleep(1)
             assert report(page)["window"][0] == size["width"] * size.get("scale", 1), report(page)["window"]
+            # Upright, the cloth takes its turn with the constants and plots.
+            assert ("side.columns.3" in report(page)["controls"]) == (name == "tablet_upright"), report(page)["controls"]
             self.shot(page, name)
             page.call("Page.close")
 
