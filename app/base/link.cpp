@@ -72,7 +72,12 @@ bool is_link(std::string_view text) {
 LinkedPreset read_link(std::string_view text) {
   LinkedPreset linked{default_preset, {}};
   const std::size_t hash = text.find('#');
-  if (hash == std::string_view::npos) return linked;
+  if (hash == std::string_view::npos) {
+    // The page's own address is that of its first experiment; what else it says was meant for another place.
+    if (text.find_first_of("&=%") != std::string_view::npos)
+      fail(text, "has no #, after which the experiment stands.");
+    return linked;
+  }
   std::string_view rest = text.substr(hash + 1);
   for (bool first = true; !rest.empty(); first = false) {
     const std::size_t end = std::min(rest.find('&'), rest.size());

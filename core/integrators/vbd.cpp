@@ -14,15 +14,17 @@ Scheme vbd() {
       .order_damped = 1,
       .vectors = 4,
       .keeps_displacement = false,
-      .note = "Implicit Euler's step particle by particle. Stable at every dt; few iterations slow stiff cloths down.",
-      .stability = "no pass raises what implicit Euler makes least, wind aside; removes energy from all oscillations",
+      .note = "Implicit Euler's step particle by particle. Few iterations slow stiff cloths down, and may add energy.",
+      .stability =
+          "no pass raises the energy that implicit Euler's step minimizes, wind aside; removes energy from all "
+          "oscillations where the passes nearly converge, and may add some where they do not",
       .cost = "`iterations` passes over the particles, each about two evaluations of the force",
       .formula =
-          R"(Implicit Euler's step makes an energy least ([model.md](model.md#integrators)). Each particle in turn )"
+          R"(Implicit Euler's step minimizes an energy ([model.md](model.md#integrators)). Each particle in turn )"
           R"(does so in its own three coordinates while all others rest: one step of Newton's method, )"
           R"(3 × 3, with the energy's gradient and a Hessian of $m/h^2 + k_d/h$ for each spring, $k_s$ along a pulling )"
-          R"(spring and $k_s(1 - \ell/|x_{ij}|)$ across it, $k_b$ along a pushing bending spring. What a particle )"
-          R"(finds the next one uses (Gauss and Seidel). It begins where inertia alone leads, and )"
+          R"(spring and $k_s(1 - \ell/|x_{ij}|)$ across it, $k_b$ along a pushing bending spring. What one particle )"
+          R"(finds, the next uses (Gauss and Seidel). The first pass begins at $x + h\,v$, where inertia alone leads, and )"
           R"(`iterations` passes over all particles are made. Wind is that on the positions at the beginning of a )"
           R"(pass. The authors' acceleration by Chebyshev's method is left out.
 
@@ -33,10 +35,15 @@ The paper takes Newton's step as it is; here springs begin and cease to act on i
 *Colors:* particle $(i, j)$ has the color $(i + 2j) \bmod 5$. No spring, bending ones included, joins two particles )"
           R"(of one color, so a color's particles move at once: as vectors, and on all threads with the same bits.
 
-In a pass news of a force travels a few springs, and a particle hardly moves between stiff springs whose other ends )"
-          R"(rest. So few passes hold a large stiff cloth back, as if its particles were heavier: it falls and swings )"
-          R"(too slowly. A step is compared with implicit Euler's equations: where `iterations` passes leave more than )"
-          R"(it may leave, the step counts and is reported as unconverged.)",
+In one pass, news of a force travels only a few springs, and a particle hardly moves between springs whose other )"
+          R"(ends rest. With few passes a cloth is therefore held back, as if its particles were heavier: it falls and )"
+          R"(swings too slowly, the more so the larger $dt$ is, and even where it falls freely. A step is compared with )"
+          R"(implicit Euler's equations: if `iterations` passes leave more than the tolerance allows, the step is )"
+          R"(reported as unconverged.
+
+What no pass raises is its value where the passes began. Where springs are far too long there, few passes may leave )"
+          R"(more energy than the cloth had before the step, and such steps can add up: with `iterations` = 1 a stiff, )"
+          R"(undamped cloth may diverge.)",
       .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
       .start = {},
       .lag = 0,

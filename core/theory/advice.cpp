@@ -55,8 +55,8 @@ std::string solves_missed(const SolveCounts& solves, const Preset& p) {
                            left + "), so the motion is not quite " +
                            (counts_passes(scheme(p.integrator)) ? "implicit Euler's. " : "the method's. ");
   const std::string passes = counts_passes(scheme(p.integrator))
-                                 ? "A step of it ends after " + std::to_string(p.iterations) +
-                                       (p.iterations == 1 ? " pass, " : " passes, ") + "whatever is left. "
+                                 ? "Each step ends after " + std::to_string(p.iterations) +
+                                       (p.iterations == 1 ? " pass, " : " passes, ") + "converged or not. "
                              : p.iterations == 1 ? "With iterations = 1 a step is a single linear solve. "
                                                  : "";
   return said + passes + "Use a smaller dt or more iterations.";
@@ -105,7 +105,7 @@ std::string method_to_blame(const Preset& p) {
     case Zone::stable:
       break;
   }
-  return "linear theory has " + title + " stable " + at_dt + ", but leaves out bodies, springs that switch or tear" +
+  return "linear theory finds " + title + " stable " + at_dt + ", but leaves out bodies, springs that switch or tear" +
          (is_implicit(method) ? ", and solves that do not converge" : "");
 }
 
@@ -120,8 +120,8 @@ std::string advice(const Preset& p) {
            "a smaller " + stiffness + ", and restart; or use implicit Euler, which is stable at any stiffness.";
   if (counts_passes(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +
-           "more iterations, and restart: this method has no limit of dt, but bodies, wind and what few iterations "
-           "leave of a step may overstretch springs" +
+           "more iterations, and restart: linear theory sets no limit of dt for this method, but what few "
+           "iterations leave of a step, bodies and wind may overstretch springs" +
            or_verlet(p, verlet_dt) + ".";
   if (projects(scheme(p.integrator)))
     return "Use " + std::string(p.dt > least_dt ? "a smaller dt or " : "") +

@@ -59,6 +59,9 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(linked_preset(read_link("#flag&W=%5B0%2C0%2c0.01%5D")).W.z == 0.01);
   CHECK(linked_preset(read_link("#k_s=80")) == linked_preset(read_link("#hanging&k_s=80")));
   CHECK(read_link("https://example.org/").name == "hanging");
+  for (const char* link :
+       {"https://example.org/hanging&k_s=300", "https://example.org/%23flag", "https://example.org/?embed&preset=flag"})
+    CHECK_THROWS_WITH_AS(read_link(link), doctest::Contains("has no #"), PresetError);
   CHECK(is_link("#flag"));
   CHECK_FALSE(is_link("flag"));
   CHECK_FALSE(is_link("my#file.json"));

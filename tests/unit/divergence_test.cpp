@@ -284,7 +284,7 @@ TEST_CASE("the method is called unstable only where it is in every shape of the 
   };
   const double any = stable_dt(p, p.integrator), every = every_shape_limit(p);
   REQUIRE(every > 1.1 * any);
-  blames(0.9 * any, Zone::stable, "linear theory has Verlet stable");
+  blames(0.9 * any, Zone::stable, "linear theory finds Verlet stable");
   blames((any + every) / 2, Zone::depends, "above the worst-case limit");
   blames(1.1 * every, Zone::unstable, "Verlet is unstable here");
   p.integrator = "implicit_euler";

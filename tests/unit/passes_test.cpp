@@ -81,7 +81,7 @@ TEST_CASE("with more passes a step comes ever nearer to implicit Euler's, and to
   check_fall(preset, 0.1);
 }
 
-/// What implicit Euler's step makes least (docs/model.md), at positions `x`, for a cloth that was at `c` with the
+/// What implicit Euler's step minimizes (docs/model.md), at positions `x`, for a cloth that was at `c` with the
 /// velocities of that state and is whole.
 double minimized(const Preset& p, const State& c, const State& x) {
   const auto at = [&](const State& state, int i, int j) {
@@ -109,7 +109,7 @@ double minimized(const Preset& p, const State& c, const State& x) {
   return sum;
 }
 
-TEST_CASE("no pass raises what implicit Euler's step makes least, however stiff and crumpled the cloth") {
+TEST_CASE("no pass raises what implicit Euler's step minimizes, however stiff and crumpled the cloth") {
   for (const std::string& method : methods())
     for (const double k_s : {50.0, 1e3, 1e5, 1e8})
       for (const double k_b : {0.0, 10.0, 1e5})

@@ -72,7 +72,7 @@ void ConstantSolver<R>::iterate(const Field& r, int begin, int end, double omega
 }
 
 template <class R>
-void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<void()>& barrier) {
+void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<void()>& barrier, const Stop& stop) {
   if (weight_ != 0) {
     if (begin == 0) r.row(0, 1)[0] = R(double(r.row(0, 1)[0]) / weight_);
     barrier();
@@ -91,6 +91,7 @@ void ConstantSolver<R>::solve(Field& r, int begin, int end, const std::function<
   for (int round = 0; round < 2; ++round) {
     double omega = 2;
     for (int n = 0; n < products_; ++n) {
+      if (stop && stop()) return;
       iterate(r, begin, end, n == 0 ? 1 : omega, n == 0);
       omega = 1 / (1 - omega * ratio);
       exchange();

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/engines/cpu/band.h"
+#include "core/model/stop.h"
 
 namespace tyglab::cpu {
 
@@ -25,8 +26,8 @@ class ConstantSolver {
   /// whether springs or fixed particles may differ from the last call.
   void prepare(const Cloth<R>& cloth, const Tears& tears, SpringWeights weights, double tolerance, bool changed);
   /// Replaces r by the solution of A s = r in rows [begin, end). Called by all threads together, each with its rows;
-  /// `barrier` waits for the others.
-  void solve(Field& r, int begin, int end, const std::function<void()>& barrier);
+  /// `barrier` waits for the others. One thread that calls it alone may `stop` it; r then holds anything.
+  void solve(Field& r, int begin, int end, const std::function<void()>& barrier, const Stop& stop = {});
   /// Products with A in each of the two rounds.
   int products() const { return products_; }
   /// Bound of what a solution leaves of the residual, as a part of it.

@@ -53,9 +53,10 @@ bool GlobalStep<R>::factorize(const Cloth<R>& cloth, const Tears& tears, const S
 }
 
 template <class R>
-int GlobalStep<R>::solve(Field& r) {
+int GlobalStep<R>::solve(Field& r, const Stop& stop) {
   if (!factorized_) {
-    products_.solve(r, 0, rows_, [] {});
+    products_.solve(
+        r, 0, rows_, [] {}, stop);
     return 2 * products_.products();
   }
   for (int i = 0; i < rows_; ++i)

@@ -22,7 +22,7 @@ class GlobalStep {
   /// call. Returns false where it was stopped; the next call starts over.
   bool prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed, const Stop& stop);
   /// Replaces r by the solution. Returns how many products with A that took.
-  int solve(Field& r);
+  int solve(Field& r, const Stop& stop);
   std::size_t bytes() const {
     return products_.bytes() + factor_.bytes() + free_.capacity() + sides_.capacity() * sizeof(std::array<double, 4>);
   }

@@ -8,6 +8,18 @@ namespace tyglab::cpu {
 
 using namespace implicit;
 
+namespace {
+
+/// Of a fixed number of passes, which end wherever they are: the last digits of the positions of a very stiff cloth in
+/// float would excuse any force.
+Balance after_passes(Balance balance) {
+  constexpr double most_excused = 0.01;  // of the largest force
+  balance.solved = balance.solved && balance.residual <= most_excused;
+  return balance;
+}
+
+}  // namespace
+
 template <class R>
 void ImplicitSolver<R>::resize() {
   if (rows_ == cloth().lattice.rows && stride_ == cloth().stride) return;
@@ -73,7 +85,7 @@ void ImplicitSolver<R>::measure_stage(double dt, const Tears& tears, const Accel
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   evaluate();
   counts_.newton += passes, counts_.force_evaluations += 2 * passes + 1;  // before and after each particle's step
-  note_balance(balance());
+  note_balance(after_passes(balance()));
 }
 
 template <class R>
@@ -94,13 +106,14 @@ Balance ImplicitSolver<R>::alternate(bool changed) {
   for (int n = 0; n < most; ++n) {
     note_progress(double(n) / most);
     if (stops()) return {};
-    counts_.linear += global_.solve(residual_);
+    counts_.linear += global_.solve(residual_, [this] { return stops(); });
+    if (stopped_) return {};
     const std::span<R> v = velocity().all();
     for (std::size_t k = 0; k < v.size(); ++k) v[k] += residual_.all()[k];
     evaluate();
     ++counts_.newton, ++counts_.force_evaluations;
   }
-  return balance();
+  return after_passes(balance());
 }
 
 template <class R>
