@@ -109,6 +109,19 @@ double minimized(const Preset& p, const State& c, const State& x) {
   return sum;
 }
 
+TEST_CASE("stiff steps that few passes have not solved are reported in float too") {
+  for (const char* integrator : {"projective_dynamics", "vbd"}) {
+    CAPTURE(std::string(integrator));
+    Preset preset = test::cloth(16, 16, integrator);
+    preset.L = 0.06, preset.tilt_deg = 30, preset.k_s = 1e6, preset.dt = 0.02;
+    preset.precision = Precision::float_;
+    Simulation simulation(preset);
+    simulation.advance(10);
+    CHECK(simulation.engine().solves().worst_residual > 0.01);
+    CHECK(simulation.engine().solves().unconverged == 10);
+  }
+}
+
 TEST_CASE("no pass raises what implicit Euler's step minimizes, however stiff and crumpled the cloth") {
   for (const std::string& method : methods())
     for (const double k_s : {50.0, 1e3, 1e5, 1e8})
