@@ -74,8 +74,7 @@ LinkedPreset read_link(std::string_view text) {
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos) {
     // The page's own address is that of its first experiment; what else it says was meant for another place.
-    if (text.find_first_of("&=%") != std::string_view::npos)
-      fail(text, "has no #, after which the experiment stands.");
+    if (text.find_first_of("&=%") != std::string_view::npos) fail(text, "has no #, after which the experiment stands.");
     return linked;
   }
   std::string_view rest = text.substr(hash + 1);
