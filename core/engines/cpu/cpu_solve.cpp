@@ -7,6 +7,7 @@ template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears) {
   // A mass on a spring is linear: one step of Newton's method solves it.
   if (scheme_->solver == Solver::blocks && cloth_.preset.kind == Kind::cloth) return descend(number, sweep, tears);
+  team_->barrier();  // solving uses all bands, which their threads may still be preparing
   if (number == 0) abandoned_ = !solve(sweep, tears);
   team_->barrier();
   return !abandoned_;
