@@ -216,7 +216,7 @@ TEST_CASE("tearing and the hand mean the same newtons as with other methods") {
 }
 
 TEST_CASE("a pinned row holds, and a cut parts, while steps go on") {
-  for (const std::string& method : methods()) {
+  for (const std::string method : {"projective_dynamics", "vbd", "xpbd"}) {
     CAPTURE(method);
     Preset preset = test::cloth(6, 19, method);
     preset.pins.mode = Pins::Mode::top_row;

@@ -180,22 +180,4 @@ TEST_CASE("xpbd: tearing and the hand mean the same newtons as with other method
   CHECK(simulation.particle(1, 0).F_s.y == doctest::Approx(weight).epsilon(1e-4));
 }
 
-TEST_CASE("xpbd: a pinned row holds, and a cut parts") {
-  Preset preset = test::cloth(6, 19, "xpbd");
-  preset.pins.mode = Pins::Mode::top_row;
-  preset.dt = 1e-3;
-  Simulation simulation(preset);
-  const State start = simulation.read();
-  edit::Cut cut;
-  for (int j = 0; j < 19; ++j) cut.sites.push_back({3, j});
-  simulation.apply(cut);
-  simulation.advance(500);
-  const State& state = simulation.read();
-  for (std::size_t j = 0; j < 19; ++j) {
-    CHECK(test::position(state, j) == test::position(start, j));
-    CHECK(state.x.y[5 * 19 + j] - start.x.y[5 * 19 + j] < -0.9);  // free fall: 1.2 m
-    CHECK(state.x.y[2 * 19 + j] - start.x.y[2 * 19 + j] > -0.1);
-  }
-}
-
 }  // namespace tyglab::projection_test
