@@ -6,6 +6,7 @@ Each time is that of a long run less that of a short one, so that starting count
 turns, and the least time of each is kept, since other work on the machine only ever adds.
 """
 import argparse
+import datetime
 import json
 import os
 import pathlib
@@ -57,7 +58,7 @@ def main():
     if args.json:
         node = subprocess.run(["node", "--version"], check=True, capture_output=True, text=True).stdout.strip()
         runs = [{"program": name, "ns_per_particle_step": time, "over_avx2": time / times["AVX2"]} for name, time in times.items()]
-        args.json.write_text(json.dumps({"side": SIDE, "node": node, "runs": runs}))
+        args.json.write_text(json.dumps({"side": SIDE, "date": str(datetime.date.today()), "node": node, "runs": runs}))
 
 
 main()

@@ -155,6 +155,9 @@ std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
 std::string stability_words(const StabilityLimits& limits, double dt) {
   if (chooses_steps(scheme(limits.of.integrator)))
     return "This method chooses its own steps within dt, as short as stability and tolerance require.";
+  if (counts_passes(scheme(limits.of.integrator)))
+    return "Linear theory sets no largest dt for this method once its passes converge. Few passes may add energy; "
+           "bodies, and springs that switch, may too.";
   if (std::isinf(limits.any))
     return "Linear theory sets no largest dt for this method. Bodies, and springs that switch, still can.";
   if (limits.any == 0) return "No dt is stable: without more damping this method feeds energy into every oscillation.";
