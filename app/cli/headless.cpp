@@ -17,7 +17,7 @@ namespace tyglab {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double default_seconds = 4;
+constexpr double usual_seconds = 4;
 constexpr double frames_a_second = 60;  // of the window that is not there
 constexpr int pictures = 5;             // the first at the start, the last at the end
 
@@ -36,7 +36,7 @@ fs::path new_folder() {
 }  // namespace
 
 int run_headless(const SandboxOptions& options, std::ostream& out) {
-  const double seconds = options.frames > 0 ? options.frames / frames_a_second : default_seconds;
+  const double seconds = options.frames > 0 ? options.frames / frames_a_second : usual_seconds;
   const std::int64_t steps = Length{seconds, {}}.in_steps(options.preset.dt, seconds);
   const PictureSize size = options.width > 0 ? PictureSize{options.width, options.height} : PictureSize();
   Film film(options.preset, 0, size);

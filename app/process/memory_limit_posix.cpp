@@ -17,8 +17,8 @@ constexpr int exit_no_engine = 5;  // ExitCode of app/cli/command_line.h
 constexpr std::array<int, 5> crashes{SIGSEGV, SIGBUS, SIGABRT, SIGILL, SIGFPE};
 
 // A signal handler reaches nothing but globals, and allocates nothing.
-std::array<char, 300> sentence;
-std::size_t sentence_size = 0;
+std::array<char, 300> last_sentence;
+std::size_t last_sentence_size = 0;
 bool explains = false;
 
 std::optional<rlim_t> memory_limit() {
@@ -28,7 +28,7 @@ std::optional<rlim_t> memory_limit() {
 }
 
 extern "C" void end_with_sentence(int) {
-  end_at_once({sentence.data(), sentence_size}, exit_no_engine);
+  end_at_once({last_sentence.data(), last_sentence_size}, exit_no_engine);
 }
 
 /// Some drivers call exit() where they are refused memory.
@@ -47,8 +47,8 @@ std::string memory_limit_words() {
 
 CrashExplainer::CrashExplainer() {
   if (!memory_limit()) return;
-  sentence_size = std::size_t(std::snprintf(
-      sentence.data(), sentence.size(),
+  last_sentence_size = std::size_t(std::snprintf(
+      last_sentence.data(), last_sentence.size(),
       "tyglab: A crash, as of graphics and OpenCL drivers that are refused memory.%s\n", memory_limit_words().c_str()));
   for (const int signal : crashes) std::signal(signal, end_with_sentence);
   explains = std::atexit(explain_exit) == 0;
