@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 
 #include "app/base/data_files.h"
@@ -66,13 +67,26 @@ bool is_shipped_preset(const std::string& name) {
 }  // namespace
 
 bool is_link(std::string_view text) {
-  return text.starts_with('#') || text.starts_with("http://") || text.starts_with("https://");
+  const auto begins = [&](std::string_view scheme) {
+    return std::equal(scheme.begin(), scheme.end(), text.begin(), text.begin() + std::min(text.size(), scheme.size()),
+                      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+  };
+  return text.starts_with('#') || begins("http://") || begins("https://");
 }
 
 LinkedPreset read_link(std::string_view text) {
   LinkedPreset linked{default_preset, {}};
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos) {
+    // A frame in a course's page names its preset as ?embed&preset=flag.
+    constexpr std::string_view key = "preset=";
+    const std::size_t at = std::min(text.find("?preset="), text.find("&preset="));
+    if (at != std::string_view::npos) {
+      const std::string_view value = text.substr(at + 1 + key.size());
+      linked.name = decoded(value.substr(0, value.find('&')), text);
+      if (!is_shipped_preset(linked.name)) fail(text, "names no shipped preset: '" + in_one_line(linked.name) + "'.");
+      return linked;
+    }
     // The page's own address is that of its first experiment; what else it says was meant for another place.
     if (text.find_first_of("&=%") != std::string_view::npos) fail(text, "has no #, after which the experiment stands.");
     return linked;
@@ -85,7 +99,7 @@ LinkedPreset read_link(std::string_view text) {
     if (first && part.find('=') == std::string::npos) {
       if (!is_shipped_preset(part)) fail(text, "names no shipped preset: '" + in_one_line(part) + "'.");
       linked.name = part;
-    } else if (part.find('=') == std::string::npos) {
+    } else if (part.find('=') == std::string::npos || part.starts_with('=')) {
       fail(text, "has a part that is no KEY=VALUE: '" + in_one_line(part) + "'.");
     } else {
       linked.settings.push_back(part);

@@ -79,10 +79,8 @@ std::string unexpected(const CLI::ExtrasError& error) {
   const std::string text = error.what();
   std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
   std::string list;
-  int count = 0;
-  for (std::string word; words >> word; ++count) list = word + (list.empty() ? "" : " ") + list;
-  return list + (count == 1 ? " is" : " are") +
-         " not expected here. Options come after their command, as in `tyglab run denim --steps 4`.";
+  for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
+  return "Not expected here: " + list + ". Options come after their command, as in `tyglab run denim --steps 4`.";
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct ChildCases {
   double most_seconds = 60;                                        ///< for one case
   std::function<std::string(std::int64_t)> work = {};              ///< in the case's own process, or thread
   std::function<void(std::int64_t, const ChildExit&)> ended = {};  ///< in this one, in the order of the numbers
-  std::function<bool()> stop = {};                                 ///< no further case is started once this holds
+  std::function<bool()> stop = {};  ///< once this holds no case is started, and those that run in processes are ended
 };
 
 /// Runs them. This process must have no other threads. Throws ChildError if no process can be created.

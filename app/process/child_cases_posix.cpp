@@ -39,9 +39,9 @@ void run_child_cases(const ChildCases& cases) {
   std::map<std::int64_t, ChildExit> waiting;  // ended before one with a lower number
   std::int64_t next = cases.from, reported = cases.from;
   const std::int64_t last = cases.from + cases.count;
-  while (!running.empty() || (next < last && !cases.stop())) {
-    while (int(running.size()) < cases.at_a_time && next < last && !cases.stop())
-      running.push_back(start_case(cases, next++));
+  // Where it is to stop, those that run are killed.
+  while ((!running.empty() || next < last) && !cases.stop()) {
+    while (int(running.size()) < cases.at_a_time && next < last) running.push_back(start_case(cases, next++));
     const std::vector<bool> speaks = wait_for(running);
     for (std::size_t n = running.size(); n-- > 0;) {
       RunningCase& one = running[n];

@@ -176,6 +176,16 @@ py::object ledger(Motion& motion) {
   return all;
 }
 
+py::object solves(const Motion& motion) {
+  const SolveCounts counts = motion.at_rest().engine().solves();
+  if (counts.newton == 0) return py::none();
+  py::dict dict;
+  dict["newton_steps"] = counts.newton, dict["linear_steps"] = counts.linear;
+  dict["force_evaluations"] = counts.force_evaluations, dict["unconverged"] = counts.unconverged;
+  dict["worst_residual"] = counts.worst_residual;
+  return dict;
+}
+
 py::dict particle(const Motion& motion, int i, int j) {
   motion.check(i, j);
   const ParticleReadout r = motion.at_rest().particle(i, j);
@@ -305,6 +315,11 @@ void add_simulation(py::module_& module) {
           "ledger", &ledger,
           "Where the energy went since the ledger began, J, or None: work of damping, contact, tearing, "
           "wind, hand and edits; unexplained is what the method made (above 0) or removed.")
+      .def_property_readonly(
+          "solves", &solves,
+          "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
+          "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
+          "force_evaluations, unconverged (steps) and worst_residual, in parts of the largest force.")
       .def_property_readonly("dt_crit", &own_limit,
                              "Largest stable dt of the cloth as it hangs now, by linear theory, s: advice, no promise.")
       .def_property_readonly(

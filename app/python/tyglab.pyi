@@ -94,6 +94,8 @@ class Simulation:
     @property
     def ledger(self) -> dict[str, float] | None: ...  # J
     @property
+    def solves(self) -> dict[str, float] | None: ...
+    @property
     def dt_crit(self) -> float: ...  # s
     @property
     def torn(self) -> int: ...

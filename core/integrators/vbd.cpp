@@ -24,9 +24,16 @@ Scheme vbd() {
           R"(does so in its own three coordinates while all others rest: one step of Newton's method, )"
           R"(3 × 3, with the energy's gradient and a Hessian of $m/h^2 + k_d/h$ for each spring, $k_s$ along a pulling )"
           R"(spring and $k_s(1 - \ell/|x_{ij}|)$ across it, $k_b$ along a pushing bending spring. What one particle )"
-          R"(finds, the next uses (Gauss and Seidel). The first pass begins at $x + h\,v$, where inertia alone leads, and )"
-          R"(`iterations` passes over all particles are made. Wind is that on the positions at the beginning of a )"
-          R"(pass. The authors' acceleration by Chebyshev's method is left out.
+          R"(finds, the next uses (Gauss and Seidel). `iterations` passes over all particles are made, the first from )"
+          R"($x + h\,v$, where inertia alone leads, and a fall from there. Wind is that on the positions at the beginning )"
+          R"(of a pass. The authors' acceleration by Chebyshev's method is left out.
+
+*The fall:* a particle between others that rest hardly falls, so passes alone would hold back even what falls )"
+          R"(freely. Before the first pass, therefore, each piece of the cloth, its free particles together, falls by )"
+          R"($s\,g h^2$, where $0 \le s \le 1$ is found to a thousandth by bisection of the energy's slope. Only springs )"
+          R"(to fixed particles count there, since the piece moves as a whole: $s = 1$ where nothing holds it, and )"
+          R"($s = 0$ where it hangs at rest. (In the paper each particle begins with as much of gravity as its )"
+          R"(acceleration in the last step had; that acceleration is no part of the state here.)
 
 The paper takes Newton's step as it is; here springs begin and cease to act on its way, and it may raise the energy. )"
           R"(Then the particle steps to the minimum of a quadratic function that is nowhere below the energy, with $k$ )"
@@ -36,10 +43,9 @@ The paper takes Newton's step as it is; here springs begin and cease to act on i
           R"(of one color, so a color's particles move at once: as vectors, and on all threads with the same bits.
 
 In one pass, news of a force travels only a few springs, and a particle hardly moves between springs whose other )"
-          R"(ends rest. With few passes a cloth is therefore held back, as if its particles were heavier: it falls and )"
-          R"(swings too slowly, the more so the larger $dt$ is, and even where it falls freely. A step is compared with )"
-          R"(implicit Euler's equations: if `iterations` passes leave more than the tolerance allows, the step is )"
-          R"(reported as unconverged.
+          R"(ends rest. With few passes a cloth is therefore held back, as if its particles were heavier: it swings )"
+          R"(and unfolds too slowly, the more so the larger $dt$ is. A step is compared with implicit Euler's equations: )"
+          R"(if `iterations` passes leave more than the tolerance allows, the step is reported as unconverged.
 
 What no pass raises is its value where the passes began. Where springs are far too long there, few passes may leave )"
           R"(more energy than the cloth had before the step, and such steps can add up: with `iterations` = 1 a stiff, )"

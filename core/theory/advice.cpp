@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/model/notation.h"
 #include "core/model/readable.h"
 #include "core/theory/modes.h"
 #include "core/theory/zones.h"
@@ -59,7 +60,8 @@ std::string solves_missed(const SolveCounts& solves, const Preset& p) {
                                        (p.iterations == 1 ? " pass, " : " passes, ") + "converged or not. "
                              : p.iterations == 1 ? "With iterations = 1 a step is a single linear solve. "
                                                  : "";
-  return said + passes + "Use a smaller dt or more iterations.";
+  const bool more = p.iterations < int(find_row("iterations")->max);
+  return said + passes + (more ? "Use a smaller dt or more iterations." : "Use a smaller dt.");
 }
 
 namespace {

@@ -59,17 +59,23 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(linked_preset(read_link("#flag&W=%5B0%2C0%2c0.01%5D")).W.z == 0.01);
   CHECK(linked_preset(read_link("#k_s=80")) == linked_preset(read_link("#hanging&k_s=80")));
   CHECK(read_link("https://example.org/").name == "hanging");
-  for (const char* link :
-       {"https://example.org/hanging&k_s=300", "https://example.org/%23flag", "https://example.org/?embed&preset=flag"})
+  CHECK(read_link("HTTPS://example.org/?embed&preset=flag&panels=0").name == "flag");
+  CHECK(read_link("https://example.org/?preset=sphere").name == "sphere");
+  for (const char* link : {"https://example.org/hanging&k_s=300", "https://example.org/%23flag",
+                           "https://example.org/?embed&lab=03_stiffness"})
     CHECK_THROWS_WITH_AS(read_link(link), doctest::Contains("has no #"), PresetError);
   CHECK(is_link("#flag"));
+  CHECK(is_link("Http://a"));
   CHECK_FALSE(is_link("flag"));
+  CHECK_FALSE(is_link("http"));
   CHECK_FALSE(is_link("my#file.json"));
 }
 
 TEST_CASE("what is wrong with a link is named") {
   CHECK(problem_of("#nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
   CHECK(problem_of("#flag&k_s").find("no KEY=VALUE: 'k_s'") != std::string::npos);
+  CHECK(problem_of("#flag&=3").find("no KEY=VALUE: '=3'") != std::string::npos);
+  CHECK(problem_of("https://a.b/?preset=nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%4").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%zz").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=-1").find("k_s=-1") != std::string::npos);

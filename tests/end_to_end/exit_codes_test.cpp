@@ -114,7 +114,7 @@ TEST_CASE("2: the command line is wrong, --set included") {
        {{"run", "denim", "--steps", "1", "--set", "k_s=-3"}, 2, "0 to 1e9"},
        {{"run", "denim", "--steps", "1", "--set", "k_x=3"}, 2, "did you mean"},
        {{"run", "denim", "--steps", "1", "--set", "K_S=3"}, 2, "did you mean k_s?"},
-       {{"--dt", "0.1", "denim", "--steps", "4"}, 2, "--steps 4 are not expected here."},
+       {{"--dt", "0.1", "denim", "--steps", "4"}, 2, "Not expected here: --steps 4."},
        {{"run", "denim", "--steps", "1", "--integrator", "eular"}, 2, "euler"},
        {{"run", "denim", "--steps", "1", "--precision", "half"}, 2, "precision"},
        {{"run", "denim", "--steps", "1", "--engine", "gpu"}, 2, "engine"},

@@ -132,7 +132,7 @@ TEST_CASE("help names choices once, and what is refused comes first") {
   CHECK(check(folder, {"--help"}, 0, "--effects auto|all|few").out.find('{') == std::string::npos);
   CHECK(check(folder, {"render", "--help"}, 0, "--color tension|").out.find('{') == std::string::npos);
   CHECK(check(folder, {"bench", "skip", "--help"}, 0, "--precision").out.find('{') == std::string::npos);
-  check(folder, {"run", "denim", "--bogus"}, 2, "tyglab: --bogus is not expected here.");
+  check(folder, {"run", "denim", "--bogus"}, 2, "tyglab: Not expected here: --bogus.");
   check(folder, {"run", "denim", "--set", "rows=1e9"}, 2, "allowed: 2 to 4096");
   check(folder, {"run", "denim", "--set", "rows=1.5"}, 2, "allowed: 2 to 4096");
   check(folder, {"run", "denim", "--set", "rows=9999999999999"}, 2, "rows: 9999999999999 is not allowed");

@@ -175,6 +175,15 @@ class Simulations(unittest.TestCase):
         works = sum(ledger[k] for k in ("damping", "contact", "tearing", "wind", "hand", "edits"))
         self.assertAlmostEqual(ledger["total"], ledger["start"] + works + ledger["unexplained"], places=12)
 
+    def test_solves_are_counted_and_those_that_missed(self):
+        stiff = dict(k_s=1e6, dt=0.02, rows=16, columns=16, iterations=2)
+        simulation = tyglab.Simulation(tyglab.Preset(integrator="vbd", **stiff))
+        simulation.step(3)
+        self.assertEqual(simulation.solves["newton_steps"], 6)
+        self.assertEqual(simulation.solves["unconverged"], 3)
+        self.assertGreater(simulation.solves["worst_residual"], 1e-4)
+        self.assertIsNone(tyglab.Simulation(tyglab.Preset(integrator="verlet")).solves)
+
     def test_other_threads_go_on_and_may_not_interfere(self):
         simulation = tyglab.Simulation(tyglab.Preset(rows=200, columns=200, precision="double"))
         worker = threading.Thread(target=lambda: simulation.step(300))

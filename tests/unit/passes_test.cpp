@@ -109,6 +109,52 @@ double minimized(const Preset& p, const State& c, const State& x) {
   return sum;
 }
 
+TEST_CASE("what nothing holds falls freely, in one pass and however stiff it is; what hangs at rest stays") {
+  for (const std::string& method : methods()) {
+    CAPTURE(method);
+    Preset preset = test::cloth(24, 20, method);
+    preset.pins.mode = Pins::Mode::none, preset.tilt_deg = 0;
+    preset.k_s = 1e5, preset.dt = 1.0 / 60, preset.iterations = 1;
+    Simulation simulation(preset);
+    const State start = simulation.read();
+    simulation.advance(2);
+    // Implicit Euler falls by 1 and then by 2 times g dt².
+    CHECK(test::position(start, 210).y - test::position(simulation.read(), 210).y ==
+          doctest::Approx(3 * preset.g * preset.dt * preset.dt).epsilon(1e-6));
+  }
+  Preset hanging = test::cloth(8, 6, "implicit_euler");
+  hanging.pins.mode = Pins::Mode::top_row, hanging.tilt_deg = 90, hanging.k_d = 0.02, hanging.dt = 0.05;
+  hanging.iterations = 100;
+  Simulation rests(hanging);
+  rests.advance(4000);
+  hanging.integrator = "vbd", hanging.iterations = 1;
+  Simulation simulation(hanging);
+  const State start = rests.read();
+  test::load(simulation, start);
+  simulation.advance(1);
+  for (std::size_t p = 0; p < start.x.x.size(); ++p)
+    CHECK(glm::length(test::position(simulation.read(), p) - test::position(start, p)) < 1e-6);
+}
+
+TEST_CASE("a piece that is cut off falls, and the rest hangs") {
+  Preset preset = test::cloth(16, 12, "vbd");
+  preset.pins.mode = Pins::Mode::top_row, preset.tilt_deg = 90;
+  preset.k_s = 1e5, preset.dt = 1.0 / 60, preset.iterations = 1;
+  Simulation simulation(preset);
+  const State start = simulation.read();
+  edit::CutSprings cut;
+  for (int d = 1; d < stretch_directions; ++d)
+    for (int j = 0; j < preset.columns; ++j)
+      if (Lattice{preset.rows, preset.columns}.has_spring(d, 8, j)) cut.springs.push_back({d, 8, j});
+  simulation.apply(cut);
+  simulation.advance(1);
+  const State after = simulation.read();
+  const double fall = preset.g * preset.dt * preset.dt;
+  CHECK(test::position(start, 15 * 12 + 5).y - test::position(after, 15 * 12 + 5).y ==
+        doctest::Approx(fall).epsilon(1e-6));
+  CHECK(test::position(start, 4 * 12 + 5).y - test::position(after, 4 * 12 + 5).y < 0.5 * fall);
+}
+
 TEST_CASE("stiff steps that few passes have not solved are reported in float too") {
   for (const char* integrator : {"projective_dynamics", "vbd"}) {
     CAPTURE(std::string(integrator));

@@ -1,8 +1,16 @@
 #include "core/engines/cpu/block_descent.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace tyglab::cpu {
+namespace {
+
+// In place of a piece.
+constexpr int fixed = -1, unknown = -2;
+
+}  // namespace
 
 template <class R>
 void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed) {
@@ -17,10 +25,13 @@ void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double 
     for (Array<R>* field : {&c_, &q_, &y_}) field->assign(3 * rows * row + lanes, R(0));
     whole_.assign(directions.size() * rows * row + lanes, R(0));
     free_.assign(rows * row + lanes, R(0));
+    piece_of_.assign(std::size_t(cloth.lattice.rows) * std::size_t(columns_), -1);
     rows_ = cloth.lattice.rows;  // now that all of the memory is there
-    changed = true;
   }
-  if (changed) make_masks(cloth, tears);
+  if (!changed && pieces_known_) return;
+  pieces_known_ = false;
+  make_masks(cloth, tears), find_pieces(cloth, tears);
+  pieces_known_ = true;
 }
 
 template <class R>
@@ -44,6 +55,98 @@ void BlockDescent<R>::begin(const Field& c_x, const Field& c_v, int begin, int e
         c_[at(i, c, j)] = c_x.row(i, c)[j], q_[at(i, c, j)] = way;
         y_[at(i, c, j)] = way - (falls ? R(h_ * h_ * gravity_) : R(0));
       }
+}
+
+template <class R>
+void BlockDescent<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
+  const int particles = rows_ * columns_;
+  for (int p = 0; p < particles; ++p)
+    piece_of_[std::size_t(p)] = !cloth.fixed.empty() && cloth.fixed[std::size_t(p)] != 0 ? fixed : unknown;
+  pieces_.clear(), held_.clear();
+  for (int first = 0; first < particles; ++first) {
+    if (piece_of_[std::size_t(first)] != unknown) continue;
+    const int piece = int(pieces_.size());
+    pieces_.push_back({.held_begin = held_.size()});
+    found_.assign(1, first), piece_of_[std::size_t(first)] = piece;
+    // found_ grows as its particles' neighbors are found.
+    for (std::size_t n = 0; n < found_.size(); ++n) {
+      const int i = found_[n] / columns_, j = found_[n] % columns_;
+      const auto look = [&](int d, int owner_i, int owner_j, int to_i, int to_j) {
+        if (!cloth.lattice.has_spring(d, owner_i, owner_j) || !tears.whole(d, owner_i, owner_j)) return;
+        int& of = piece_of_[std::size_t(to_i) * std::size_t(columns_) + std::size_t(to_j)];
+        const Direction& to = directions[std::size_t(d)];
+        if (of == fixed) {
+          const int rest = to.bending ? 2 : to.di != 0 && to.dj != 0 ? 1 : 0;
+          held_.push_back({piece, at(to_i, 0, to_j), at(i, 0, j), rest});
+        } else if (of == unknown) {
+          of = piece, found_.push_back(to_i * columns_ + to_j);
+        }
+      };
+      for (int d = 0; d < int(directions.size()); ++d) {
+        const Direction& to = directions[std::size_t(d)];
+        look(d, i, j, i + to.di, j + to.dj);
+        look(d, i - to.di, j - to.dj, i - to.di, j - to.dj);
+      }
+    }
+    pieces_.back().particles = double(found_.size()), pieces_.back().held_end = held_.size();
+  }
+}
+
+template <class R>
+double BlockDescent<R>::pull_down(const Held& spring, double fallen) const {
+  double moved[3], d[3], square = 0;
+  for (int c = 0; c < 3; ++c) {
+    const std::size_t off = std::size_t(c * component());
+    moved[c] = double(q_[spring.fixed + off]) - double(q_[spring.free + off]) + (c == 1 ? fallen : 0);
+    d[c] = double(c_[spring.fixed + off]) - double(c_[spring.free + off]) + moved[c];
+    square += d[c] * d[c];
+  }
+  const double length = std::sqrt(square), L = constants_.L;
+  if (spring.rest == 2) return length > 0 && length < 2 * L ? constants_.bend * (2 * L / length - 1) * d[1] : 0;
+  const double rest = spring.rest == 1 ? std::numbers::sqrt2 * L : L;
+  const double pull = length > rest ? constants_.stretch * (1 - rest / length) * d[1] : 0;
+  return -pull - constants_.damping * moved[1];
+}
+
+template <class R>
+double BlockDescent<R>::slope(const Piece& piece, double share) const {
+  const double way = h_ * h_ * gravity_;
+  double held = 0;
+  for (std::size_t n = piece.held_begin; n < piece.held_end; ++n) held += pull_down(held_[n], share * way);
+  return piece.particles * (share - 1) - held / way;
+}
+
+template <class R>
+void BlockDescent<R>::weigh() {
+  for (Piece& piece : pieces_) {
+    double low = 0, high = 1;
+    if (gravity_ == 0 || slope(piece, low) >= 0) {
+      high = 0;
+    } else if (slope(piece, high) <= 0) {
+      low = 1;
+    } else {
+      for (int n = 0; n < 10; ++n) {
+        const double middle = (low + high) / 2;
+        (slope(piece, middle) < 0 ? low : high) = middle;
+      }
+    }
+    piece.falls = low;
+  }
+}
+
+template <class R>
+void BlockDescent<R>::fall(int begin, int end) {
+  for (int i = begin; i < end; ++i)
+    for (int j = 0; j < columns_; ++j)
+      if (const int piece = piece_of_[std::size_t(i) * std::size_t(columns_) + std::size_t(j)]; piece != fixed)
+        q_[at(i, 1, j)] -= R(pieces_[std::size_t(piece)].falls * h_ * h_ * gravity_);
+}
+
+template <class R>
+std::size_t BlockDescent<R>::bytes() const {
+  return (c_.size() + q_.size() + y_.size() + whole_.size() + free_.size()) * sizeof(R) +
+         (piece_of_.capacity() + found_.capacity()) * sizeof(int) + pieces_.capacity() * sizeof(Piece) +
+         held_.capacity() * sizeof(Held);
 }
 
 template <class R>

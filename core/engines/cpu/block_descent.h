@@ -8,6 +8,8 @@
 // one color are neighbors in memory, and so are theirs in each direction.
 #pragma once
 
+#include <vector>
+
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/block_rows.h"
 #include "core/engines/cpu/team.h"
@@ -24,6 +26,11 @@ class BlockDescent {
   void prepare(const Cloth<R>& cloth, const Tears& tears, double h, bool changed);
   /// Takes c_x and c_v of rows [begin, end), and begins where inertia alone leads.
   void begin(const Field& c_x, const Field& c_v, int begin, int end);
+  /// Finds how far each piece of the cloth should fall before the first pass, on one thread: a particle between others
+  /// that rest hardly falls, so that passes alone would hold back what falls as a whole.
+  void weigh();
+  /// Lets rows [begin, end) fall that far.
+  void fall(int begin, int end);
   /// Takes `a`, of gravity and wind, in place of gravity alone.
   void accelerate(const Field& c_v, const Field& a, int begin, int end);
   /// A pass over all particles; called by all threads together, each with its rows.
@@ -32,11 +39,29 @@ class BlockDescent {
   void write_positions(Field& x, int begin, int end) const;
   /// Writes v = q/h of free particles.
   void write_velocities(Field& v, int begin, int end) const;
-  std::size_t bytes() const { return (c_.size() + q_.size() + y_.size() + whole_.size() + free_.size()) * sizeof(R); }
+  std::size_t bytes() const;
 
  private:
   static constexpr int lanes = widest_vector / int(sizeof(R)), ghost_rows = 2;  // above and below
+  /// Free particles that whole springs join, by way of free ones.
+  struct Piece {
+    double particles = 0;
+    double falls = 0;  ///< by which share of what gravity would move it alone
+    std::size_t held_begin = 0, held_end = 0;
+  };
+  /// A spring from a fixed particle to a free one.
+  struct Held {
+    int piece;
+    std::size_t fixed, free;  ///< where their x stands in c_ and q_
+    int rest;                 ///< as in BlockRow
+  };
   void make_masks(const Cloth<R>& cloth, const Tears& tears);
+  void find_pieces(const Cloth<R>& cloth, const Tears& tears);
+  /// The slope of the minimized energy where the piece has fallen by that share of gravity's way, over the way's
+  /// square.
+  double slope(const Piece& piece, double share) const;
+  /// The force down on the free end of a spring, times h²/m, where its piece has fallen by `fallen`, m.
+  double pull_down(const Held& spring, double fallen) const;
   /// Where column j of a component begins, from its row's begin.
   std::ptrdiff_t place(int j) const {
     // A column left of the first lies in the zeros before its part.
@@ -60,6 +85,11 @@ class BlockDescent {
   Array<R> c_, q_, y_;  ///< as in BlockRow
   Array<R> whole_;      ///< for each row its six directions: 1 where the particle owns a whole spring, else 0
   Array<R> free_;
+  std::vector<int> piece_of_;  ///< of each particle
+  std::vector<Piece> pieces_;
+  std::vector<Held> held_;     ///< piece by piece
+  std::vector<int> found_;     ///< of one piece while it is found
+  bool pieces_known_ = false;  ///< not before there was memory for all of them
 };
 
 }  // namespace tyglab::cpu

@@ -39,6 +39,10 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   }
   team_->barrier();
   descent_.begin(x, v, begin, end);
+  team_->barrier();
+  if (number == 0) descent_.weigh();
+  team_->barrier();
+  descent_.fall(begin, end);
   for (int n = 0; n < passes; ++n) {
     if (!begin_pass(number, n, sweep, tears)) return false;
     descent_.pass(begin, end, *team_);
