@@ -13,6 +13,7 @@ namespace {
 constexpr float width = 248, height = 74, padding = 14, bar_top = 32, bar_height = 12, ticks_middle = 59;
 
 constexpr float line_width = 228, line_height = 28, line_name = 58, line_top = 66;  // of one on a single line
+constexpr float short_line_width = 158;                                             // the colors are still seen
 
 /// The leading digit of a round number.
 int lead(double value) {
@@ -111,6 +112,10 @@ ImVec2 legend_size(const Theme& theme, float room) {
 
 ImVec2 legend_line_size(const Theme& theme, float room) {
   return {std::min(theme.px(line_width), room), theme.px(line_height)};
+}
+
+ImVec2 legend_short_line_size(const Theme& theme, float room) {
+  return {std::min(theme.px(short_line_width), room), theme.px(line_height)};
 }
 
 ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {

@@ -29,8 +29,10 @@ std::string legend_words(const FieldInfo& field);
 ImVec2 legend_size(const Theme& theme, float room);
 /// The same of one on a single line, for a picture in which it would cover too much.
 ImVec2 legend_line_size(const Theme& theme, float room);
-/// Draws it of either size with its upper left corner there, on a ground of its own. Returns where the number at the
-/// scale's end belongs: the middle of its right end.
+/// The same with colors as short as can be read.
+ImVec2 legend_short_line_size(const Theme& theme, float room);
+/// Draws it of any of these sizes with its upper left corner there, on a ground of its own. Returns where the number at
+/// the scale's end belongs: the middle of its right end.
 ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend);
 
 }  // namespace tyglab

@@ -42,8 +42,8 @@ void top_cell(Ui& ui, FieldColors& colors, ImVec2 right_end) {
 }
 
 /// Where the legend can stand, the best first: where the viewport has room for one more picture, or in a corner; whole,
-/// or else on a single line.
-std::array<std::optional<Box>, 10> legend_places(const Ui& ui) {
+/// or else on a single line, or on a short one.
+std::array<std::optional<Box>, 15> legend_places(const Ui& ui) {
   const Viewport& viewport = ui.viewport;
   const float margin = ui.theme.px(16);
   const auto in = [&](glm::vec2 lo, auto size_in, ScreenCorner corner) {
@@ -55,6 +55,7 @@ std::array<std::optional<Box>, 10> legend_places(const Ui& ui) {
   const glm::vec2 lo = viewport.box.lo;
   return {free ? in(*free, legend_size, ScreenCorner::lower_right) : std::nullopt,
           free ? in(*free, legend_line_size, ScreenCorner::lower_right) : std::nullopt,
+          free ? in(*free, legend_short_line_size, ScreenCorner::lower_right) : std::nullopt,
           in(lo, legend_size, ScreenCorner::lower_right),
           in(lo, legend_size, ScreenCorner::lower_left),
           in(lo, legend_size, ScreenCorner::upper_right),
@@ -62,7 +63,11 @@ std::array<std::optional<Box>, 10> legend_places(const Ui& ui) {
           in(lo, legend_line_size, ScreenCorner::lower_right),
           in(lo, legend_line_size, ScreenCorner::lower_left),
           in(lo, legend_line_size, ScreenCorner::upper_right),
-          in(lo, legend_line_size, ScreenCorner::upper_left)};
+          in(lo, legend_line_size, ScreenCorner::upper_left),
+          in(lo, legend_short_line_size, ScreenCorner::lower_right),
+          in(lo, legend_short_line_size, ScreenCorner::lower_left),
+          in(lo, legend_short_line_size, ScreenCorner::upper_right),
+          in(lo, legend_short_line_size, ScreenCorner::upper_left)};
 }
 
 }  // namespace
