@@ -75,7 +75,7 @@ double error(Preset preset, int steps, const std::vector<glm::dvec3>& exact) {
 TEST_CASE("on a taut cloth each method converges to odeint's motion with its order" * doctest::test_suite("slow")) {
   for (const Scheme& scheme : schemes())
     for (const double k_d : {0.0, 0.002}) {
-      if (chooses_steps(scheme)) continue;        // dopri5_order_test.cpp
+      if (chooses_steps(scheme)) continue;        // inner_steps_order_test.cpp
       if (test::sanitized && k_d == 0) continue;  // nothing that damping leaves out
       CAPTURE(std::string(scheme.name));
       CAPTURE(k_d);

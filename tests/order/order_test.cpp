@@ -20,7 +20,7 @@ struct Row {
 std::vector<Row> rows() {
   std::vector<Row> list;
   for (const Scheme& s : schemes()) {
-    if (chooses_steps(s)) continue;  // dopri5_order_test.cpp
+    if (chooses_steps(s)) continue;  // inner_steps_order_test.cpp
     list.push_back({std::string(s.name), 0, double(s.order_undamped)});
     list.push_back({std::string(s.name), 0.2, double(s.order_damped)});
   }
