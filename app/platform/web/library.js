@@ -61,12 +61,13 @@ addToLibrary({
     },
     resized: () => {
       const canvas = Module.canvas, scale = window.devicePixelRatio || 1;
-      // A finger needs rows of 44 pixels, where there is room for them: not on a phone, which is narrow one way.
+      // A finger needs rows of 44 pixels, where there is room for them: not on a phone, which is narrow one way. There
+      // controls are 32 pixels high and are hit up to 6 pixels beside them.
       const touch = matchMedia('(pointer: coarse)').matches;
       const larger = touch && Math.min(canvas.clientWidth, canvas.clientHeight) >= 600 ? 1.6 : 1;
       canvas.width = Math.max(1, Math.round(canvas.clientWidth * scale));
       canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
-      _tyglab_on_size(canvas.width, canvas.height, scale * larger, touch ? 5 * scale : 0);
+      _tyglab_on_size(canvas.width, canvas.height, scale * larger, touch ? 6 * scale : 0);
     },
     // A file of the person's, put where the program finds it.
     take: async (file) => {
