@@ -7,8 +7,13 @@
 namespace tyglab::cpu {
 namespace {
 
-// In place of a piece.
-constexpr int fixed = -1, unknown = -2;
+// In place of a piece: the particle is fixed, or its piece is not known yet.
+constexpr int of_fixed = -1, of_none = -2;
+
+/// Of a BlockRow's link in that direction.
+int rest_of(const Direction& to) {
+  return to.bending ? 2 : to.di != 0 && to.dj != 0 ? 1 : 0;
+}
 
 }  // namespace
 
@@ -25,7 +30,7 @@ void BlockDescent<R>::prepare(const Cloth<R>& cloth, const Tears& tears, double 
     for (Array<R>* field : {&c_, &q_, &y_}) field->assign(3 * rows * row + lanes, R(0));
     whole_.assign(directions.size() * rows * row + lanes, R(0));
     free_.assign(rows * row + lanes, R(0));
-    piece_of_.assign(std::size_t(cloth.lattice.rows) * std::size_t(columns_), -1);
+    piece_of_.assign(std::size_t(cloth.lattice.rows) * std::size_t(columns_), of_none);
     rows_ = cloth.lattice.rows;  // now that all of the memory is there
   }
   if (!changed && pieces_known_) return;
@@ -61,10 +66,10 @@ template <class R>
 void BlockDescent<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
   const int particles = rows_ * columns_;
   for (int p = 0; p < particles; ++p)
-    piece_of_[std::size_t(p)] = !cloth.fixed.empty() && cloth.fixed[std::size_t(p)] != 0 ? fixed : unknown;
+    piece_of_[std::size_t(p)] = !cloth.fixed.empty() && cloth.fixed[std::size_t(p)] != 0 ? of_fixed : of_none;
   pieces_.clear(), held_.clear();
   for (int first = 0; first < particles; ++first) {
-    if (piece_of_[std::size_t(first)] != unknown) continue;
+    if (piece_of_[std::size_t(first)] != of_none) continue;
     const int piece = int(pieces_.size());
     pieces_.push_back({.held_begin = held_.size()});
     found_.assign(1, first), piece_of_[std::size_t(first)] = piece;
@@ -74,13 +79,8 @@ void BlockDescent<R>::find_pieces(const Cloth<R>& cloth, const Tears& tears) {
       const auto look = [&](int d, int owner_i, int owner_j, int to_i, int to_j) {
         if (!cloth.lattice.has_spring(d, owner_i, owner_j) || !tears.whole(d, owner_i, owner_j)) return;
         int& of = piece_of_[std::size_t(to_i) * std::size_t(columns_) + std::size_t(to_j)];
-        const Direction& to = directions[std::size_t(d)];
-        if (of == fixed) {
-          const int rest = to.bending ? 2 : to.di != 0 && to.dj != 0 ? 1 : 0;
-          held_.push_back({piece, at(to_i, 0, to_j), at(i, 0, j), rest});
-        } else if (of == unknown) {
-          of = piece, found_.push_back(to_i * columns_ + to_j);
-        }
+        if (of == of_fixed) held_.push_back({at(to_i, 0, to_j), at(i, 0, j), rest_of(directions[std::size_t(d)])});
+        if (of == of_none) of = piece, found_.push_back(to_i * columns_ + to_j);
       };
       for (int d = 0; d < int(directions.size()); ++d) {
         const Direction& to = directions[std::size_t(d)];
@@ -119,16 +119,14 @@ double BlockDescent<R>::slope(const Piece& piece, double share) const {
 template <class R>
 void BlockDescent<R>::weigh() {
   for (Piece& piece : pieces_) {
+    piece.falls = 0;
+    if (gravity_ == 0 || slope(piece, 0) >= 0) continue;
+    piece.falls = 1;
+    if (slope(piece, 1) <= 0) continue;
     double low = 0, high = 1;
-    if (gravity_ == 0 || slope(piece, low) >= 0) {
-      high = 0;
-    } else if (slope(piece, high) <= 0) {
-      low = 1;
-    } else {
-      for (int n = 0; n < 10; ++n) {
-        const double middle = (low + high) / 2;
-        (slope(piece, middle) < 0 ? low : high) = middle;
-      }
+    for (int n = 0; n < 10; ++n) {
+      const double middle = (low + high) / 2;
+      (slope(piece, middle) < 0 ? low : high) = middle;
     }
     piece.falls = low;
   }
@@ -138,7 +136,7 @@ template <class R>
 void BlockDescent<R>::fall(int begin, int end) {
   for (int i = begin; i < end; ++i)
     for (int j = 0; j < columns_; ++j)
-      if (const int piece = piece_of_[std::size_t(i) * std::size_t(columns_) + std::size_t(j)]; piece != fixed)
+      if (const int piece = piece_of_[std::size_t(i) * std::size_t(columns_) + std::size_t(j)]; piece != of_fixed)
         q_[at(i, 1, j)] -= R(pieces_[std::size_t(piece)].falls * h_ * h_ * gravity_);
 }
 
@@ -168,7 +166,7 @@ void BlockDescent<R>::descend(int i, int part) {
   const std::ptrdiff_t here = std::ptrdiff_t(at(i, 0, part));
   for (int d = 0; d < int(directions.size()); ++d) {
     const Direction& to = directions[std::size_t(d)];
-    const int rest = to.bending ? 2 : to.di != 0 && to.dj != 0 ? 1 : 0;
+    const int rest = rest_of(to);
     row.links[std::size_t(2 * d)] = {std::ptrdiff_t(at(i + to.di, 0, part + to.dj)) - here,
                                      whole_.data() + mask_at(i, d, part), rest};
     row.links[std::size_t(2 * d + 1)] = {std::ptrdiff_t(at(i - to.di, 0, part - to.dj)) - here,

@@ -51,7 +51,6 @@ class BlockDescent {
   };
   /// A spring from a fixed particle to a free one.
   struct Held {
-    int piece;
     std::size_t fixed, free;  ///< where their x stands in c_ and q_
     int rest;                 ///< as in BlockRow
   };
