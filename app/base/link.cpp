@@ -64,6 +64,27 @@ bool is_shipped_preset(const std::string& name) {
   return std::binary_search(names.begin(), names.end(), name);
 }
 
+/// The preset that a frame in a course's page names, as in ?embed&preset=flag&panels=0; empty if it names none.
+std::string framed_preset(std::string_view link) {
+  std::string name;
+  std::string_view rest = link.substr(std::min(link.find('?'), link.size() - 1) + 1);
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('&'), rest.size());
+    const std::string part = decoded(rest.substr(0, end), link), key = part.substr(0, part.find('='));
+    const std::string value = part.substr(std::min(key.size() + 1, part.size()));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (key == "lab")
+      throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
+                        in_one_line(value) + ".");
+    if (key == "preset")
+      name = value;
+    else if (key != "embed" && key != "panels")
+      fail(link, "has no #, after which constants such as '" + in_one_line(part) + "' stand.");
+  }
+  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: '" + in_one_line(name) + "'.");
+  return name;
+}
+
 }  // namespace
 
 bool is_link(std::string_view text) {
@@ -78,15 +99,7 @@ LinkedPreset read_link(std::string_view text) {
   LinkedPreset linked{default_preset, {}};
   const std::size_t hash = text.find('#');
   if (hash == std::string_view::npos) {
-    // A frame in a course's page names its preset as ?embed&preset=flag.
-    constexpr std::string_view key = "preset=";
-    const std::size_t at = std::min(text.find("?preset="), text.find("&preset="));
-    if (at != std::string_view::npos) {
-      const std::string_view value = text.substr(at + 1 + key.size());
-      linked.name = decoded(value.substr(0, value.find('&')), text);
-      if (!is_shipped_preset(linked.name)) fail(text, "names no shipped preset: '" + in_one_line(linked.name) + "'.");
-      return linked;
-    }
+    if (const std::string name = framed_preset(text); !name.empty()) return {name, {}};
     // The page's own address is that of its first experiment; what else it says was meant for another place.
     if (text.find_first_of("&=%") != std::string_view::npos) fail(text, "has no #, after which the experiment stands.");
     return linked;

@@ -83,6 +83,17 @@ std::string unexpected(const CLI::ExtrasError& error) {
   return "Not expected here: " + list + ". Options come after their command, as in `tyglab run denim --steps 4`.";
 }
 
+/// What CLI11 says in words of its own; empty for all else.
+std::string in_plain_words(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::size_t twice = text.find(": At Most 1 required"), both = text.find(" excludes ");
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && twice != std::string::npos)
+    return text.substr(0, twice) + ": is given more than once; give it once.";
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr && both != std::string::npos)
+    return text.substr(0, both) + " and " + text.substr(both + 10) + " cannot be given together.";
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::string> command_names(const CLI::App& command) {
@@ -102,6 +113,10 @@ int exit_of_parsing(const CLI::App& program, const CLI::ParseError& error, std::
     }
     if (const auto* extras = dynamic_cast<const CLI::ExtrasError*>(&error)) {
       complain(unexpected(*extras));
+      return exit_command_line;
+    }
+    if (const std::string problem = in_plain_words(error); !problem.empty()) {
+      complain(problem);
       return exit_command_line;
     }
     return program.exit(error) == 0 ? exit_done : exit_command_line;

@@ -5,6 +5,7 @@
 #include "app/cli/command_line.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/system_files.h"
 
 namespace tyglab {
@@ -19,9 +20,7 @@ bool is_plain(const fs::path& file) {
 
 bool same_file(const fs::path& a, const fs::path& b) {
   if (is_standard_output(a) || is_standard_output(b)) return is_standard_output(a) && is_standard_output(b);
-  std::error_code error;
-  const auto place = [&](const fs::path& file) { return fs::weakly_canonical(fs::absolute(file, error), error); };
-  return is_plain(a) && is_plain(b) && place(a) == place(b);
+  return is_plain(a) && is_plain(b) && output_place(a) == output_place(b);
 }
 
 }  // namespace

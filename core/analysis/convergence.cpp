@@ -109,9 +109,10 @@ std::string convergence_words(const Convergence& study) {
   const std::string method(scheme(study.of.integrator).title);
   std::string words = diverged_words(study);
   if (!order)
-    return words + (words.empty()
-                        ? "The error is below that of the reference, so it cannot be measured. Use a larger dt."
-                        : "Use a smaller dt.");
+    return words +
+           (words.empty()
+                ? "The error is less than ten times that of the reference, so it cannot be measured. Use a larger dt."
+                : "Use a smaller dt.");
   words += printed("Measured order %.2f", order->order);
   if (order->by_differences) words += " from differences between runs, since no reference is accurate enough";
   words += printed("; %s has %d for smooth motion. ", method.c_str(), nominal);
@@ -120,7 +121,8 @@ std::string convergence_words(const Convergence& study) {
   const auto hidden =
       std::find_if(study.points.begin(), study.points.end(), [](const auto& point) { return !point.resolved; });
   if (!order->by_differences && hidden != study.points.end())
-    words += "From dt = " + short_number(hidden->dt, 3) + " s down the error is below that of the reference, " +
+    words += "From dt = " + short_number(hidden->dt, 3) +
+             " s down the error is less than ten times that of the reference, " +
              short_number(study.reference.agreement_rms_m, 2) + " m. ";
   words.pop_back();
   return words;

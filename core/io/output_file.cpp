@@ -70,6 +70,11 @@ void stop_waiting_outputs_when(Stop stop) {
   stop_waiting = std::move(stop);
 }
 
+fs::path output_place(const fs::path& file) {
+  std::error_code error;
+  return fs::weakly_canonical(followed(fs::absolute(file, error)), error);
+}
+
 fs::path incomplete_file(const fs::path& file) {
   std::error_code error;
   if (file.empty() || os::is_stream(file)) return {};

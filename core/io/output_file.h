@@ -25,6 +25,9 @@ void stop_waiting_outputs_when(Stop stop);
 /// names a folder, its folder is missing or closed, or a read-only file stands there. Nothing is touched.
 void check_output(const std::filesystem::path& file);
 
+/// Where an output of that name goes: absolute, and through links, also those to what is not there yet.
+std::filesystem::path output_place(const std::filesystem::path& file);
+
 /// Where the part of an output stands that was written before an interrupt; empty if there is none.
 std::filesystem::path incomplete_file(const std::filesystem::path& file);
 

@@ -37,7 +37,7 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
   const std::string tolerance = "The tolerance " + short_number(p.tolerance) + " m is ";
   const std::string precision = p.precision == Precision::float_ ? "float" : "double";
   if (inner.below_digits > 0)
-    return tolerance + "below what " + precision + " resolves: the last digit of the largest coordinate is more. Use " +
+    return tolerance + "below what " + precision + " can resolve at these coordinates. Use " +
            (p.precision == Precision::float_ ? "a larger one, or double precision." : "a larger one.");
   return tolerance +
          "not reached by the shortest inner steps, a ten-thousandth of dt: use a smaller dt or a larger "
@@ -47,19 +47,21 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
 std::string solves_missed(const SolveCounts& solves, const Preset& p) {
   if (solves.unconverged == 0) return "";
   const bool one = solves.unconverged == 1;
+  constexpr double much = 0.1;
   const double worst = solves.worst_residual;
   const std::string left = !std::isfinite(worst) ? "forces that are no numbers were left"
                            : worst < 1
                                ? "up to " + short_number(100 * worst, 2) + " % of the largest force was left over"
                                : "up to " + short_number(worst, 2) + " times the largest force was left over";
   const std::string said = std::to_string(solves.unconverged) + (one ? " step" : " steps") + " did not converge (" +
-                           left + "), so the motion is not quite " +
+                           left + "), so the motion is " + (worst < much ? "not quite " : "not ") +
                            (counts_passes(scheme(p.integrator)) ? "implicit Euler's. " : "the method's. ");
   const std::string passes = counts_passes(scheme(p.integrator))
                                  ? "Each step ends after " + std::to_string(p.iterations) +
                                        (p.iterations == 1 ? " pass, " : " passes, ") + "converged or not. "
                              : p.iterations == 1 ? "With iterations = 1 a step is a single linear solve. "
                                                  : "";
+  if (solves_damping(scheme(p.integrator))) return said + "Use a smaller dt or a smaller k_d.";
   const bool more = p.iterations < int(find_row("iterations")->max);
   return said + passes + (more ? "Use a smaller dt or more iterations." : "Use a smaller dt.");
 }
@@ -107,6 +109,8 @@ std::string method_to_blame(const Preset& p) {
     case Zone::stable:
       break;
   }
+  if (chooses_steps(method))
+    return title + " may need inner steps shorter than a ten-thousandth of dt = " + short_number(p.dt) + " s here";
   return "linear theory finds " + title + " stable " + at_dt + ", but leaves out bodies, springs that switch or tear" +
          (is_implicit(method) ? ", and solves that do not converge" : "");
 }

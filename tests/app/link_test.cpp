@@ -62,7 +62,7 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(read_link("HTTPS://example.org/?embed&preset=flag&panels=0").name == "flag");
   CHECK(read_link("https://example.org/?preset=sphere").name == "sphere");
   for (const char* link : {"https://example.org/hanging&k_s=300", "https://example.org/%23flag",
-                           "https://example.org/?embed&lab=03_stiffness"})
+                           "https://example.org/?embed&preset=flag&k_s=300"})
     CHECK_THROWS_WITH_AS(read_link(link), doctest::Contains("has no #"), PresetError);
   CHECK(is_link("#flag"));
   CHECK(is_link("Http://a"));
@@ -74,6 +74,7 @@ TEST_CASE("a whole address, its end and no link at all are read") {
 TEST_CASE("what is wrong with a link is named") {
   CHECK(problem_of("#nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
   CHECK(problem_of("#flag&k_s").find("no KEY=VALUE: 'k_s'") != std::string::npos);
+  CHECK(problem_of("https://a.b/?embed&lab=03_stiffness").find("tyglab --lab 03_stiffness") != std::string::npos);
   CHECK(problem_of("#flag&=3").find("no KEY=VALUE: '=3'") != std::string::npos);
   CHECK(problem_of("https://a.b/?preset=nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%4").find("hexadecimal") != std::string::npos);

@@ -204,12 +204,13 @@ TEST_CASE("symbols are taken apart into base, subscript and dots") {
 
 TEST_CASE("a plot's scale survives blow-ups, constants and nothing at all") {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  std::vector<double> x, calm, blown, constant, broken;
+  std::vector<double> x, calm, blown, constant, broken, rest;
   for (int n = 0; n < 500; ++n) {
     x.push_back(n * 0.01);
     calm.push_back(std::sin(n * 0.1));
     blown.push_back(n < 495 ? std::sin(n * 0.1) : std::pow(10.0, n - 400));
     constant.push_back(2);
+    rest.push_back(0.9018 + 1e-15 * n);
     broken.push_back(n % 2 == 0 ? NAN : inf);
   }
   for (const bool log : {false, true}) {
@@ -224,6 +225,8 @@ TEST_CASE("a plot's scale survives blow-ups, constants and nothing at all") {
       CHECK(range.ticks.size() < 100);
     }
     if (log) continue;
+    const PlotRange still = plot_range(std::vector<PlotCurve>{{"y", {}, x, rest}}, frame);
+    CHECK(still.hi - still.lo > 0.01);  // rounding is no motion
     const PlotRange range = plot_range(curves[1], frame);
     CHECK(range.hi < 100);
     CHECK(range.hi >= 1);

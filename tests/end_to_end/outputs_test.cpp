@@ -161,6 +161,19 @@ TEST_CASE("6: a read-only file stops a command before its work, whoever runs it"
   }
 }
 
+TEST_CASE("2: two outputs that are one file are refused, also by links to what is not there yet") {
+  const test::TemporaryFolder folder;
+  fs::create_symlink("m.csv", folder / "l.csv"), fs::create_symlink("s.csv", folder / "m.csv");
+  for (const char* other : {"s.csv", "./s.csv", "m.csv"}) {
+    CAPTURE(std::string(other));
+    const auto outcome =
+        test::tyglab(folder.path(), {"run", "hanging", "--steps", "1", "--state", other, "--series", "l.csv"});
+    CHECK(outcome.code == 2);
+    CHECK(outcome.err.find("both go to") != std::string::npos);
+  }
+  CHECK_FALSE(fs::exists(folder / "s.csv"));
+}
+
 TEST_CASE("130: one signal ends a run whose output has no reader") {
   const test::TemporaryFolder folder;
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);

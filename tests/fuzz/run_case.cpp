@@ -118,7 +118,7 @@ Preset preset_of(Random& random, bool with_opencl) {
 double visits_of_step(const Preset& p) {
   const Scheme& method = scheme(p.integrator);
   const double particles = p.kind == Kind::cloth ? double(p.rows) * p.columns : 1;
-  double sweeps = double(method.sweeps.size());
+  double sweeps = double(method.tables.empty() ? method.sweeps.size() : method.tables.back().sweeps.size());
   if (iterates(method)) sweeps *= p.iterations;
   if (is_implicit(method)) sweeps *= 30 + max_gradient_steps({p.rows, p.columns});
   if (chooses_steps(method)) sweeps *= 1e4;

@@ -41,7 +41,7 @@ std::vector<std::string> facts_of(const Ui& ui) {
   const std::string every = std::to_string(ui.scene.view.every);
   if (ui.scene.view.every > 1) facts.front() += ", one particle in " + every + " × " + every + " drawn";
   if (const int torn = ui.session.simulation->tears().torn_count(); torn > 0)
-    facts.push_back(std::to_string(torn) + (torn == 1 ? " spring torn" : " springs torn"));
+    facts.push_back(std::to_string(torn) + (torn == 1 ? " spring" : " springs") + " torn or cut");
   if (ui.session.asleep()) facts.emplace_back("at rest: asleep until touched");
   if (const std::string without = ui.scene.effects.words(); !without.empty()) facts.push_back("without " + without);
   return facts;
