@@ -93,7 +93,7 @@ TEST_CASE("errors that the reference cannot tell are left out and named") {
   study.points = {{1e-3, 1.6e-4, -1, true}, {5e-4, 1e-5, -1, true}, {2.5e-4, 3e-9, -1, false}};
   CHECK(measured_order(study)->order == doctest::Approx(4));
   CHECK(measured_order(study)->finest == 5e-4);
-  CHECK(convergence_words(study).find("From dt = 2.5e-4 s down the error is below") != std::string::npos);
+  CHECK(convergence_words(study).find("From dt = 2.5e-4 s down the error is less than ten times") != std::string::npos);
   // One that can be told makes no slope: then the runs are compared with each other.
   study.points = {{1e-3, 1e-8, 8e-9, true}, {5e-4, 3e-9, 5e-10, false}, {2.5e-4, 2e-9, -1, false}};
   CHECK(measured_order(study)->by_differences);

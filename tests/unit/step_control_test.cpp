@@ -143,7 +143,7 @@ TEST_CASE("in float a tolerance under the last digit ends, and is said") {
   const InnerSteps inner = simulation.engine().inner_steps();
   CHECK(inner.below_digits == inner.accepted);
   CHECK(inner.accepted < 2000);
-  CHECK(tolerance_missed(preset, inner).find("below what float resolves") != std::string::npos);
+  CHECK(tolerance_missed(preset, inner).find("below what float can resolve") != std::string::npos);
 }
 
 TEST_CASE("what no inner step is short enough for is found as a divergence, with the state before that dt") {
