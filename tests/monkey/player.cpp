@@ -313,7 +313,9 @@ bool Player::with_file(const Action& action) {
 void Player::undo_redo() {
   Ui& ui = window_->ui;
   Session& session = window_->session;
-  const bool simple = session.history.can_undo() && !session.auto_dt && !session.labs.run && !session.rebuild.busy();
+  // Nothing is under way that changes a constant by itself.
+  const bool simple = session.history.can_undo() && !session.auto_dt && !session.labs.run && !session.rebuild.busy() &&
+                      !session.studies.engine.busy();
   if (!simple || ui.dialog.kind != Dialog::Kind::none) return;
   Preset before = session.requested_preset();
   int undone = 0;
