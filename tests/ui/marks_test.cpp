@@ -114,6 +114,22 @@ TEST_CASE("the names of copies, the legend and the scales keep apart beside, abo
   }
 }
 
+TEST_CASE("a window of any width is drawn, also where a control has no room at all") {
+  for (const char* theme : {"light", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window(options({{900, 600}, 1.5, theme}, "hanging", "tension"));
+    for (const bool presenting : {false, true}) {
+      CAPTURE(presenting);
+      if (presenting) window.key(GLFW_KEY_F5);
+      for (int width = 200; width < 700; ++width) {
+        CAPTURE(width);
+        window.resize({width, 828});
+        window.frames(1);
+      }
+    }
+  }
+}
+
 TEST_CASE("PAUSED stands clear of the one weight's spring") {
   for (const LookCase& look : std::span(looks).first(5)) {
     CAPTURE(look.size.x);

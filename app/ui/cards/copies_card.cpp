@@ -90,7 +90,7 @@ void head(Ui& ui) {
     right_aligned(ui, *ui.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
     const float width = ui.theme.px(cost_at_1);
     ImGui::SetCursorScreenPos({lo.x + at.cost - width, lo.y});
-    ImGui::InvisibleButton("cost", {width, ui.theme.px(card::line)});
+    gui::press_area("cost", {width, ui.theme.px(card::line)});
     report_control(ui, "cost");
     tooltip(ui, gui::item_id(),
             "Seconds of computing per simulated second, on the thread that makes the steps. What other programs take "
@@ -117,8 +117,7 @@ void cloth_line(Ui& ui, int n) {
   const float name_middle = std::round(lo.y + ui.theme.px(line_at_1) / 2),
               middle = above ? std::round(lo.y + height - ui.theme.px(line_at_1) / 2) : name_middle;
   ImGui::PushID(n);
-  if (ImGui::InvisibleButton("cloth", {at.apart, height}) && copies.reference != n)
-    copies.reference = n, copies.forget();
+  if (gui::press_area("cloth", {at.apart, height}) && copies.reference != n) copies.reference = n, copies.forget();
   report_control(ui, n == Copies::original ? "original" : "copy" + std::to_string(n));
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),

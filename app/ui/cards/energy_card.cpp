@@ -37,7 +37,7 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   const bool unexplained = row.kind == EnergyKind::unexplained;
   const double part = reading.scale > 0 ? row.joule / reading.scale : 0;
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
-  ImGui::InvisibleButton("energy", {width, height});
+  gui::press_area("energy", {width, height});
   report_control(ui, "line");
   tooltip(ui, gui::item_id(), std::string(row.help) + (unexplained ? " Now " + share_text(reading) + "." : ""));
   ImGui::PopID();

@@ -55,7 +55,7 @@ void legend(Ui& ui, ImVec2 corner, const LegendPlaces& places) {
     const ImVec2 lo{corner.x + places.at[k].x, corner.y + places.at[k].y};
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(int(k));
-    if (ImGui::InvisibleButton("curve", {places.width[k], line})) plots.hidden[k] = !plots.hidden[k];
+    if (gui::press_area("curve", {places.width[k], line})) plots.hidden[k] = !plots.hidden[k];
     report_control(ui, "curve." + std::string(force_keys[k]));
     const float opacity = plots.hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
     CurveStyle style = curve_style(ui.theme.colors, force_keys[k]);

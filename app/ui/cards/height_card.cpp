@@ -53,7 +53,7 @@ void figure_legend(Ui& ui, const Region& place) {
     const float x = place.at.x + places[k].x, y = place.at.y + places[k].y * line;
     ImGui::SetCursorScreenPos({x, y});
     ImGui::PushID(int(k));
-    if (ImGui::InvisibleButton("figure", {width, line})) plots.figure_hidden[k] = !plots.figure_hidden[k];
+    if (gui::press_area("figure", {width, line})) plots.figure_hidden[k] = !plots.figure_hidden[k];
     report_control(ui, ReferenceCurves::titles[k]);
     const float opacity = plots.figure_hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
     CurveStyle style = integrator_style(c, ReferenceCurves::curves[k]);

@@ -52,7 +52,7 @@ void stability_map(Ui& ui, ImVec2 size) {
   const PlotAxes axes = draw_chart({*ImGui::GetWindowDrawList(), ui.theme, ui.fonts}, lo, size, chart);
   ImGui::SetCursorScreenPos(axes.lo);
   const bool clicked =
-      ImGui::InvisibleButton("map", {std::max(axes.hi.x - axes.lo.x, 1.f), std::max(axes.hi.y - axes.lo.y, 1.f)});
+      gui::press_area("map", {std::max(axes.hi.x - axes.lo.x, 1.f), std::max(axes.hi.y - axes.lo.y, 1.f)});
   report_control(ui, "map");
   const auto place = place_at(axes, map->grid, ImGui::GetIO().MousePos);
   if (!place || !ImGui::IsItemHovered()) return;

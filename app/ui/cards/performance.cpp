@@ -118,7 +118,7 @@ void feature_line(Ui& ui, const FeatureRow& row, float width) {
   const float name_baseline = baseline_at(ui.fonts, std::round(lo.y + line / 2));
   const float baseline = below ? name_baseline + line : name_baseline;
   ImGui::PushID(row.name.data(), row.name.data() + row.name.size());
-  ImGui::InvisibleButton("feature", {width, height});
+  gui::press_area("feature", {width, height});
   tooltip(ui, gui::item_id(), row.help);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -153,7 +153,7 @@ void fact_line(Ui& ui, const PerformanceFact& fact, float width) {
   const FactPlaces places = fact_places(ui, fact, width);
   float baseline = baseline_at(ui.fonts, std::round(lo.y + ui.theme.px(card::line) / 2));
   ImGui::PushID(fact.name.data(), fact.name.data() + fact.name.size());
-  ImGui::InvisibleButton("fact", {width, places.height});
+  gui::press_area("fact", {width, places.height});
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, c.quiet, fact.name);

@@ -139,8 +139,7 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
   const float name_middle = std::round(lo.y + row / 2), middle = above ? name_middle + row : name_middle;
   const Preset with = with_setting(ui.session.requested_preset(), point);
   ImGui::PushID(n);
-  if (ImGui::InvisibleButton("setting", {at.whole, height}))
-    ui.session.request(request::Apply{.edit = edit::Change{with}});
+  if (gui::press_area("setting", {at.whole, height})) ui.session.request(request::Apply{.edit = edit::Change{with}});
   report_control(ui, "setting" + std::to_string(n + 1));
   const bool hovered = ImGui::IsItemHovered();
   const bool own = point.tolerance > 0;

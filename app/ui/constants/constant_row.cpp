@@ -7,6 +7,7 @@
 #include "app/base/numbers.h"
 #include "app/ui/constants/resolution_row.h"
 #include "app/ui/constants/zones.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/slider.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
@@ -206,7 +207,7 @@ void row_menu(Ui& ui, const Line& line, ImVec2 lo, ImVec2 hi) {
 void symbol_cell(Ui& ui, const Line& line, const RowColumns& columns) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton("symbol", {columns.symbol, columns.height});
+  gui::press_area("symbol", {columns.symbol, columns.height});
   if (ImGui::IsItemActive() && ui.input.double_click && !std::isnan(line.saved[0])) line.set(line.saved, 0);
   bool changed = false;
   for (int k = 0; k < line.components; ++k) changed |= !std::isnan(line.saved[k]) && line.saved[k] != line.value[k];

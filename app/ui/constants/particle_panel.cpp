@@ -130,7 +130,7 @@ void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout,
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = line_height(ui), middle = std::round(lo.y + height / 2);
   ImGui::PushID(key.data(), key.data() + key.size());
-  if (ImGui::InvisibleButton("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
+  if (gui::press_area("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
   report_control(ui, key);
   tick_and_sample(ui, key, lo.x, middle);
   variable_tooltip(ui, gui::item_id(), what, value_of(readout, key), lacks_contact(readout, key));

@@ -68,7 +68,7 @@ void gauge_tooltips(Ui& ui, const StabilityLimits& limits, double dt, ImVec2 lo,
       report_control(ui, "gauge " + std::string(mark.name));
     }
   ImGui::SetCursorScreenPos(lo);
-  ImGui::InvisibleButton("gauge", {hi.x - lo.x, hi.y - lo.y});
+  gui::press_area("gauge", {hi.x - lo.x, hi.y - lo.y});
   report_control(ui, "stability");
   const float pointer = ImGui::GetIO().MousePos.x;
   const auto off = [&](const GaugeMark& mark) { return std::abs(pointer - x_of(mark)); };
@@ -87,7 +87,7 @@ void auto_toggle(Ui& ui, ImVec2 at, float width, float height) {
   const bool on = ui.session.auto_dt.has_value();
   const ImVec2 after = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos(at);
-  if (ImGui::InvisibleButton("auto", {width, height})) ui.command("toggle_auto");
+  if (gui::press_area("auto", {width, height})) ui.command("toggle_auto");
   report_control(ui, "auto");
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),

@@ -133,7 +133,7 @@ std::vector<CardRow> card_rows(const Ui& ui, const std::vector<int>& found, int 
 /// Returns whether it was clicked.
 bool one_card(Ui& ui, const GalleryCard& card, const CardShape& shape, float height, bool chosen) {
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + shape.width, lo.y + height};
-  const bool clicked = ImGui::InvisibleButton("card", {shape.width, height});
+  const bool clicked = gui::press_area("card", {shape.width, height});
   report_control(ui, "entry." + (card.section == scenes ? card.entry.keys : card.entry.title));
   if (ImGui::IsItemHovered() && !card_text(ui, card, shape).whole) tooltip(ui, gui::item_id(), card.entry.purpose);
   if (ImGui::IsRectVisible(lo, hi)) draw_gallery_card(ui, card, lo, shape, height, chosen || ImGui::IsItemHovered());

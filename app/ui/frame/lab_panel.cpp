@@ -91,7 +91,7 @@ void choice_list(Ui& ui, const Prediction& asked, StepRecord& record) {
     const ImFont& font = *ui.fonts.text;
     const std::string words = in_lines(font, asked.choices[std::size_t(k)], width - indent - pad);
     const float height = font.CalcTextSizeA(font.FontSize, 1e9f, 0, words.c_str()).y + 2 * pad;
-    if (ImGui::InvisibleButton("choice", {width, height})) record.chosen = k, clicked = true;
+    if (gui::press_area("choice", {width, height})) record.chosen = k, clicked = true;
     report_control(ui, "choice." + std::to_string(k + 1));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (chosen || ImGui::IsItemHovered())

@@ -27,7 +27,7 @@ void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& w
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, ImVec2(1, 1));
   if (ImGui::Begin(id, nullptr,
                    (region_flags & ~ImGuiWindowFlags_NoBringToFrontOnFocus) | ImGuiWindowFlags_NoBackground)) {
-    ImGui::InvisibleButton("grip", region.size);
+    gui::press_area("grip", region.size);
     if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
       ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
       ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom}, ui.theme.colors.accent, ui.theme.px(2));

@@ -189,7 +189,7 @@ int palette_list(Ui& ui, const std::vector<int>& found, float height, bool moved
   for (int k = 0; k < int(found.size()); ++k) {
     ImGui::PushID(k);
     const PaletteEntry& entry = palette.entries[std::size_t(found[std::size_t(k)])];
-    if (ImGui::InvisibleButton("entry", {width, row_height(ui, entry, width)})) clicked = found[std::size_t(k)];
+    if (gui::press_area("entry", {width, row_height(ui, entry, width)})) clicked = found[std::size_t(k)];
     report_control(ui, entry.group + "." + entry.title);
     const ImVec2 way = ImGui::GetIO().MouseDelta;
     if (ImGui::IsItemHovered() && (way.x != 0 || way.y != 0)) palette.selected = k;

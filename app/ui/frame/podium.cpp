@@ -51,7 +51,7 @@ void time_line(Ui& ui, ImVec2 at, float end) {
   const float left = std::max(at.x + text_width(mono, time) + ui.theme.px(10), end - text_width(mono, after));
   if (left + text_width(mono, after) > end + ui.theme.px(podium_gap_at_1 - 4)) return;
   ImGui::SetCursorScreenPos({left, at.y});
-  ImGui::InvisibleButton("real_time", {text_width(mono, after), height});
+  gui::press_area("real_time", {text_width(mono, after), height});
   report_control(ui, "real_time");
   tooltip(ui, gui::item_id(), real_time_tip);
   draw_on_baseline(*ImGui::GetWindowDrawList(), mono, {left, baseline}, real.color, after);

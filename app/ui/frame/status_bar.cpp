@@ -66,7 +66,7 @@ float draw_facts(Ui& ui, ImDrawList& draw, ImVec2 right, float room) {
   const float x = right.x - text_width(font, shown);
   draw_text(draw, font, {x, right.y}, ui.theme.colors.quiet, shown);
   ImGui::SetCursorScreenPos({x, right.y});
-  ImGui::InvisibleButton("facts", {std::max(right.x - x, 1.f), font.FontSize});
+  gui::press_area("facts", {std::max(right.x - x, 1.f), font.FontSize});
   report_control(ui, "facts");
   if (shown != all) tooltip(ui, gui::item_id(), all);
   return x;

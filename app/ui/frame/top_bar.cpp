@@ -25,7 +25,7 @@ float brand(Ui& ui, float x) {
   const float height = ui.theme.px(32), y = bar_middle(ui, height), padding = ui.theme.px(8);
   const float width = text_width(font, "Tyglab") + 2 * padding;
   ImGui::SetCursorScreenPos({x - padding, y});
-  if (ImGui::InvisibleButton("brand", {width, height})) ui.command("start_page");
+  if (gui::press_area("brand", {width, height})) ui.command("start_page");
   report_control(ui, "brand");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered())
@@ -44,7 +44,7 @@ float menu_button(Ui& ui, float x) {
   const Tokens& c = ui.theme.colors;
   const float height = ui.theme.px(32), y = bar_middle(ui, height), width = menu_width(ui);
   ImGui::SetCursorScreenPos({x, y});
-  if (ImGui::InvisibleButton("menu", {width, height})) ImGui::OpenPopup("application");
+  if (gui::press_area("menu", {width, height})) ImGui::OpenPopup("application");
   report_control(ui, "menu");
   const bool open = ImGui::IsPopupOpen("application");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -73,7 +73,7 @@ float document_name(Ui& ui, float x, float width) {
   const float text = text_width(*ui.fonts.text, name);
   ImGui::SetCursorScreenPos({x, y});
   const float whole = text + dot + 2 * padding;
-  if (ImGui::InvisibleButton("name", {whole, height})) ui.command("open_dialog");
+  if (gui::press_area("name", {whole, height})) ui.command("open_dialog");
   report_control(ui, "name");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered()) draw.AddRectFilled({x, y}, {x + whole, y + height}, c.field, ui.theme.px(5));
@@ -110,7 +110,7 @@ float reading(Ui& ui, float x, float end, const char* label, const std::string& 
   const float height = ui.theme.px(32), y = bar_middle(ui, height);
   ImGui::SetCursorScreenPos({x, y});
   ImGui::PushID(tip);
-  ImGui::InvisibleButton("reading", {width, height});
+  gui::press_area("reading", {width, height});
   tooltip(ui, gui::item_id(), tip);
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -21,6 +21,11 @@ inline bool begin_child(const char* id, ImVec2 size, ImGuiWindowFlags flags = 0)
 #endif
 }
 
+/// What can be pointed at and pressed. Dear ImGui aborts where there is no room at all, as in a very narrow window.
+inline bool press_area(const char* id, ImVec2 size) {
+  return ImGui::InvisibleButton(id, {size.x > 1 ? size.x : 1, size.y > 1 ? size.y : 1});
+}
+
 inline ImGuiID item_id() {
   return ImGui::GetItemID();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/base/numbers.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
@@ -109,7 +110,7 @@ PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) 
 
 float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
   const ImVec2 lo = ImGui::GetCursorScreenPos(), hi{lo.x + size.x, lo.y + size.y};
-  ImGui::InvisibleButton(id, size);
+  gui::press_area(id, size);
   const bool hovered = ImGui::IsItemHovered() && !ui.covered;
   const PlotPaint paint{*ImGui::GetWindowDrawList(), ui.theme, ui.fonts};
   const PlotRange range = plot_range(curves, frame);

@@ -277,7 +277,7 @@ double slider_value(const SliderScale& s, double position, int digits) {
 
 SliderResult slider(UiContext& ui, const SliderScale& scale, double value, float width, float height) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton("slider", {width, height});
+  gui::press_area("slider", {width, height});
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   SliderResult result = take_drag(ui, scale, value, id, width, true, lo.x);
@@ -299,7 +299,7 @@ SliderResult drag_cell(UiContext& ui, const char* id_text, const SliderScale& sc
     ImGui::PopID();
     return result;
   }
-  ImGui::InvisibleButton("cell", {width, height});
+  gui::press_area("cell", {width, height});
   const unsigned id = gui::item_id();
   const bool hovered = ImGui::IsItemHovered() || ImGui::IsItemActive();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
@@ -337,7 +337,7 @@ SliderResult value_cell(UiContext& ui, const char* id_text, double value, std::s
     type_value(ui, value, width, height, unit, result);
     return result;
   }
-  ImGui::InvisibleButton(id_text, {width, height});
+  gui::press_area(id_text, {width, height});
   const bool hovered = ImGui::IsItemHovered();
   if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_TextInput);
   if (wants_typing(ui)) start_typing(state, id, value);

@@ -199,7 +199,7 @@ bool icon_button(UiContext& ui, const IconButton& button) {
   const char* text = icon_or(ui.fonts, button.glyph, button.word);
   const float width = ui.fonts.icons ? side : std::max(side, text_width(*ui.fonts.text, text) + ui.theme.px(12));
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::InvisibleButton(button.id, {width, side});
+  const bool pressed = gui::press_area(button.id, {width, side});
   report_control(ui, button.id);
   const ImU32 ground = button.lit               ? c.accent
                        : ImGui::IsItemActive()  ? c.line
@@ -218,7 +218,7 @@ bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* 
   const char* text = icon_or(ui.fonts, glyph, word);
   const float width = ui.fonts.icons ? side : text_width(*ui.fonts.text, text) + ui.theme.px(8);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::InvisibleButton(id, {width, side});
+  const bool pressed = gui::press_area(id, {width, side});
   report_control(ui, id);
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 hi{lo.x + width, lo.y + side};
@@ -258,7 +258,7 @@ int segments(UiContext& ui, const char* id, const char* const* labels, int count
     const ImVec2 lo{at.x + segment.at.x, at.y + segment.at.y}, hi{lo.x + segment.width, lo.y + places.height};
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(k);
-    if (ImGui::InvisibleButton("segment", {hi.x - lo.x, hi.y - lo.y})) clicked = k;
+    if (gui::press_area("segment", {hi.x - lo.x, hi.y - lo.y})) clicked = k;
     if (ui.controls) report_control(ui, std::string(id) + "." + std::to_string(k + 1));
     const bool on = k == chosen;
     const ImU32 ground = on ? c.accent : ImGui::IsItemHovered() ? c.field_hover : c.field;
@@ -281,7 +281,7 @@ bool check(UiContext& ui, const char* label, bool value) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float box = ui.theme.px(16), height = ui.theme.px(26), gap = ui.theme.px(8);
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::InvisibleButton(label, {box + gap + text_width(*ui.fonts.text, label), height});
+  const bool clicked = gui::press_area(label, {box + gap + text_width(*ui.fonts.text, label), height});
   report_control(ui, label);
   const ImVec2 at{lo.x, std::round(lo.y + (height - box) / 2)};
   const ImU32 ground = value ? c.accent : ImGui::IsItemHovered() ? c.line : c.field_hover;
@@ -306,7 +306,7 @@ bool section(UiContext& ui, const char* name, std::string_view note) {
   ImGui::Dummy({0, ui.theme.px(2)});
   const float height = ui.theme.px(22), width = ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  if (ImGui::InvisibleButton(name, {width, height})) open ? void(folded.insert(name)) : void(folded.erase(name));
+  if (gui::press_area(name, {width, height})) open ? void(folded.insert(name)) : void(folded.erase(name));
   report_control(ui, name);
   const ImU32 color = ImGui::IsItemHovered() ? c.text : c.quiet;
   std::string capitals(name);

@@ -323,7 +323,7 @@ void message_list(Ui& ui) {
     draw_text(draw, font, {lo.x + padding + icon_width, lo.y + ui.theme.px(9)}, c.text, text);
     ImGui::SetCursorScreenPos(lo);
     ImGui::PushID(int(k));
-    if (ImGui::InvisibleButton("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;
+    if (gui::press_area("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;
     report_control(ui, "dismiss");
     tooltip(ui, gui::item_id(), "Click to dismiss");
     ImGui::PopID();
