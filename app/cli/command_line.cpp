@@ -88,7 +88,7 @@ std::string in_plain_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   const std::size_t twice = text.find(": At Most 1 required"), both = text.find(" excludes ");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && twice != std::string::npos)
-    return text.substr(0, twice) + ": is given more than once; give it once.";
+    return text.substr(0, twice) + ": given more than once; give it once.";
   if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr && both != std::string::npos)
     return text.substr(0, both) + " and " + text.substr(both + 10) + " cannot be given together.";
   return {};

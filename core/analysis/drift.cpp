@@ -8,7 +8,7 @@
 namespace tyglab {
 namespace {
 
-constexpr int samples_a_run = 400;
+constexpr int samples_per_run = 400;
 
 /// The largest kinetic energy in the first steps, by Verlet: the same measure for every method.
 double energy_of_motion(Preset preset) {
@@ -66,8 +66,8 @@ DriftRow measure_drift(const DriftCase& which, const std::function<bool()>& stop
   row.motion = energy_of_motion(which.preset);
   Simulation simulation(which.preset);
   const double start = simulation.energy().energy.total();
-  for (int n = 0; n <= samples_a_run && !stop(); ++n) {
-    const std::int64_t until = which.steps * n / samples_a_run;
+  for (int n = 0; n <= samples_per_run && !stop(); ++n) {
+    const std::int64_t until = which.steps * n / samples_per_run;
     if (simulation.advance(int(until - simulation.steps())).diverged) {
       row.diverged_at = simulation.divergence()->step;
       break;

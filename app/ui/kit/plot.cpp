@@ -104,8 +104,12 @@ PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) 
   const double low = quantile(values, 0.02), high = quantile(values, 0.97);
   if (frame.log) return log_range(std::max(values.front(), low * 1e-2), std::min(values.back(), high * 1e3));
   const double reach = 3 * std::max(high - low, 0.1 * std::abs(high));
-  if (reach == 0) return linear_range(values.front(), values.back(), frame.from_zero);
-  return linear_range(std::max(values.front(), low - reach), std::min(values.back(), high + reach), frame.from_zero);
+  double least = values.front(), most = values.back();
+  if (reach > 0) least = std::max(least, low - reach), most = std::min(most, high + reach);
+  // What differs in no digit of the labels is one value: rounding would look like motion.
+  constexpr double least_span = 1e-3;
+  if (most - least < least_span * std::abs(least)) least = most = (least + most) / 2;
+  return linear_range(least, most, frame.from_zero);
 }
 
 float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {

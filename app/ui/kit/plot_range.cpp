@@ -26,9 +26,6 @@ PlotRange log_range(double least, double most, int most_decades) {
 PlotRange linear_range(double least, double most, bool from_zero) {
   PlotRange range;
   if (from_zero && least > 0) least = 0;
-  // What differs in no digit of the labels is one value: rounding would look like motion.
-  constexpr double least_span = 1e-3;
-  if (most - least < least_span * std::abs(least)) least = most = (least + most) / 2;
   if (most <= least) {
     const double pad = least == 0 ? 1 : 0.1 * std::abs(least);
     most += pad;
