@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <iostream>
 #include <utility>
 
 #include "core/cloth/start.h"
@@ -63,11 +64,14 @@ std::string Divergence::in_words() const {
 
 namespace {
 
-/// Studies take steps finer and coarser than those that a preset may ask for, so any dt > 0 will do.
+/// Studies take steps finer and coarser than those that a preset may ask for, so any dt > 0 will do. What else is wrong
+/// goes to standard error, where the assertion that fails for it does not say.
 [[maybe_unused]] bool can_run(Preset preset) {
   const bool steps = preset.dt > 0 && std::isfinite(preset.dt);
   preset.dt = Preset().dt;
-  return steps && check_preset(preset).empty();
+  const std::string problem = steps ? check_preset(preset) : "dt: is not a time step";
+  if (!problem.empty()) std::cerr << problem << "\n";
+  return problem.empty();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "app/render/camera.h"
+#include "core/model/notation.h"
 #include "core/model/resolution.h"
 #include "core/simulation.h"
 
@@ -18,11 +19,12 @@ constexpr int most_side = 32, most_quads = 24;  // particles that move, and quad
 constexpr double seconds = 0.8;                 // after the start a scene shows what it is about
 constexpr int most_steps = 4000, at_once = 10;
 
+/// With fewer particles, each of which stands for more of the cloth: as far as its constants allow.
 Preset coarse(Preset preset) {
   preset.engine = EngineKind::cpu;
   preset.precision = Precision::float_;
   const int side = std::max(preset.rows, preset.columns);
-  return side > most_side ? with_resolution(preset, double(most_side - 1) / (side - 1)) : preset;
+  return side > most_side ? nearest_allowed(with_resolution(preset, double(most_side - 1) / (side - 1))) : preset;
 }
 
 /// A zigzag from where the spring is held to the weight.

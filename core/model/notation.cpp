@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <numeric>
 #include <sstream>
 
@@ -211,6 +212,17 @@ SliderRange slider_range(const PresetRow& row, double preset_value) {
   }
   const double reach = v > 0 ? 3 * v : 1;
   return {std::max(row.min, -reach), std::min(row.max, reach)};
+}
+
+Preset nearest_allowed(Preset preset) {
+  for (const PresetRow& row : rows)
+    if (const auto* real = std::get_if<double Preset::*>(&row.field))
+      preset.** real = std::clamp(preset.**real, row.min, row.max);
+    else if (const auto* whole = std::get_if<int Preset::*>(&row.field))
+      preset.** whole = std::clamp(preset.**whole, int(row.min), int(row.max));
+    else if (const auto* vector = std::get_if<glm::dvec3 Preset::*>(&row.field))
+      preset.** vector = glm::clamp(preset.**vector, row.min, row.max);
+  return preset;
 }
 
 std::string notation_markdown() {

@@ -75,6 +75,9 @@ struct SliderRange {
 };
 SliderRange slider_range(const PresetRow& row, double preset_value);
 
+/// The preset with each number that is out of its range moved to the nearer end.
+Preset nearest_allowed(Preset preset);
+
 /// docs/notation.md, generated.
 std::string notation_markdown();
 

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <filesystem>
 #include <thread>
+#include <variant>
 
 #include "app/scene/sketch.h"
 #include "core/io/preset_io.h"
+#include "core/model/notation.h"
 
 namespace tyglab::sketch_test {
 
@@ -32,6 +34,21 @@ TEST_CASE("every shipped preset has a picture that fits its frame, those that di
     for (const auto& triangle : sketch.triangles)
       CHECK(*std::max_element(triangle.begin(), triangle.end()) < sketch.corners.size());
     for (const SceneSketch::Ball& ball : sketch.balls) CHECK(ball.behind <= sketch.triangles.size());
+  }
+}
+
+TEST_CASE("a large cloth whose constants are the largest or the smallest allowed has a picture") {
+  for (const PresetRow& row : notation()) {
+    const auto* field = std::get_if<double Preset::*>(&row.field);
+    if (field == nullptr) continue;
+    for (const double value : {row.min, row.max}) {
+      CAPTURE(row.key);
+      CAPTURE(value);
+      Preset preset;
+      preset.rows = 64, preset.columns = 50;
+      preset.** field = value;
+      CHECK(sketch_of(preset, go_on).triangles.size() > 8);
+    }
   }
 }
 
