@@ -29,10 +29,11 @@ class Messages {
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }
 
-  /// Drops what has been shown long enough: notes after 4 s, warnings and errors after 8 s.
-  void age(double now) {
+  /// Drops what has been shown long enough: notes after 4 s, warnings and errors after 8 s. `held`: all count as new,
+  /// since they cannot be seen to yet.
+  void age(double now, bool held = false) {
     for (Message& m : list_)
-      if (m.born < 0) m.born = now;
+      if (held || m.born < 0) m.born = now;
     std::erase_if(list_, [&](const Message& m) { return now - m.born > lifetime(m.severity); });
   }
   /// When the next one is to go, s of the window's clock.

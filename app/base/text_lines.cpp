@@ -146,4 +146,12 @@ std::vector<std::string> name_lines(const std::string& name, const std::string& 
   return words;
 }
 
+std::string capitalised(std::string text) {
+  // A symbol or key ("dt", "k_s") keeps its letter.
+  const std::size_t space = text.find(' ');
+  const bool word = space != std::string::npos && space > 2 && text.find('_') > space && text.find('/') > space;
+  if (word && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
+  return text;
+}
+
 }  // namespace tyglab

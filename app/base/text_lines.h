@@ -12,6 +12,9 @@ namespace tyglab {
 /// With no-break spaces within formulas ("F = −k·(x − x₀)") and quantities ("0.5 N").
 std::string with_whole_terms(std::string text);
 
+/// With a capital letter at the start, unless that is a symbol or a key.
+std::string capitalised(std::string text);
+
 /// The width of a piece of text.
 using Measure = std::function<float(std::string_view)>;
 

@@ -28,17 +28,20 @@ double coarser_reference_dt(const Preset& preset, double finer) {
   return std::clamp(std::min(stable_dt(preset, "verlet"), slowest) / finer, least_dt, slowest);
 }
 
-/// `sampled`: told the number of samples taken, after each.
+/// `followed`: told the part of the way, 0 to 1, a hundred times on it.
 Track follow(const StudyStart& start, const Preset& preset, int steps, const Stop& stop,
-             const std::function<void(int)>& sampled = {}) {
+             const std::function<void(double)>& followed = {}) {
+  const int piece = std::max(1, steps * accuracy_samples / 100);
   const auto of = begin_study(start, preset);
   Simulation& simulation = *of;
   Track track;
   for (int n = 0; n < accuracy_samples; ++n) {
-    advance_study(simulation, steps, stop);
-    if (simulation.divergence()) throw std::runtime_error("the motion diverged: " + simulation.divergence()->cause);
+    for (int done = 0; done < steps; done += piece) {
+      advance_study(simulation, std::min(piece, steps - done), stop);
+      if (simulation.divergence()) throw std::runtime_error("the motion diverged: " + simulation.divergence()->cause);
+      if (followed) followed((n + std::min(1.0, double(done + piece) / steps)) / accuracy_samples);
+    }
     track.push_back(positions_of(simulation));
-    if (sampled) sampled(n + 1);
   }
   return track;
 }
@@ -68,8 +71,8 @@ StudyReference reference_over(const StudyStart& start, double seconds, double fi
   preset.dt = whole_dt(seconds, coarser_reference_dt(preset, finer), steps);
   // Two runs, the second of twice the steps.
   const auto done = [&](double before, double share) {
-    return [=, &progress](int samples) {
-      if (progress) progress(seconds, before + share * samples / accuracy_samples);
+    return [=, &progress](double part) {
+      if (progress) progress(seconds, before + share * part);
     };
   };
   if (progress) progress(seconds, 0);

@@ -132,6 +132,30 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   CHECK(window.settings.recent.size() == 1);  // a lab's cloth is no work of the user's
 }
 
+TEST_CASE("what went wrong at the start is said on the start page, and for as long as that is open") {
+  test::NullUi window;
+  window.session.messages.warning("settings.json is damaged. The defaults are used.");
+  window.ui.command("start_page");
+  window.frames(2);
+  for (int n = 0; n < 3; ++n) {
+    window.ui.now += 5;
+    window.frames(2);
+    CHECK(window.drew("The defaults are used."));
+  }
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(2);
+  CHECK(window.session.messages.list().size() == 1);
+}
+
+TEST_CASE("a name is saved without the spaces before and behind it") {
+  test::NullUi window;
+  const fs::path file = window.config / "presets/spaces.json";
+  open_dialog(window, Kind::save);
+  save_as(window, "  Soft cloth ", file);
+  CHECK(load_preset(file).name == "Soft cloth");
+  CHECK(window.preset().name == "Soft cloth");
+}
+
 TEST_CASE("cards are gone through by keys; a preset with errors says what is wrong and opens nothing") {
   test::NullUi window;
   fs::create_directories(window.config / "presets");

@@ -79,7 +79,7 @@ TEST_CASE("presentation mode names its scene, and its texts have room" * doctest
   });
 }
 
-TEST_CASE("every lab's first step has its texts whole" * doctest::test_suite("slow")) {
+TEST_CASE("every step of every lab has its texts whole" * doctest::test_suite("slow")) {
   in_each_layout("hanging", [](test::NullUi& window) {
     std::vector<std::string> labs;
     for (const Lab& lab : find_labs(window.session)) labs.push_back(lab.label);
@@ -87,11 +87,29 @@ TEST_CASE("every lab's first step has its texts whole" * doctest::test_suite("sl
       CAPTURE(lab);
       begin_lab(window.session, lab);
       window.rest();
-      window.frames(6);
-      check_texts(window, "lab");
-      check_texts(window, "top");
+      for (std::size_t step = 0; step < window.session.labs.run->lab.steps.size(); ++step) {
+        CAPTURE(step);
+        enter_step(window.session, step);
+        window.frames(3);
+        check_texts(window, "lab");
+        check_texts(window, "top");
+      }
     }
   });
+}
+
+TEST_CASE("in a low window a lab has room for six lines, and the cloth is in sight") {
+  test::NullUi window({.preset = "hanging", .size = {900, 600}, .settings = [](Settings& settings) {
+                         settings.theme = "projector", settings.ui_scale = 1.5f;
+                       }});
+  begin_lab(window.session, "03_stiffness");
+  window.frames(6);
+  const Box cloth = window.ui.viewport.box;
+  CHECK(cloth.hi.y - cloth.lo.y >= 100);
+  CHECK(600 - cloth.hi.y >= 100 + 6 * window.ui.fonts.text->FontSize);
+  leave_lab(window.session);
+  window.frames(6);
+  CHECK(window.ui.viewport.box.hi.y < 600 - window.ui.theme.px(20));  // the status line is there again
 }
 
 TEST_CASE("a lab's strip takes the height that its step needs, and shrinks only when the pointer has left it") {

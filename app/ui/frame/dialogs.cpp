@@ -8,8 +8,10 @@
 
 #include "app/base/data_files.h"
 #include "app/base/preset_files.h"
+#include "app/base/text_lines.h"
 #include "app/platform/files.h"
 #include "app/session/document.h"
+#include "app/session/lab_text.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/gallery.h"
 #include "app/ui/kit/imgui_compat.h"
@@ -189,7 +191,7 @@ void save_preset_dialog(Ui& ui) {
     dialog.overwrite = false;
     return;
   }
-  const request::SavePreset save{file, dialog.name};
+  const request::SavePreset save{file, std::string(trimmed(dialog.name))};
   const auto then = dialog.then;
   close(ui);
   ui.session.request(save);
@@ -289,6 +291,12 @@ void large_dialog(Ui& ui) {
   close(ui);
 }
 
+/// What went wrong at the start, such as damaged settings: the page covers the place of messages.
+void warnings(Ui& ui) {
+  for (const Message& message : ui.session.messages.list())
+    if (message.severity != Message::Severity::note) wrapped(ui, capitalised(message.text), ui.theme.colors.warning);
+}
+
 void start_page(Ui& ui) {
   gallery(ui, [&](bool low) {
     if (!low) title(ui, "Tyglab");
@@ -296,6 +304,7 @@ void start_page(Ui& ui) {
             "A simulated cloth to pull, cut and tear: change any constant of the model while it moves, and see where "
             "numerical methods work and where they fail.",
             ui.theme.colors.text);
+    warnings(ui);
     ImGui::Dummy({0, ui.theme.px(2)});
   });
   if (ui.dialog.kind != DialogKind::start) return;

@@ -316,9 +316,9 @@ bool lab_header(Ui& ui, LabRun& run, const Region& region) {
 
 float lab_panel_height(const Ui& ui, float available) {
   if (!ui.session.labs.run) return 0;
-  // In a low window a few lines are to be seen at once, though the cloth becomes small.
-  const float usual = 0.45f * available, few_lines = std::min(0.52f * available, ui.theme.px(header_at_1 + 100));
-  const float most = std::round(std::min(ui.theme.px(290), std::max(usual, few_lines)));
+  // In a low window some lines are to be seen at once, though the cloth becomes small.
+  const float usual = 0.45f * available, some_lines = std::min(0.6f * available, ui.theme.px(header_at_1 + 100));
+  const float most = std::round(std::min(ui.theme.px(290), std::max(usual, some_lines)));
   return ui.lab_needs > 0 ? std::min(std::max(ui.lab_needs, ui.theme.px(lowest_strip_at_1)), most) : most;
 }
 

@@ -15,7 +15,9 @@
 namespace tyglab {
 namespace {
 
-constexpr float least_plots = 180;  // height of their column beside a lab's strip, pixels at scale 1
+// Pixels at scale 1.
+constexpr float least_plots = 180;   // height of their column beside a lab's strip
+constexpr float low_with_lab = 300;  // a lab's strip takes the status line's place in a window lower than that
 
 /// A border that drags: changes `width` (at scale 1) of the region on its left (sign 1) or right (sign -1).
 void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& width, float sign) {
@@ -90,7 +92,8 @@ LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   const Layout& layout = ui.settings.layout;
   const bool panels = ui.panels;
   const float top = panels ? ui.theme.px(48) : 0;
-  const float bottom = panels && layout.status ? ui.theme.px(30) : 0;
+  const bool lab_in_low = ui.session.labs.run && window.y < ui.theme.px(low_with_lab);
+  const float bottom = panels && layout.status && !lab_in_low ? ui.theme.px(30) : 0;
   const float height = std::max(window.y - top - bottom, 1.f);
   // In a narrow window, or with large text, the sides share what the viewport can spare.
   const float spare = window.x - ui.theme.px(240), most = std::max(spare / 2, ui.theme.px(240));

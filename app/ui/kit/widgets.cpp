@@ -109,13 +109,39 @@ struct SegmentPlaces {
   ImVec2 size{0, 0};
 };
 
+/// Where rows begin that hold as many as fit in `width`, but at most `most`.
+std::vector<bool> row_beginnings(const std::vector<float>& widths, float width, int most) {
+  std::vector<bool> begins(widths.size());
+  float x = 0;
+  int in_row = 0;
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    begins[k] = k == 0 || x + widths[k] > width || in_row == most;
+    if (begins[k]) x = 0, in_row = 0;
+    x += widths[k] + 1, ++in_row;
+  }
+  return begins;
+}
+
+/// As few rows as there can be, and then as equal in number as there is room for.
+std::vector<bool> even_rows(const std::vector<float>& widths, float width) {
+  const auto rows = [](const std::vector<bool>& begins) { return std::count(begins.begin(), begins.end(), true); };
+  const int count = int(widths.size());
+  const std::vector<bool> least = row_beginnings(widths, width, count);
+  const int each = int((count + rows(least) - 1) / std::max<std::ptrdiff_t>(rows(least), 1));
+  std::vector<bool> even = row_beginnings(widths, width, each);
+  return rows(even) == rows(least) ? even : least;
+}
+
 SegmentPlaces segment_places(const UiContext& ui, const char* const* labels, int count, float room_at_1, float width) {
   SegmentPlaces places;
   places.height = ui.theme.px(26);
+  std::vector<float> widths;
+  for (int k = 0; k < count; ++k) widths.push_back(text_width(*ui.fonts.text, labels[k]) + 2 * ui.theme.px(room_at_1));
+  const std::vector<bool> row_begins = even_rows(widths, width);
   ImVec2 at{0, 0};
   for (int k = 0; k < count; ++k) {
-    const float own = text_width(*ui.fonts.text, labels[k]) + 2 * ui.theme.px(room_at_1);
-    const bool begins = k == 0 || at.x + own > width;
+    const float own = widths[std::size_t(k)];
+    const bool begins = row_begins[std::size_t(k)];
     if (begins && k > 0) at = {0, at.y + places.height + ui.theme.px(4)}, places.segments.back().ends_row = true;
     places.segments.push_back({at, own, begins, k + 1 == count});
     places.size = {std::max(places.size.x, at.x + own), at.y + places.height};

@@ -52,14 +52,6 @@ std::string what_happened(const Divergence& d, const Preset& then, double limit)
   return all + ".";
 }
 
-std::string capitalised(std::string text) {
-  // A symbol or key ("dt", "k_s") keeps its letter.
-  const std::size_t space = text.find(' ');
-  const bool word = space != std::string::npos && space > 2 && text.find('_') > space && text.find('/') > space;
-  if (word && text.front() >= 'a' && text.front() <= 'z') text.front() = char(text.front() - 'a' + 'A');
-  return text;
-}
-
 /// A way out of a divergence: a button of the banner.
 struct Way {
   std::string label, tip;
@@ -296,7 +288,7 @@ void banner(Ui& ui, const Box& region) {
 }
 
 void message_list(Ui& ui) {
-  ui.session.messages.age(ui.now);
+  ui.session.messages.age(ui.now, ui.dialog.kind == Dialog::Kind::start);  // which shows warnings itself
   const Tokens& c = ui.theme.colors;
   const ImFont& font = *ui.fonts.text;
   const float padding = ui.theme.px(12), icon_width = ui.theme.px(24), close = ui.theme.px(22);
