@@ -96,6 +96,15 @@ bool worth_going_on(const std::vector<AccuracyRow>& rows, const AccuracyEffort& 
 
 namespace {
 
+/// Where a method's ladder begins, s.
+double coarsest_dt(const Preset& preset, const Scheme& method) {
+  constexpr double a_picture = 1.0 / 30;  // s: what needs no stability is tried from there on
+  const double limit = stable_dt(preset, "verlet");
+  if (iterates(method)) return std::max(16 * limit, a_picture);
+  // Twice the least limit of any configuration, since the cloth may be far from that one.
+  return 2 * std::max(limit, stable_dt(preset, std::string(method.name)));
+}
+
 /// The scene's preset with each setting to be measured, and how many steps each makes from a sample to the next.
 struct Rung {
   Preset preset;
@@ -113,9 +122,7 @@ std::vector<Rung> settings(const AccuracyScene& scene, const std::string& integr
       list.push_back({preset, 1}), list.back().preset.tolerance = tolerance;
     return list;
   }
-  // Twice the least limit of any configuration, since the cloth may be far from that one.
-  const double largest_dt = stable_dt(preset, "verlet") * (iterates(scheme(integrator)) ? 16 : 2);
-  for (const int steps : accuracy_ladder(scene, largest_dt, effort))
+  for (const int steps : accuracy_ladder(scene, coarsest_dt(preset, scheme(integrator)), effort))
     list.push_back({preset, steps}), list.back().preset.dt = part / steps;
   return list;
 }

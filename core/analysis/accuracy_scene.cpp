@@ -1,5 +1,8 @@
 #include "core/analysis/accuracy_scene.h"
 
+#include "core/model/readable.h"
+#include "core/theory/modes.h"
+
 namespace tyglab {
 namespace {
 
@@ -49,6 +52,15 @@ Preset taut() {
   return preset;
 }
 
+/// With 3.5 times the critical damping of the fastest mode that any shape has.
+Preset heavily_damped(double k_s) {
+  constexpr double zeta = 3.5;
+  Preset preset = cloth();
+  preset.k_s = k_s;
+  preset.k_d = rounded(zeta * any_configuration(preset).omega() * preset.m / 6, 2);
+  return preset;
+}
+
 Preset on_sphere() {
   Preset preset = cloth();
   preset.pins.mode = Pins::Mode::none;
@@ -69,7 +81,9 @@ std::vector<AccuracyScene> accuracy_scenes() {
           {"swinging", "swinging sheet without damping", swinging(), 0.2},
           {"flag", "flag in the wind", flag(), 0.3},
           {"taut_sheet", "taut sheet", taut(), 0.2},
-          {"sphere", "sheet on a sphere", on_sphere(), 0.06}};
+          {"sphere", "sheet on a sphere", on_sphere(), 0.06},
+          {"damped", "hanging cloth, heavily damped", heavily_damped(50), 0.4, true},
+          {"stiff", "stiff hanging cloth, heavily damped", heavily_damped(5000), 0.4, true}};
 }
 
 }  // namespace tyglab

@@ -9,6 +9,8 @@
 #include "core/analysis/engine_forces.h"
 #include "core/analysis/plain_forces.h"
 #include "core/integrators/names.h"
+#include "core/theory/advice.h"
+#include "core/theory/modes.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
@@ -24,6 +26,29 @@ AccuracyScene scene_called(const std::string& name) {
     if (scene.name == name) return scene;
   FAIL("there is no scene " << name);
   return {};
+}
+
+TEST_CASE("the heavily damped scenes have 3.5 times the critical damping in the fastest mode of any shape") {
+  for (const char* name : {"damped", "stiff"}) {
+    const AccuracyScene scene = scene_called(name);
+    CHECK(scene.damped);
+    const Mode fastest = any_configuration(scene.preset);
+    CHECK(fastest.damping / (2 * fastest.omega()) == doctest::Approx(3.5).epsilon(0.02));
+    // So every explicit method's dt is limited by damping, not by the oscillation.
+    CHECK(stable_dt(scene.preset, "verlet") < 0.3 / fastest.omega());
+  }
+}
+
+TEST_CASE("what needs no stability is tried from coarse steps on, the others from about their limits") {
+  const AccuracyScene scene = scene_called("stiff");
+  Reference reference = make_reference(scene, true, never);
+  const AccuracyEffort effort{0.001, false, 0, 0};
+  const auto coarsest = [&](const char* name) {
+    return measure_integrator(scene, reference, name, Precision::double_, effort, never).front().dt;
+  };
+  CHECK(coarsest("implicit_euler") > 0.02);
+  CHECK(coarsest("verlet") < 2.01 * stable_dt(scene.preset, "verlet"));
+  CHECK(coarsest("damped_verlet") > 1.01 * stable_dt(scene.preset, "damped_verlet"));
 }
 
 /// Wind, bending, damping, pins, an odd size.

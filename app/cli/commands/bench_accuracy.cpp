@@ -32,9 +32,12 @@ struct AccuracyOptions : BenchOptions {
 };
 
 /// The scenes asked for. Throws UsageError for a name that is none.
-std::vector<AccuracyScene> chosen_scenes(const std::string& name) {
+std::vector<AccuracyScene> chosen_scenes(const std::string& name, bool quick) {
   std::vector<AccuracyScene> all = accuracy_scenes();
-  if (name.empty()) return all;
+  if (name.empty()) {
+    if (quick) std::erase_if(all, &AccuracyScene::damped);
+    return all;
+  }
   for (const AccuracyScene& scene : all)
     if (scene.name == name) return {scene};
   throw UsageError("--scene " + name + ": there is no such scene; known: " + joined(all, ", ", &AccuracyScene::name));
@@ -120,7 +123,7 @@ AccuracyResult measure(const AccuracyScene& scene, const Reference& reference, b
 }
 
 int accuracy(const AccuracyOptions& options) {
-  const std::vector<AccuracyScene> scenes = chosen_scenes(options.scene);
+  const std::vector<AccuracyScene> scenes = chosen_scenes(options.scene, options.quick);
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
@@ -154,7 +157,8 @@ void add_bench_accuracy(CLI::App& bench, Action& action) {
       "accuracy",
       "Error against run time: every integrator, in float and double, some on OpenCL, and those of Boost.Odeint");
   const auto options = std::make_shared<AccuracyOptions>();
-  add_quick(*command, *options, "Fewer dt, shorter runs, coarser references, OpenCL only in the first scene");
+  add_quick(*command, *options,
+            "Fewer dt, shorter runs, coarser references, OpenCL only in the first scene, no heavily damped ones");
   const std::string names = joined(accuracy_scenes(), ", ", &AccuracyScene::name);
   command->add_option("--scene", options->scene, "Only one scene: " + names)->type_name("NAME")->transform(not_empty());
   add_json(*command, *options);
