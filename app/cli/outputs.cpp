@@ -52,6 +52,8 @@ void make_output_folder(const std::string& option, const std::string& folder) {
   if (is_standard_output(folder))
     throw UsageError(option + " -: several files cannot go to standard output; name a folder");
   std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw OutputError(folder + ": is not a folder; name one, or one that is to be made");
   fs::create_directories(folder, error);
   if (error) throw OutputError(folder + ": the folder cannot be created: " + error.message());
   if (!os::may_write_into(folder)) throw OutputError(folder + ": is not writable; choose another folder");

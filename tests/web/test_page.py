@@ -79,10 +79,14 @@ def place(now, name, page_width):
 
 
 def press(page, name, width=1280):
-    """Clicks a control, once it is there and has stopped moving."""
+    """Clicks a control, once it is there and stands where it stood a few frames before."""
     now = wait_for(page, f"the control {name}", lambda now: name in now["controls"])
-    while (then := now["controls"].get(name)) != (now := report(page))["controls"].get(name) or then is None:
-        time.sleep(0.2)
+    while True:
+        then, end = now, time.monotonic() + 1.5  # a page at rest draws no more of them
+        while (now := report(page))["frames"] < then["frames"] + 3 and time.monotonic() < end:
+            time.sleep(0.1)
+        if name in now["controls"] and now["controls"][name] == then["controls"].get(name):
+            break
     x, y, _ = place(now, name, width)
     page.click(x, y)
 
