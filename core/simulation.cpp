@@ -40,11 +40,9 @@ Ledger::Source source_of(const Edit& edit) {
 
 /// Of a motion that is beyond what the scene can hold.
 std::string cause_of_runaway(const Advance& part, const Preset& preset) {
-  const std::string sources = preset.kind == Kind::cloth
-                                  ? "springs, weight, wind, the hand and bodies can have given the cloth"
-                                  : "the spring and weight can have given the mass";
-  if (part.quantity == "position") return "a particle is farther away than " + sources + " the energy to fly";
-  return "the motion has " + short_number(part.excess, 2) + " times the energy that " + sources;
+  if (part.quantity == "position")
+    return "a particle is farther away than " + sources_of_energy(preset) + " the energy to fly";
+  return "the motion has " + short_number(part.excess, 2) + " times the energy that " + sources_of_energy(preset);
 }
 
 }  // namespace
@@ -397,6 +395,13 @@ Advance Simulation::advance_part(int steps) {
   return part;
 }
 
+double Simulation::excess() {
+  const double given = engine_->given_squared();
+  if (divergence_ || !(given > 0) || std::isinf(given)) return 0;
+  const Energy now = energy().energy;
+  return 2 / preset_.m * (now.kinetic + now.stretch + now.bending) / given;
+}
+
 void Simulation::diverge(const Advance& part) {
   Divergence d;
   d.step = steps_ + 1;
@@ -411,7 +416,9 @@ void Simulation::diverge(const Advance& part) {
                 ? "the mass is farther from x_0 than 1000 times L (or than its offset, if that is larger)"
                 : "a " + part.quantity + " is no longer a finite number";
   if (!runaway && springs_too_weak(preset_)) {
-    d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight and wind; "
+    d.cause += preset_.kind == Kind::cloth ? ": the springs are too weak for weight" +
+                                                 std::string(preset_.W != glm::dvec3(0) ? " and wind" : "") +
+                                                 (preset_.bodies.empty() ? "; " : ", let alone what bodies push; ")
                                            : ": the spring is too weak for m·g; ";
     d.cause +=
         std::string(scheme(preset_.integrator).title) + " is stable here at dt = " + short_number(preset_.dt) + " s";

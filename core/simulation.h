@@ -106,6 +106,10 @@ class Simulation {
   void stop_when(Stop stop);
 
   EnergyReading energy();
+  /// The energy of the motion and of the springs, over the most that start, springs, weight, wind, hand and bodies can
+  /// have given them (docs/model.md, "How fast and how far"). Above 1 no motion of the model goes: the method's errors
+  /// have added the rest. 0 where it is not known.
+  double excess();
   /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
   /// itself and changes nothing about it, nor when the run diverges.
   void enable_ledger(bool on);

@@ -37,7 +37,7 @@ std::string decoded(std::string_view text, std::string_view link) {
       continue;
     }
     if (n + 2 >= text.size() || digit(text[n + 1]) < 0 || digit(text[n + 2]) < 0)
-      fail(link, "has a % that two hexadecimal digits do not follow.");
+      fail(link, "has a % that is not followed by two hexadecimal digits.");
     plain += char(16 * digit(text[n + 1]) + digit(text[n + 2]));
     n += 2;
   }
@@ -79,7 +79,7 @@ std::string framed_preset(std::string_view link) {
     if (key == "preset")
       name = value;
     else if (key != "embed" && key != "panels")
-      fail(link, "has no #, after which constants such as '" + in_one_line(part) + "' stand.");
+      fail(link, "has no # before its constants, such as '" + in_one_line(part) + "'.");
   }
   if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: '" + in_one_line(name) + "'.");
   return name;
@@ -113,7 +113,7 @@ LinkedPreset read_link(std::string_view text) {
       if (!is_shipped_preset(part)) fail(text, "names no shipped preset: '" + in_one_line(part) + "'.");
       linked.name = part;
     } else if (part.find('=') == std::string::npos || part.starts_with('=')) {
-      fail(text, "has a part that is no KEY=VALUE: '" + in_one_line(part) + "'.");
+      fail(text, "has a part that is not KEY=VALUE: '" + in_one_line(part) + "'.");
     } else {
       linked.settings.push_back(part);
     }

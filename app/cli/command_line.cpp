@@ -80,7 +80,9 @@ std::string unexpected(const CLI::ExtrasError& error) {
   std::istringstream words(text.substr(std::min(text.find(": "), text.size() - 2) + 2));
   std::string list;
   for (std::string word; words >> word;) list = word + (list.empty() ? "" : " ") + list;
-  return "Not expected here: " + list + ". Options come after their command, as in `tyglab run denim --steps 4`.";
+  return "Not expected here: " + list +
+         ". `tyglab COMMAND --help` lists what a command takes; options come after it, as in `tyglab run denim --steps "
+         "4`.";
 }
 
 /// What CLI11 says in words of its own; empty for all else.

@@ -26,6 +26,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
 }  // namespace
 
 void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
+  const std::string incomplete = ".incomplete";
   for (auto a = outputs.begin(); a != outputs.end(); ++a) {
     if (a->file.empty()) continue;
     if (a->binary && is_standard_output(a->file) && os::is_terminal(os::standard_output))
@@ -36,6 +37,11 @@ void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
       if (!b->file.empty() && same_file(a->file, b->file))
         throw UsageError(b->option + " and " + a->option + ": both go to " + output_name(a->file) +
                          "; use a different file for one of them");
+    for (auto b = outputs.begin(); b != a; ++b)
+      if (!b->file.empty() && (same_file(a->file + incomplete, b->file) || same_file(b->file + incomplete, a->file)))
+        throw UsageError(b->option + " and " + a->option +
+                         ": one of them is written under the name of the other until " +
+                         "it is whole; use a name that does not end in " + incomplete);
     if (!input.empty() && same_file(a->file, input))
       throw UsageError(a->option + " " + a->file + ": would overwrite the preset that is read; use another file");
     check_output(a->file);

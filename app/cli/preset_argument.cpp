@@ -172,7 +172,9 @@ void PresetArgument::check_engine() const {
   if (std::find(known.begin(), known.end(), engine) != known.end() || device_number(engine)) return;
   throw UsageError("--engine " + engine +
                    ": allowed are cpu, opencl, opencl:N and auto; `tyglab devices` lists each device's N" +
-                   did_you_mean(std::string_view(engine).substr(0, engine.find(':')), known, ""));
+                   (engine == "gpu" || engine == "cuda"
+                        ? "; did you mean opencl?"
+                        : did_you_mean(std::string_view(engine).substr(0, engine.find(':')), known, "")));
 }
 
 void PresetArgument::keep_to_cpu(Preset& scene) const {
@@ -230,11 +232,15 @@ void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional
   goal.keeps = {!integrator.empty() || sets("integrator"), !precision.empty() || sets("precision")};
   Progress progress("trying methods and dt");
   try {
-    resolved.choice = std::make_shared<ToleranceChoice>(choose_for_tolerance(
+    ToleranceChoice choice = choose_for_tolerance(
         resolved.preset, goal, [] { return false; },
         [&](const SettingsSearch& search) {
           if (search.methods > 0) progress.update(double(search.methods_done) / search.methods);
-        }));
+        });
+    // Whole steps are to end at the time asked for: with a dt that is no longer the error is no larger.
+    if (shown > 0 && choice.chosen.tolerance == 0)
+      choice.preset.dt = std::max(shown / std::ceil(shown / choice.preset.dt - 1e-9), least_dt);
+    resolved.choice = std::make_shared<ToleranceChoice>(std::move(choice));
   } catch (const ToleranceError& error) {
     throw UsageError(std::string("--tolerance: ") + error.what() +
                      (error.tightest ? ": " + with_tolerance(*error.tightest, seconds) : "") + ".");

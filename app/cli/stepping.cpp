@@ -102,7 +102,13 @@ void Stepper::advance_portion(std::int64_t step) {
 }
 
 void Stepper::look_at_ledger() {
+  const bool in_vain = auto_->in_vain();
   const auto dt = auto_->look(simulation_.preset(), simulation_.time(), *simulation_.ledger());
+  if (auto_->in_vain() && !in_vain) {
+    progress_.clear();
+    std::cerr << "tyglab: a smaller dt has not kept " + std::string(scheme(simulation_.preset().integrator).title) +
+                     " from adding energy, so dt stays; use another method.\n";
+  }
   if (!dt) return;
   Preset next = simulation_.preset();
   next.dt = *dt;

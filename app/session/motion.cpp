@@ -126,7 +126,11 @@ void toggle_auto_dt(Session& session) {
 }
 
 void watch_dt(Session& session) {
+  const bool in_vain = session.auto_dt->in_vain();
   const auto dt = session.auto_dt->look(session.preset(), session.simulation->time(), *session.simulation->ledger());
+  if (session.auto_dt->in_vain() && !in_vain)
+    session.messages.warning("A smaller dt has not kept " + std::string(scheme(session.preset().integrator).title) +
+                             " from adding energy, so dt stays. Use another method.");
   if (!dt) return;
   Preset next = session.preset();
   next.dt = *dt;

@@ -7,6 +7,7 @@
 #include "app/session/edits.h"
 #include "app/session/engine_fallback.h"
 #include "app/session/motion.h"
+#include "core/model/changes.h"
 #include "core/model/clocks.h"
 #include "core/theory/advice.h"
 
@@ -178,6 +179,13 @@ void Session::warn_of(const Advance& advance) {
   if (!missed.empty() && !warned_unconverged) {
     messages.warning(missed);
     warned_unconverged = true;
+  }
+  constexpr int between_looks = 64;  // updates: about a second
+  if (!advance.diverged && ++updates_unlooked >= between_looks) {
+    updates_unlooked = 0;
+    const bool said = excess_said_of && changes(*excess_said_of, preset()).within(motionless);
+    std::string excess = said ? "" : energy_in_excess(simulation->excess(), preset());
+    if (!excess.empty()) messages.warning(std::move(excess)), excess_said_of = preset();
   }
   if (advance.released) messages.note("The hand let go: its force exceeded F_release.");
 }

@@ -84,12 +84,14 @@ struct Session {
 
   Wants wants;  ///< of this update; labs add theirs
   SessionCounts counts;
-  std::int64_t steps_made = 0;      ///< since the last update
-  double now = 0;                   ///< s since the session began
-  double last_change = 0;           ///< s, when constants changed last, to tell gestures apart
-  double again_at = 0;              ///< s: update() wants to be called by then, though nothing moves
-  bool warned_left_inside = false;  ///< that overlapping bodies keep particles inside, said once a session
-  bool warned_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
+  std::int64_t steps_made = 0;           ///< since the last update
+  double now = 0;                        ///< s since the session began
+  double last_change = 0;                ///< s, when constants changed last, to tell gestures apart
+  double again_at = 0;                   ///< s: update() wants to be called by then, though nothing moves
+  bool warned_left_inside = false;       ///< that overlapping bodies keep particles inside, said once a session
+  int updates_unlooked = 0;              ///< since it was looked at whether errors of the method have added energy
+  std::optional<Preset> excess_said_of;  ///< the constants with which that was said last
+  bool warned_unconverged = false;       ///< that an implicit method's solves do not reach their tolerance, likewise
   bool quit = false;
 
   /// Goes on by that much real time (s): applies what was requested, steps, samples, checks the lab's checks, goes on

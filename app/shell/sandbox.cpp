@@ -183,7 +183,7 @@ Document Sandbox::first_document() {
   try {
     return {session.file.empty() ? session.saved : read_preset(session.file), session.label, session.file};
   } catch (const std::exception& error) {
-    session_.messages.warning(std::string(error.what()) +
+    session_.messages.warning(sentence(error.what()) +
                               " The state of the last session is shown; save it under a name.");
     return {first_preset(), session.label, {}};
   }

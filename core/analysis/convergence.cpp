@@ -66,7 +66,7 @@ std::string diverged_words(const Convergence& study) {
   for (const ConvergencePoint& point : study.points)
     if (!std::isfinite(point.error_rms_m)) finest = point.dt, ++count;
   if (count == 0) return {};
-  return "With dt = " + short_number(finest, 3) + " s" + (count > 1 ? " and more" : "") + " it diverges. ";
+  return "With dt = " + short_number(finest, 3) + " s" + (count > 1 ? " or more" : "") + " it diverges. ";
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ StudyReference find_reference(const StudyStart& start, SettingsSearch& search, c
   reference.blow = hardest_blow(start, window.seconds, stop);
   search.seconds = reference.seconds, search.agreement_rms_m = reference.agreement_rms_m;
   search.references = std::string(search.rough ? "velocity_verlet and rk4" : reference.method) +
-                      ", dt = " + two_digits(reference.dt) + " s and more";
+                      ", dt = " + two_digits(reference.dt) + " s or more";
   return reference;
 }
 

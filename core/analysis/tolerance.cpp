@@ -52,10 +52,10 @@ std::string ToleranceChoice::words(double tolerance) const {
   std::string text = settings_of(used) + ": error " + (chosen.resolved ? "" : "below ") +
                      number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
                      " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) +
-                     " m were requested; it takes " + number(chosen.cost) + " s of CPU time per simulated second.";
+                     " m was requested; it takes " + number(chosen.cost) + " s of CPU time per simulated second.";
   if (reached.size() > 1)
-    text += " The next best is " + settings_of(reached[1]) + " with " + number(reached[1].cost / chosen.cost) +
-            " times that.";
+    text += " The next best is " + settings_of(reached[1]) + ", at " + number(reached[1].cost / chosen.cost) +
+            " times that cost.";
   return text + " Errors grow with time, so later results may be less accurate.";
 }
 

@@ -29,11 +29,17 @@ std::optional<double> AutoStep::choose(const Preset& preset) {
 }
 
 std::optional<double> AutoStep::look(const Preset& preset, double t, const LedgerReading& ledger) {
-  constexpr double window = 1;  // s
+  constexpr double window = 1;     // s
+  constexpr double as_fast = 0.7;  // of the rate before: the least order of a method halves it
+  if (in_vain()) return std::nullopt;
   const double made = ledger.made();
   if (begun_ && t >= t_ && made - made_ > allowed * ledger.scale && preset.dt / 2 >= least_dt) {
     begun_ = false;
-    return preset.dt / 2;
+    const double rate = (made - made_) / std::max(t - t_, preset.dt);
+    in_vain_ = rate > as_fast * rate_ ? in_vain_ + 1 : 0;
+    rate_ = rate;
+    if (!in_vain()) return preset.dt / 2;
+    return std::nullopt;
   }
   if (!begun_ || t < t_ || t - t_ >= window) begun_ = true, t_ = t, made_ = made;
   return std::nullopt;

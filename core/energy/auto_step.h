@@ -1,6 +1,7 @@
 // `--dt auto`: a dt that is stable for the present constants, and a watch over the energy that detects when it is not.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "core/energy/ledger.h"
@@ -24,11 +25,17 @@ class AutoStep {
   static std::optional<double> choose(const Preset& preset);
 
   /// Starts again, after something else than this watch has changed dt or the constants.
-  void begin() { begun_ = false; }
+  void begin() { *this = AutoStep(); }
   /// Checks the ledger; returns the dt to go on with if the present one adds too much energy.
   std::optional<double> look(const Preset& preset, double t, const LedgerReading& ledger);
 
+  /// Whether energy was added as fast after several halvings as before: it is not dt that is to blame, and stays now.
+  bool in_vain() const { return in_vain_ >= most_in_vain; }
+
  private:
+  static constexpr int most_in_vain = 3;
+  int in_vain_ = 0;                                        ///< halvings in a row
+  double rate_ = std::numeric_limits<double>::infinity();  ///< at which energy was added before the last one, W
   bool begun_ = false;
   double t_ = 0, made_ = 0;  ///< at the beginning of the present second, s and J
 };

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cassert>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -149,6 +150,9 @@ class Engine {
   /// Threads that it uses at present: it lets go of those that do not pay.
   virtual int threads_at_work() const { return threads(); }
   virtual SolveCounts solves() const = 0;
+  /// What Σ |v|² + 2 E/m over all particles and springs can be at most, by what has given energy to the motion
+  /// (MotionLimit), m²/s²; infinity where that is not known.
+  virtual double given_squared() const { return std::numeric_limits<double>::infinity(); }
   /// Work of a method that chooses its own steps within dt; all zero for others.
   virtual InnerSteps inner_steps() const = 0;
   /// What a step does for the present scene, and what it skips.

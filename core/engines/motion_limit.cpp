@@ -10,8 +10,10 @@ namespace tyglab {
 namespace {
 
 /// What springs can hold that whole springs may be long, as Σ |v|², m²/s²: the rule that judges their lengths comes
-/// first. A step that makes a spring that long moves its ends by as much, hence 1/dt².
+/// first. A step that makes a spring that long moves its ends by as much, hence 1/dt². Springs that tear leave it
+/// nothing to judge: there it is 0.
 double reach_squared(const Preset& p, const Lattice& lattice) {
+  if (p.kind == Kind::cloth && p.F_max > 0) return 0;
   const double per_step = 1 / (p.dt * p.dt);
   if (p.kind == Kind::one_weight) {
     const double farthest = longest_factor * std::max(p.L, std::abs(p.offset));
@@ -21,8 +23,7 @@ double reach_squared(const Preset& p, const Lattice& lattice) {
   for (int d = 0; d < int(directions.size()); ++d) {
     const Direction& dir = directions[d];
     const double springs = double(std::max(lattice.rows - dir.di, 0)) * std::max(lattice.columns - std::abs(dir.dj), 0);
-    double longest = longest_factor * dir.rest * p.L;
-    if (p.F_max > 0 && p.k_s > 0) longest = std::min(longest, p.F_max / p.k_s);
+    const double longest = longest_factor * dir.rest * p.L;
     const double held = dir.bending ? p.k_b * std::pow(dir.rest * p.L, 2) : p.k_s * longest * longest;
     sum += springs * (held / p.m + longest * longest * per_step);
   }
@@ -45,12 +46,14 @@ void MotionLimit::set_scene(const Preset& p, const Lattice& lattice, bool held, 
   damping_ = stretch_springs / 2 * p.k_d / p.m * hand_squared_;
   fastest_mode_ = std::sqrt((12 * p.k_s + 8 * p.k_b) / p.m);
   reach_squared_ = reach_squared(p, lattice);
+  constexpr double roundings = 16;
+  noise_ = std::sqrt(particles_) * roundings * (p.precision == Precision::float_ ? 0x1p-24 : 0x1p-53) / p.dt;
   update();
 }
 
 void MotionLimit::begin(const Motion& motion) {
   begun_squared_ = motion.squared, gained_ = 0;
-  farthest_ = motion.farthest;
+  begun_farthest_ = farthest_ = motion.farthest;
   push(motion.pushed);
 }
 
@@ -61,7 +64,8 @@ void MotionLimit::push(double distance) {
 
 void MotionLimit::update() {
   const double most = std::sqrt(begun_squared_) + gained_;
-  most_squared_ = factor * (most * most + hand_squared_ + reach_squared_);
+  given_squared_ = most * most + hand_squared_ + std::pow(noise_ * begun_farthest_, 2);
+  most_squared_ = factor * (given_squared_ + reach_squared_);
 }
 
 void MotionLimit::pass(double dt) {

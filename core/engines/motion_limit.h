@@ -37,6 +37,8 @@ class MotionLimit {
   /// A step over dt, s, is made.
   void pass(double dt);
 
+  /// What Σ |v|² + 2 E/m can be at most by what has given it, and by rounding, m²/s²: no exact motion has more.
+  double given_squared() const { return given_squared_; }
   /// Σ |v|² above which the run has diverged, m²/s².
   double most_squared() const { return most_squared_; }
   /// The largest coordinate that a particle can have, m.
@@ -59,7 +61,10 @@ class MotionLimit {
   double fastest_mode_ = 0;   ///< ω of the springs in any configuration, 1/s
   double hand_squared_ = 0;   ///< |v|² of the held particle
   double reach_squared_ = 0;  ///< Σ |v|² that springs can have which are no longer than the other rule allows
+  double noise_ = 0;          ///< of the velocity of all particles by rounding, over the largest coordinate, 1/s
+  double begun_farthest_ = 0;
   double begun_squared_ = std::numeric_limits<double>::infinity(), gained_ = 0;  ///< U is at most √begun² + gained
+  double given_squared_ = std::numeric_limits<double>::infinity();
   double most_squared_ = std::numeric_limits<double>::infinity();
   double farthest_ = std::numeric_limits<double>::infinity();
 };

@@ -106,6 +106,10 @@ class StepGuard {
   void accept_changes(const Preset& from, const Preset& to);
   /// Bodies may overlap free particles now: that is measured before the next step.
   void expect_pushes() { pushes_stale_ = true; }
+  /// MotionLimit::given_squared(); infinity where it is to be measured before the next step.
+  double given_squared() const {
+    return energy_stale_ || pushes_stale_ ? std::numeric_limits<double>::infinity() : limit_.given_squared();
+  }
   /// Whether springs have been cut from outside since the last step.
   bool springs_cut(const Tears& tears) const { return torn_ != tears.torn_count(); }
   /// Takes these tears as known. The budgets stay valid without the springs that were cut, the backup does not.

@@ -24,7 +24,10 @@ std::string lost_output(const std::filesystem::path& file, int error) {
   if (error == EPIPE || (error == 0 && is_standard_output(file) && os::output_has_no_reader()))
     return output_name(file) + ": its reader has closed it, so the rest of the output is lost";
   const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : std::string();
-  return output_name(file) + ": cannot be written" + why + "; write it elsewhere, or free disk space";
+  const std::string cure = error == ENAMETOOLONG ? "; choose a shorter name, to which .incomplete can be added"
+                           : error == EFBIG ? "; raise the limit of a file's size (ulimit -f), or write it elsewhere"
+                                            : "; write it elsewhere, or free disk space";
+  return output_name(file) + ": cannot be written" + why + cure;
 }
 
 std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes, Reach reach) {

@@ -132,7 +132,7 @@ class JsonReader {
     const char c = now();
     if (ended()) fail_end("it ends where a value is expected");
     refuse_comment(), refuse_bytes();
-    if (depth_ == 0) fail("a preset is a JSON object, so it begins with {");
+    if (depth_ == 0) fail("this is not JSON: an object begins with {");
     if (c == '\'') fail("strings are written in double quotes: \"…\", not '…'");
     if (c == '+') fail("a number has no + sign; remove it");
     if (c == '.') fail("a number begins with a digit: 0.5, not .5");
@@ -210,7 +210,7 @@ class JsonReader {
     const std::size_t open = at_++;
     while (!sees('"')) {
       if (ended() || sees('\n') || sees('\r')) fail_at(open, "the string that begins here lacks its closing \"");
-      if (static_cast<unsigned char>(now()) < ' ') fail("a string cannot contain this character; write \\t for a tab");
+      if (static_cast<unsigned char>(now()) < ' ') fail("a string cannot contain a control character; write \\t for a tab, \\n for a new line");
       refuse_bytes();
       sees('\\') ? escape() : void(at_ += utf8_length(text_.substr(at_)));
     }

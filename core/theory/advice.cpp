@@ -44,6 +44,19 @@ std::string tolerance_missed(const Preset& p, const InnerSteps& inner) {
          "tolerance.";
 }
 
+std::string sources_of_energy(const Preset& p) {
+  return p.kind == Kind::cloth ? "springs, weight, wind, the hand and bodies can have given the cloth"
+                               : "the spring and weight can have given the mass";
+}
+
+std::string energy_in_excess(double excess, const Preset& p) {
+  constexpr double certain = 1.5;  // methods that keep to the motion stay below 1
+  if (!(excess > certain)) return "";
+  return "The motion has " + short_number(rounded(excess, 2)) + " times the energy that " + sources_of_energy(p) +
+         "; errors of " + std::string(scheme(p.integrator).title) + " have added the rest, so the motion is not the " +
+         "model's: " + method_to_blame(p) + ". " + advice(p);
+}
+
 std::string solves_missed(const SolveCounts& solves, const Preset& p) {
   if (solves.unconverged == 0) return "";
   const bool one = solves.unconverged == 1;
@@ -91,8 +104,10 @@ std::string advice_on_dt(const Preset& p, double own, double verlet, const std::
                             : "without damping this method is unstable at every dt") +
            ".";
   if (p.dt > own) return "Use dt = " + seconds(own) + " or less, or a smaller " + stiffness + ", and restart.";
-  const std::string smaller = p.dt > least_dt ? "a smaller dt, " : "";
-  return "Use " + smaller + "a smaller " + stiffness + (overdamped ? "" : " or more damping") + ", and restart.";
+  const std::string smaller = p.dt > least_dt ? (overdamped ? "a smaller dt or " : "a smaller dt, ") : "";
+  return "Use " + smaller + "a smaller " + stiffness + (overdamped ? "" : " or more damping") + ", and restart." +
+         (p.bodies.empty() ? ""
+                           : " Particles that begin in a body, or are pinned in one, stretch their springs at any dt.");
 }
 
 }  // namespace
@@ -104,6 +119,7 @@ std::string method_to_blame(const Preset& p) {
     case Zone::unstable:
       return title + " is unstable here " + at_dt;
     case Zone::depends:
+      if (stable_dt(p, p.integrator) == 0) return title + " is stable at no dt in some shapes of the cloth";
       return at_dt + ", above the worst-case limit of " + seconds(stable_dt(p, p.integrator)) + ", " + title +
              " is stable in some shapes of the cloth, but not in this one";
     case Zone::stable:
@@ -152,7 +168,9 @@ bool springs_too_weak(const Preset& p) {
 
 std::string advice_for_weak_springs(const Preset& p) {
   if (p.kind == Kind::one_weight) return "Use a larger k or a smaller m, and restart: dt and method do not matter.";
-  return "Use a larger k_s, or less weight (m, g) or wind, and restart: dt and method do not matter.";
+  std::string also = p.bodies.empty() ? "" : ", or move bodies out of the cloth";
+  if (p.v_0 != glm::dvec3(0)) also += ", or use a smaller v_0";
+  return "Use a larger k_s, or less weight (m, g) or wind" + also + ", and restart: dt and method do not matter.";
 }
 
 std::optional<Preset> suggested_fix(const Preset& p) {

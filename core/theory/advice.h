@@ -22,6 +22,12 @@ double advised_dt(const Preset& preset, const std::string& integrator);
 /// Whether inner steps did not keep the tolerance, and what to do: a sentence, or nothing where all did.
 std::string tolerance_missed(const Preset& preset, const InnerSteps& inner);
 
+/// "springs, weight, … can have given the cloth": what energy there is.
+std::string sources_of_energy(const Preset& preset);
+
+/// Whether the motion has more energy than it can have been given (Simulation::excess()), and what to do, likewise.
+std::string energy_in_excess(double excess, const Preset& preset);
+
 /// Whether steps of an implicit method did not converge, and what to do, likewise.
 std::string solves_missed(const SolveCounts& solves, const Preset& preset);
 

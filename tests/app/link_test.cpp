@@ -73,9 +73,9 @@ TEST_CASE("a whole address, its end and no link at all are read") {
 
 TEST_CASE("what is wrong with a link is named") {
   CHECK(problem_of("#nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
-  CHECK(problem_of("#flag&k_s").find("no KEY=VALUE: 'k_s'") != std::string::npos);
+  CHECK(problem_of("#flag&k_s").find("not KEY=VALUE: 'k_s'") != std::string::npos);
   CHECK(problem_of("https://a.b/?embed&lab=03_stiffness").find("tyglab --lab 03_stiffness") != std::string::npos);
-  CHECK(problem_of("#flag&=3").find("no KEY=VALUE: '=3'") != std::string::npos);
+  CHECK(problem_of("#flag&=3").find("not KEY=VALUE: '=3'") != std::string::npos);
   CHECK(problem_of("https://a.b/?preset=nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%4").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%zz").find("hexadecimal") != std::string::npos);

@@ -42,6 +42,20 @@ TEST_CASE("bench one-weight: the errors of figure 3.2, and its picture") {
   CHECK(test::read_file(folder / "w.png").starts_with("\x89PNG"));
 }
 
+TEST_CASE("bench one-weight has no error of a method that diverged") {
+  const test::TemporaryFolder folder;
+  const auto outcome =
+      test::tyglab(folder.path(), {"bench", "one-weight", "--set", "m=1e-9", "--set", "k=1e9", "--json", "w.json"});
+  REQUIRE(outcome.code == 0);
+  int diverged = 0;
+  const auto json = nlohmann::json::parse(test::read_file(folder.path() / "w.json"));
+  for (const auto& row : json["runs"]) {
+    CHECK((row["status"] == "diverged") == row["error_rms_m"].is_null());
+    diverged += row["status"] == "diverged";
+  }
+  CHECK(diverged >= 5);
+}
+
 TEST_CASE("bench one-weight takes settings, and damping is in its closed form too") {
   const test::TemporaryFolder folder;
   const auto outcome = test::tyglab(

@@ -174,6 +174,23 @@ TEST_CASE("2: two outputs that are one file are refused, also by links to what i
   CHECK_FALSE(fs::exists(folder / "s.csv"));
 }
 
+TEST_CASE("2: an output under the name that another has until it is whole, or that a frame of --obj has, is refused") {
+  const test::TemporaryFolder folder;
+  const auto refused = [&](std::vector<std::string> options, const char* words) {
+    std::vector<std::string> all{"run", "hanging", "--seconds", "0.1"};
+    all.insert(all.end(), options.begin(), options.end());
+    const auto ended = test::tyglab(folder.path(), all);
+    CHECK(ended.code == 2);
+    CHECK(ended.err.find(words) != std::string::npos);
+  };
+  refused({"--state", "a.csv", "--series", "a.csv.incomplete"}, "until it is whole");
+  refused({"--state", "a.csv.incomplete", "--series", "a.csv"}, "until it is whole");
+  refused({"--obj", "frames", "--state", "frames/hanging_0001.obj"}, "--obj writes frames in that folder");
+  CHECK(std::filesystem::is_empty(folder.path()));
+  const auto beside = test::tyglab(folder.path(), {"run", "hanging", "--steps", "1", "--state", "hanging_0001.obj"});
+  CHECK(beside.code == 0);
+}
+
 TEST_CASE("130: one signal ends a run whose output has no reader") {
   const test::TemporaryFolder folder;
   REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);

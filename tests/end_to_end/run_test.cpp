@@ -260,6 +260,50 @@ TEST_CASE("--ledger writes where the energy goes, on the rows of --series, and -
   CHECK(outcome.out.find("\"unexplained_J\":") != std::string::npos);
 }
 
+TEST_CASE("energy that errors of the method have added is said, with the ratio") {
+  const test::TemporaryFolder folder;
+  const std::vector<std::string> free_cloth{"run",       "hanging", "--set",  "rows=10",   "--set", "columns=10",
+                                            "--set",     "k_d=0",   "--set",  "pins=none", "--set", "k_s=1e4",
+                                            "--seconds", "2",       "--json", "r.json"};
+  auto midpoint = free_cloth, verlet = free_cloth;
+  midpoint.insert(midpoint.end(), {"--integrator", "implicit_midpoint", "--dt", "0.01"});
+  verlet.insert(verlet.end(), {"--dt", "9e-5"});
+  const auto wrong = test::tyglab(folder.path(), midpoint);
+  CHECK(wrong.code == 0);
+  CHECK(wrong.err.find("times the energy that") != std::string::npos);
+  CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["energy_over_given"] > 100);
+  const auto right = test::tyglab(folder.path(), verlet);
+  CHECK(right.err.find("times the energy that") == std::string::npos);
+  CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["energy_over_given"] < 1);
+}
+
+TEST_CASE("a cloth whose springs tear has diverged when its motion has more energy than anything gave it") {
+  const test::TemporaryFolder folder;
+  const auto run = test::tyglab(folder.path(), {"run", "hanging", "--seconds", "1", "--dt", "0.001", "--set",
+                                                "F_max=10", "--set", "k_d=0.005", "--set", "m=3e-5", "--set", "k_s=1"});
+  CHECK(run.code == 4);
+  CHECK(run.err.find("times the energy that") != std::string::npos);
+}
+
+TEST_CASE("--dt auto gives up where a smaller dt does not help, and says so once") {
+  const test::TemporaryFolder folder;
+  const auto run = test::tyglab(
+      folder.path(), {"run", "hanging", "--seconds", "2", "--set", "rows=10", "--set", "columns=10", "--set", "k_d=0",
+                      "--set", "pins=none", "--integrator", "implicit_midpoint", "--set", "k_s=1e4", "--dt", "auto"});
+  CHECK(run.code == 0);
+  const std::size_t said = run.err.find("has not kept");
+  REQUIRE(said != std::string::npos);
+  CHECK(run.err.find("has not kept", said + 1) == std::string::npos);
+}
+
+TEST_CASE("--tolerance chooses a dt whose steps end at the time asked for") {
+  const test::TemporaryFolder folder;
+  const auto run =
+      test::tyglab(folder.path(), {"run", "hanging", "--seconds", "1", "--tolerance", "1e-5", "--json", "r.json"});
+  REQUIRE(run.code == 0);
+  CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["t"] == doctest::Approx(1).epsilon(1e-12));
+}
+
 TEST_CASE("--dt auto takes a stable dt, halves it where energy is made, and ends at the time asked for") {
   const test::TemporaryFolder folder;
   auto outcome = good(folder.path(), {"run", "explodes", "--integrator", "verlet", "--set", "k_s=20000", "--dt", "auto",

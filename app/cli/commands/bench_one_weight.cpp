@@ -55,15 +55,18 @@ Json row_json(const WeightRun& run) {
           {"integrator", p.integrator},
           {"dt", p.dt},
           {"steps", run.t.empty() ? 0 : run.t.size() - 1},
-          {"error_rms_m", run.error_rms_m},
-          {"error_largest_m", run.error_largest_m},
+          {"error_rms_m", run.diverged ? Json() : Json(run.error_rms_m)},
+          {"error_largest_m", run.diverged ? Json() : Json(run.error_largest_m)},
           {"status", run.diverged ? "diverged" : "ok"}};
 }
 
 void print_row(std::ostream& out, const WeightRun& run) {
   std::array<char, 256> line;
-  std::snprintf(line.data(), line.size(), "%-20s  %10.3g  %10.3g%s\n", run.preset.integrator.c_str(), run.error_rms_m,
-                run.error_largest_m, run.diverged ? "  diverged" : "");
+  if (run.diverged)
+    std::snprintf(line.data(), line.size(), "%-20s  %10s  %10s  diverged\n", run.preset.integrator.c_str(), "-", "-");
+  else
+    std::snprintf(line.data(), line.size(), "%-20s  %10.3g  %10.3g\n", run.preset.integrator.c_str(), run.error_rms_m,
+                  run.error_largest_m);
   out << line.data() << std::flush;
   flush_standard_output();
 }

@@ -52,6 +52,9 @@ class Outputs {
   Outputs(const RunOptions& options, const ResolvedPreset& scene, std::int64_t steps)
       : options_(options), scene_(scene), plan_(options.fps, scene.preset.dt, steps) {
     check_combination();
+    for (const Output& output : options.outputs())
+      if (!options.obj.empty() && is_frame(output.file))
+        throw UsageError(output.option + ": --obj writes frames in that folder under such names; use another name");
     check_outputs(options.outputs(), scene.source.file);
     if (options.obj.empty()) return;
     if (scene.preset.kind == Kind::one_weight)
@@ -119,6 +122,19 @@ class Outputs {
   }
 
  private:
+  /// Whether an output has the name that a frame of --obj may get.
+  bool is_frame(const std::string& output) const {
+    const fs::path file(output);
+    const std::string name = file.filename().string(), label = scene_.source.label + "_", ending = ".obj";
+    std::error_code ignored;
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (fs::weakly_canonical(folder, ignored) != fs::weakly_canonical(options_.obj, ignored)) return false;
+    if (name.size() <= label.size() + ending.size() || !name.starts_with(label) || !name.ends_with(ending))
+      return false;
+    return std::all_of(name.begin() + std::ptrdiff_t(label.size()), name.end() - std::ptrdiff_t(ending.size()),
+                       [](char letter) { return letter >= '0' && letter <= '9'; });
+  }
+
   /// An option that would do nothing is a mistake of whoever typed it.
   void check_combination() const {
     const bool rows = !options_.series.empty() || !options_.ledger.empty();
@@ -253,6 +269,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"energy", energy_json(simulation)},
+          {"energy_over_given", finite_json(simulation.excess())},
           {"diverged", divergence_json(simulation.divergence())},
           {"files", std::move(files)}};
 }
@@ -321,6 +338,9 @@ int run(const RunOptions& options) {
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
+  if (const std::string excess = diverged ? "" : energy_in_excess(simulation.excess(), simulation.preset());
+      !excess.empty())
+    std::cerr << "tyglab: " << excess << '\n';
   if (const std::string missed = solves_missed(simulation.engine().solves(), simulation.preset()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
   if (const std::string missed = tolerance_missed(scene.preset, simulation.engine().inner_steps()); !missed.empty())

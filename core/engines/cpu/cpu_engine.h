@@ -66,6 +66,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// For tests: from now on every few steps are made by as many threads as this says, 1 … threads().
   void force_threads(std::function<int()> next) { forced_threads_ = std::move(next); }
   SolveCounts solves() const override;
+  double given_squared() const override { return guard_.given_squared(); }
   InnerSteps inner_steps() const override { return control_.counts(); }
   std::vector<StepFeature> features() const override;
   std::string name() const override;

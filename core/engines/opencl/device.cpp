@@ -259,8 +259,10 @@ std::shared_ptr<Device> open_device(int number) {
   const std::vector<DeviceId> found = find_devices(problem);
   if (found.empty()) throw EngineError(no_device_words(problem) + " Or use the CPU engine (--engine cpu)");
   if (number >= int(found.size()))
-    throw EngineError("There is no OpenCL device " + std::to_string(number) + ": they are numbered from 0 to " +
-                      std::to_string(found.size() - 1) + suggested_fix);
+    throw EngineError("There is no OpenCL device " + std::to_string(number) +
+                      (found.size() == 1 ? ": the only one is 0"
+                                         : ": they are numbered from 0 to " + std::to_string(found.size() - 1)) +
+                      suggested_fix);
   if (number < 0) {
     std::vector<OpenClDevice> devices;
     std::transform(found.begin(), found.end(), std::back_inserter(devices), facts_of);

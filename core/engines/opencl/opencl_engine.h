@@ -70,6 +70,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::size_t bytes() const override;
   int threads() const override { return int(device_->facts().compute_units); }
   SolveCounts solves() const override { return guard_.with_steps(solver_ ? solver_->counts() : SolveCounts{}); }
+  double given_squared() const override { return guard_.given_squared(); }
   InnerSteps inner_steps() const override { return {}; }
   std::vector<StepFeature> features() const override;
   std::string name() const override;
