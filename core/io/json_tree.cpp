@@ -210,7 +210,8 @@ class JsonReader {
     const std::size_t open = at_++;
     while (!sees('"')) {
       if (ended() || sees('\n') || sees('\r')) fail_at(open, "the string that begins here lacks its closing \"");
-      if (static_cast<unsigned char>(now()) < ' ') fail("a string cannot contain a control character; write \\t for a tab, \\n for a new line");
+      if (static_cast<unsigned char>(now()) < ' ')
+        fail("a string cannot contain a control character; write \\t for a tab, \\n for a new line");
       refuse_bytes();
       sees('\\') ? escape() : void(at_ += utf8_length(text_.substr(at_)));
     }

@@ -41,7 +41,7 @@ TEST_CASE("experiments on the CPU engine alone refuse another, and say so where 
     CHECK(check(folder, with({"one_weight", "--engine", "cpu"}), 0, "").err.empty());
     CHECK(check(folder, with({"opencl.json", "--engine", "cpu"}), 0, "").err.empty());
     const auto outcome = check(folder, with({"opencl.json"}), 0, "the preset asks for OpenCL");
-    CHECK(outcome.err.find("did not converge") == outcome.err.rfind("did not converge"));
+    CHECK(test::lines(outcome.err).size() == 1);
   }
   check(folder, {"bench", "convergence", "one_weight", "--precision", "float"}, 2, "in double");
 }
@@ -110,7 +110,7 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
     CHECK(test::read_file(folder / "a.json").find("\"unconverged\": 0") != std::string::npos);
     words.insert(words.end(), {"--set", "iterations=1"});
     const auto outcome = check(folder, words, 0, " steps did not converge (up to ");
-    CHECK(test::lines(outcome.err).size() == 1);
+    CHECK(outcome.err.find("did not converge") == outcome.err.rfind("did not converge"));
     CHECK(outcome.err.find("linear solve. Use a smaller dt or more iterations.") != std::string::npos);
     const std::string json = test::read_file(folder / "a.json");
     CHECK(json.find("\"unconverged\": 3") != std::string::npos);
