@@ -1,7 +1,7 @@
 // One step of one particle written out: forces spring by spring, and every sum of the method's table with the numbers
 // put in. Worked out in double from the table itself (scheme.h), apart from the engines, so it also checks them.
 //
-// The sum is the engine's own step to rounding (tests/unit/step_trace_test.cpp: 1e-13 m), so the card Inside shows how
+// The sum is the engine's own step to rounding (tests/unit/step_trace_test.cpp: 1e-13 m), so the Inside card shows how
 // the number comes about and not how it might.
 #pragma once
 

@@ -1,6 +1,6 @@
 // How a cloth's positions come to where OpenGL draws them.
 //
-// `tyglab devices` says which way each device goes, the card Performance and --time-report (positions_come_by,
+// `tyglab devices` says which way each device goes, the Performance card and --time-report (positions_come_by,
 // copied_because) which one is in use. Motion has the same bits whichever it is.
 //
 // shared_buffer, on graphics cards with cl_khr_gl_sharing (app/render/written_vertices.h). Only run against a double of

@@ -141,8 +141,9 @@ void complete(Session& session, LabRun& run) {
   run.record().done = run.show_explanation = true;
   judge_prediction(session, run);
   keep_outcome(session, run);
+  // What has been skipped is still to be done.
   int& done = session.labs.progress[run.lab.label];
-  done = std::max(done, int(run.step) + 1);
+  while (std::size_t(done) < run.records.size() && run.records[std::size_t(done)].done) ++done;
 }
 
 /// What the step wants to be seen, and at which speed.

@@ -77,7 +77,7 @@ struct LabState {
   std::vector<KeptExperiment> kept;     ///< the last is gone back to first
   std::uint64_t begun_with = 0;         ///< SessionCounts::documents of the cloth that was there when the lab began
   std::optional<Preset> left_behind;    ///< constants of the lab's cloth, which is open still after the lab
-  std::map<std::string, int> progress;  ///< by its name: how many of a lab's steps are done
+  std::map<std::string, int> progress;  ///< by its name: a lab's steps that are done, up to the first that is not
 };
 
 /// A file, or else the lab of that name: one that comes with the program or of the user's folder. Throws LabError; an

@@ -88,7 +88,8 @@ void take_from_history(Session& session, bool backwards) {
   std::string said = (backwards ? "Undone: " : "Redone: ") + what;
   if (then.state && session.simulation->fits(*then.state)) {
     bring_back(session, *then.state);
-    said += ". The cloth is at t = " + time_number(then.t, next.dt) + " s again";
+    said += ". The cloth is at t = " + time_number(then.t, next.dt) + " s again" +
+            (session.copies.lockstep.empty() ? "" : ", and its copies start from there");
   }
   session.messages.note(said + ".");
 }

@@ -1,5 +1,5 @@
 // Which methods and steps reach an error in the motion at hand, and what they cost: short runs of many settings, held
-// against a fine reference. What `--tolerance` and "Find settings" of the card Accuracy choose from.
+// against a fine reference. What `--tolerance` and "Find settings" of the Accuracy card choose from.
 #pragma once
 
 #include <functional>

@@ -1,7 +1,7 @@
 // The energy ledger: where a cloth's energy came from and where it went. What no force, contact, tear or edit explains
 // was added or removed by the integrator.
 //
-// It is kept while the card Energy is open, while dt is automatic, and for `run --ledger` and `--dt auto`
+// It is kept while the Energy card is open, while dt is automatic, and for `run --ledger` and `--dt auto`
 // (Simulation::enable_ledger). Every step is then looked at: bands note what bodies stop, the state is read,
 // read_energy passes over it in SIMD, Ledger adds up. That costs several times the step itself, and nothing where no
 // ledger is kept. No bit of the motion depends on it.

@@ -23,7 +23,7 @@ class LabPlayer {
   void set(const std::string& setting);
   /// Runs until it has lasted so many simulated seconds more, the step stops it, it diverges, or the step is done.
   void run(double seconds);
-  /// Updates in which nothing is done, until the limits are there and, where the step shows the card Accuracy, what it
+  /// Updates in which nothing is done, until the limits are there and, where the step shows the Accuracy card, what it
   /// measures; or until the step is done.
   void look();
   /// The next step, which opens its preset.

@@ -272,7 +272,7 @@ TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it
   CHECK_FALSE(studies(window).map.findings().has_value());
 }
 
-TEST_CASE("the card Energy says since when it counts, and offers to count from the start") {
+TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {
   test::NullUi window(test::UiOptions{.preset = "hanging"});
   window.until([&] { return window.t() > 0.3; }, "some motion");
   window.find("energy card");
@@ -287,7 +287,7 @@ TEST_CASE("the card Energy says since when it counts, and offers to count from t
   CHECK(window.drew("counted since the start"));
 }
 
-TEST_CASE("what the card Energy shows moves no divergence") {
+TEST_CASE("what the Energy card shows moves no divergence") {
   std::int64_t steps[2] = {};
   for (const bool open : {false, true}) {
     test::NullUi window(test::UiOptions{.preset = "explodes"});

@@ -58,6 +58,24 @@ TEST_CASE("the preset that explodes stops, says when, where and why, and starts 
   CHECK(window.cloth().divergence()->step == why.step);
 }
 
+TEST_CASE("in a small window with a lab the details scroll, stand over all else, and fold again") {
+  test::NullUi window({.preset = "hanging", .size = {900, 600}});
+  begin_lab(window.session, "03_stiffness");
+  window.type_value("k_s", "100000");
+  window.session.pacing.playing = true;
+  explode(window);
+  window.click("viewport.Details");
+  window.frames(2);
+  const Box banner = *window.ui.placing.find("banner");
+  CHECK(banner.hi.y <= window.control("lab.leave").lo.y);
+  CHECK(banner.lo.y >= window.control("top.brand").hi.y);
+  window.scroll_to("viewport.Restart", "viewport.fold");
+  window.click("viewport.fold");
+  window.frames(2);
+  CHECK(window.sees("viewport.Details"));
+  CHECK_FALSE(window.sees("viewport.Restart"));
+}
+
 TEST_CASE("in a small window the banner is one line; its details come and go with a click") {
   test::NullUi window(
       {.preset = "explodes", .size = {900, 600}, .settings = [](Settings& settings) { settings.ui_scale = 1.5; }});

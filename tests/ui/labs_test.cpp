@@ -208,7 +208,7 @@ TEST_CASE("a step shows what it is about, at its speed, and the lab's end gives 
   CHECK_FALSE(unsaved(window.session));
   REQUIRE(window.scene.colors.chosen.has_value());
   CHECK(window.scene.colors.chosen->field == ParticleField::tension);
-  CHECK(window.session.simulation->ledger().has_value());  // the card Energy is open
+  CHECK(window.session.simulation->ledger().has_value());  // the Energy card is open
   enter_step(window.session, 1);
   window.frames(4);
   CHECK(window.session.pacing.speed == 0.5);

@@ -283,6 +283,12 @@ std::string waiting_words(const Ui& ui) {
   return "The error is measured as soon as the constants stand still for a moment.";
 }
 
+/// Beside a result that is of an earlier moment.
+std::string later_words(const AccuracyStudy& measuring) {
+  return " It is being measured again from t = " + time_number(measuring.at.t, measuring.of.dt) +
+         " s: " + std::to_string(int(100 * measuring.reference_part)) + " % of the fine runs are done.";
+}
+
 /// Shows an earlier study only as far as it is true of the present constants.
 void errors_shown(Ui& ui, float height) {
   auto study = ui.session.studies.accuracy.study();
@@ -295,8 +301,12 @@ void errors_shown(Ui& ui, float height) {
   if (stale) study->present.reset();
   const Chart chart = accuracy_chart(ui.theme.colors, *study, target_error(ui));
   const bool known = !stale && (study->present || !study->problem.empty());
-  words_and_chart(ui, height, known ? accuracy_words(*study) + other_methods_words(*study) : waiting,
-                  charted ? &chart : nullptr);
+  const auto measuring = ui.session.studies.accuracy.measuring();
+  const bool later = measuring && measuring->at.t != study->at.t;
+  words_and_chart(
+      ui, height,
+      known ? accuracy_words(*study) + (later ? later_words(*measuring) : other_methods_words(*study)) : waiting,
+      charted ? &chart : nullptr);
 }
 
 /// How far the measurement of the order is.

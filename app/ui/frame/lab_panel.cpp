@@ -252,13 +252,18 @@ void fit_height(Ui& ui, const Region& region, float contents) {
 }
 
 /// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …"
-std::string lab_result(const LabRun& run) {
+std::string lab_result(const LabRun& run, int done) {
   int asked = 0, right = 0;
   for (std::size_t k = 0; k < run.records.size(); ++k)
     if (run.lab.steps[k].prediction && run.records[k].predicted) ++asked, right += run.records[k].right;
-  std::string text = "“" + run.lab.title + "” is done";
-  if (asked > 0) text += "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
-  return text + ". Ctrl+L lists the next ones.";
+  std::string text = "“" + run.lab.title + "” ";
+  if (done == int(run.records.size()))
+    text += "is done";
+  else
+    text += "ends here; step " + std::to_string(done + 1) + " was skipped and is still to be done";
+  if (asked == 1) text += right == 1 ? "; the prediction was right" : "; the prediction was wrong";
+  if (asked > 1) text += "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
+  return text + ". Ctrl+L lists all labs.";
 }
 
 /// Buttons at the right of the header; returns where they begin.
@@ -283,7 +288,7 @@ float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
   ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + ui.theme.px(13)});
   const bool leave = quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept");
   if (leave || (go && last)) {
-    if (go && done) ui.session.messages.note(lab_result(run));
+    if (go && done) ui.session.messages.note(lab_result(run, steps_done(ui.session, run.lab)));
     ui.command("leave_lab");
   } else if (go) {
     enter_step(ui.session, run.step + 1);

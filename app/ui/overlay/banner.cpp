@@ -143,6 +143,8 @@ void way_buttons(Ui& ui, const std::vector<Way>& ways, const std::vector<ImVec2>
   }
 }
 
+constexpr float high_for_banner = 320;  // px at scale 1, of the cloth's place: room for a second line
+
 /// The banner on a line or a few: what is said and offered wherever the whole would leave the cloth too little room.
 struct FoldedBanner {
   std::string words;
@@ -159,8 +161,9 @@ float buttons_width(const Ui& ui, const std::vector<Way>& ways) {
   return sum;
 }
 
-/// The first way out, the replay and the details, beside as many words as have room, or below them.
-FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double over_limit, float most) {
+/// The first way out, the replay and the details, beside as many words as have room, or below them. `high`: there is
+/// room for two lines rather than for fewer words.
+FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double over_limit, float most, bool high) {
   const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
   std::vector<Way> shown{ways.front()};
   for (std::size_t k = 1; k < ways.size(); ++k)
@@ -173,13 +176,16 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
       over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit" : std::string();
   const std::string texts[] = {"The simulation diverged" + limit, "The simulation diverged", "Diverged"};
   FoldedBanner folded;
+  std::vector<std::pair<bool, std::string>> ways_to_say;
+  if (high) ways_to_say = {{false, texts[0]}, {true, texts[0]}};
   for (const bool under : {false, true})
-    for (const std::string& text : texts) {
-      const float words = icon + text_width(*ui.fonts.title, text);
-      const float width = 2 * padding + (under ? std::max(words, buttons) : words + 2 * gap + buttons);
-      folded = {text, shown, places, under, {std::min(width, most), (under ? line : 0) + rows + 2 * gap}};
-      if (width <= most && (under || rows == line)) return folded;
-    }
+    for (const std::string& text : texts) ways_to_say.emplace_back(under, text);
+  for (const auto& [under, text] : ways_to_say) {
+    const float words = icon + text_width(*ui.fonts.title, text);
+    const float width = 2 * padding + (under ? std::max(words, buttons) : words + 2 * gap + buttons);
+    folded = {text, shown, places, under, {std::min(width, most), (under ? line : 0) + rows + 2 * gap}};
+    if (width <= most && (under || rows == line)) return folded;
+  }
   return folded;
 }
 
@@ -201,7 +207,8 @@ BannerPlan plan_banner(Ui& ui, const Divergence& divergence, glm::vec2 region) {
   const Advice& advice = advice_for(then, ui);
   plan.ways = ways_out(ui, advice);
   const float most = region.x - ui.theme.px(32), padding = ui.theme.px(16), gap = ui.theme.px(6);
-  plan.folded = folded_banner(ui, plan.ways, advice.largest_dt > 0 ? then.dt / advice.largest_dt : 0, most);
+  plan.folded = folded_banner(ui, plan.ways, advice.largest_dt > 0 ? then.dt / advice.largest_dt : 0, most,
+                              region.y > ui.theme.px(high_for_banner));
   plan.width = std::min(ui.theme.px(600), most);
   // In a narrow one the text begins under the icon.
   plan.indent = plan.width < ui.theme.px(least_banner) ? 0 : ui.theme.px(30);
@@ -248,13 +255,17 @@ void draw_folded(Ui& ui, const FoldedBanner& folded, const Box& box) {
   way_buttons(ui, folded.ways, folded.places, at);
 }
 
+/// In a window of its own, over all else: what is higher than the cloth's place scrolls.
 void draw_whole(Ui& ui, const BannerPlan& plan, const Box& box) {
   const Tokens& c = ui.theme.colors;
   const ImFont &title = *ui.fonts.title, &text = *ui.fonts.text;
-  const float padding = ui.theme.px(16), gap = ui.theme.px(6);
+  const float padding = ui.theme.px(16), gap = ui.theme.px(6), inset = ui.theme.px(2);
+  ImGui::SetCursorScreenPos({box.lo.x, box.lo.y + inset});
+  gui::begin_child("banner", {box.hi.x - box.lo.x, box.hi.y - box.lo.y - 2 * inset});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  float y = box.lo.y + padding;
-  const float left = box.lo.x + padding, x = left + plan.indent;
+  const ImVec2 begin = ImGui::GetCursorScreenPos();
+  float y = begin.y - inset + padding;
+  const float left = begin.x + padding, x = left + plan.indent;
   draw_text(draw, text, {left, y}, c.danger, icon_or(ui.fonts, icon::warning, "!"));
   draw_text(draw, title, {left + ui.theme.px(30), y}, c.text, "The simulation diverged");
   y += title.FontSize + gap;
@@ -263,9 +274,12 @@ void draw_whole(Ui& ui, const BannerPlan& plan, const Box& box) {
   draw_text(draw, text, {x, y}, c.quiet, plan.why);
   y += height_of(text, plan.why) + ui.theme.px(12);
   way_buttons(ui, plan.ways, plan.places, {x, y});
-  ImGui::SetCursorScreenPos({box.hi.x - ui.theme.px(34), box.lo.y + ui.theme.px(8)});
+  ImGui::SetCursorScreenPos({x, y + plan.places.back().y + ui.theme.px(30) + padding - 2 * inset});
+  ImGui::Dummy({1, 1});
+  ImGui::SetCursorScreenPos({box.hi.x - ui.theme.px(38), box.lo.y + ui.theme.px(8)});
   if (quiet_button(ui, "fold", icon::close, "x", "Fold to one line, so that more of the cloth is visible"))
     ui.banner_whole = false;
+  ImGui::EndChild();
 }
 
 }  // namespace
@@ -281,7 +295,9 @@ void banner(Ui& ui, const Box& region) {
   const auto& divergence = ui.session.simulation->divergence();
   if (!divergence) return ui.banner_whole.reset();
   const BannerPlan plan = plan_banner(ui, *divergence, region.hi - region.lo);
-  const Box box = place_of_banner(ui, region, plan.whole ? glm::vec2(plan.width, plan.height) : plan.folded.size);
+  const float room = region.hi.y - region.lo.y - ui.theme.px(banner_margin_at_1);
+  const Box box =
+      place_of_banner(ui, region, plan.whole ? glm::vec2(plan.width, std::min(plan.height, room)) : plan.folded.size);
   banner_ground(ui, box);
   if (plan.whole) return draw_whole(ui, plan, box);
   draw_folded(ui, plan.folded, box);

@@ -21,7 +21,7 @@ namespace tyglab {
 struct CommandRow;
 struct Ui;
 
-/// What the card Accuracy shows: error over cost, the order of convergence, or settings for an error.
+/// What the Accuracy card shows: error over cost, the order of convergence, or settings for an error.
 enum class AccuracySide { errors, convergence, settings };
 
 /// The column of plots and cards.
