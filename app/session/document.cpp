@@ -121,7 +121,7 @@ bool save_document_as(Session& session, const std::filesystem::path& file, const
     if (preset.texture != texture)
       copied = " and its texture " + std::filesystem::path(preset.texture).filename().string();
     Document saved{preset, file.stem().string(), file};
-    if (!session.copies.lockstep.empty()) copied += ". Copies are no part of a preset.";
+    if (!session.copies.lockstep.empty()) copied += ". The copies are not saved: a preset holds one cloth.";
     std::string said = "Saved " + file.string() + copied, opened = saved.label;
     session.rebuild.rename(name, preset.description);
     if (!session.rebuild.holds_present()) apply_to_all(session, edit::Change{preset});
