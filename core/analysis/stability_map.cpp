@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/analysis/study_run.h"
 #include "core/cloth/start.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
@@ -95,7 +96,7 @@ MapCell measure_cell(const Preset& preset, const MapGrid& grid, int column, int 
                            std::max(affordable, double(least_steps))}));
   while (left > 0 && !simulation.divergence()) {
     if (stop()) throw Stopped();
-    simulation.advance(std::min(left, piece));
+    advance_study(simulation, std::min(left, piece), stop);
     left -= piece;
   }
   cell.diverged = simulation.divergence().has_value();

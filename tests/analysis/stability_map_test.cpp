@@ -81,6 +81,16 @@ TEST_CASE("a map that is asked to stop stops") {
   CHECK_THROWS_AS(measure_cell(preset, map_grid(preset, 2, 2), 0, 0, [] { return true; }), Stopped);
 }
 
+TEST_CASE("a cell is asked in every step whether to stop: a single one may be costly") {
+  Preset preset = test::cloth(12, 12, "projective_dynamics");
+  preset.iterations = 50;
+  const MapGrid grid = map_grid(preset, 4, 4);
+  int asked = 0;
+  const MapCell cell = measure_cell(preset, grid, 2, 2, [&] { return ++asked < 0; });
+  CHECK(asked >= std::floor(cell.t / cell.dt));
+  CHECK_THROWS_AS(measure_cell(preset, grid, 2, 2, [left = 5]() mutable { return --left < 0; }), Stopped);
+}
+
 TEST_CASE("a map's CSV has a row a cell with its units") {
   const Preset preset = test::cloth(5, 5);
   const MapGrid grid = map_grid(preset, 2, 2);
