@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <numeric>
 #include <sstream>
+#include <type_traits>
 
 #include "core/model/words.h"
 
@@ -216,12 +217,14 @@ SliderRange slider_range(const PresetRow& row, double preset_value) {
 
 Preset nearest_allowed(Preset preset) {
   for (const PresetRow& row : rows)
-    if (const auto* real = std::get_if<double Preset::*>(&row.field))
-      preset.** real = std::clamp(preset.**real, row.min, row.max);
-    else if (const auto* whole = std::get_if<int Preset::*>(&row.field))
-      preset.** whole = std::clamp(preset.**whole, int(row.min), int(row.max));
-    else if (const auto* vector = std::get_if<glm::dvec3 Preset::*>(&row.field))
-      preset.** vector = glm::clamp(preset.**vector, row.min, row.max);
+    std::visit(
+        [&](auto field) {
+          auto& value = preset.*field;
+          using Value = std::decay_t<decltype(value)>;
+          if constexpr (!std::is_same_v<Value, std::string>)
+            value = Value(glm::clamp(value, Value(row.min), Value(row.max)));
+        },
+        row.field);
   return preset;
 }
 

@@ -274,7 +274,7 @@ TEST_CASE("energy that errors of the method have added is said, with the ratio")
   CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["energy_over_given"] > 100);
   const auto right = test::tyglab(folder.path(), verlet);
   CHECK(right.err.find("times the energy that") == std::string::npos);
-  CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["energy_over_given"] < 1);
+  CHECK(nlohmann::json::parse(test::read_file(folder.path() / "r.json"))["energy_over_given"] <= 1.02);
 }
 
 TEST_CASE("a cloth whose springs tear has diverged when its motion has more energy than anything gave it") {
@@ -283,6 +283,16 @@ TEST_CASE("a cloth whose springs tear has diverged when its motion has more ener
                                                 "F_max=10", "--set", "k_d=0.005", "--set", "m=3e-5", "--set", "k_s=1"});
   CHECK(run.code == 4);
   CHECK(run.err.find("times the energy that") != std::string::npos);
+}
+
+TEST_CASE("130: two signals at once are one wish, and what was asked for is written") {
+  const test::TemporaryFolder folder;
+  const std::string script =
+      "\"$0\" run denim --seconds 1000 --state s.csv --json r.json & sleep 1; kill -INT $!; kill -TERM $!; wait $!";
+  const auto ended = test::run(folder.path(), {"sh", "-c", script, TYGLAB_BINARY});
+  CHECK(ended.code == 130);
+  CHECK(std::filesystem::exists(folder.path() / "s.csv"));
+  CHECK(std::filesystem::exists(folder.path() / "r.json"));
 }
 
 TEST_CASE("--dt auto gives up where a smaller dt does not help, and says so once") {

@@ -1,6 +1,7 @@
 // A cloth that explodes stops with a banner; restarting, and undoing what caused it, work.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/base/glfw_keys.h"
@@ -56,6 +57,32 @@ TEST_CASE("the preset that explodes stops, says when, where and why, and starts 
   window.key(GLFW_KEY_SPACE);
   explode(window);
   CHECK(window.cloth().divergence()->step == why.step);
+}
+
+bool tells_of_excess(const test::NullUi& window) {
+  const auto& list = window.session.messages.list();
+  return std::any_of(list.begin(), list.end(), [](const Message& message) {
+    return message.text.find("times the energy that") != std::string::npos;
+  });
+}
+
+TEST_CASE("the window tells of energy that errors of the method have added; in a lab that is the student's to find") {
+  test::NullUi window({.preset = "hanging", .with = [](Preset& preset) {
+                         preset.rows = preset.columns = 10, preset.pins.mode = Pins::Mode::none;
+                         preset.k_d = 0, preset.k_s = 1e4, preset.dt = 0.01, preset.integrator = "implicit_midpoint";
+                       }});
+  window.until([&] { return tells_of_excess(window); }, "the window to tell of it");
+  CHECK_FALSE(window.diverged());
+
+  test::NullUi student({.preset = "hanging"});
+  begin_lab(student.session, "02_euler");
+  student.frames(4);
+  student.session.pacing.playing = true, student.session.pacing.speed = 0.2;  // so that there are many looks
+  student.until([&] { return student.cloth().excess() > 1.5; }, "Euler to add energy");
+  student.session.updates_unlooked = 0;
+  student.frames(200);
+  CHECK(student.session.updates_unlooked == 0);  // nobody looks
+  CHECK_FALSE(tells_of_excess(student));
 }
 
 TEST_CASE("in a small window with a lab the details scroll, stand over all else, and fold again") {

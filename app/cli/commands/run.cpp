@@ -242,7 +242,7 @@ Json inner_steps_json(const Engine& engine) {
 
 /// What a run did, for programs.
 Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::string& status, double wall_seconds,
-             double ns_per_particle_step, Json files) {
+             double ns_per_particle_step, double excess, Json files) {
   const Preset& preset = simulation.preset();
   return {{"version", TYGLAB_VERSION},
           {"preset", scene.source.label},
@@ -269,7 +269,7 @@ Json summary(Simulation& simulation, const ResolvedPreset& scene, const std::str
           {"torn", simulation.tears().torn_count()},
           {"left_inside", simulation.left_inside()},
           {"energy", energy_json(simulation)},
-          {"energy_over_given", finite_json(simulation.excess())},
+          {"energy_over_given", finite_json(excess)},
           {"diverged", divergence_json(simulation.divergence())},
           {"files", std::move(files)}};
 }
@@ -324,12 +324,13 @@ int run(const RunOptions& options) {
 
   const bool diverged = simulation.divergence().has_value();
   const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
+  const double excess_at_end = simulation.excess();
   const Json report = summary(simulation, scene,
                               diverged                ? "diverged"
                               : stepper.interrupted() ? "interrupted"
                                                       : "done",
                               wall_seconds, particle_steps > 0 ? stepper.seconds() * 1e9 / particle_steps : 0,
-                              outputs.finish(simulation, stepper.interrupted()));
+                              excess_at_end, outputs.finish(simulation, stepper.interrupted()));
   std::string summary_name;
   if (!options.json.empty())
     summary_name = output_name(
@@ -338,8 +339,7 @@ int run(const RunOptions& options) {
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
-  if (const std::string excess = diverged ? "" : energy_in_excess(simulation.excess(), simulation.preset());
-      !excess.empty())
+  if (const std::string excess = energy_in_excess(excess_at_end, simulation.preset()); !excess.empty())
     std::cerr << "tyglab: " << excess << '\n';
   if (const std::string missed = solves_missed(simulation.engine().solves(), simulation.preset()); !missed.empty())
     std::cerr << "tyglab: " << missed << '\n';
