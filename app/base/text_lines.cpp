@@ -21,8 +21,10 @@ void bind(std::string& text, std::string_view sign) {
 
 /// A number is not parted from its unit.
 std::string with_whole_quantities(std::string text) {
-  constexpr std::array<std::string_view, 14> units{"N",  "m",  "s",   "kg",    "J",   "%",    "mm",
-                                                   "cm", "ms", "N/m", "N·s/m", "m/s", "m/s²", "1/s"};
+  constexpr std::array<std::string_view, 14> units{"N",  "m",  "s",   "kg",         "J",   "%",    "mm",
+                                                   "cm", "ms", "N/m", "N\u00a0s/m", "m/s", "m/s²", "1/s"};
+  constexpr std::string_view loose = "N s/m";
+  for (std::size_t at = 0; (at = text.find(loose, at)) != std::string::npos; ++at) text.replace(at + 1, 1, no_break);
   for (std::size_t at = 1; (at = text.find(' ', at)) != std::string::npos; ++at) {
     const bool number = text[at - 1] >= '0' && text[at - 1] <= '9';
     std::string word = text.substr(at + 1, std::min(text.find(' ', at + 1), text.size()) - at - 1);

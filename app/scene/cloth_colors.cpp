@@ -43,11 +43,6 @@ void ClothColors::update(Scene& scene, int tile, int every) {
   picture.sites = {cloth.lattice(), every};
   read_field(chosen->field, cloth, reference, picture.sites, picture.values);
   picture.version = ++versions_;
-  // A replay keeps the scale of what it leads to, so that its colors can be compared.
-  if (scene.session.replay && chosen->automatic.now() > 0) {
-    chosen->seen = span_of(picture.values);
-    return;
-  }
   // Where another cloth shares the scale, what is left of one that has diverged would take all of it.
   if (wreck && !scene.session.copies.lockstep.empty()) return;
   if (std::exchange(picture.wreck, wreck) && !wreck) chosen->automatic.forget();

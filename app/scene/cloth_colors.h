@@ -2,11 +2,12 @@
 //
 // Copies share one scale, so the values of all pictures are worked out before any is drawn. The scale ends at a round
 // number that all but two in a hundred values stay below; it grows at once, shrinks once it was not needed for forty
-// frames in which the cloth moved (SteadyTop), or is typed. Values beyond it have the color of its end, and the
-// legend's ends are then arrows. Values go into a texture of one float a particle; fragments interpolate values, not
-// colors, and look them up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). Shaders are the
-// usual files, compiled a second time with COLORED once a cloth is colored. What colors the cloth is remembered with
-// the settings, and stands in no preset.
+// frames in which the cloth moved (SteadyTop), or is typed. A replay begins with a scale of its own, which grows with
+// what it shows: that of its end would leave all but the last steps pale. Values beyond it have the color of its end,
+// and the legend's ends are then arrows. Values go into a texture of one float a particle; fragments interpolate
+// values, not colors, and look them up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). Shaders
+// are the usual files, compiled a second time with COLORED once a cloth is colored. What colors the cloth is remembered
+// with the settings, and stands in no preset.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -313,6 +313,20 @@ TEST_CASE("Back sets the step before up again, so that nothing of the step after
   CHECK(window.preset().dt == 0.001);
 }
 
+TEST_CASE("the buttons of a lab keep their places when its strip grows") {
+  test::NullUi window;
+  begin(window, "gains energy", "02_euler");
+  window.frames(4);
+  const auto back = window.middle("lab.Back"), forward = window.middle("lab.Skip");
+  const float height = window.ui.lab_needs;
+  LabRun& run = *window.session.labs.run;
+  run.record().predicted = run.record().done = true;
+  window.frames(4);
+  REQUIRE(window.ui.lab_needs > height);
+  CHECK(window.middle("lab.Back") == back);
+  CHECK(window.middle("lab.Next") == forward);
+}
+
 TEST_CASE("the second click of a double click leaves out no step") {
   test::NullUi window;
   begin(window, "critical", "03_stiffness");

@@ -1,6 +1,7 @@
 // The current lab, in a strip below the viewport: what to read at the left; at the right what to predict, then what
-// to do, what is checked and why.
+// to do, what is checked and why. The buttons stand at the strip's foot, since the strip grows upward as its text does.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -17,7 +18,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float header_at_1 = 46, lowest_strip_at_1 = 130;  // pixels at scale 1
+constexpr float header_at_1 = 46, lowest_strip_at_1 = 130, foot_at_1 = 38;  // pixels at scale 1
 
 /// Small capitals over a part; what is above keeps its distance, what is below stands close.
 void small_head(Ui& ui, const char* text, ImU32 color) {
@@ -266,42 +267,71 @@ std::string lab_result(const LabRun& run, int done) {
   return text + ". Ctrl+L lists all labs.";
 }
 
-/// Buttons at the right of the header; returns where they begin.
-float lab_buttons(Ui& ui, LabRun& run, const Region& region) {
-  const bool last = run.step + 1 == run.lab.steps.size(), done = run.record().done;
-  const char* forward = last ? (done ? "Finish" : "Leave") : done ? "Next" : "Skip";
-  const float gap = ui.theme.px(6), side = ui.theme.px(22), padding = ImGui::GetStyle().FramePadding.x;
-  const auto button_width = [&](const char* label) { return text_width(*ui.fonts.text, label) + 2 * padding; };
-  const bool again = run.now().open.has_value() && !done;
-  float width = button_width("Back") + gap + button_width(forward) + gap + side;
-  if (again) width += button_width("Set up again") + gap;
-  const float x = region.at.x + region.size.x - ui.theme.px(12) - width;
-  ImGui::SetCursorScreenPos({x, region.at.y + ui.theme.px(9)});
-  if (again && text_button(ui, "Set up again")) set_up_step(ui.session);
-  if (again) ImGui::SameLine(0, gap);
-  if (text_button(ui, "Back", false, run.step > 0)) back_step(ui.session);
+/// What the button that leads on may say.
+constexpr std::array forward_labels{"Skip", "Next", "Leave", "Finish"};
+
+float button_width(const Ui& ui, const char* label) {
+  return text_width(*ui.fonts.text, label) + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
+float forward_width(const Ui& ui) {
+  float widest = 0;
+  for (const char* label : forward_labels) widest = std::max(widest, button_width(ui, label));
+  return widest;
+}
+
+constexpr float button_gap_at_1 = 6;
+
+bool can_set_up_again(LabRun& run) {
+  return run.now().open.has_value() && !run.record().done;
+}
+
+/// Ends the lab; what was found is told if it was gone through to its end.
+void leave(Ui& ui, LabRun& run, bool finished) {
+  if (finished) ui.session.messages.note(lab_result(run, steps_done(ui.session, run.lab)));
+  ui.command("leave_lab");
+}
+
+/// What all of them take beside each other, px.
+float step_buttons_width(Ui& ui, LabRun& run) {
+  const float gap = ui.theme.px(button_gap_at_1);
+  const float again = can_set_up_again(run) ? gap + button_width(ui, "Set up again") : 0;
+  return button_width(ui, "Back") + gap + forward_width(ui) + again;
+}
+
+/// Back and on, which keep their places from step to step, then the one that comes and goes.
+void step_buttons(Ui& ui, LabRun& run, ImVec2 at) {
+  const bool last = run.step + 1 == run.lab.steps.size(), done = run.record().done, again = can_set_up_again(run);
+  const char* forward = forward_labels[std::size_t(2 * last + done)];
+  const float gap = ui.theme.px(button_gap_at_1);
+  ImGui::SetCursorScreenPos(at);
+  if (text_button(ui, "Back", false, run.step > 0)) return back_step(ui.session);
   ImGui::SameLine(0, gap);
   // The second click of a double click meets the next step's button, and is not meant for it.
   const bool second = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
-  const bool go = text_button(ui, forward, done) && !second;
-  ImGui::SameLine(0, gap);
-  ImGui::SetCursorScreenPos({ImGui::GetCursorScreenPos().x, region.at.y + ui.theme.px(13)});
-  const bool leave = quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept");
-  if (leave || (go && last)) {
-    if (go && done) ui.session.messages.note(lab_result(run, steps_done(ui.session, run.lab)));
-    ui.command("leave_lab");
-  } else if (go) {
-    enter_step(ui.session, run.step + 1);
+  const bool go = text_button(ui, forward, done, true, forward_width(ui)) && !second;
+  if (again) {
+    ImGui::SameLine(0, gap);
+    if (text_button(ui, "Set up again")) set_up_step(ui.session);
   }
-  return x;
+  if (!go) return;
+  last ? leave(ui, run, done) : enter_step(ui.session, run.step + 1);
 }
 
-/// Returns whether the step's title had room.
-bool lab_header(Ui& ui, LabRun& run, const Region& region) {
+/// The title, the buttons where `with_buttons`, and the cross. Returns whether the step's title had room.
+bool lab_header(Ui& ui, LabRun& run, const Region& region, bool with_buttons) {
   const Tokens& c = ui.theme.colors;
-  const float end = lab_buttons(ui, run, region) - ui.theme.px(12);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float gap = ui.theme.px(button_gap_at_1);
+  float end = region.at.x + region.size.x - ui.theme.px(12 + 22);
   const float middle = region.at.y + ui.theme.px(24), margin = ui.theme.px(16);
+  ImGui::SetCursorScreenPos({end, region.at.y + ui.theme.px(13)});
+  if (quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept")) leave(ui, run, false);
+  if (with_buttons) {
+    end -= gap + step_buttons_width(ui, run);
+    step_buttons(ui, run, {end, region.at.y + ui.theme.px(9)});
+  }
+  end -= ui.theme.px(12);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
   float x = region.at.x + margin;
   const float baseline = baseline_at(ui.fonts, middle);
   char place[32];
@@ -332,14 +362,16 @@ void lab_panel(Ui& ui, const Region& region) {
   if (!begin_region("lab", region, c.panel, {0, 0})) return end_region();
   LabRun& run = *ui.session.labs.run;
   ImGui::GetWindowDrawList()->AddLine(region.at, {region.at.x + region.size.x, region.at.y}, c.line);
-  const bool titled = lab_header(ui, run, region);
+  const bool two = region.size.x >= ui.theme.px(lab_two_columns);
+  const bool titled = lab_header(ui, run, region, !two);
   const float margin = ui.theme.px(16), gap = ui.theme.px(20), top = region.at.y + ui.theme.px(header_at_1);
   const float left = region.at.x + margin, width = region.size.x - margin - ui.theme.px(8);
   const float height = region.at.y + region.size.y - top - ui.theme.px(4);
-  const bool two = region.size.x >= ui.theme.px(lab_two_columns);
-  const float column = two ? std::floor((width - gap) / 2) : width;
+  const float column = two ? std::floor((width - gap) / 2) : width, foot = two ? ui.theme.px(foot_at_1) : 0;
+  // In one column the strip is as high as it may be, and the buttons stand in its header.
+  if (two) step_buttons(ui, run, {left, top + height - foot + ui.theme.px(2)});
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
-  begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height});
+  begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height - foot});
   if (!titled) title_part(ui, run);
   reading_part(ui, run);
   // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
@@ -347,7 +379,7 @@ void lab_panel(Ui& ui, const Region& region) {
   if (!beside) prediction_part(ui, run.now(), run.record());
   float contents = 0;
   if (two)
-    contents = end_lab_column(ui),
+    contents = end_lab_column(ui) + foot,
     begin_lab_column(ui, ("do" + id).c_str(), left + column + gap, top, {column, height});
   if (beside) prediction_part(ui, run.now(), run.record());
   // Once a step is done, why comes first: it is what is left to be read.

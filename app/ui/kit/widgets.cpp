@@ -254,7 +254,7 @@ bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* 
   return pressed;
 }
 
-bool text_button(UiContext& ui, const char* label, bool strong, bool enabled) {
+bool text_button(UiContext& ui, const char* label, bool strong, bool enabled, float width) {
   const Tokens& c = ui.theme.colors;
   ImGui::BeginDisabled(!enabled);
   if (strong) {
@@ -263,7 +263,7 @@ bool text_button(UiContext& ui, const char* label, bool strong, bool enabled) {
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, mixed(c.accent, c.ground, 0.2f));
     ImGui::PushStyleColor(ImGuiCol_Text, c.on_accent);
   }
-  const bool pressed = ImGui::Button(label, {0, ui.theme.px(30)});
+  const bool pressed = ImGui::Button(label, {width, ui.theme.px(30)});
   report_control(ui, label);
   if (strong) ImGui::PopStyleColor(4);
   ImGui::EndDisabled();

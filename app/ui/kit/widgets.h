@@ -30,8 +30,8 @@ struct IconButton {
   float side = 32;  ///< at scale 1
 };
 bool icon_button(UiContext& ui, const IconButton& button);
-/// A button with words; `strong` fills it with the accent.
-bool text_button(UiContext& ui, const char* label, bool strong = false, bool enabled = true);
+/// A button with words, as wide as `width` (px; 0: as its words need); `strong` fills it with the accent.
+bool text_button(UiContext& ui, const char* label, bool strong = false, bool enabled = true, float width = 0);
 /// A quiet button without a ground: an icon that shows itself under the pointer.
 bool quiet_button(UiContext& ui, const char* id, const char* glyph, const char* word, std::string_view tip);
 

@@ -45,7 +45,7 @@ std::string what_happened(const Divergence& d, const Preset& then, double limit)
   const bool cloth = then.kind == Kind::cloth;
   std::string all = std::string(text) + "\nWith " +
                     (cloth ? "k_s = " + short_number(then.k_s) : "k = " + short_number(then.k)) +
-                    " N/m, k_d = " + short_number(then.k_d) + " N·s/m, m = " + short_number(then.m) +
+                    " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
                     " kg, dt = " + short_number(then.dt) + " s";
   if (limit > 0 && std::isfinite(limit))
     all += ", " + short_number(then.dt / limit, 2) + (cloth ? " times the worst-case limit" : " times the limit");
