@@ -85,6 +85,7 @@ Simulation::Simulation(const Simulation& from)
       effective_preset_(from.effective_preset_),
       threads_(from.threads_),
       stop_(from.stop_),
+      step_limit_(from.step_limit_),
       lattice_(from.lattice_),
       tears_(from.tears_),
       pinned_mask_(from.pinned_mask_),
@@ -125,7 +126,7 @@ void Simulation::take(Simulation& other) noexcept {
 std::unique_ptr<Engine> Simulation::made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
                                                 const StateRows& rows, const Tears& tears, double t) const {
   auto engine = make_engine(in_gusts(next, t), lattice, threads_);
-  engine->stop_when(stop_);
+  engine->stop_when(stop_), engine->limit_steps(step_limit_);
   engine->note_contacts(watch_.has_value());
   engine->set_fixed(fixed.pinned, fixed.held);
   engine->load(rows, tears);
@@ -248,7 +249,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
   const EffectSet changed = changes(preset_, next);
   if (change == nullptr || changed.touches(Effect::rebuild)) {
     auto fresh = std::make_unique<Simulation>(next, threads_);
-    fresh->enable_ledger(watch_.has_value());
+    fresh->enable_ledger(watch_.has_value()), fresh->limit_steps(step_limit_);
     return fresh;
   }
   std::unique_ptr<Simulation> other(new Simulation(*this));
@@ -354,6 +355,12 @@ void Simulation::move_body(const edit::MoveBody& e) {
     body.c = e.c;
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   take_constants(next);
+}
+
+void Simulation::limit_steps(double seconds) {
+  assert(seconds >= 0);
+  step_limit_ = seconds;
+  engine_->limit_steps(seconds);
 }
 
 void Simulation::stop_when(Stop stop) {

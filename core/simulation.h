@@ -104,6 +104,10 @@ class Simulation {
   Advance advance(int steps);
   /// From now on advance() ends with the last whole step as soon as this says so (Engine::stop_when).
   void stop_when(Stop stop);
+  /// From now on a step of a method that can end early does so with what it has found once it has taken so long, s; 0:
+  /// no limit (Engine::limit_steps). Motions are then not the same from run to run.
+  void limit_steps(double seconds);
+  double step_limit() const { return step_limit_; }
 
   EnergyReading energy();
   /// The energy of the motion and of the springs, over the most that start, springs, weight, wind, hand and bodies can
@@ -182,6 +186,7 @@ class Simulation {
                              ///< are gusts
   int threads_;
   Stop stop_;
+  double step_limit_ = 0;  ///< s
   Lattice lattice_;
   Tears tears_;
   std::unique_ptr<Engine> engine_;

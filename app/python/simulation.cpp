@@ -182,8 +182,13 @@ py::object solves(const Motion& motion) {
   py::dict dict;
   dict["newton_steps"] = counts.newton, dict["linear_steps"] = counts.linear;
   dict["force_evaluations"] = counts.force_evaluations, dict["unconverged"] = counts.unconverged;
-  dict["worst_residual"] = counts.worst_residual;
+  dict["hurried"] = counts.hurried, dict["worst_residual"] = counts.worst_residual;
   return dict;
+}
+
+void limit_steps(Motion& motion, double seconds) {
+  if (!(seconds >= 0) || !std::isfinite(seconds)) throw py::value_error("seconds: a time from 0 up, not that");
+  motion.at_rest().limit_steps(seconds);
 }
 
 py::dict particle(const Motion& motion, int i, int j) {
@@ -319,7 +324,13 @@ void add_simulation(py::module_& module) {
           "solves", &solves,
           "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
           "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
-          "force_evaluations, unconverged (steps) and worst_residual, in parts of the largest force.")
+          "force_evaluations, unconverged (steps), hurried (those of them that limit_steps ended) and worst_residual, "
+          "in "
+          "parts of the largest force.")
+      .def("limit_steps", &limit_steps, py::arg("seconds"),
+           "From now on a step of implicit_euler, projective_dynamics or vbd ends with what it has found once it has "
+           "taken so long, s; 0: no limit. The motion then depends on the machine. Raises ValueError for negative "
+           "numbers.")
       .def_property_readonly("dt_crit", &own_limit,
                              "Largest stable dt of the cloth as it hangs now, by linear theory, s: advice, no promise.")
       .def_property_readonly(

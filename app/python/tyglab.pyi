@@ -91,6 +91,7 @@ class Simulation:
     @property
     def energy(self) -> dict[str, float]: ...  # J
     def enable_ledger(self, on: bool = True) -> None: ...
+    def limit_steps(self, seconds: float) -> None: ...
     @property
     def ledger(self) -> dict[str, float] | None: ...  # J
     @property

@@ -238,6 +238,7 @@ void set_up_step(Session& session) {
   const LabStep& step = session.labs.run->now();
   if (!step.open) return;
   session.pacing.playing = false;
+  session.step_limit = 0;
   try {
     const PresetSource source = find_preset(step.open->preset);
     const bool shipped = source.file.parent_path() == data_folder() / "presets";

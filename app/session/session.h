@@ -92,6 +92,9 @@ struct Session {
   int updates_unlooked = 0;              ///< since it was looked at whether errors of the method have added energy
   std::optional<Preset> excess_said_of;  ///< the constants with which that was said last
   bool warned_unconverged = false;       ///< that an implicit method's solves do not reach their tolerance, likewise
+  /// s of real time after which a step of an implicit method ends with what it has found; 0: no limit. It is of no
+  /// preset, since the motion then depends on the machine.
+  double step_limit = 0;
   bool quit = false;
 
   /// Goes on by that much real time (s): applies what was requested, steps, samples, checks the lab's checks, goes on

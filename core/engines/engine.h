@@ -8,6 +8,7 @@
 
 #include <atomic>
 #include <cassert>
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -163,6 +164,12 @@ class Engine {
   /// From now on advance() ends as soon as this says so: between two steps, and within a step where a step can take
   /// long, that is where the method solves, iterates or chooses its own steps. What such a step has done is undone.
   virtual void stop_when(Stop stop) { stop_ = std::move(stop); }
+  /// From now on a method that can end early (scheme.h) ends a step with what it has found once that step has taken so
+  /// long, s: 0 lets it go on to the solution. Such a step counts as SolveCounts::hurried, depends on the machine, and
+  /// is made once only: repeated it would not give the same bits. What a step does before and after it solves takes its
+  /// time all the same. The CPU engine alone can do that; others go on to the solution.
+  void limit_steps(double seconds) { step_limit_ = seconds; }
+  double step_limit() const { return step_limit_; }
   /// The part of the present step that is done, 0 to 1, as far as the method can tell: 0 for a method whose steps are
   /// all alike. Any thread may ask.
   virtual double step_progress() const { return step_progress_; }
@@ -171,9 +178,18 @@ class Engine {
   const Stop& stop() const { return stop_; }
   bool stops() const { return stop_ && stop_(); }
   void set_step_progress(double part) { step_progress_ = part; }
+  /// A step begins, whose time is limited.
+  void begin_limit() { step_begun_ = std::chrono::steady_clock::now(); }
+  /// Whether this part of its time is over.
+  bool hurries(double part) const {
+    return step_limit_ > 0 &&
+           std::chrono::duration<double>(std::chrono::steady_clock::now() - step_begun_).count() >= part * step_limit_;
+  }
 
  private:
   Stop stop_;
+  double step_limit_ = 0;  ///< s
+  std::chrono::steady_clock::time_point step_begun_;
   std::atomic<double> step_progress_ = 0;
 };
 

@@ -8,6 +8,8 @@
 // Witkin, SIGGRAPH 1998; J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed. (2006), 7.1.
 #pragma once
 
+#include <functional>
+
 #include "core/cloth/lattice.h"
 #include "core/engines/balance.h"
 #include "core/engines/engine.h"
@@ -24,6 +26,12 @@ constexpr int max_gradient_steps(const Lattice& lattice) {
 inline double own_stiffness(const Preset& preset, double h) {
   return preset.kind == Kind::one_weight ? 1 + (h * preset.k_d + h * h * preset.k) / preset.m : 1;
 }
+
+/// How long a stage may take.
+struct StageLimit {
+  double seconds = 0;                     ///< of a step; 0: no limit
+  std::function<bool(double)> is_over{};  ///< whether this part of the stage's time is; empty: no limit
+};
 
 /// An implicit stage, as an engine stores it. The residual r is h a - (v - c_v), m/s; the step s, m/s, solves A s = r
 /// with r's derivative -A.
@@ -54,6 +62,8 @@ class ImplicitStage {
   virtual Balance balance() = 0;
   /// Whether to abandon the stage, which may then be left anyhow. Once it says so it goes on to say so.
   virtual bool stops() = 0;
+  /// Whether to end the stage with what has been found, which should be something.
+  virtual bool hurries() { return false; }
   /// Tells how much of the stage is done, 0 to 1, if the iterations that are allowed are all needed.
   virtual void note_progress(double part) = 0;
   /// Newton iteration `n` of at most `most` begins.

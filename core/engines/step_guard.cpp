@@ -108,7 +108,7 @@ StepsMade StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears,
   return {count - 1 + last.count, last.end};
 }
 
-Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop) {
+Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once) {
   Advance result;
   const int torn_before = tears.torn_count();
   Fault fault{};
@@ -119,8 +119,9 @@ Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const 
       break;
     }
     if (since_backup_ < 0 || since_backup_ >= steps_between_backups) keep_backup(engine, tears);
-    const int most =
-        rules_.costly_steps && stop ? 1 : std::min(steps - result.steps, steps_between_backups - since_backup_);
+    const int most = rules_.costly_steps && (stop || once)
+                         ? 1
+                         : std::min(steps - result.steps, steps_between_backups - since_backup_);
     StepsMade made;
     bool rolled_back = false;
     try {

@@ -87,7 +87,7 @@ class StepGuard {
     bool tearing = false;  ///< springs can be overloaded
     double F_release = 0;  ///< N; 0: the hand does not let go
     /// A step costs more than a backup, and may be stopped halfway: every run of steps begins with a backup, and has
-    /// one step where it may be stopped.
+    /// one step where it may be stopped or must not be repeated.
     bool costly_steps = false;
   };
   /// Sets what to watch for. Call invalidate() where the scene has changed.
@@ -127,8 +127,8 @@ class StepGuard {
   /// Whether a spring may be overloaded within that many steps, while none can be too long in the next.
   bool overload_within(int steps) const;
 
-  /// Makes up to `steps` good steps, as Engine::advance().
-  Advance advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop);
+  /// Makes up to `steps` good steps, as Engine::advance(). `once`: costly ones are never repeated.
+  Advance advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once = false);
   /// Judges steps that have been made, of which the state of the last is present.
   StepsMade judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
 

@@ -117,6 +117,11 @@ inline bool is_implicit(const Scheme& scheme) {
     if (sweep.solves != 0) return true;
   return false;
 }
+/// Whether a step that ends before its equations are solved is of use. It is where what solves them is the step's end,
+/// as of implicit Euler; methods that go on from there to both sides of it enlarge what is left.
+inline bool can_end_early(const Scheme& scheme) {
+  return is_implicit(scheme) && scheme.sweeps.size() == 1 && scheme.order_undamped == 1;
+}
 /// Whether it covers dt with as many steps as the tolerance asks.
 inline bool chooses_steps(const Scheme& scheme) {
   return scheme.estimate.has_value();

@@ -119,6 +119,23 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
   }
 }
 
+TEST_CASE("a step's time can be limited where it can end early, and is told with what that left") {
+  const test::TemporaryFolder folder;
+  const Words stiff{"run", "hanging", "--steps", "3", "--dt", "0.0166", "--set", "k_s=1e5", "--json", "a.json"};
+  const auto with = [&](const Words& more) {
+    Words words = stiff;
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const auto outcome = check(folder, with({"--integrator", "implicit_euler", "--step-limit", "0.01"}), 0, "3 steps to");
+  CHECK(outcome.err.find("3 steps did not converge (up to ") != std::string::npos);
+  CHECK(outcome.err.find("The time limit ended them.") != std::string::npos);
+  CHECK(test::read_file(folder / "a.json").find("\"hurried\": 3") != std::string::npos);
+  check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2, "what a step of tr_bdf2 leaves unsolved");
+  check(folder, with({"--integrator", "verlet", "--step-limit", "1"}), 2, "a step of verlet solves nothing");
+  check(folder, with({"--step-limit", "0"}), 2, "--step-limit");
+}
+
 TEST_CASE("a ledger does not change when a run diverges") {
   const test::TemporaryFolder folder;
   for (const Words& more : {Words{}, Words{"--ledger", "a.csv"}}) {

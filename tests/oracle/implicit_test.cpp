@@ -33,6 +33,14 @@ std::vector<Vec> combined(double a, const std::vector<Vec>& x, double b, const s
   return sum;
 }
 
+/// The largest of any particle, m.
+double distance(const State& one, const State& other) {
+  const auto a = vectors(one.x), b = vectors(other.x);
+  double most = 0;
+  for (std::size_t p = 0; p < a.size(); ++p) most = std::max(most, length(a[p] - b[p]));
+  return most;
+}
+
 /// The last stage of the step between two states.
 Stage stage_of(const Preset& preset, const State& before, const State& after) {
   const double dt = preset.dt;
@@ -185,6 +193,58 @@ TEST_CASE("stiff steps end with the same bits on any number of threads, on a bod
   CHECK(test::identical(one.read(), three.read()));
   CHECK(one.tears().torn_count() == three.tears().torn_count());
   CHECK(one.engine().solves().unconverged == 0);
+}
+
+TEST_CASE("where a step's time is up, it ends with what it has found, and counts") {
+  for (const char* method : {"implicit_euler", "projective_dynamics", "vbd"})
+    for (const double k_s : {50.0, 1e5}) {
+      CAPTURE(std::string(method));
+      CAPTURE(k_s);
+      Preset preset = stiff_cloth(24, k_s, method);
+      preset.iterations = 100, preset.W = {0.0005, 0, 0.001}, preset.k_d = 0.002;
+      Simulation hurried(preset), whole(preset);
+      const State start = hurried.read();
+      hurried.limit_steps(1e-12);
+      // Though nobody may stop it, and though it loses springs: no step is made twice.
+      hurried.apply(edit::Cut{{{5, 4}, {6, 5}, {6, 6}}}), whole.apply(edit::Cut{{{5, 4}, {6, 5}, {6, 6}}});
+      hurried.advance(5), whole.advance(5);
+      REQUIRE_FALSE(hurried.divergence());
+      const SolveCounts some = hurried.engine().solves(), all = whole.engine().solves();
+      CHECK(some.hurried == 5);
+      CHECK(some.unconverged == 5);
+      CHECK(some.newton < all.newton);
+      CHECK(all.hurried == 0);
+      CHECK(some.worst_residual > all.worst_residual);
+      const double moved = distance(hurried.read(), start), asked = distance(whole.read(), start);
+      CHECK(moved > 0.005 * asked);  // little as a single pass is, it moves
+      hurried.limit_steps(0);
+      hurried.advance(1);
+      CHECK(hurried.engine().solves().hurried == 5);
+    }
+}
+
+TEST_CASE("methods that enlarge what is left unsolved have no limit of time") {
+  for (const char* method : {"implicit_midpoint", "tr_bdf2"}) {
+    const Preset preset = stiff_cloth(16, 1e4, method);
+    Simulation limited(preset), whole(preset);
+    limited.limit_steps(1e-12);
+    limited.advance(3), whole.advance(3);
+    CHECK(test::identical(limited.read(), whole.read()));
+    CHECK(limited.engine().solves().hurried == 0);
+  }
+}
+
+TEST_CASE("a rebuilt cloth and one after a restart keep the limit of time") {
+  Preset preset = stiff_cloth(16, 1e3, "implicit_euler");
+  Simulation simulation(preset);
+  simulation.limit_steps(1e-12);
+  preset.precision = preset.precision == Precision::float_ ? Precision::double_ : Precision::float_;
+  simulation.apply(edit::Change{preset});
+  simulation.advance(1);
+  CHECK(simulation.engine().solves().hurried == 1);
+  simulation.apply(edit::Restart{});
+  simulation.advance(1);
+  CHECK(simulation.engine().solves().hurried == 1);
 }
 
 }  // namespace tyglab::implicit_test

@@ -22,6 +22,24 @@ bool rests(test::NullUi& window) {
   return !window.session.rebuild.busy();
 }
 
+TEST_CASE("a step's time can be limited where the method solves, and a lab has no limit") {
+  test::NullUi window;
+  CHECK_FALSE(window.drew("unlimited"));
+  Preset stiff = window.preset();
+  stiff.integrator = "implicit_euler", stiff.k_s = 1e5, stiff.dt = 0.02;
+  window.session.propose(stiff);
+  window.frames(4);
+  window.click("constants.step_limit");
+  window.click("menu.limit_5");
+  window.frames(3);
+  CHECK(window.drew("5 ms per step"));
+  CHECK(window.session.simulation->step_limit() == 0.005);
+  begin_lab(window.session, "07_implicit");
+  window.frames(4);
+  CHECK(window.session.step_limit == 0);
+  CHECK_FALSE(window.drew("unlimited"));
+}
+
 TEST_CASE("while a large cloth is built the frames of the present one go on, and then it is as its file says") {
   test::NullUi window;
   Preset large = window.preset();

@@ -38,6 +38,7 @@ struct RunOptions {
   std::string state, values, series, ledger, obj, pc2, json;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
+  double step_limit_ms = 0;  ///< 0: none
 
   /// All but --obj, which names a folder.
   std::vector<Output> outputs() const {
@@ -184,6 +185,7 @@ Json solves_json(const Engine& engine) {
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
+          {"hurried", counts.hurried},
           {"worst_residual", finite_json(counts.worst_residual)}};
 }
 
@@ -299,14 +301,28 @@ std::string closing(const Json& summary, const std::string& also) {
   return text + " Wrote " + joined(names) + ".";
 }
 
+/// Whether steps of these can end early.
+void check_step_limit(const Preset& preset) {
+  if (preset.engine == EngineKind::opencl)
+    throw UsageError("--step-limit: the OpenCL engine solves to the end; use --engine cpu");
+  const Scheme& method = scheme(preset.integrator);
+  if (can_end_early(method)) return;
+  throw UsageError("--step-limit: " +
+                   (is_implicit(method) ? "what a step of " + preset.integrator + " leaves unsolved, it enlarges"
+                                        : "a step of " + preset.integrator + " solves nothing") +
+                   "; use implicit_euler, projective_dynamics or vbd, or leave the option out");
+}
+
 int run(const RunOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_texture(scene.preset);
+  if (options.step_limit_ms > 0) check_step_limit(scene.preset);
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   options.length.warn_if_too_short(scene.preset.dt);
   Outputs outputs(options, scene, steps);
   run_programs_once(scene.preset, !options.ledger.empty());  // that time is none of the steps'
   Simulation simulation(scene.preset, scene.threads);
+  simulation.limit_steps(options.step_limit_ms / 1000);
   if (!options.ledger.empty()) simulation.enable_ledger(true);
   outputs.open(simulation);
 
@@ -380,6 +396,13 @@ void add_run_command(CLI::App& program, Action& action) {
       ->transform(whole_number_between(1, 1'000'000'000'000));
   add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
   add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
+  command
+      ->add_option("--step-limit", options->step_limit_ms,
+                   "End a step of implicit Euler, projective dynamics or vertex block descent with what it has found\n"
+                   "once it has taken so long; the motion is then not the same from run to run. How many steps that\n"
+                   "were, and what they left, is told")
+      ->type_name("MS")
+      ->transform(number_between(0.01, 1e6, "ms"));
   command->add_option("--fps", options->fps, "Frames per second of simulated time (default 25)")
       ->type_name("F")
       ->transform(number_between(1e-6, 1e7, "frames per second"));

@@ -108,6 +108,30 @@ void pins_row(Ui& ui) {
   });
 }
 
+/// How long a step may take. A lab's result must not depend on that.
+void step_limit_row(Ui& ui) {
+  const Preset& preset = ui.session.requested_preset();
+  if (!can_end_early(scheme(preset.integrator)) || preset.engine == EngineKind::opencl || ui.session.labs.run) return;
+  static constexpr std::array limits{0, 5, 10, 20, 50, 100, 200};  // ms
+  const auto words = [](double ms) { return ms > 0 ? short_number(ms) + " ms per step" : std::string("unlimited"); };
+  double& limit = ui.session.step_limit;
+  labeled_row(ui, "time", [&](float width) {
+    const bool open = begin_combo(ui, "##step_limit", words(1000 * limit).c_str(), width);
+    if (!open) {
+      tooltip(ui, gui::item_id(),
+              "How long a step may take. It then ends with what the method has found, and how far that is from a "
+              "solution is told. The motion depends on the machine then, so presets do not keep this, and the cards "
+              "that measure the method leave it out.");
+      return;
+    }
+    for (const int ms : limits) {
+      if (ImGui::Selectable(words(ms).c_str(), limit == ms / 1000.0)) limit = ms / 1000.0;
+      report_control(ui, "limit_" + std::to_string(ms));
+    }
+    end_combo();
+  });
+}
+
 void rows(Ui& ui, const Section& wanted) {
   for (const PresetRow* row : rows_of(wanted))
     if (applies(*row, ui.session.requested_preset())) constant_row(ui, *row);
@@ -185,7 +209,7 @@ void constants_sections(Ui& ui) {
     if (!section(ui, name == "Cloth" && !cloth ? "Weight" : wanted.name)) continue;
     if (name == "Integrator") integrator_row(ui);
     rows(ui, wanted);
-    if (name == "Integrator") stability_row(ui);
+    if (name == "Integrator") step_limit_row(ui), stability_row(ui);
     if (name == "Cloth" && cloth) resolution_row(ui), pins_row(ui);
   }
 }

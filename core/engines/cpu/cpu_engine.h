@@ -122,7 +122,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   bool solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears);
   /// The same on this thread alone.
   bool solve(const ResolvedSweep& sweep, const Tears& tears);
-  /// The same by passes of all threads.
+  /// The same from c_x and c_v on by passes of all threads.
+  int most_passes() const;
   bool descend(int number, const ResolvedSweep& sweep, const Tears& tears);
   bool begin_pass(int number, int pass, const ResolvedSweep& sweep, const Tears& tears);
   /// Whether springs or what is fixed have changed since the last accept_springs().
@@ -222,6 +223,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   StepsMade made_;          ///< by the present run
   int together_ = 0;        ///< steps that are made in one pass over the rows; 0: the run is over
   bool abandoned_ = false;  ///< the present step was stopped halfway
+  bool hurried_ = false;    ///< the present stage ends with the passes that are made
   bool repeating_ = false;  ///< known steps, which are not stopped
   const Stop never_{};
   glm::dvec3 hand_force_{0};  ///< on the held particle, of a method that projects

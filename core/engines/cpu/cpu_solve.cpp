@@ -6,32 +6,45 @@ namespace tyglab::cpu {
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, const Tears& tears) {
   // A mass on a spring is linear: one step of Newton's method solves it.
-  if (scheme_->solver == Solver::blocks && cloth_.preset.kind == Kind::cloth) return descend(number, sweep, tears);
+  if (scheme_->solver == Solver::blocks && cloth_.preset.kind == Kind::cloth) {
+    bands_[std::size_t(number)]->assign(sweep.before, false);
+    team_->barrier();
+    return descend(number, sweep, tears);
+  }
   team_->barrier();  // solving uses all bands, which their threads may still be preparing
   if (number == 0) abandoned_ = !solve(sweep, tears);
   team_->barrier();
-  return !abandoned_;
+  if (abandoned_ || !solver_.left_to_passes()) return !abandoned_;
+  team_->barrier();  // all have seen that before the stage begins anew
+  return descend(number, sweep, tears);
 }
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears) {
   for (const auto& band : bands()) band->assign(sweep.before, false);
   const double stage = double(&sweep - sweeps_.data()), stages = double(sweeps_.size());
-  const bool solved =
-      solver_.solve(cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
-                    [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
-                    {repeating_ ? never_ : stop(), [&](double part) { set_step_progress((stage + part) / stages); }},
-                    {scheme_->solver, springs_changed(tears)});
-  if (solved) accept_springs(tears);
+  const bool solved = solver_.solve(
+      cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
+      [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
+      {repeating_ ? never_ : stop(),
+       {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return hurries((stage + part) / stages); }},
+       [&](double part) { set_step_progress((stage + part) / stages); }},
+      {scheme_->solver, springs_changed(tears)});
+  if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
   return solved;
+}
+
+/// Of a method that is not made of them, as many as there is time for.
+template <class R, unsigned Present>
+int CpuEngine<R, Present>::most_passes() const {
+  constexpr int enough = 1000;
+  return scheme_->solver == Solver::blocks ? cloth_.preset.iterations : enough;
 }
 
 template <class R, unsigned Present>
 bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, const Tears& tears) {
-  const int begin = band_begin(number), end = band_begin(number + 1), passes = cloth_.preset.iterations;
+  const int begin = band_begin(number), end = band_begin(number + 1), passes = most_passes();
   Field &x = cloth_.vector(sweep.position), &v = cloth_.vector(sweep.velocity);
-  bands_[std::size_t(number)]->assign(sweep.before, false);
-  team_->barrier();
   if (number == 0) {
     solver_.begin_stage(cloth_, sweep.position, sweep.velocity);
     descent_.prepare(cloth_, tears, sweep.solve_dt, springs_changed(tears));
@@ -43,8 +56,10 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   if (number == 0) descent_.weigh();
   team_->barrier();
   descent_.fall(begin, end);
-  for (int n = 0; n < passes; ++n) {
-    if (!begin_pass(number, n, sweep, tears)) return false;
+  int made = 0;
+  for (; made < passes; ++made) {
+    if (!begin_pass(number, made, sweep, tears)) return false;
+    if (hurried_) break;
     descent_.pass(begin, end, *team_);
   }
   descent_.write_positions(x, begin, end), descent_.write_velocities(v, begin, end);
@@ -52,7 +67,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   if (number == 0)
     solver_.measure_stage(
         sweep.solve_dt, tears, [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
-        {never_, [](double) {}}, passes);
+        {never_, {}, [](double) {}}, made);
   team_->barrier();
   return true;
 }
@@ -68,8 +83,10 @@ bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep
     team_->barrier();
   }
   if (number == 0) {
-    set_step_progress(double(pass) / cloth_.preset.iterations);
+    set_step_progress(double(pass) / most_passes());
     abandoned_ = !repeating_ && stops();
+    hurried_ = pass > 0 && hurries(1);
+    if (hurried_) solver_.note_hurry();
     ResolvedSweep look;
     look.position = sweep.position, look.velocity = sweep.velocity, look.external = true;
     if (blows) accelerations(look, tears, acceleration_, false);

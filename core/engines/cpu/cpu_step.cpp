@@ -92,7 +92,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::step_in_bands(int number, const Tears& tears) {
   Band<R, Present>& band = *bands_[std::size_t(number)];
   band.reset_watch();
-  if (number == 0) solver_.begin_step();
+  if (number == 0) solver_.begin_step(), begin_limit();
   for (const ResolvedSweep& sweep : sweeps_) {
     const bool last = &sweep == &sweeps_.back();
     if (sweep.projects) {
@@ -287,7 +287,7 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
 template <class R, unsigned Present>
 Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   if (guard_.springs_cut(tears)) restart_control(), guard_.accept_cuts(tears);
-  return guard_.advance(*this, steps, tears, stop());
+  return guard_.advance(*this, steps, tears, stop(), step_limit() > 0);
 }
 
 // What the engine's other files need of this one.

@@ -61,20 +61,21 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
   task_.dt = dt, task_.tears = &tears, task_.accelerations = &accelerations, task_.watch = &watch;
   // A mass on a spring is linear: Newton's method solves it in one step.
   const bool alternates = way.solver == Solver::alternation && cloth.preset.kind == Kind::cloth;
-  const Balance balance = alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt);
-  note_balance(balance);
+  const Balance balance = alternates ? alternate(way.changed) : solve_either_way(*this, cloth.preset, dt, too_slow_);
+  if (!left_to_passes_) note_balance(balance);
   return !stopped_;
 }
 
 template <class R>
 void ImplicitSolver<R>::note_balance(const Balance& balance) {
   solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
+  if (hurried_ && !balance.solved) counts_.hurried += !std::exchange(counted_, true);
 }
 
 template <class R>
 void ImplicitSolver<R>::begin_stage(Cloth<R>& cloth, int position, int velocity) {
   task_ = {&cloth, position, velocity, 0, nullptr, nullptr, nullptr};
-  stopped_ = false;
+  stopped_ = left_to_passes_ = false;
   resize();
   start_x_ = this->position(), start_v_ = this->velocity();
 }
@@ -106,6 +107,7 @@ Balance ImplicitSolver<R>::alternate(bool changed) {
   for (int n = 0; n < most; ++n) {
     note_progress(double(n) / most);
     if (stops()) return {};
+    if (n > 0 && hurries()) break;
     counts_.linear += global_.solve(residual_, [this] { return stops(); });
     if (stopped_) return {};
     const std::span<R> v = velocity().all();
@@ -117,11 +119,19 @@ Balance ImplicitSolver<R>::alternate(bool changed) {
 }
 
 template <class R>
+Balance ImplicitSolver<R>::solve_in_haste() {
+  position() = start_x_, velocity() = start_v_;
+  left_to_passes_ = true;
+  return {true, 0};  // until it is measured
+}
+
+template <class R>
 Balance ImplicitSolver<R>::solve_stiff() {
   const Balance balance = stiff_.solve(
       implicit::StiffTask<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt, start_x_.row(0),
                              start_v_.row(0), cloth().vector(vector_x).row(0), velocity().row(0), stride_,
-                             [this] { return stops(); }, [this](double part) { note_progress(part); }},
+                             [this] { return stops(); }, [this](double best) { return is_over(stiff_share(best)); },
+                             [this](double part) { note_progress(part); }},
       counts_);
   if (!stopped_) evaluate();
   return balance;
@@ -261,7 +271,7 @@ bool ImplicitSolver<R>::conjugate_gradients() {
   double before = std::numeric_limits<double>::infinity();
   for (int n = 0; n < most; ++n) {
     if (now.squared <= enough) return true;
-    if (stops()) return false;
+    if (stops() || (n > 0 && hurries())) return false;
     const double keep = now.preconditioned / before;
     for (int i = 0; i < rows_; ++i)
       add_scaled_row(preconditioned_.row(i), keep, direction_.row(i), int(direction_.pitch()));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/global_step.h"
@@ -23,6 +24,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   /// What surrounds a solution.
   struct Watch {
     const Stop& stop;
+    StageLimit limit;
     std::function<void(double part)> progress;
   };
   /// How to solve, and whether springs or what is fixed may differ from the last call.
@@ -32,7 +34,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   };
 
   /// A step begins, whose stages come next.
-  void begin_step() { solved_ = {true, 0}; }
+  void begin_step() { solved_ = {true, 0}, hurried_ = counted_ = false; }
   /// The stages of the step: whether all are solved, and the largest residual.
   const Balance& solved() const { return solved_; }
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
@@ -43,6 +45,10 @@ class ImplicitSolver final : private implicit::EitherStage {
   void begin_stage(Cloth<R>& cloth, int position, int velocity);
   /// What the velocities that `passes` passes have found leave of that stage's equations.
   void measure_stage(double dt, const Tears& tears, const Accelerations& accelerations, const Watch& watch, int passes);
+  /// Whether the stage is as it was before, to be solved by passes of block descent while there is time.
+  bool left_to_passes() const { return left_to_passes_; }
+  /// The present step's time is up.
+  void note_hurry() { hurried_ = true; }
   const SolveCounts& counts() const { return counts_; }
   std::size_t bytes() const;
 
@@ -66,9 +72,12 @@ class ImplicitSolver final : private implicit::EitherStage {
   Balance balance() override;
   Balance solve_by_newton() override;
   Balance solve_stiff() override;
+  Balance solve_in_haste() override;
   void keep() override { kept_ = velocity(); }
   void restore() override { velocity() = kept_, evaluate(); }
   bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
+  bool hurries() override { return is_over(1); }
+  StageLimit limit() override { return task_.watch->limit; }
   void note_progress(double part) override { task_.watch->progress(part); }
 
   const Cloth<R>& cloth() const { return *task_.cloth; }
@@ -78,6 +87,13 @@ class ImplicitSolver final : private implicit::EitherStage {
   void resize_newton();
   Balance alternate(bool changed);
   void note_balance(const Balance& balance);
+  /// Whether this part of the stage's time is.
+  bool is_over(double part) {
+    const StageLimit& limit = task_.watch->limit;
+    const bool over = limit.seconds > 0 && limit.is_over(part);
+    hurried_ = hurried_ || over;
+    return over;
+  }
   void linearize_row(int direction, int i);
   void invert_blocks();
   bool conjugate_gradients();
@@ -87,7 +103,8 @@ class ImplicitSolver final : private implicit::EitherStage {
   R* block(int i) { return blocks_.data() + std::size_t(i) * 6 * stride_; }
 
   Task task_{};
-  bool stopped_ = false;
+  bool stopped_ = false, left_to_passes_ = false;
+  bool hurried_ = false, counted_ = false;  ///< in this step: time was up for something; that counts
   Balance solved_{true, 0};
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs
@@ -100,6 +117,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   Array<R> coefficients_;
   DirectSolver direct_;
   implicit::StiffStage stiff_;
+  implicit::TooSlow too_slow_;
   GlobalStep<R> global_;
   SolveCounts counts_;
 };

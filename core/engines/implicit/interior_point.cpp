@@ -150,7 +150,9 @@ bool InteriorPoint<R>::solve_linear(double tolerance, bool warm) {
   const double enough = tolerance * tolerance * whole;
   double before = 0;
   for (int n = 0; left > enough; ++n) {
-    if (n == most_gradients || !std::isfinite(left) || task_->stops()) return false;
+    if (n == most_gradients || !std::isfinite(left) || task_->stops() ||
+        (n > 0 && task_->hurries(best_balance_.residual)))
+      return false;
     const RowField<R>& z = multigrid_.precondition(r_, task_->stops);
     double rz = 0;
     for (int i = 0; i < rows; ++i) rz += dot_row(r_.row(i), z.row(i), count);
@@ -199,15 +201,16 @@ template <class R>
 Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
   task_ = &task, counts_ = &counts;
   begin();
+  best_balance_ = {false, std::numeric_limits<double>::infinity()};
   const auto part_of = [](double most) { return std::min(1.0, to_border / most); };
-  double least = std::numeric_limits<double>::infinity(), least_force = 1, first = 0;
+  double least = std::numeric_limits<double>::infinity(), first = 0;
   const double corrector = lattice_.size() < 128 * 128 ? corrector_tolerance : corrector_tolerance / 2;
   for (int n = 0;; ++n) {
     const double products = linearize(), mu = products / std::max(springs_, 1.0);
-    if (residual_ < least) least = residual_, least_force = force_, best_ = x_;
+    if (residual_ < least) least = residual_, best_balance_ = {false, residual_ / force_}, best_ = x_;
     if (n == 0) first = residual_;
     if (residual_ <= allowed()) return {true, residual_ / force_};
-    if (n == most_iterations || !std::isfinite(residual_)) break;
+    if (n == most_iterations || !std::isfinite(residual_) || (n > 0 && task.hurries(best_balance_.residual))) break;
     task.progress(std::clamp(std::log(first / least) / std::log(first / allowed()), double(n) / most_iterations, 1.0));
     multigrid_.prepare({coefficients_.data(), 1, task.fixed});
     ++counts.newton;
@@ -225,7 +228,7 @@ Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
     advance(part_of(step.slack), part_of(step.tension));
   }
   x_ = best_;
-  return {false, least / least_force};
+  return best_balance_;
 }
 
 template class InteriorPoint<float>;

@@ -39,6 +39,7 @@ class InteriorPoint {
     /// Adds h² F/m of forces that depend on positions otherwise than by springs, m; may be empty.
     std::function<void(const Field& x, Field& forces)> others;
     std::function<bool()> stops;
+    std::function<bool(double best)> hurries;  ///< whether to end, where `best` is the least residual so far
     std::function<void(double part)> progress;
   };
   /// Takes the memory for a lattice.
@@ -48,7 +49,8 @@ class InteriorPoint {
   Field& c() { return c_; }
   Field& y() { return y_; }
   Field& x() { return x_; }
-  /// Adds its iterations to the counts. Where it was stopped, the result means nothing.
+  /// Adds its iterations to the counts. Where it was stopped, the result means nothing; where it hurries, it is the
+  /// best that was found until then.
   Balance solve(const Task& task, SolveCounts& counts);
   std::size_t bytes() const;
 
@@ -73,6 +75,7 @@ class InteriorPoint {
   bool torn_ = false;
   double springs_ = 0;               ///< stretch springs
   double residual_ = 0, force_ = 0;  ///< the largest, m
+  Balance best_balance_;             ///< of best_
   double size_ = 0;                  ///< largest coordinate, m
   RowField<R> step_, r_, p_, q_;
   Array<R> coefficients_;

@@ -69,6 +69,7 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
                                         .fixed = task.fixed,
                                         .others = {},
                                         .stops = task.stops,
+                                        .hurries = task.hurries,
                                         .progress = task.progress};
   if (p.W != glm::dvec3(0))
     inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
@@ -89,11 +90,23 @@ Balance StiffStage::solve(const StiffTask<R>& task, SolveCounts& counts) {
   return solve_with(*double_, task, counts);
 }
 
-Balance solve_either_way(EitherStage& stage, const Preset& preset, double h) {
+Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, TooSlow& too_slow) {
   const bool both = preset.iterations > 1 && StiffStage::possible(preset);
+  const StageLimit limit = stage.limit();
+  const bool limited = limit.seconds > 0, slow = limited && too_slow.stages > 0;
+  too_slow.stages -= slow;
   const bool stiff_first = both && stiffness_of(preset, h) >= stiff;
+  const auto over = [&](double part) { return limited && limit.is_over(part); };
+  if (stiff_first && slow) return stage.solve_in_haste();
+  if (stiff_first && limited) stage.keep();
   const Balance first = stiff_first ? stage.solve_stiff() : stage.solve_by_newton();
   if (first.solved || !both || stage.stops()) return first;
+  if (stiff_first && first.residual > residual_of_use && over(first_share)) {
+    too_slow.stages = 16;
+    stage.restore();
+    return stage.solve_in_haste();
+  }
+  if (over(1)) return first;
   stage.keep();
   const Balance second = stiff_first ? stage.solve_by_newton() : stage.solve_stiff();
   if (second.solved || second.residual < first.residual || stage.stops()) return second;

@@ -39,6 +39,7 @@ struct StiffTask {
   R* v;        ///< receives the solution, or the best that was found; fixed particles' is left
   std::ptrdiff_t stride;
   std::function<bool()> stops;
+  std::function<bool(double best)> hurries;  ///< as InteriorPoint::Task has it
   std::function<void(double part)> progress;
   double tolerance = balance_tolerance<R>;
 };
@@ -59,20 +60,36 @@ class StiffStage {
   std::unique_ptr<InteriorPoint<double>> double_;
 };
 
+/// Of the time that a stage may take, what this method gets unless it has come to a residual of use by then: what it
+/// finds before is of less use than what a method that descends finds in the rest.
+inline constexpr double first_share = 0.6, residual_of_use = 1e-3;
+inline double stiff_share(double residual) {
+  return residual <= residual_of_use ? 1 : first_share;
+}
+
 /// An implicit stage that an engine can solve in both ways.
 class EitherStage : public ImplicitStage {
  public:
+  virtual StageLimit limit() { return {}; }
   virtual Balance solve_by_newton() = 0;
   /// By StiffStage; then evaluates the stage there.
   virtual Balance solve_stiff() = 0;
+  /// Solves as well as it can in the time that is left; after restore(), or at first.
+  virtual Balance solve_in_haste() { return solve_by_newton(); }
   /// Copies the present velocities.
   virtual void keep() = 0;
   /// Returns to the copy, and evaluates the stage there.
   virtual void restore() = 0;
 };
 
+/// For how many more stages the interior-point method is not tried, since it has been too slow for the limit.
+struct TooSlow {
+  int stages = 0;
+};
+
 /// Solves a stage in the way that is likely to be quicker, and in the other where that fails; of two failures the
-/// better one is left. What is tried depends on nothing but the stage: a repeated step must give the same bits.
-Balance solve_either_way(EitherStage& stage, const Preset& preset, double h);
+/// better one is left. What is tried depends on nothing but the stage, where no time is set: a repeated step must give
+/// the same bits.
+Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, TooSlow& too_slow);
 
 }  // namespace tyglab::implicit

@@ -58,7 +58,7 @@ bool DeviceSolver<R>::solve(const Task& task) {
   const int position = task.position, velocity = task.velocity;
   state_.copy(state_.vector(position), start_x_.get()), state_.copy(state_.vector(velocity), start_v_.get());
   read_scene();
-  const Balance balance = solve_either_way(*this, *task.preset, task.h);
+  const Balance balance = solve_either_way(*this, *task.preset, task.h, too_slow_);
   solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
   return !stopped_;
 }
@@ -98,10 +98,11 @@ Balance DeviceSolver<R>::solve_stiff() {
                v = state_.vector(task_.velocity);
   R *const c_x_rows = state_.map(c_x, CL_MAP_READ), *const c_v_rows = state_.map(c_v, CL_MAP_READ),
            *const x_rows = state_.map(x, CL_MAP_READ), *const v_rows = state_.map(v, CL_MAP_READ | CL_MAP_WRITE);
-  const Balance balance = stiff_.solve(
-      implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, x_rows, v_rows,
-                             state_.stride(), [this] { return stops(); }, [this](double part) { note_progress(part); }},
-      counts_);
+  const Balance balance =
+      stiff_.solve(implicit::StiffTask<R>{*task_.preset, lattice_, tears_, fixed_, task_.h, c_x_rows, c_v_rows, x_rows,
+                                          v_rows, state_.stride(), [this] { return stops(); },
+                                          [](double) { return false; }, [this](double part) { note_progress(part); }},
+                   counts_);
   state_.unmap(c_x, c_x_rows), state_.unmap(c_v, c_v_rows), state_.unmap(x, x_rows), state_.unmap(v, v_rows);
   if (!stopped_) evaluate(), arrive();
   return balance;

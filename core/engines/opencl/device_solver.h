@@ -129,6 +129,7 @@ class DeviceSolver final : private implicit::EitherStage {
   std::vector<std::uint8_t> fixed_;  ///< likewise: 1 at i·columns + j
   Task task_{};
   bool stopped_ = false;
+  implicit::TooSlow too_slow_;
   Balance solved_{true, 0};
   bool away_ = false;  ///< a velocity is being tried
   double start_size_ = 0;
