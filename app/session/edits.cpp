@@ -201,6 +201,7 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     const bool cuts = std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit);
     const bool moved = moves && !(cuts && session.simulation->tears().torn_count() == torn);
     if (moved || !changes(before, session.preset()).within(Effect::view)) session.history = std::move(recorded);
+    if (moved || !same_model(before, session.preset())) session.rewind.note_change();
     if (before == session.preset()) return true;
     follow_up(session, before);
     return true;

@@ -31,18 +31,18 @@ void restart(Session& session) {
   session.pacing.restart_measure();
 }
 
-void go_back(Session& session, double seconds) {
-  settle(session);
-  session.rewind.go_back(*session.simulation, session.simulation->time(), seconds);
+void go_back(Session& session, const Snapshot& then) {
+  session.rewind.go_back(*session.simulation, then);
   session.history.go_back(session.simulation->time());
   go_on_from_here(session);
 }
 
 bool rewind(Session& session) {
-  const double t = session.simulation->time();
-  if (session.rebuild.holds_present() || session.rewind.before(*session.simulation, t, rewinds_s) == nullptr)
-    return false;
-  go_back(session, rewinds_s);
+  if (session.rebuild.holds_present()) return false;
+  settle(session);
+  const Snapshot* then = session.rewind.before(*session.simulation, session.simulation->time(), rewinds_s);
+  if (then == nullptr) return false;
+  go_back(session, *then);
   if (!session.copies.lockstep.empty())
     session.messages.note("Copies are not rewound separately: they also continue from this state.");
   return true;

@@ -13,7 +13,7 @@ void restart(Session& session);
 /// changed the motion. False where there is nothing to go back to.
 bool rewind(Session& session);
 /// Back by that much simulated time, s, or as far as states are kept; there must be one (Rewind::before).
-void go_back(Session& session, double seconds);
+void go_back(Session& session, const Snapshot& then);
 /// The same, and says which constants stay though they were changed later than the moment that is back.
 bool rewind_and_say_what_stays(Session& session);
 /// Takes constants that stood before. An automatic dt stays so only if it is the one that would be chosen for them.

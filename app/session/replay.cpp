@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/session/edits.h"
 #include "app/session/motion.h"
 #include "app/session/session.h"
 
@@ -11,33 +12,48 @@ namespace {
 constexpr double silently_s = 0.5;  // that the way from the last state that is kept may take, without being shown
 constexpr int late = 20;            // steps by which the divergence may come later than it did
 
+/// Where it begins: early enough, if the motion was the same all the way.
+const Snapshot* start_of(const Session& session) {
+  const double back = Replay::steps * session.simulation->diverged_preset().dt;
+  return session.rewind.unchanged_before(*session.simulation, session.simulation->time(), back);
+}
+
+/// The constants that the motion had when it diverged.
+bool take_constants_back(Session& session) {
+  Preset then = session.simulation->diverged_preset(), now = session.requested_preset();
+  then.mode = now.mode, then.engine = now.engine, then.device = now.device, then.precision = now.precision;
+  if (!apply_edit(session, edit::Change{then})) return false;
+  session.messages.note("The constants are those that diverged again: " + change_in_words(now, then) +
+                        ". Ctrl+Z undoes that.");
+  return true;
+}
+
 }  // namespace
 
 std::string nothing_to_replay(const Session& session) {
   const auto& divergence = session.simulation->divergence();
   if (!divergence) return "The simulation has not diverged.";
   if (session.rebuild.holds_present()) return "The cloth is being built.";
-  const double back = Replay::steps * session.preset().dt;
-  return session.rewind.before(*session.simulation, session.simulation->time(), back) != nullptr
-             ? ""
-             : "No earlier states are kept of a cloth this large.";
+  return start_of(session) != nullptr ? "" : "No earlier states are kept of a cloth this large.";
 }
 
 void begin_replay(Session& session) {
   if (std::string why = nothing_to_replay(session); !why.empty()) return session.messages.note(std::move(why));
+  settle(session);
   Simulation& simulation = *session.simulation;
   const Divergence of = *simulation.divergence();
-  const double dt = session.preset().dt, cost = session.pacing.step_cost_s();
-  // What diverged at once has fewer steps to show, and shows them as long.
-  const double shown = double(std::clamp<std::int64_t>(of.step - 1, 1, Replay::steps));
-  Replay replay{of, 0, shown * dt / Replay::lasts, session.pacing.speed};
-  if (session.replay) replay.former_speed = session.replay->former_speed;
-  go_back(session, Replay::steps * dt);
+  const Snapshot* start = start_of(session);
+  if (changed_since_divergence(session) && !take_constants_back(session)) return;
+  const double dt = session.preset().dt, cost = session.pacing.step_cost_s(), former = session.pacing.speed;
+  go_back(session, *start);
   // States are kept every tenth of a second.
   const std::int64_t left = of.step - 1 - Replay::steps - simulation.steps();
   const std::int64_t affordable = cost > 0 ? std::int64_t(silently_s / cost) : Replay::steps;
   if (left > 0) simulation.advance(int(std::min(left, affordable)));
-  replay.at = simulation.steps();
+  // What has fewer steps to show, since it diverged at once or was changed shortly before, shows them as long.
+  const double shown = double(std::clamp<std::int64_t>(of.step - 1 - simulation.steps(), 1, Replay::steps));
+  const Replay replay{of, simulation.steps(), shown * dt / Replay::lasts,
+                      session.replay ? session.replay->former_speed : former};
   session.pacing.speed = replay.speed;
   session.pacing.playing = true;
   session.replay = replay;

@@ -1,5 +1,7 @@
 #include "app/session/rewind.h"
 
+#include <utility>
+
 namespace tyglab {
 
 void Rewind::look(Simulation& simulation) {
@@ -8,6 +10,7 @@ void Rewind::look(Simulation& simulation) {
   const double t = simulation.time();
   // A restart or another cloth: that past is another's.
   if (!kept_.empty() && (t < kept_.back().t || !simulation.fits(kept_.back()))) clear();
+  if (std::exchange(changing_, false)) changed_ = simulation.snapshot();
   if (!kept_.empty() && t - kept_.back().t < interval) return;
   kept_.push_back(simulation.snapshot());
   bytes_ += kept_.back().bytes();
@@ -24,11 +27,14 @@ const Snapshot* Rewind::before(const Simulation& simulation, double t, double se
   return &kept_.front();
 }
 
-void Rewind::go_back(Simulation& simulation, double t, double seconds) {
+const Snapshot* Rewind::unchanged_before(const Simulation& simulation, double t, double seconds) const {
   const Snapshot* then = before(simulation, t, seconds);
-  if (then == nullptr) return;
-  simulation.restore(*then);
-  forget_after(then->t);
+  return then != nullptr && changed_ && changed_->t > then->t && simulation.fits(*changed_) ? &*changed_ : then;
+}
+
+void Rewind::go_back(Simulation& simulation, const Snapshot& then) {
+  simulation.restore(then);
+  forget_after(then.t);
 }
 
 void Rewind::forget_after(double t) {
@@ -36,6 +42,7 @@ void Rewind::forget_after(double t) {
     bytes_ -= kept_.back().bytes();
     kept_.pop_back();
   }
+  if (changed_ && changed_->t > t) changed_.reset();
 }
 
 }  // namespace tyglab

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 
 #include "core/simulation.h"
 
@@ -22,16 +23,22 @@ class Rewind {
   void look(Simulation& simulation);
   /// The newest snapshot that is at least so long (s) before `t` and fits, or the oldest that fits; nullptr: none does.
   const Snapshot* before(const Simulation& simulation, double t, double seconds) const;
-  /// Goes back to a snapshot: what came after it is forgotten.
-  void go_back(Simulation& simulation, double t, double seconds);
+  /// The same, but not from before the cloth or its constants were changed last: from there the same motion follows.
+  const Snapshot* unchanged_before(const Simulation& simulation, double t, double seconds) const;
+  /// Goes back to one of them: what came after it is forgotten.
+  void go_back(Simulation& simulation, const Snapshot& then);
+  /// The cloth or its constants have been changed, and the motion is another from here on.
+  void note_change() { changing_ = true; }
   /// What came after that time (s) is forgotten.
   void forget_after(double t);
-  void clear() { kept_.clear(), bytes_ = 0; }
-  std::size_t bytes() const { return bytes_; }
+  void clear() { kept_.clear(), bytes_ = 0, changed_.reset(); }
+  std::size_t bytes() const { return bytes_ + (changed_ ? changed_->bytes() : 0); }
 
  private:
   std::deque<Snapshot> kept_;  ///< oldest first
   std::size_t bytes_ = 0;
+  std::optional<Snapshot> changed_;  ///< where the last change took effect
+  bool changing_ = false;            ///< one takes effect in the next step
 };
 
 }  // namespace tyglab

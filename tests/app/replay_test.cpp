@@ -5,7 +5,9 @@
 
 #include <cstdlib>
 
+#include "app/session/edits.h"
 #include "app/session/motion.h"
+#include "app/session/requests.h"
 #include "app/session/session.h"
 #include "tests/support/scenes.h"
 
@@ -55,6 +57,53 @@ TEST_CASE("what diverges within fifty steps is replayed from its start") {
   session.update(0, {});
   REQUIRE(session.replay);
   CHECK(session.simulation->steps() == 0);
+}
+
+/// Goes on until it is that time, s.
+void run_to(Session& session, double t) {
+  session.pacing.patient = true;
+  while (session.simulation->time() < t) session.update(0.01, {});
+}
+
+TEST_CASE("a replay begins no earlier than constants were changed last, so that the same explosion follows") {
+  Session session = exploding(1e-3);
+  Preset preset = session.preset();
+  preset.k_s = 20;
+  apply_edit(session, edit::Change{preset});
+  run_to(session, 0.93);
+  REQUIRE_FALSE(session.simulation->divergence());
+  preset.k_s = 1000;
+  apply_edit(session, edit::Change{preset});
+  const std::int64_t changed_at = session.simulation->steps();
+  run_until_diverged(session);
+  const Divergence then = *session.simulation->divergence();
+  REQUIRE(then.step - changed_at < 50);
+  for (int times = 0; times < 2; ++times) {
+    session.request(request::Replay{});
+    session.update(0, {});
+    REQUIRE(session.replay);
+    CHECK(session.simulation->steps() == changed_at);
+    run_until_diverged(session);
+    CHECK(std::abs(double(session.simulation->divergence()->step - then.step)) <= 3);
+  }
+}
+
+TEST_CASE("a replay sets constants that have changed since back to those that diverged, and that can be undone") {
+  Session session = exploding();
+  run_until_diverged(session);
+  const Divergence then = *session.simulation->divergence();
+  Preset later = session.preset();
+  later.k_s = 1520;
+  apply_edit(session, edit::Change{later});
+  REQUIRE(changed_since_divergence(session));
+  session.request(request::Replay{});
+  session.update(0, {});
+  REQUIRE(session.replay);
+  CHECK(session.preset().k_s == 200);
+  run_until_diverged(session);
+  CHECK(std::abs(double(session.simulation->divergence()->step - then.step)) <= 10);
+  take_from_history(session, true);
+  CHECK(session.preset().k_s == 1520);
 }
 
 TEST_CASE("a restart leaves the replay, and there is none of a cloth that is well") {

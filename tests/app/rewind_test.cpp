@@ -18,11 +18,14 @@ TEST_CASE("the past is kept ten times a second and found again") {
   REQUIRE(then != nullptr);
   CHECK(then->t <= simulation.time() - 1);
   CHECK(then->t > simulation.time() - 1.2);
-  past.go_back(simulation, simulation.time(), 1);
+  const auto go_back = [&](double seconds) {
+    past.go_back(simulation, *past.before(simulation, simulation.time(), seconds));
+  };
+  go_back(1);
   CHECK(simulation.time() < 2.01);
-  past.go_back(simulation, simulation.time(), 1);
+  go_back(1);
   CHECK(simulation.time() < 1.01);
-  past.go_back(simulation, simulation.time(), 100);  // the oldest
+  go_back(100);  // the oldest
   CHECK(simulation.time() == 0);
 }
 

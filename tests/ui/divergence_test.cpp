@@ -285,6 +285,17 @@ TEST_CASE("once constants have changed, the banner offers to try them instead of
   CHECK(window.preset().k_s == 20);
 }
 
+TEST_CASE("a slider that is dragged on past a divergence leaves every way out") {
+  test::NullUi window;
+  window.type_value("k_s", "1000");
+  explode(window);
+  window.type_value("k_s", "1520");
+  REQUIRE(changed_since_divergence(window.session));
+  window.until([&] { return window.sees("viewport.Replay_slowly") && window.sees("viewport.Implicit_Euler"); },
+               "replay and remedies to be offered");
+  CHECK_FALSE(window.control_beginning("viewport.dt").empty());
+}
+
 TEST_CASE("extreme but allowed values stop the cloth at worst; all of them are reset by Ctrl+Shift+R") {
   test::NullUi window;
   for (const auto& [key, value] : {std::pair{"k_s", "1e9"}, {"k_d", "1e6"}, {"g", "-100"}, {"dt", "1"}, {"k_b", "1e9"}})

@@ -102,22 +102,21 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
                     [](Ui& u) { u.command("restart"); }};
   const bool past = ui.session.rewind.before(*ui.session.simulation, ui.session.simulation->time(), 1) != nullptr;
   const Way rewind{"Rewind 1 s", "One second back, paused", "←", [](Ui& u) { u.command("rewind"); }};
-  if (changed_since_divergence(ui.session)) {
-    // A restart that must end in the same way is not the first thing to try.
-    const auto& limits = ui.session.studies.stability.limits();
-    const Preset& present = ui.session.preset();
-    const bool again = limits && same_model(limits->of, present) && present.dt > limits->every;
-    ways.insert(again ? ways.end() : ways.begin(), restart);
-    if (past) ways.push_back(rewind);
-    return ways;
-  }
-  if (!advice.springs_too_weak) add_retries(ui, advice, past, ways);
+  const bool changed = changed_since_divergence(ui.session);
+  // A restart that must end in the same way is not the first thing to try.
+  const auto& limits = ui.session.studies.stability.limits();
+  const Preset& present = ui.session.preset();
+  const bool again = !changed || (limits && same_model(limits->of, present) && present.dt > limits->every);
+  if (!again) ways.insert(ways.begin(), restart);
+  if (again && !advice.springs_too_weak) add_retries(ui, advice, past, ways);
   if (nothing_to_replay(ui.session).empty())
     ways.push_back({replay_label,
-                    "The last 50 steps in a few seconds, colored by strain; what diverges first is ringed", "",
-                    [](Ui& u) { u.command("replay"); }});
+                    std::string("At most the last 50 steps in a few seconds, colored by strain; what diverges first is "
+                                "ringed") +
+                        (changed ? ". Sets the constants back to those that diverged" : ""),
+                    "", [](Ui& u) { u.command("replay"); }});
   if (past) ways.push_back(rewind);
-  ways.push_back(restart);
+  if (again) ways.push_back(restart);
   return ways;
 }
 
@@ -172,8 +171,9 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   const float room = most - 2 * padding, buttons = std::min(buttons_width(ui, shown), room);
   const std::vector<ImVec2> places = flow(ui, shown, room);
   const float rows = places.back().y + line;
-  const std::string limit =
-      over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit" : std::string();
+  const std::string limit = changed_since_divergence(ui.session) ? ": since then constants have changed"
+                            : over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit"
+                                             : std::string();
   const std::string texts[] = {"The simulation diverged" + limit, "The simulation diverged", "Diverged"};
   FoldedBanner folded;
   std::vector<std::pair<bool, std::string>> ways_to_say;

@@ -15,7 +15,7 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
   if (number == 0) abandoned_ = !solve(sweep, tears);
   team_->barrier();
   if (abandoned_ || !solver_.left_to_passes()) return !abandoned_;
-  team_->barrier();  // all have seen that before the stage begins anew
+  team_->barrier();  // all have seen that before the stage begins again
   return descend(number, sweep, tears);
 }
 

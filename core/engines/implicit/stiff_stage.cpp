@@ -101,7 +101,7 @@ Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, Too
   if (stiff_first && limited) stage.keep();
   const Balance first = stiff_first ? stage.solve_stiff() : stage.solve_by_newton();
   if (first.solved || !both || stage.stops()) return first;
-  if (stiff_first && first.residual > residual_of_use && over(first_share)) {
+  if (stiff_first && first.residual > nearly_there && over(first_share)) {
     too_slow.stages = 16;
     stage.restore();
     return stage.solve_in_haste();

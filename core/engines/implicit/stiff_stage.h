@@ -60,11 +60,11 @@ class StiffStage {
   std::unique_ptr<InteriorPoint<double>> double_;
 };
 
-/// Of the time that a stage may take, what this method gets unless it has come to a residual of use by then: what it
-/// finds before is of less use than what a method that descends finds in the rest.
-inline constexpr double first_share = 0.6, residual_of_use = 1e-3;
+/// Of the time that a stage may take, what this method gets unless it is nearly there by then: a method that descends
+/// makes more of the rest.
+inline constexpr double first_share = 0.6, nearly_there = 1e-3;
 inline double stiff_share(double residual) {
-  return residual <= residual_of_use ? 1 : first_share;
+  return residual <= nearly_there ? 1 : first_share;
 }
 
 /// An implicit stage that an engine can solve in both ways.
