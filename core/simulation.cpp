@@ -57,6 +57,7 @@ std::string Divergence::in_words() const {
   append_number(text, t, 6);
   text += " s (step " + std::to_string(step) + "), " + where() + ": " + quantity + " = ";
   text += std::isfinite(value) ? printed("%.4g", value) : short_number(value);
+  text += quantity == "velocity" ? " m/s" : " m";
   return text + "; " + cause + ". " + advice;
 }
 

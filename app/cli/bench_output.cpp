@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 #include "app/cli/command_line.h"
@@ -39,7 +40,12 @@ void add_json(CLI::App& command, BenchOptions& options, const std::string& does)
 }
 
 CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does) {
-  return add_output(command, "--png", options.png, does + "; - is standard output")->type_name("F.png");
+  return add_output(command, "--png", options.png, does + "; - is standard output")
+      ->type_name("F.png")
+      ->check([](const std::string& file) {
+        const std::string extension = std::filesystem::path(file).extension().string();
+        return extension.empty() || extension == ".png" ? "" : "images are written as F.png, not as " + extension;
+      });
 }
 
 nlohmann::ordered_json bench_json(const std::string& benchmark, nlohmann::ordered_json runs) {

@@ -157,7 +157,7 @@ std::string words_of_number(const Condition& condition) {
     return text + shortest_number(right.factor) + (unit.empty() ? "" : " " + std::string(unit));
   }
   if (right.factor != 1) text += shortest_number(right.factor) + " × ";
-  return text + right.name + (right.before ? " of the step before" : "");
+  return text + right.name + (right.before ? " in the lab's previous step" : "");
 }
 
 }  // namespace

@@ -55,10 +55,13 @@ std::size_t resumed_at(const Lab& lab, int done) {
   return at;
 }
 
-/// What the step that follows wants to know of this moment.
+/// What the step that follows wants to know of this moment, and what this one has compared with the one before.
 void keep_outcome(Session& session, LabRun& run) {
   StepOutcome& outcome = run.record().outcome;
   outcome = {};
+  for (const Condition& check : run.now().checks)
+    if (const auto value = check.right.before ? observe(session, check.name) : std::nullopt)
+      outcome.values[check.name] = *value;
   if (run.step + 1 >= run.lab.steps.size()) return;
   const LabStep& next = run.lab.steps[run.step + 1];
   const auto keep = [&](const Operand& operand) {

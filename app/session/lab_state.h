@@ -27,7 +27,8 @@ namespace tyglab {
 
 struct Session;
 
-/// What is known at the moment at which a step was completed: what later steps call `before`.
+/// What is known at the moment at which a step was completed: what later steps call `before`, and what the step itself
+/// has compared with that.
 struct StepOutcome {
   std::map<std::string, double, std::less<>> values;
   std::optional<State> state;  ///< where a later step asks how far apart the cloth is from it

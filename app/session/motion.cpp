@@ -78,6 +78,7 @@ void take_from_history(Session& session, bool backwards) {
   if (entry->state && session.rebuild.holds_present())
     return session.messages.note("Wait until the cloth has been built, then undo the " + what + ".");
   History history = session.history;
+  const bool named = !entry->what.empty();
   HistoryEntry now{present, session.simulation->time(), entry->what};
   if (entry->state) now = motion_entry(session, entry->what);  // after a divergence, of the last whole step
   const HistoryEntry then = history.take(backwards, std::move(now));
@@ -85,7 +86,8 @@ void take_from_history(Session& session, bool backwards) {
   next.mode = present.mode;  // the view is not a change to undo
   if (next != present && !take_back(session, next)) return;
   session.history = std::move(history);
-  std::string said = (backwards ? "Undone: " : "Redone: ") + what;
+  // Of constants, how they change now.
+  std::string said = (backwards ? "Undone: " : "Redone: ") + (named ? what : change_in_words(present, next));
   if (then.state && session.simulation->fits(*then.state)) {
     bring_back(session, *then.state);
     said += ". The cloth is at t = " + time_number(then.t, next.dt) + " s again" +

@@ -25,8 +25,9 @@ std::string lost_output(const std::filesystem::path& file, int error) {
     return output_name(file) + ": its reader has closed it, so the rest of the output is lost";
   const std::string why = error != 0 ? std::string(": ") + std::strerror(error) : std::string();
   const std::string cure = error == ENAMETOOLONG ? "; choose a shorter name, to which .incomplete can be added"
-                           : error == EFBIG ? "; raise the limit of a file's size (ulimit -f), or write it elsewhere"
-                                            : "; write it elsewhere, or free disk space";
+                           : error == EFBIG  ? "; raise the limit of a file's size (ulimit -f), or write it elsewhere"
+                           : error == ENOSPC ? "; free disk space, or write it elsewhere"
+                                             : "; write it elsewhere";
   return output_name(file) + ": cannot be written" + why + cure;
 }
 

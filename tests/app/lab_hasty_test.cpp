@@ -99,6 +99,18 @@ TEST_CASE("lab: k_s and the critical time step, done wrongly") {
   CHECK_FALSE(play.right());
 }
 
+TEST_CASE("lab: an explosion that a k_s beyond the limit began does not count below it") {
+  LabPlayer play("03_stiffness");
+  play.predict("200");
+  play.set("k_s=300");
+  play.run(0.012);
+  play.set("k_s=190");
+  play.run(3);
+  REQUIRE(play.session().simulation->divergence());
+  CHECK_FALSE(play.done());
+  CHECK(play.card(2).starts_with("k_s was 300 N/m at t = "));
+}
+
 TEST_CASE("lab: what damping does to the limit, done wrongly") {
   LabPlayer play("04_damping");
   play.choose(0);

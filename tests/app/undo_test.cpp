@@ -108,7 +108,7 @@ TEST_CASE("a pull, a restart and a constant are taken back one after the other, 
   CHECK(session.simulation->position(7, 0) == x);
   CHECK_FALSE(session.simulation->held());
   take_from_history(session, true);
-  CHECK(said(session, "Undone: k_s 50 → 80 N/m."));
+  CHECK(said(session, "Undone: k_s 80 → 50 N/m."));
   CHECK(session.preset().k_s == 50);
   CHECK(session.simulation->time() == grabbed);  // the motion goes on
   for (int n = 0; n < 3; ++n) take_from_history(session, false);
@@ -126,7 +126,7 @@ TEST_CASE("a restart before anything moved, and one after a divergence, are no a
   REQUIRE(session.simulation->divergence());
   restart(session);
   take_from_history(session, true);
-  CHECK(said(session, "Undone: k_s 50"));
+  CHECK(said(session, "Undone: k_s 1e6 → 50 N/m."));
 }
 
 TEST_CASE("what led to a divergence can be undone and done again") {

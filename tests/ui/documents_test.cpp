@@ -104,11 +104,11 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   window.settings.tour_seen = false;
   window.click("top.brand");
   window.frames(2);
-  CHECK(window.drew("Start with this cloth"));
-  window.click("dialog.Start_with_this_cloth");
+  CHECK(window.drew("Start with “Soft and slow”"));
+  window.click(window.control_beginning("dialog.Start_with"));
   window.click("top.brand");
   window.frames(2);
-  CHECK(window.drew("Continue with the cloth"));
+  CHECK(window.drew("Continue with “"));
   REQUIRE(window.ui.dialog.kind == Kind::start);
   CHECK(window.drew("Recent work"));
   CHECK(window.sees("dialog.entry.Soft_and_slow"));

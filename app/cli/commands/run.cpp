@@ -57,6 +57,10 @@ class Outputs {
       if (!options.obj.empty() && is_frame(output.file))
         throw UsageError(output.option + ": --obj writes frames in that folder under such names; use another name");
     check_outputs(options.outputs(), scene.source.file);
+    for (const Output& output : options.outputs())
+      if (!options.obj.empty() && !output.file.empty() && fs::path(output.file) == fs::path(options.obj))
+        throw UsageError(output.option + " and --obj: both go to " + output_name(output.file) +
+                         "; use a different name for one of them");
     if (options.obj.empty()) return;
     if (scene.preset.kind == Kind::one_weight)
       throw UsageError("--obj needs a cloth, and " + in_one_line(scene.source.label) +
@@ -143,7 +147,9 @@ class Outputs {
       throw UsageError("--series-every: sets how often --series and --ledger write a row; add --series F.csv");
     if (options_.fps && !wants_frames() && !(rows && !options_.series_every))
       throw UsageError(
-          "--fps: sets the frames of --obj, --pc2, --series and --ledger (without --series-every); add one");
+          rows ? "--fps: --series-every sets the rows of --series and --ledger, and there are no frames; leave one of "
+                 "the two options out"
+               : "--fps: sets the frames of --obj, --pc2, --series and --ledger; add one of these");
   }
   bool wants_frames() const { return !options_.obj.empty() || !options_.pc2.empty(); }
   std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }

@@ -24,7 +24,7 @@ constexpr float cost_at_1 = 72, apart_at_1 = 84, remove_at_1 = 26;         // co
 constexpr float costs_from_at_1 = 250;                                     // a narrower card leaves the costs out
 constexpr const char* copies_explanation =
     "Copies run alongside this cloth with the same start, hand and wind, each with another method, dt or constant: "
-    "see where they diverge from each other.";
+    "see where their motions part.";
 constexpr const char* add_label = "Add a copy with…";
 constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
 

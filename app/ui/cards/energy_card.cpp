@@ -13,11 +13,16 @@ namespace tyglab {
 namespace {
 
 constexpr const char* energy_heading = card_name::energy;
-constexpr std::string_view height_row = "height";
+constexpr std::string_view height_row = "height", total_row = "energy";
 constexpr float gap_at_1 = 7, restart_at_1 = 36;  // pixels at scale 1
 
 ImU32 color_of(const Tokens& c, double share) {
   return share > Ledger::warns_at ? c.danger : std::abs(share) > Ledger::warns_at / 10 ? c.warning : c.good;
+}
+
+/// Height counts from wherever y = 0 is: its size, and with it the sum, says nothing beside the others.
+bool from_zero(const EnergyRow& row) {
+  return row.name != height_row && row.name != total_row;
 }
 
 /// From the middle of the bar: to the right what the cloth has or gained, to the left what it lost.
@@ -50,8 +55,7 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink, row.name);
   const float value = ui.theme.px(96), bar = ui.theme.px(4), left = lo.x + ui.theme.px(128);
-  // Height counts from wherever y = 0 is: its size says nothing beside the others.
-  if (row.name != height_row && left + ui.theme.px(24) < lo.x + width - value)
+  if (from_zero(row) && left + ui.theme.px(24) < lo.x + width - value)
     draw_bar(ui, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
              faded(color, 0.8f));
   const std::string text = unknown ? "–" : short_number(row.joule, 3) + " J";
@@ -83,6 +87,7 @@ std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
       {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of springs that pull.", r.energy.stretch},
       {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of springs that push.", r.energy.bending},
       {EnergyKind::has, height_row, "m g y of every particle, from y = 0.", r.energy.gravity},
+      {EnergyKind::has, total_row, "All of the above together.", r.energy.total()},
       {EnergyKind::works, "damping", "Work of F_d since the ledger began: never above 0.", r.works.damping},
       {EnergyKind::works, "contact", "Removed by bodies: impacts and friction.", r.works.contact},
       {EnergyKind::works, "tearing, cutting", "Energy of springs that tore or were cut.", r.works.tearing},
@@ -114,7 +119,7 @@ void energy_card(Ui& ui, float height) {
     const std::vector<EnergyRow> rows = energy_rows(*reading);
     double largest = 0;
     for (const EnergyRow& row : rows)
-      if (row.name != height_row) largest = std::max(largest, std::abs(row.joule));
+      if (from_zero(row)) largest = std::max(largest, std::abs(row.joule));
     for (const EnergyRow& row : rows) {
       if (row.kind != last) ImGui::Dummy({width, ui.theme.px(gap_at_1)});
       last = row.kind;

@@ -308,7 +308,9 @@ void start_page(Ui& ui) {
     ImGui::Dummy({0, ui.theme.px(2)});
   });
   if (ui.dialog.kind != DialogKind::start) return;
-  if (text_button(ui, ui.dialog.first_start ? "Start with this cloth" : "Continue with the cloth", true))
+  // By its name: what is searched for is chosen by its picture.
+  const std::string name = fitted(*ui.fonts.text, ui.session.preset().name, ui.theme.px(180));
+  if (text_button(ui, ((ui.dialog.first_start ? "Start with “" : "Continue with “") + name + "”").c_str(), true))
     return close(ui);
   ImGui::SameLine();
   if (text_button(ui, "Take the tour")) close(ui), ui.command("start_tour");

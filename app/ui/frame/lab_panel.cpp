@@ -64,6 +64,13 @@ void verdict(Ui& ui, const Prediction& asked, const StepRecord& record) {
   marked_line(ui, icon::check, "+", c.good, "Right: " + answer, c.text);
 }
 
+/// Why what was typed is no number in that unit.
+std::string not_understood(const char* typed, const std::string& unit) {
+  const std::string quoted = "“" + std::string(typed) + "” is not a number";
+  if (unit.empty()) return quoted + ". Type one such as 0.31 or 1e-4.";
+  return quoted + " in " + unit + ". Type one such as 0.31 or 1e-4, without a unit or in " + unit + ".";
+}
+
 void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
   ImGui::SetNextItemWidth(ui.theme.px(120));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
@@ -77,8 +84,7 @@ void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
   if (!asked.unit.empty()) ImGui::SameLine();
   const bool enter = ui.lab_enter && in_field && !ui.input.unread;
   if (text_button(ui, "Predict", true, record.typed[0] != 0) || enter)
-    if (!predict(ui.session))
-      ui.session.messages.error(std::string("“") + record.typed + "” is not a number. Type one such as 0.31 or 1e-4.");
+    if (!predict(ui.session)) ui.session.messages.error(not_understood(record.typed, asked.unit));
 }
 
 void choice_list(Ui& ui, const Prediction& asked, StepRecord& record) {
@@ -121,9 +127,21 @@ bool to_be_predicted(const LabStep& step, const StepRecord& record) {
   return step.prediction && !record.predicted && !record.done;
 }
 
-void check_line(Ui& ui, const Condition& check, CheckState state, const CheckMemory& memory, bool done) {
+/// " (4.2e-6 m after 1.7e-5 m)": what a check that is done has compared with the step before; nothing of others.
+std::string compared(const LabRun& run, const Condition& check) {
+  if (!check.right.before || check.right.factor == 1 || run.step == 0) return {};
+  const auto &now = run.record().outcome.values, &before = run.records[run.step - 1].outcome.values;
+  const auto value = now.find(check.name), earlier = before.find(check.right.name);
+  if (value == now.end() || earlier == before.end()) return {};
+  const std::string_view unit = unit_of(check.name);
+  return " (" + with_unit(rounded(value->second, 3), unit) + " after " + with_unit(rounded(earlier->second, 3), unit) +
+         ")";
+}
+
+void check_line(Ui& ui, const LabRun& run, const Condition& check, CheckState state, const CheckMemory& memory) {
   const Tokens& c = ui.theme.colors;
-  if (done) return marked_line(ui, icon::check, "+", c.good, with_whole_terms(words_of(check)), c.text);
+  if (run.record().done)
+    return marked_line(ui, icon::check, "+", c.good, with_whole_terms(words_of(check) + compared(run, check)), c.text);
   const std::string words = with_whole_terms(check_in_words(ui.session, check, state, memory));
   if (state == CheckState::holds) return marked_line(ui, icon::check, "+", c.good, words, c.text);
   if (state == CheckState::open) return marked_line(ui, icon::circle, "o", c.quiet, words, c.text);
@@ -158,12 +176,16 @@ void task_part(Ui& ui, const LabStep& step) {
 
 void checks_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   const Tokens& c = ui.theme.colors;
+  const LabRun& run = *ui.session.labs.run;
   if (step.checks.empty()) return;
-  small_head(ui, record.done ? "CHECK: DONE" : "CHECK", record.done ? c.good : c.accent);
+  // How many hold: what does not may stand below the column's edge.
+  const auto holding = std::count(record.checks.begin(), record.checks.end(), CheckState::holds);
+  const std::string count = "CHECK: " + std::to_string(holding) + " OF " + std::to_string(step.checks.size());
+  small_head(ui, record.done ? "CHECK: DONE" : count.c_str(), record.done ? c.good : c.accent);
   for (std::size_t k = 0; k < step.checks.size(); ++k)
     if (k < record.checks.size() && k < record.seen.size())
-      check_line(ui, step.checks[k], record.checks[k], record.seen[k], record.done);
-  const std::string& awaited = ui.session.labs.run->awaited;
+      check_line(ui, run, step.checks[k], record.checks[k], record.seen[k]);
+  const std::string& awaited = run.awaited;
   if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
     marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
 }
@@ -283,7 +305,7 @@ float forward_width(const Ui& ui) {
 constexpr float button_gap_at_1 = 6;
 
 bool can_set_up_again(LabRun& run) {
-  return run.now().open.has_value() && !run.record().done;
+  return run.now().open.has_value();
 }
 
 /// Ends the lab; what was found is told if it was gone through to its end.

@@ -161,14 +161,17 @@ float buttons_width(const Ui& ui, const std::vector<Way>& ways) {
 }
 
 /// The first way out, the replay and the details, beside as many words as have room, or below them. `high`: there is
-/// room for two lines rather than for fewer words.
+/// room for two lines rather than for fewer words; otherwise the first way out, where it would take a second line, is
+/// left to the details.
 FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double over_limit, float most, bool high) {
   const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
   std::vector<Way> shown{ways.front()};
   for (std::size_t k = 1; k < ways.size(); ++k)
     if (ways[k].label == replay_label) shown.push_back(ways[k]);
   shown.push_back({"Details", "What happened, why, and every way out", "", [](Ui& u) { u.banner_whole = true; }});
-  const float room = most - 2 * padding, buttons = std::min(buttons_width(ui, shown), room);
+  const float room = most - 2 * padding;
+  if (!high && shown.size() > 2 && buttons_width(ui, shown) > room) shown.erase(shown.begin());
+  const float buttons = std::min(buttons_width(ui, shown), room);
   const std::vector<ImVec2> places = flow(ui, shown, room);
   const float rows = places.back().y + line;
   const std::string limit = changed_since_divergence(ui.session) ? ": since then constants have changed"
