@@ -26,19 +26,21 @@ void add_curves(StabilityLimits& limits, const Scheme& method) {
   if (zeta_over_h > 0) limits.undamped = growth_curve(method, most, 0);
 }
 
-StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::optional<Linearisation>& cloth) {
+StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::optional<Linearisation>& cloth,
+                         const Stop& stop) {
   const Scheme& method = scheme(preset.integrator);
   StabilityLimits limits{.of = preset, .at = at, .now = {}, .damped = {}, .undamped = {}, .region = {}, .zones = {}};
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
   const auto add_zones = [&](const ZonedConstant& constant) {
     const double value = preset.*constant.field > 0 ? preset.*constant.field : Preset{}.*constant.field;
-    limits.zones.emplace(constant.key, stability_zones(preset, constant.field, value / reaches, value * reaches));
+    limits.zones.emplace(constant.key, stability_zones(preset, constant.field, value / reaches, value * reaches, stop));
   };
   if (preset.kind == Kind::cloth)
     std::for_each(zoned_cloth.begin(), zoned_cloth.end(), add_zones);
   else
     std::for_each(zoned_weight.begin(), zoned_weight.end(), add_zones);
+  if (stop()) return limits;  // nobody waits for it any more
   if (cloth) {
     limits.fastest = fastest_mode(*cloth, live_tolerance), limits.omega = limits.fastest.omega();
     // The most damped mode may have any part of the stiffness.
@@ -112,8 +114,10 @@ void StabilityWatch::poll(StudyMoment& moment) {
   begun_ = moment.now, looked_at_ = moment.mark(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;
   if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);
-  work_.start(Priority::normal, [preset = simulation.preset(), at = *looked_at_,
-                                 cloth = std::move(cloth)](const JobControl&) { return work_out(preset, at, cloth); });
+  work_.start(Priority::normal,
+              [preset = simulation.preset(), at = *looked_at_, cloth = std::move(cloth)](const JobControl& control) {
+                return work_out(preset, at, cloth, [&control] { return control.cancelled(); });
+              });
   moment.ask_again_in(soon);
 }
 

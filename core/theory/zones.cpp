@@ -113,8 +113,9 @@ double every_shape_limit(const Preset& preset) {
   return high;
 }
 
-std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most) {
-  constexpr int samples = 40;
+std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most,
+                                      const Stop& stop) {
+  constexpr int samples = 40, most_borders = 8;  // of a method that rounding lets flicker
   const Judge judge(scheme(preset.integrator));
   Preset probe = preset;
   const auto at = [&](double value) {
@@ -123,14 +124,14 @@ std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*fiel
   };
   std::vector<ZoneSpan> zones{{least, least, at(least)}};
   double before = least;
-  for (int n = 1; n <= samples; ++n) {
+  for (int n = 1; n <= samples && !(stop && stop()); ++n) {
     const double value = n == samples ? most : least * std::pow(most / least, double(n) / samples);
     const Zone zone = at(value);
     // Between two samples may lie more than one border: where damping decides, little depends on the shape.
-    while (zone != zones.back().zone) {
+    for (int borders = 1; zone != zones.back().zone && !(stop && stop()); ++borders) {
       const double edge = border(judge, preset, field, before, value, zones.back().zone);
       zones.back().to = edge;
-      before = std::min(edge * precise, value);
+      before = borders < most_borders ? std::min(edge * precise, value) : value;
       zones.push_back({edge, edge, at(before)});
     }
     zones.back().to = before = value;

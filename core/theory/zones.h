@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/model/preset.h"
+#include "core/model/stop.h"
 
 namespace tyglab {
 
@@ -49,7 +50,9 @@ Zone zone_of(const Preset& preset);
 double every_shape_limit(const Preset& preset);
 
 /// The zones from `least` (above 0) to `most` without gaps, borders within a thousandth of themselves. The first begins
-/// at 0 where the constant may be 0 and is in that zone there too.
-std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most);
+/// at 0 where the constant may be 0 and is in that zone there too. Where rounding decides, so that zones take turns,
+/// some of them are left out. Once it is stopped the result means nothing.
+std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most,
+                                      const Stop& stop = {});
 
 }  // namespace tyglab

@@ -137,4 +137,20 @@ TEST_CASE("methods without a limit are stable all along") {
   }
 }
 
+TEST_CASE("working zones out ends soon once it is stopped, and takes a bounded number of borders") {
+  for (const char* method : {"verlet", "rk4", "rkn4"}) {
+    CAPTURE(std::string(method));
+    Preset p = undamped(method);
+    p.k_d = 0.002;
+    int asked = 0;
+    const auto whole = stability_zones(p, &Preset::dt, 1e-8, 1e4, [&] { return ++asked < 0; });
+    CHECK(asked >= 40);
+    CHECK(asked <= 40 * 9);
+    CHECK(order(whole) == three);
+    int until = 0;
+    stability_zones(p, &Preset::dt, 1e-8, 1e4, [&] { return ++until > 0; });
+    CHECK(until <= 2);
+  }
+}
+
 }  // namespace tyglab::zones_test
