@@ -40,10 +40,11 @@ std::string nothing_to_replay(const Session& session) {
 void begin_replay(Session& session) {
   if (std::string why = nothing_to_replay(session); !why.empty()) return session.messages.note(std::move(why));
   settle(session);
-  Simulation& simulation = *session.simulation;
-  const Divergence of = *simulation.divergence();
+  const Divergence of = *session.simulation->divergence();
   const Snapshot* start = start_of(session);
   if (changed_since_divergence(session) && !take_constants_back(session)) return;
+  if (changed_since_divergence(session)) return;  // a large cloth takes them beside the frames
+  Simulation& simulation = *session.simulation;
   const double dt = session.preset().dt, cost = session.pacing.step_cost_s(), former = session.pacing.speed;
   go_back(session, *start);
   // States are kept every tenth of a second.

@@ -106,6 +106,21 @@ TEST_CASE("a replay sets constants that have changed since back to those that di
   CHECK(session.preset().k_s == 1520);
 }
 
+TEST_CASE("a replay sets the method back, too") {
+  Session session = exploding();
+  run_until_diverged(session);
+  const Divergence then = *session.simulation->divergence();
+  Preset later = session.preset();
+  later.integrator = "implicit_euler";
+  apply_edit(session, edit::Change{later});
+  session.request(request::Replay{});
+  session.update(0, {});
+  REQUIRE(session.replay);
+  CHECK(session.preset().integrator == "verlet");
+  run_until_diverged(session);
+  CHECK(std::abs(double(session.simulation->divergence()->step - then.step)) <= 10);
+}
+
 TEST_CASE("a restart leaves the replay, and there is none of a cloth that is well") {
   Session session = exploding();
   CHECK_FALSE(nothing_to_replay(session).empty());
