@@ -18,12 +18,12 @@ bool is_plain(const fs::path& file) {
   return !is_standard_output(file) && (fs::is_regular_file(file, error) || !fs::exists(file, error));
 }
 
+}  // namespace
+
 bool same_file(const fs::path& a, const fs::path& b) {
   if (is_standard_output(a) || is_standard_output(b)) return is_standard_output(a) && is_standard_output(b);
   return is_plain(a) && is_plain(b) && output_place(a) == output_place(b);
 }
-
-}  // namespace
 
 void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
   const std::string incomplete = ".incomplete";

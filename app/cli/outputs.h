@@ -16,6 +16,8 @@ struct Output {
   bool binary = false;  ///< bytes that a terminal cannot show
 };
 
+/// Whether both would be one file, by whatever names and links.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 /// Throws UsageError where two outputs would be one file, where one would replace the preset that is read (`input`), or
 /// where bytes would go to a terminal; OutputError unless each file can be made.
 void check_outputs(const std::vector<Output>& outputs, const std::filesystem::path& input = {});

@@ -182,12 +182,12 @@ py::object solves(const Motion& motion) {
   py::dict dict;
   dict["newton_steps"] = counts.newton, dict["linear_steps"] = counts.linear;
   dict["force_evaluations"] = counts.force_evaluations, dict["unconverged"] = counts.unconverged;
-  dict["hurried"] = counts.hurried, dict["worst_residual"] = counts.worst_residual;
+  dict["ended_early"] = counts.ended_early, dict["worst_residual"] = counts.worst_residual;
   return dict;
 }
 
 void limit_steps(Motion& motion, double seconds) {
-  if (!(seconds >= 0) || !std::isfinite(seconds)) throw py::value_error("seconds: a time from 0 up, not that");
+  if (!(seconds >= 0) || !std::isfinite(seconds)) throw py::value_error("seconds must be a finite number, 0 or more");
   motion.at_rest().limit_steps(seconds);
 }
 
@@ -324,7 +324,8 @@ void add_simulation(py::module_& module) {
           "solves", &solves,
           "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
           "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
-          "force_evaluations, unconverged (steps), hurried (those of them that limit_steps ended) and worst_residual, "
+          "force_evaluations, unconverged (steps), ended_early (those of them that limit_steps ended) and "
+          "worst_residual, "
           "in "
           "parts of the largest force.")
       .def("limit_steps", &limit_steps, py::arg("seconds"),

@@ -211,6 +211,7 @@ void begin_lab(Session& session, std::string_view label) {
   session.labs.begun_with = session.counts.documents;
   if (put_away_copies(session)) session.messages.note("The copies were removed: a lab begins with one cloth.");
   if (!session.labs.run) session.labs.own_speed = session.pacing.speed;
+  session.step_limit = 0;  // no result may depend on the machine
   ++session.counts.labs_begun;
   LabRun& run = session.labs.run.emplace();
   run.lab = *lab;
@@ -241,7 +242,6 @@ void set_up_step(Session& session) {
   const LabStep& step = session.labs.run->now();
   if (!step.open) return;
   session.pacing.playing = false;
-  session.step_limit = 0;
   try {
     const PresetSource source = find_preset(step.open->preset);
     const bool shipped = source.file.parent_path() == data_folder() / "presets";

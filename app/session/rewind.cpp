@@ -1,7 +1,5 @@
 #include "app/session/rewind.h"
 
-#include <utility>
-
 namespace tyglab {
 
 void Rewind::look(Simulation& simulation) {
@@ -10,7 +8,8 @@ void Rewind::look(Simulation& simulation) {
   const double t = simulation.time();
   // A restart or another cloth: that past is another's.
   if (!kept_.empty() && (t < kept_.back().t || !simulation.fits(kept_.back()))) clear();
-  if (std::exchange(changing_, false)) changed_ = simulation.snapshot();
+  if (changing_) changed_ = simulation.snapshot();
+  changing_ = false;
   if (!kept_.empty() && t - kept_.back().t < interval) return;
   kept_.push_back(simulation.snapshot());
   bytes_ += kept_.back().bytes();

@@ -14,7 +14,7 @@ constexpr int most_tries = 20;
 /// too, is not possible, the step is what conjugate gradients have left.
 void find_step(ImplicitStage& stage, bool& direct) {
   if (direct && stage.solve_directly()) return;
-  if (stage.gradients() || stage.stops() || stage.hurries()) return;
+  if (stage.gradients() || stage.stops() || stage.out_of_time()) return;
   direct = !direct && stage.solve_directly();
 }
 
@@ -59,7 +59,7 @@ Balance solve(ImplicitStage& stage, const NewtonRules& rules, SolveCounts& count
   bool direct = false;  // every stage tries again: a repeated step must give the same bits
   bool ended = first == 0;
   double norm = first;
-  for (int n = 0; n < rules.most && !ended && std::isfinite(norm) && (n == 0 || !stage.hurries()); ++n) {
+  for (int n = 0; n < rules.most && !ended && std::isfinite(norm) && (n == 0 || !stage.out_of_time()); ++n) {
     stage.begin_iteration(n, rules.most);
     stage.linearize();
     find_step(stage, direct);

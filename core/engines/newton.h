@@ -63,7 +63,7 @@ class ImplicitStage {
   /// Whether to abandon the stage, which may then be left anyhow. Once it says so it goes on to say so.
   virtual bool stops() = 0;
   /// Whether to end the stage with what has been found, which should be something.
-  virtual bool hurries() { return false; }
+  virtual bool out_of_time() { return false; }
   /// Tells how much of the stage is done, 0 to 1, if the iterations that are allowed are all needed.
   virtual void note_progress(double part) = 0;
   /// Newton iteration `n` of at most `most` begins.

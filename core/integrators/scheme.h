@@ -117,8 +117,8 @@ inline bool is_implicit(const Scheme& scheme) {
     if (sweep.solves != 0) return true;
   return false;
 }
-/// Whether a step may end before its equations are solved: where what solves them is the step's end, as it is of
-/// implicit Euler. Methods that extrapolate from there enlarge what is left.
+/// Whether a step of a cloth may end before its equations are solved: where what solves them is the step's end, as it
+/// is of implicit Euler. Methods that extrapolate from there enlarge what is left.
 inline bool can_end_early(const Scheme& scheme) {
   return is_implicit(scheme) && scheme.sweeps.size() == 1 && scheme.order_undamped == 1;
 }

@@ -75,11 +75,11 @@ std::string solves_missed(const SolveCounts& solves, const Preset& p) {
                              : p.iterations == 1 ? "With iterations = 1 a step is a single linear solve. "
                                                  : "";
   if (solves_damping(scheme(p.integrator))) return said + "Use a smaller dt or a smaller k_d.";
-  if (solves.hurried > 0)
+  if (solves.ended_early > 0)
     return said + "The time limit ended " +
-           (solves.hurried < solves.unconverged ? std::to_string(solves.hurried) + " of them"
-            : one                               ? "it"
-                                                : "them") +
+           (solves.ended_early < solves.unconverged ? std::to_string(solves.ended_early) + " of them"
+            : one                                   ? "it"
+                                                    : "them") +
            ". Allow more time per step, or use a smaller dt.";
   const bool more = p.iterations < int(find_row("iterations")->max);
   return said + passes + (more ? "Use a smaller dt or more iterations." : "Use a smaller dt.");

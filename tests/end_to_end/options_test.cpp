@@ -130,10 +130,12 @@ TEST_CASE("a step's time can be limited where it can end early, and is told with
   const auto outcome = check(folder, with({"--integrator", "implicit_euler", "--step-limit", "0.01"}), 0, "3 steps to");
   CHECK(outcome.err.find("3 steps did not converge (up to ") != std::string::npos);
   CHECK(outcome.err.find("The time limit ended them.") != std::string::npos);
-  CHECK(test::read_file(folder / "a.json").find("\"hurried\": 3") != std::string::npos);
+  CHECK(test::read_file(folder / "a.json").find("\"ended_early\": 3") != std::string::npos);
   check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2, "what a step of tr_bdf2 leaves unsolved");
   check(folder, with({"--integrator", "verlet", "--step-limit", "1"}), 2, "a step of verlet solves nothing");
   check(folder, with({"--step-limit", "0"}), 2, "--step-limit");
+  check(folder, {"run", "one_weight", "--steps", "3", "--integrator", "implicit_euler", "--step-limit", "1"}, 2,
+        "a mass on a spring is solved at once");
 }
 
 TEST_CASE("a ledger does not change when a run diverges") {

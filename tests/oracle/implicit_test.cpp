@@ -210,16 +210,16 @@ TEST_CASE("where a step's time is up, it ends with what it has found, and counts
       hurried.advance(5), whole.advance(5);
       REQUIRE_FALSE(hurried.divergence());
       const SolveCounts some = hurried.engine().solves(), all = whole.engine().solves();
-      CHECK(some.hurried == 5);
+      CHECK(some.ended_early == 5);
       CHECK(some.unconverged == 5);
       CHECK(some.newton < all.newton);
-      CHECK(all.hurried == 0);
+      CHECK(all.ended_early == 0);
       CHECK(some.worst_residual > all.worst_residual);
       const double moved = distance(hurried.read(), start), asked = distance(whole.read(), start);
       CHECK(moved > 0.005 * asked);  // little as a single pass is, it moves
       hurried.limit_steps(0);
       hurried.advance(1);
-      CHECK(hurried.engine().solves().hurried == 5);
+      CHECK(hurried.engine().solves().ended_early == 5);
     }
 }
 
@@ -230,7 +230,7 @@ TEST_CASE("methods that enlarge what is left unsolved have no limit of time") {
     limited.limit_steps(1e-12);
     limited.advance(3), whole.advance(3);
     CHECK(test::identical(limited.read(), whole.read()));
-    CHECK(limited.engine().solves().hurried == 0);
+    CHECK(limited.engine().solves().ended_early == 0);
   }
 }
 
@@ -241,10 +241,10 @@ TEST_CASE("a rebuilt cloth and one after a restart keep the limit of time") {
   preset.precision = preset.precision == Precision::float_ ? Precision::double_ : Precision::float_;
   simulation.apply(edit::Change{preset});
   simulation.advance(1);
-  CHECK(simulation.engine().solves().hurried == 1);
+  CHECK(simulation.engine().solves().ended_early == 1);
   simulation.apply(edit::Restart{});
   simulation.advance(1);
-  CHECK(simulation.engine().solves().hurried == 1);
+  CHECK(simulation.engine().solves().ended_early == 1);
 }
 
 }  // namespace tyglab::implicit_test

@@ -184,6 +184,18 @@ class Simulations(unittest.TestCase):
         self.assertGreater(simulation.solves["worst_residual"], 1e-4)
         self.assertIsNone(tyglab.Simulation(tyglab.Preset(integrator="verlet")).solves)
 
+    def test_a_step_can_be_limited_in_time(self):
+        simulation = tyglab.Simulation(tyglab.Preset(integrator="vbd", k_s=1e6, dt=0.02, rows=16, columns=16))
+        simulation.limit_steps(1e-12)
+        simulation.step(3)
+        self.assertEqual(simulation.solves["ended_early"], 3)
+        simulation.limit_steps(0)
+        simulation.step(1)
+        self.assertEqual(simulation.solves["ended_early"], 3)
+        for wrong in (-1, float("nan"), float("inf")):
+            with self.assertRaises(ValueError):
+                simulation.limit_steps(wrong)
+
     def test_other_threads_go_on_and_may_not_interfere(self):
         simulation = tyglab.Simulation(tyglab.Preset(rows=200, columns=200, precision="double"))
         worker = threading.Thread(target=lambda: simulation.step(300))

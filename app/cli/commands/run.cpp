@@ -58,7 +58,7 @@ class Outputs {
         throw UsageError(output.option + ": --obj writes frames in that folder under such names; use another name");
     check_outputs(options.outputs(), scene.source.file);
     for (const Output& output : options.outputs())
-      if (!options.obj.empty() && !output.file.empty() && fs::path(output.file) == fs::path(options.obj))
+      if (!options.obj.empty() && !output.file.empty() && same_file(output.file, options.obj))
         throw UsageError(output.option + " and --obj: both go to " + output_name(output.file) +
                          "; use a different name for one of them");
     if (options.obj.empty()) return;
@@ -191,7 +191,7 @@ Json solves_json(const Engine& engine) {
           {"linear_steps", counts.linear},
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
-          {"hurried", counts.hurried},
+          {"ended_early", counts.ended_early},
           {"worst_residual", finite_json(counts.worst_residual)}};
 }
 
@@ -311,6 +311,8 @@ std::string closing(const Json& summary, const std::string& also) {
 void check_step_limit(const Preset& preset) {
   if (preset.engine == EngineKind::opencl)
     throw UsageError("--step-limit: the OpenCL engine solves to the end; use --engine cpu");
+  if (preset.kind == Kind::one_weight)
+    throw UsageError("--step-limit: a mass on a spring is solved at once; leave the option out");
   const Scheme& method = scheme(preset.integrator);
   if (can_end_early(method)) return;
   throw UsageError("--step-limit: " +

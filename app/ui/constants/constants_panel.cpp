@@ -111,7 +111,8 @@ void pins_row(Ui& ui) {
 /// How long a step may take. A lab's result must not depend on that.
 void step_limit_row(Ui& ui) {
   const Preset& preset = ui.session.requested_preset();
-  if (!can_end_early(scheme(preset.integrator)) || preset.engine == EngineKind::opencl || ui.session.labs.run) return;
+  const bool can = preset.kind == Kind::cloth && preset.engine != EngineKind::opencl;
+  if (!can || !can_end_early(scheme(preset.integrator)) || ui.session.labs.run) return;
   static constexpr std::array limits{0, 5, 10, 20, 50, 100, 200};  // ms
   const auto words = [](double ms) { return ms > 0 ? short_number(ms) + " ms per step" : std::string("unlimited"); };
   double& limit = ui.session.step_limit;

@@ -309,7 +309,8 @@ void start_page(Ui& ui) {
   });
   if (ui.dialog.kind != DialogKind::start) return;
   // By its name: what is searched for is chosen by its picture.
-  const std::string name = fitted(*ui.fonts.text, ui.session.preset().name, ui.theme.px(180));
+  std::string name = fitted(*ui.fonts.text, ui.session.preset().name, ui.theme.px(180));
+  for (std::size_t at; (at = name.find("##")) != std::string::npos;) name.insert(at + 1, " ");  // ends a label
   if (text_button(ui, ((ui.dialog.first_start ? "Start with “" : "Continue with “") + name + "”").c_str(), true))
     return close(ui);
   ImGui::SameLine();

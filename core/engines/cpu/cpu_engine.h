@@ -223,7 +223,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   StepsMade made_;          ///< by the present run
   int together_ = 0;        ///< steps that are made in one pass over the rows; 0: the run is over
   bool abandoned_ = false;  ///< the present step was stopped halfway
-  bool hurried_ = false;    ///< the present stage ends with the passes that are made
+  bool late_ = false;       ///< the present stage ends with the passes that are made
   bool repeating_ = false;  ///< known steps, which are not stopped
   const Stop never_{};
   glm::dvec3 hand_force_{0};  ///< on the held particle, of a method that projects

@@ -27,7 +27,7 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
       cloth_, sweep.position, sweep.velocity, sweep.solve_dt, tears,
       [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
       {repeating_ ? never_ : stop(),
-       {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return hurries((stage + part) / stages); }},
+       {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return out_of_time((stage + part) / stages); }},
        [&](double part) { set_step_progress((stage + part) / stages); }},
       {scheme_->solver, springs_changed(tears)});
   if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
@@ -59,7 +59,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   int made = 0;
   for (; made < passes; ++made) {
     if (!begin_pass(number, made, sweep, tears)) return false;
-    if (hurried_) break;
+    if (late_) break;
     descent_.pass(begin, end, *team_);
   }
   descent_.write_positions(x, begin, end), descent_.write_velocities(v, begin, end);
@@ -85,8 +85,8 @@ bool CpuEngine<R, Present>::begin_pass(int number, int pass, const ResolvedSweep
   if (number == 0) {
     set_step_progress(double(pass) / most_passes());
     abandoned_ = !repeating_ && stops();
-    hurried_ = pass > 0 && hurries(1);
-    if (hurried_) solver_.note_hurry();
+    late_ = pass > 0 && out_of_time(1);
+    if (late_) solver_.note_late();
     ResolvedSweep look;
     look.position = sweep.position, look.velocity = sweep.velocity, look.external = true;
     if (blows) accelerations(look, tears, acceleration_, false);

@@ -69,7 +69,7 @@ bool ImplicitSolver<R>::solve(Cloth<R>& cloth, int position, int velocity, doubl
 template <class R>
 void ImplicitSolver<R>::note_balance(const Balance& balance) {
   solved_ = {solved_.solved && balance.solved, std::max(solved_.residual, balance.residual)};
-  if (hurried_ && !balance.solved) counts_.hurried += !std::exchange(counted_, true);
+  if (late_ && !balance.solved) counts_.ended_early += !std::exchange(counted_, true);
 }
 
 template <class R>
@@ -107,7 +107,7 @@ Balance ImplicitSolver<R>::alternate(bool changed) {
   for (int n = 0; n < most; ++n) {
     note_progress(double(n) / most);
     if (stops()) return {};
-    if (n > 0 && hurries()) break;
+    if (n > 0 && out_of_time()) break;
     counts_.linear += global_.solve(residual_, [this] { return stops(); });
     if (stopped_) return {};
     const std::span<R> v = velocity().all();
@@ -119,7 +119,7 @@ Balance ImplicitSolver<R>::alternate(bool changed) {
 }
 
 template <class R>
-Balance ImplicitSolver<R>::solve_in_haste() {
+Balance ImplicitSolver<R>::solve_quickly() {
   position() = start_x_, velocity() = start_v_;
   left_to_passes_ = true;
   return {true, 0};  // until it is measured
@@ -271,7 +271,7 @@ bool ImplicitSolver<R>::conjugate_gradients() {
   double before = std::numeric_limits<double>::infinity();
   for (int n = 0; n < most; ++n) {
     if (now.squared <= enough) return true;
-    if (stops() || (n > 0 && hurries())) return false;
+    if (stops() || (n > 0 && out_of_time())) return false;
     const double keep = now.preconditioned / before;
     for (int i = 0; i < rows_; ++i)
       add_scaled_row(preconditioned_.row(i), keep, direction_.row(i), int(direction_.pitch()));

@@ -34,7 +34,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   };
 
   /// A step begins, whose stages come next.
-  void begin_step() { solved_ = {true, 0}, hurried_ = counted_ = false; }
+  void begin_step() { solved_ = {true, 0}, late_ = counted_ = false; }
   /// The stages of the step: whether all are solved, and the largest residual.
   const Balance& solved() const { return solved_; }
   /// Replaces c_x and c_v in the two vectors by the solution; `dt` is β dt. Fixed particles keep their velocity.
@@ -48,7 +48,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   /// Whether the stage is as it was before, to be solved by passes of block descent while there is time.
   bool left_to_passes() const { return left_to_passes_; }
   /// The present step's time is up.
-  void note_hurry() { hurried_ = true; }
+  void note_late() { late_ = true; }
   const SolveCounts& counts() const { return counts_; }
   std::size_t bytes() const;
 
@@ -72,11 +72,11 @@ class ImplicitSolver final : private implicit::EitherStage {
   Balance balance() override;
   Balance solve_by_newton() override;
   Balance solve_stiff() override;
-  Balance solve_in_haste() override;
+  Balance solve_quickly() override;
   void keep() override { kept_ = velocity(); }
   void restore() override { velocity() = kept_, evaluate(); }
   bool stops() override { return stopped_ = stopped_ || (task_.watch->stop && task_.watch->stop()); }
-  bool hurries() override { return is_over(1); }
+  bool out_of_time() override { return is_over(1); }
   StageLimit limit() override { return task_.watch->limit; }
   void note_progress(double part) override { task_.watch->progress(part); }
 
@@ -91,7 +91,7 @@ class ImplicitSolver final : private implicit::EitherStage {
   bool is_over(double part) {
     const StageLimit& limit = task_.watch->limit;
     const bool over = limit.seconds > 0 && limit.is_over(part);
-    hurried_ = hurried_ || over;
+    late_ = late_ || over;
     return over;
   }
   void linearize_row(int direction, int i);
@@ -104,7 +104,7 @@ class ImplicitSolver final : private implicit::EitherStage {
 
   Task task_{};
   bool stopped_ = false, left_to_passes_ = false;
-  bool hurried_ = false, counted_ = false;  ///< in this step: time was up for something; that counts
+  bool late_ = false, counted_ = false;  ///< in this step: time was up for something; that counts
   Balance solved_{true, 0};
   int rows_ = 0, stride_ = 0;
   double mass_ = 1;          ///< diagonal of A without the springs

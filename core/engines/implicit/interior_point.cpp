@@ -151,7 +151,7 @@ bool InteriorPoint<R>::solve_linear(double tolerance, bool warm) {
   double before = 0;
   for (int n = 0; left > enough; ++n) {
     if (n == most_gradients || !std::isfinite(left) || task_->stops() ||
-        (n > 0 && task_->hurries(best_balance_.residual)))
+        (n > 0 && task_->out_of_time(best_balance_.residual)))
       return false;
     const RowField<R>& z = multigrid_.precondition(r_, task_->stops);
     double rz = 0;
@@ -210,7 +210,7 @@ Balance InteriorPoint<R>::solve(const Task& task, SolveCounts& counts) {
     if (residual_ < least) least = residual_, best_balance_ = {false, residual_ / force_}, best_ = x_;
     if (n == 0) first = residual_;
     if (residual_ <= allowed()) return {true, residual_ / force_};
-    if (n == most_iterations || !std::isfinite(residual_) || (n > 0 && task.hurries(best_balance_.residual))) break;
+    if (n == most_iterations || !std::isfinite(residual_) || (n > 0 && task.out_of_time(best_balance_.residual))) break;
     task.progress(std::clamp(std::log(first / least) / std::log(first / allowed()), double(n) / most_iterations, 1.0));
     multigrid_.prepare({coefficients_.data(), 1, task.fixed});
     ++counts.newton;

@@ -39,7 +39,7 @@ class InteriorPoint {
     /// Adds h² F/m of forces that depend on positions otherwise than by springs, m; may be empty.
     std::function<void(const Field& x, Field& forces)> others;
     std::function<bool()> stops;
-    std::function<bool(double best)> hurries;  ///< whether to end, where `best` is the least residual so far
+    std::function<bool(double best)> out_of_time;  ///< whether to end, where `best` is the least residual so far
     std::function<void(double part)> progress;
   };
   /// Takes the memory for a lattice.
@@ -49,7 +49,7 @@ class InteriorPoint {
   Field& c() { return c_; }
   Field& y() { return y_; }
   Field& x() { return x_; }
-  /// Adds its iterations to the counts. Where it was stopped, the result means nothing; where it hurries, it is the
+  /// Adds its iterations to the counts. Where it was stopped, the result means nothing; where it out_of_time, it is the
   /// best that was found until then.
   Balance solve(const Task& task, SolveCounts& counts);
   std::size_t bytes() const;

@@ -69,7 +69,7 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
                                         .fixed = task.fixed,
                                         .others = {},
                                         .stops = task.stops,
-                                        .hurries = task.hurries,
+                                        .out_of_time = task.out_of_time,
                                         .progress = task.progress};
   if (p.W != glm::dvec3(0))
     inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
@@ -97,14 +97,14 @@ Balance solve_either_way(EitherStage& stage, const Preset& preset, double h, Too
   too_slow.stages -= slow;
   const bool stiff_first = both && stiffness_of(preset, h) >= stiff;
   const auto over = [&](double part) { return limited && limit.is_over(part); };
-  if (stiff_first && slow) return stage.solve_in_haste();
+  if (stiff_first && slow) return stage.solve_quickly();
   if (stiff_first && limited) stage.keep();
   const Balance first = stiff_first ? stage.solve_stiff() : stage.solve_by_newton();
   if (first.solved || !both || stage.stops()) return first;
   if (stiff_first && first.residual > nearly_there && over(first_share)) {
     too_slow.stages = 16;
     stage.restore();
-    return stage.solve_in_haste();
+    return stage.solve_quickly();
   }
   if (over(1)) return first;
   stage.keep();

@@ -39,7 +39,7 @@ struct StiffTask {
   R* v;        ///< receives the solution, or the best that was found; fixed particles' is left
   std::ptrdiff_t stride;
   std::function<bool()> stops;
-  std::function<bool(double best)> hurries;  ///< as InteriorPoint::Task has it
+  std::function<bool(double best)> out_of_time;  ///< as InteriorPoint::Task has it
   std::function<void(double part)> progress;
   double tolerance = balance_tolerance<R>;
 };
@@ -75,7 +75,7 @@ class EitherStage : public ImplicitStage {
   /// By StiffStage; then evaluates the stage there.
   virtual Balance solve_stiff() = 0;
   /// Solves as well as it can in the time that is left; after restore(), or at first.
-  virtual Balance solve_in_haste() { return solve_by_newton(); }
+  virtual Balance solve_quickly() { return solve_by_newton(); }
   /// Copies the present velocities.
   virtual void keep() = 0;
   /// Returns to the copy, and evaluates the stage there.
