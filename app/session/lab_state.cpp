@@ -259,6 +259,7 @@ void set_up_step(Session& session) {
 void leave_lab(Session& session) {
   LabState& labs = session.labs;
   if (!labs.run) return;
+  session.messages.note(lab_result(*labs.run, steps_done(session, labs.run->lab)));
   if (!lab_is_away(session)) labs.left_behind = session.requested_preset();
   labs.run.reset();
   session.pacing.speed = labs.own_speed;

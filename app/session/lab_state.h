@@ -100,7 +100,10 @@ void enter_step(Session& session, std::size_t step);
 void back_step(Session& session);
 /// Opens the step's preset once more, where it has one.
 void set_up_step(Session& session);
+/// Leaves it, and says what came of it.
 void leave_lab(Session& session);
+/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", where that many steps are done.
+std::string lab_result(const LabRun& run, int done);
 /// Keeps the present experiment where it has unsaved changes, to be gone back to after the lab.
 void keep_experiment(Session& session);
 /// Opens the experiment that was kept last, paused at its moment, and leaves the lab.

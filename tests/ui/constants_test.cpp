@@ -226,6 +226,7 @@ TEST_CASE("a tooltip stands beside its row and hides no constant; while the help
   for (const auto& [size, scale] : {std::pair{glm::ivec2{1280, 720}, 1.0}, {{900, 600}, 1.5}}) {
     CAPTURE(size.x);
     test::NullUi window({.size = size, .settings = [scale](Settings& settings) { settings.ui_scale = scale; }});
+    window.until([&] { return window.t() > 0.3; }, "labels of arrows to stand over the cloth");
     window.pause();
     window.move(window.middle("constants.k_s.slider"));
     window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");

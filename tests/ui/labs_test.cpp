@@ -286,6 +286,44 @@ TEST_CASE("the list of labs has their numbers, minutes and purposes") {
   CHECK(window.drew("A spring, a weight, and then a whole cloth of them"));
 }
 
+TEST_CASE("who leaves a lab is told how far it was gone through, whichever way is taken") {
+  const auto said = [](test::NullUi& window) { return window.session.messages.list().back().text; };
+  test::NullUi window;
+  begin(window, "hooke", "01_hooke");
+  window.click("lab.leave");
+  CHECK(said(window).find("is left with 0 of 3 steps done. Ctrl+L") != std::string::npos);
+  begin(window, "hooke", "01_hooke");
+  predict(window, "0.1");  // asked and not answered yet: it counts neither way
+  window.find("leave the lab");
+  CHECK(said(window).find("is left with 0 of 3 steps done. Ctrl+L") != std::string::npos);
+
+  Session& session = window.session;
+  begin_lab(session, "01_hooke");
+  LabRun& run = *session.labs.run;
+  for (StepRecord& record : run.records) record.predicted = record.done = true;
+  run.records[1].right = true;
+  CHECK(lab_result(run, 3) == "“" + run.lab.title + "” is done; 1 of 3 predictions were right. Ctrl+L lists all labs.");
+  run.records[1].done = false;
+  CHECK(lab_result(run, 1).find("” ends here; step 2 was skipped and is still to be done; 0 of 2 predictions") !=
+        std::string::npos);
+}
+
+TEST_CASE("the list of labs begins at the one that goes on, or that is to be done next") {
+  test::NullUi window;
+  window.session.labs.progress["01_hooke"] = 3;
+  window.key(GLFW_KEY_L, GLFW_MOD_CONTROL);
+  window.frames(3);
+  CHECK(window.ui.palette.selected == 1);
+  window.key(GLFW_KEY_ESCAPE);
+  begin(window, "wind", "12_wind");
+  window.key(GLFW_KEY_L, GLFW_MOD_CONTROL);
+  window.frames(4);
+  CHECK(window.ui.palette.selected == 11);
+  CHECK(window.sees("palette.Lab.Wind_gusts_and_a_swinging_sheet"));  // though the list has to scroll for it
+  window.type("spring");
+  CHECK(window.ui.palette.selected == 0);  // the best that is found
+}
+
 TEST_CASE("a lab waits while another preset is open, says so, and puts its own cloth back") {
   test::NullUi window({.preset = "denim"});
   begin(window, "wind", "12_wind");

@@ -146,6 +146,20 @@ TEST_CASE("PAUSED stands clear of the one weight's spring") {
   }
 }
 
+TEST_CASE("a message covers no cloth where a corner is free, and stays in its corner") {
+  test::NullUi window(options({{1280, 720}, 1, "dark"}, "hanging"));
+  pause(window);
+  window.session.messages.note("Saved.");
+  window.frames(3);
+  const Box first = window.control("viewport.dismiss");
+  CHECK(covered(first, drawn_parts(window.ui)) == 0);
+  CHECK(first.hi.x - first.lo.x < 200);  // no wider than its text
+  window.session.messages.note("This one has many more words than the one above it, and therefore needs more room.");
+  window.frames(3);
+  const Box wider = window.control("viewport.dismiss");
+  CHECK(wider.lo.x == first.lo.x);
+}
+
 TEST_CASE("a message and PAUSED stand apart") {
   for (const LookCase& look : std::span(looks).first(5)) {
     CAPTURE(look.size.x);

@@ -35,7 +35,7 @@ struct AccuracyOptions : BenchOptions {
 std::vector<AccuracyScene> chosen_scenes(const std::string& name, bool quick) {
   std::vector<AccuracyScene> all = accuracy_scenes();
   if (name.empty()) {
-    if (quick) std::erase_if(all, &AccuracyScene::damped);
+    if (quick) std::erase_if(all, [](const AccuracyScene& scene) { return scene.damped; });
     return all;
   }
   for (const AccuracyScene& scene : all)

@@ -28,7 +28,9 @@ bool take_look(Ui& ui, float content_scale) {
   const Look& look = tyglab::look(ui.settings.theme);
   ui.theme.colors = look.tokens();
   ui.scene.view.palette = look.tokens == light_tokens ? light_palette : Palette{};
-  const float scale = content_scale * float(ui.settings.ui_scale) * look.magnified;
+  // Who presents is looked at from afar, whatever the theme.
+  const float magnified = ui.presenting ? largest_magnified() : look.magnified;
+  const float scale = content_scale * float(ui.settings.ui_scale) * magnified;
   ui.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
   apply_style(ui.theme);
   ui.scene.scale = ui.theme.scale;
@@ -59,6 +61,7 @@ void draw_panels(Ui& ui) {
   slider.order = 0;
   slider.focused_seen = false;
   ui.hover_seen = false;
+  ui.tooltip_before = std::exchange(ui.tooltip, std::nullopt);
   if (std::exchange(ui.pointer_before, ui.input.at) != ui.input.at) ui.keys_since_move = false;
   if (!ui.input.keys.empty()) ui.keys_since_move = true;
   ui.covered = ui.help;

@@ -274,21 +274,6 @@ void fit_height(Ui& ui, const Region& region, float contents) {
   ui.draw_by = std::min(ui.draw_by, ui.now);
 }
 
-/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …"
-std::string lab_result(const LabRun& run, int done) {
-  int asked = 0, right = 0;
-  for (std::size_t k = 0; k < run.records.size(); ++k)
-    if (run.lab.steps[k].prediction && run.records[k].predicted) ++asked, right += run.records[k].right;
-  std::string text = "“" + run.lab.title + "” ";
-  if (done == int(run.records.size()))
-    text += "is done";
-  else
-    text += "ends here; step " + std::to_string(done + 1) + " was skipped and is still to be done";
-  if (asked == 1) text += right == 1 ? "; the prediction was right" : "; the prediction was wrong";
-  if (asked > 1) text += "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
-  return text + ". Ctrl+L lists all labs.";
-}
-
 /// What the button that leads on may say.
 constexpr std::array forward_labels{"Skip", "Next", "Leave", "Finish"};
 
@@ -306,12 +291,6 @@ constexpr float button_gap_at_1 = 6;
 
 bool can_set_up_again(LabRun& run) {
   return run.now().open.has_value();
-}
-
-/// Ends the lab; what was found is told if it was gone through to its end.
-void leave(Ui& ui, LabRun& run, bool finished) {
-  if (finished) ui.session.messages.note(lab_result(run, steps_done(ui.session, run.lab)));
-  ui.command("leave_lab");
 }
 
 /// What all of them take beside each other, px.
@@ -337,7 +316,7 @@ void step_buttons(Ui& ui, LabRun& run, ImVec2 at) {
     if (text_button(ui, "Set up again")) set_up_step(ui.session);
   }
   if (!go) return;
-  last ? leave(ui, run, done) : enter_step(ui.session, run.step + 1);
+  last ? ui.command("leave_lab") : enter_step(ui.session, run.step + 1);
 }
 
 /// The title, the buttons where `with_buttons`, and the cross. Returns whether the step's title had room.
@@ -347,7 +326,7 @@ bool lab_header(Ui& ui, LabRun& run, const Region& region, bool with_buttons) {
   float end = region.at.x + region.size.x - ui.theme.px(12 + 22);
   const float middle = region.at.y + ui.theme.px(24), margin = ui.theme.px(16);
   ImGui::SetCursorScreenPos({end, region.at.y + ui.theme.px(13)});
-  if (quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept")) leave(ui, run, false);
+  if (quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept")) ui.command("leave_lab");
   if (with_buttons) {
     end -= gap + step_buttons_width(ui, run);
     step_buttons(ui, run, {end, region.at.y + ui.theme.px(9)});

@@ -16,8 +16,9 @@ namespace tyglab {
 namespace {
 
 // Pixels at scale 1.
-constexpr float least_plots = 180;   // height of their column beside a lab's strip
-constexpr float low_with_lab = 300;  // a lab's strip takes the status line's place in a window lower than that
+constexpr float least_plots = 180;      // height of their column beside a lab's strip
+constexpr float low_with_lab = 300;     // a lab's strip takes the status line's place in a window lower than that
+constexpr float narrowest_cloth = 240;  // beside both columns
 
 /// A border that drags: changes `width` (at scale 1) of the region on its left (sign 1) or right (sign -1).
 void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& width, float sign) {
@@ -95,8 +96,9 @@ LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   const bool lab_in_low = ui.session.labs.run && window.y < ui.theme.px(low_with_lab);
   const float bottom = panels && layout.status && !lab_in_low ? ui.theme.px(30) : 0;
   const float height = std::max(window.y - top - bottom, 1.f);
-  // In a narrow window, or with large text, the sides share what the viewport can spare.
-  const float spare = window.x - ui.theme.px(240), most = std::max(spare / 2, ui.theme.px(240));
+  // In a narrow window, or with large text, the sides share what the viewport can spare; a lab's strip needs it wide.
+  const float least = ui.session.labs.run ? lab_two_columns : narrowest_cloth;
+  const float spare = window.x - ui.theme.px(least), most = std::max(spare / 2, ui.theme.px(240));
   float left = panels && layout.left ? std::round(std::min(layout.left_width * ui.theme.scale, most)) : 0;
   float right = panels && layout.right ? std::round(std::min(layout.right_width * ui.theme.scale, most)) : 0;
   // Where both have no room, they take turns in one place.

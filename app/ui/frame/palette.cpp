@@ -208,7 +208,7 @@ void palette_contents(Ui& ui, float height) {
   const std::vector<int> found = matching(palette.entries, palette.text);
   ImGui::Dummy({0, ui.theme.px(4)});
   if (palette.narrowed != palette.text) palette.narrowed = palette.text, palette.selected = 0;
-  const bool moved = palette.go != 0;
+  const bool moved = std::exchange(palette.scroll, false) || palette.go != 0;
   palette.selected = std::clamp(palette.selected + std::exchange(palette.go, 0), 0, std::max(int(found.size()) - 1, 0));
   float rows = found.empty() ? ui.theme.px(30) : 0;
   for (const int k : found)
@@ -238,6 +238,16 @@ std::optional<int> rank_of(const PaletteEntry& entry, std::span<const std::strin
                    : all.find(" " + first) != std::string::npos ? 1
                                                                 : 2;
   return 2 * rank + !holds(all, " ");  // "implicit euler" is rather a method of that name than the semi-implicit one
+}
+
+/// Which of the labs is going on, or is to be done next: the first that is not done.
+int next_lab(Ui& ui) {
+  const std::vector<Lab>& list = find_labs(ui.session);
+  const auto& run = ui.session.labs.run;
+  const auto next = std::find_if(list.begin(), list.end(), [&](const Lab& lab) {
+    return run ? lab.label == run->lab.label : steps_done(ui.session, lab) < int(lab.steps.size());
+  });
+  return next == list.end() ? 0 : int(next - list.begin());
 }
 
 }  // namespace
@@ -293,6 +303,7 @@ void open_palette(Ui& ui, bool labs) {
   palette.open = palette.opening = true, palette.labs = labs;
   if (labs) {
     add_labs(ui, palette.entries);
+    palette.selected = next_lab(ui), palette.scroll = true;
   } else {
     palette.entries = palette_entries(ui);
   }

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -71,8 +72,9 @@ struct UiContext {
   unsigned hovered = 0;   ///< what the pointer rests on, for tooltips
   double hovered_since = 0;
   bool hover_seen = false;
-  bool hover_used = false;       ///< it was pressed or typed into since: no tooltip any more
-  glm::vec2 tooltip_size{0};     ///< of the last tooltip, pixels
+  bool hover_used = false;                               ///< it was pressed or typed into since: no tooltip any more
+  glm::vec2 tooltip_size{0};                             ///< of the last tooltip, pixels
+  std::optional<Viewport::Box> tooltip, tooltip_before;  ///< of this frame so far, and of the last one, pixels
   float tooltip_wrap = 0;        ///< where lines end in the one that is being written, pixels; 0: there is none
   bool keys_since_move = false;  ///< a key was pressed since the pointer moved last: no tooltips
   glm::vec2 pointer_before{-1};  ///< pixels

@@ -38,18 +38,24 @@ struct TooltipPlace {
   float wrap;  ///< where its lines end
 };
 
+/// Labels of arrows make room for a tooltip.
+bool makes_room(const OverlayLayout::Mark& mark) {
+  return mark.name.starts_with("label ");
+}
+
 /// A place as near as possible to that height at which a box covers no mark over the cloth.
 float clear_of_marks(const UiContext& ui, Box box) {
   const float gap = ui.theme.px(8), first = box.lo.y, height = box.hi.y - box.lo.y;
   const float most = ImGui::GetIO().DisplaySize.y - gap;
   std::vector<float> tops{first};
   for (const auto& mark : ui.placing.marks())
-    tops.insert(tops.end(), {mark.box.lo.y - gap - height, mark.box.hi.y + gap});
+    if (!makes_room(mark)) tops.insert(tops.end(), {mark.box.lo.y - gap - height, mark.box.hi.y + gap});
   std::sort(tops.begin(), tops.end(), [first](float a, float b) { return std::abs(a - first) < std::abs(b - first); });
   for (const float top : tops) {
     const Box there{{box.lo.x, top}, {box.hi.x, top + height}};
     const auto& marks = ui.placing.marks();
-    const bool taken = std::any_of(marks.begin(), marks.end(), [&](const auto& m) { return overlap(m.box, there); });
+    const bool taken =
+        std::any_of(marks.begin(), marks.end(), [&](const auto& m) { return !makes_room(m) && overlap(m.box, there); });
     if (!taken && top >= gap && top + height <= most) return top;
   }
   return first;
@@ -189,6 +195,8 @@ void end_tooltip(UiContext& ui) {
   ImGui::PopTextWrapPos();
   ui.tooltip_wrap = 0;
   ui.tooltip_size = {ImGui::GetWindowSize().x, ImGui::GetWindowSize().y};
+  const glm::vec2 at{ImGui::GetWindowPos().x, ImGui::GetWindowPos().y};
+  ui.tooltip = Box{at, at + ui.tooltip_size};
   ImGui::EndTooltip();
   ImGui::PopStyleVar(3);
 }

@@ -1,4 +1,4 @@
-// What must be decided or known now, over the viewport: the banner after a divergence, and messages.
+// What must be decided now, over the viewport: the banner after a divergence.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -304,46 +304,6 @@ void banner(Ui& ui, const Box& region) {
   banner_ground(ui, box);
   if (plan.whole) return draw_whole(ui, plan, box);
   draw_folded(ui, plan.folded, box);
-}
-
-void message_list(Ui& ui) {
-  ui.session.messages.age(ui.now, ui.dialog.kind == Dialog::Kind::start);  // which shows warnings itself
-  const Tokens& c = ui.theme.colors;
-  const ImFont& font = *ui.fonts.text;
-  const float padding = ui.theme.px(12), icon_width = ui.theme.px(24), close = ui.theme.px(22);
-  const float most = std::min(ui.theme.px(460), ui.viewport.whole().x - ui.theme.px(32));
-  float y = ui.notes_from;
-  const std::array marks{ui.placing.find("paused"), ui.placing.find("legend")};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto& list = ui.session.messages.list();
-  std::size_t dismissed = list.size();
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const Message& message = list[k];
-    const bool note = message.severity == Message::Severity::note;
-    const ImU32 color = note ? c.accent : message.severity == Message::Severity::warning ? c.warning : c.danger;
-    const std::string text = in_lines(font, capitalised(message.text), most - 2 * padding - icon_width - close);
-    const float height = std::max(height_of(font, text) + 2 * ui.theme.px(9), ui.theme.px(36));
-    ImVec2 lo{ui.viewport.box.lo.x + ui.theme.px(16), y}, hi{lo.x + most, y + height};
-    for (const Box* mark : marks)
-      if (mark != nullptr && overlap(*mark, {{lo.x, lo.y}, {hi.x, hi.y}}))
-        lo.y = mark->hi.y + ui.theme.px(8), hi.y = lo.y + height;
-    draw.AddRectFilled(lo, hi, c.panel, ui.theme.px(6));
-    draw.AddRectFilled(lo, {lo.x + ui.theme.px(3), hi.y}, color, ui.theme.px(6), ImDrawFlags_RoundCornersLeft);
-    draw_text(draw, font, {lo.x + padding, lo.y + ui.theme.px(10)}, color,
-              icon_or(ui.fonts, note ? icon::info : icon::warning, note ? "i" : "!"));
-    draw_text(draw, font, {lo.x + padding + icon_width, lo.y + ui.theme.px(9)}, c.text, text);
-    ImGui::SetCursorScreenPos(lo);
-    ImGui::PushID(int(k));
-    if (gui::press_area("dismiss", {hi.x - lo.x, hi.y - lo.y})) dismissed = k;
-    report_control(ui, "dismiss");
-    tooltip(ui, gui::item_id(), "Click to dismiss");
-    ImGui::PopID();
-    draw_text(draw, font, {hi.x - close, lo.y + ui.theme.px(10)}, ImGui::IsItemHovered() ? c.text : c.quiet,
-              icon_or(ui.fonts, icon::close, "x"));
-    cover_viewport(ui, lo, hi);
-    y = hi.y + ui.theme.px(8);
-  }
-  if (dismissed < list.size()) ui.session.messages.dismiss(dismissed);
 }
 
 }  // namespace tyglab

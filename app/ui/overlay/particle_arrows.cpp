@@ -65,7 +65,9 @@ void arrow_label(Ui& ui, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std
   if (glm::length(way) < ui.theme.px(24)) return;
   const float pad = ui.theme.px(7), height = ui.theme.px(24);
   const glm::vec2 size(std::ceil(symbol_width(ui.fonts, symbol)) + 2 * pad, height);
-  const auto box = ui.placing.first_free(label_places(ui, tile, head, glm::normalize(way), size));
+  std::vector<Box> places = label_places(ui, tile, head, glm::normalize(way), size);
+  if (ui.tooltip_before) std::erase_if(places, [&](const Box& place) { return overlap(place, *ui.tooltip_before); });
+  const auto box = ui.placing.first_free(places);
   if (!box) return;
   ui.placing.take("label " + std::to_string(tile) + " " + std::string(symbol), *box);
   draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(ui.theme.colors.ground, 0.88f), ui.theme.px(6));

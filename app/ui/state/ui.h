@@ -108,6 +108,7 @@ struct CommandPalette {
   char text[128] = "";
   std::string narrowed;  ///< the text for which `selected` counts
   int selected = 0;
+  bool scroll = false;          ///< the selected one is to come into sight
   int go = 0;                   ///< entries to go down, by the keys of this frame
   bool enter = false;           ///< Enter was pressed
   std::vector<KeyEvent> later;  ///< pressed after it, for what stands there once it has acted
@@ -157,7 +158,7 @@ struct Ui : UiContext {
   bool presenting = false;           ///< a large cloth over a few large controls, and one card, in place of the panels
   bool presented_card = true;        ///< whether that card is there
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
-  std::optional<std::size_t> pause_place, legend_place;  ///< which of their places those marks took last
+  std::optional<std::size_t> pause_place, legend_place, notes_place;  ///< which of their places those marks took last
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are checked, at the picked particle
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
