@@ -3,9 +3,9 @@
 //
 // A mark finds the nearest free place in a corner, or the first free one of several, and says where it then stands.
 // View buttons come first, then the names of copies, the scales of arrows, PAUSED, the banner and the legend; labels of
-// arrows come last, and are left out where nothing is free and where a tooltip stands. PAUSED and the legend also keep
-// off the cloth, and stay where they are as long as nothing comes under them. tests/ui/marks_test.cpp holds that no two
-// marks overlap.
+// arrows come last, and are left out where nothing is free; they and the scales make room for a tooltip. PAUSED and the
+// legend also keep off the cloth, and stay where they are as long as nothing comes under them. tests/ui/marks_test.cpp
+// holds that no two marks overlap.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -38,9 +38,9 @@ struct TooltipPlace {
   float wrap;  ///< where its lines end
 };
 
-/// Labels of arrows make room for a tooltip.
+/// Labels and scales of arrows make room for a tooltip.
 bool makes_room(const OverlayLayout::Mark& mark) {
-  return mark.name.starts_with("label ");
+  return mark.name.starts_with("label ") || mark.name.starts_with("scale ");
 }
 
 /// A place as near as possible to that height at which a box covers no mark over the cloth.

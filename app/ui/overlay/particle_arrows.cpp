@@ -94,7 +94,7 @@ float scale_bar(Ui& ui, ImDrawList& draw, ImVec2 at, double scale, std::string_v
   const std::string text = short_number(value) + " " + std::string(unit);
   const float end = at.x + length + pad + text_width(font, text);
   const Box box{{at.x - pad, at.y - font.FontSize / 2 - pad / 2}, {end + pad, at.y + font.FontSize / 2 + pad / 2}};
-  if (!ui.placing.free(box)) return at.x;
+  if (!ui.placing.free(box) || (ui.tooltip_before && overlap(box, *ui.tooltip_before))) return at.x;
   ui.placing.take("scale " + std::string(unit), box);
   draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), ui.theme.px(6));
   const float width = std::max(1.f, ui.theme.px(1.5f));
