@@ -325,9 +325,7 @@ void add_simulation(py::module_& module) {
           "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
           "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
           "force_evaluations, unconverged (steps), ended_early (those of them that limit_steps ended) and "
-          "worst_residual, "
-          "in "
-          "parts of the largest force.")
+          "worst_residual, in parts of the largest force.")
       .def("limit_steps", &limit_steps, py::arg("seconds"),
            "From now on a step of implicit_euler, projective_dynamics or vbd ends with what it has found once it has "
            "taken so long, s; 0: no limit. The motion then depends on the machine. Raises ValueError for negative "

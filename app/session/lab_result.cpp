@@ -30,7 +30,7 @@ std::string lab_result(const LabRun& run, int done) {
   else if (skipped)
     text += "ends here; step " + std::to_string(done + 1) + " was skipped and is still to be done";
   else
-    text += "is left with " + std::to_string(done) + " of " + std::to_string(steps) + " steps done";
+    text += "ends here with " + std::to_string(done) + " of " + std::to_string(steps) + " steps done";
   return text + predictions_in_words(run) + ". Ctrl+L lists all labs.";
 }
 

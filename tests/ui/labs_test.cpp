@@ -291,11 +291,11 @@ TEST_CASE("who leaves a lab is told how far it was gone through, whichever way i
   test::NullUi window;
   begin(window, "hooke", "01_hooke");
   window.click("lab.leave");
-  CHECK(said(window).find("is left with 0 of 3 steps done. Ctrl+L") != std::string::npos);
+  CHECK(said(window).find("ends here with 0 of 3 steps done. Ctrl+L") != std::string::npos);
   begin(window, "hooke", "01_hooke");
   predict(window, "0.1");  // asked and not answered yet: it counts neither way
   window.find("leave the lab");
-  CHECK(said(window).find("is left with 0 of 3 steps done. Ctrl+L") != std::string::npos);
+  CHECK(said(window).find("ends here with 0 of 3 steps done. Ctrl+L") != std::string::npos);
 
   Session& session = window.session;
   begin_lab(session, "01_hooke");
@@ -322,6 +322,35 @@ TEST_CASE("the list of labs begins at the one that goes on, or that is to be don
   CHECK(window.sees("palette.Lab.Wind_gusts_and_a_swinging_sheet"));  // though the list has to scroll for it
   window.type("spring");
   CHECK(window.ui.palette.selected == 0);  // the best that is found
+}
+
+TEST_CASE("beside a lab the cloth keeps room: the columns take turns before it becomes narrow") {
+  struct Case {
+    glm::ivec2 size;
+    double scale;
+    const char* theme;
+    bool both;  ///< columns
+  };
+  for (const Case& now : {Case{{1280, 720}, 1, "dark", true}, Case{{1280, 720}, 1, "projector", false},
+                          Case{{1280, 720}, 1.5, "light", false}, Case{{900, 600}, 1, "light", false}}) {
+    CAPTURE(now.size.x);
+    CAPTURE(std::string(now.theme));
+    test::NullUi window({.size = now.size, .settings = [&now](Settings& settings) {
+                           settings.ui_scale = now.scale, settings.theme = now.theme;
+                         }});
+    begin_lab(window.session, "03_stiffness");
+    window.frames(4);
+    const glm::vec2 cloth = window.ui.viewport.size();
+    CHECK(cloth.x * cloth.y >= 0.25f * float(now.size.x * now.size.y));
+    CHECK(window.sees("constants.k_s.slider"));
+    CHECK(window.session.wants.forces == now.both);
+    if (now.both) continue;
+    window.click("side.columns.2");
+    window.frames(3);
+    CHECK(window.session.wants.forces);
+    CHECK_FALSE(window.sees("constants.k_s.slider"));
+    CHECK(window.ui.viewport.size() == cloth);
+  }
 }
 
 TEST_CASE("a lab waits while another preset is open, says so, and puts its own cloth back") {

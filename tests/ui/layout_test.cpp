@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/base/glfw_keys.h"
-#include "app/session/lab_state.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::layout_test {
@@ -384,53 +383,6 @@ TEST_CASE("presentation mode gives the cloth two thirds of the window, and keeps
     window.click("podium.present");
     window.frames(6);
     CHECK(window.sees("top.play"));
-  }
-}
-
-TEST_CASE("presentation mode has the projector's size of text in every theme") {
-  std::vector<float> presented;
-  for (const char* theme : {"dark", "light", "projector"}) {
-    CAPTURE(std::string(theme));
-    test::NullUi window(options("hanging", 1, theme));
-    window.frames(2);
-    const float before = window.ui.theme.scale;
-    window.key(GLFW_KEY_F5);
-    window.frames(3);
-    presented.push_back(window.ui.theme.scale);
-    window.key(GLFW_KEY_F5);
-    window.frames(3);
-    CHECK(window.ui.theme.scale == before);
-  }
-  CHECK(presented[0] > 1.3f);
-  CHECK(presented[1] == presented[0]);
-  CHECK(presented[2] == presented[0]);
-}
-
-TEST_CASE("beside a lab the cloth keeps room: the columns take turns before it becomes narrow") {
-  struct Case {
-    glm::ivec2 size;
-    double scale;
-    const char* theme;
-    bool both;  ///< columns
-  };
-  for (const Case& now : {Case{{1280, 720}, 1, "dark", true}, Case{{1280, 720}, 1, "projector", false},
-                          Case{{1280, 720}, 1.5, "light", false}, Case{{900, 600}, 1, "light", false}}) {
-    CAPTURE(now.size.x);
-    CAPTURE(std::string(now.theme));
-    test::NullUi window(options("hanging", now.scale, now.theme, now.size));
-    begin_lab(window.session, "03_stiffness");
-    window.frames(4);
-    const glm::vec2 cloth = window.ui.viewport.size();
-    CHECK(cloth.x * cloth.y >= 0.25f * float(now.size.x * now.size.y));
-    CHECK(window.sees("constants.k_s.slider"));
-    CHECK(window.session.wants.forces == now.both);
-    if (now.both) continue;
-    window.click("side.columns.2");
-    window.frames(3);
-    CHECK(window.session.wants.forces);
-    CHECK_FALSE(window.sees("constants.k_s.slider"));
-    CHECK(window.ui.viewport.size() == cloth);
-    leave_lab(window.session);
   }
 }
 

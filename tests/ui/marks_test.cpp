@@ -160,6 +160,24 @@ TEST_CASE("a message covers no cloth where a corner is free, and stays in its co
   CHECK(wider.lo.x == first.lo.x);
 }
 
+TEST_CASE("labels and scales of arrows make room for a tooltip, however low the window") {
+  test::NullUi window(options({{900, 600}, 1.5, "dark"}, "hanging"));
+  pause(window);
+  for (int height = 420; height <= 660; height += 20) {
+    CAPTURE(height);
+    window.resize({900, height});
+    window.rest();
+    window.move(window.middle("constants.dt.slider"));
+    window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
+    window.frames(8);
+    for (const auto& mark : window.ui.placing.marks()) {
+      CAPTURE(mark.name);
+      if (mark.name.starts_with("label ") || mark.name.starts_with("scale "))
+        CHECK_FALSE(overlap(*window.tooltip(), mark.box));
+    }
+  }
+}
+
 TEST_CASE("a message and PAUSED stand apart") {
   for (const LookCase& look : std::span(looks).first(5)) {
     CAPTURE(look.size.x);

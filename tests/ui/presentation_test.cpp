@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "app/base/glfw_keys.h"
 #include "tests/ui/null_ui.h"
@@ -83,6 +84,25 @@ TEST_CASE("a search for settings goes on while another card is in front, and end
   window.click("plots.Accuracy");
   window.frames(4);
   CHECK_FALSE(window.session.studies.settings.tolerance().has_value());
+}
+
+TEST_CASE("presentation mode has the projector's size of text in every theme") {
+  std::vector<float> presented;
+  for (const char* theme : {"dark", "light", "projector"}) {
+    CAPTURE(std::string(theme));
+    test::NullUi window({.settings = [theme](Settings& settings) { settings.theme = theme; }});
+    window.frames(2);
+    const float before = window.ui.theme.scale;
+    window.key(GLFW_KEY_F5);
+    window.frames(3);
+    presented.push_back(window.ui.theme.scale);
+    window.key(GLFW_KEY_F5);
+    window.frames(3);
+    CHECK(window.ui.theme.scale == before);
+  }
+  CHECK(presented[0] > 1.3f);
+  CHECK(presented[1] == presented[0]);
+  CHECK(presented[2] == presented[0]);
 }
 
 TEST_CASE("presentation mode says how near to real time it runs") {

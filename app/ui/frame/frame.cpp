@@ -28,8 +28,8 @@ bool take_look(Ui& ui, float content_scale) {
   const Look& look = tyglab::look(ui.settings.theme);
   ui.theme.colors = look.tokens();
   ui.scene.view.palette = look.tokens == light_tokens ? light_palette : Palette{};
-  // Who presents is looked at from afar, whatever the theme.
-  const float magnified = ui.presenting ? largest_magnified() : look.magnified;
+  // In presentation mode the audience sits far away, whatever the theme.
+  const float magnified = ui.presenting ? tyglab::look("projector").magnified : look.magnified;
   const float scale = content_scale * float(ui.settings.ui_scale) * magnified;
   ui.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
   apply_style(ui.theme);

@@ -158,12 +158,6 @@ const Look& look(std::string_view name) {
   return found == all.end() ? all.front() : *found;
 }
 
-float largest_magnified() {
-  float largest = 1;
-  for (const Look& one : looks()) largest = std::max(largest, one.magnified);
-  return largest;
-}
-
 void apply_style(const Theme& theme) {
   ImGuiStyle style;
   set_colors(style, theme.colors);

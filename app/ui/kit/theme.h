@@ -36,8 +36,6 @@ struct Look {
 std::span<const Look> looks();
 /// The look of that name; the first where none is called so.
 const Look& look(std::string_view name);
-/// `magnified` of the look that magnifies most.
-float largest_magnified();
 
 /// Tokens and sizes at the present scale of text (monitor's content scale times the user's).
 struct Theme {
