@@ -49,8 +49,8 @@ class InteriorPoint {
   Field& c() { return c_; }
   Field& y() { return y_; }
   Field& x() { return x_; }
-  /// Adds its iterations to the counts. Where it was stopped, the result means nothing; where its time was up, it is the
-  /// best that was found until then.
+  /// Adds its iterations to the counts. Where it was stopped, the result means nothing; where its time was up, it is
+  /// the best that was found until then.
   Balance solve(const Task& task, SolveCounts& counts);
   std::size_t bytes() const;
 
