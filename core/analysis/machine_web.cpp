@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <thread>
+
 #include "core/analysis/machine.h"
 
 namespace tyglab {
@@ -7,7 +10,8 @@ std::string processor_name() {
 }
 
 int processors() {
-  return 1;  // a page's memory belongs to one thread
+  // 1 where a page's memory belongs to one thread. Browsers count hyperthreads, and start a worker for each thread.
+  return std::clamp(int(std::thread::hardware_concurrency()), 1, 4);
 }
 
 }  // namespace tyglab

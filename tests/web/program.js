@@ -1,5 +1,6 @@
 // program.js PAGE FOLDER ARGUMENT…: runs the page's program under Node with these arguments, as `tyglab ARGUMENT…`. Its
-// working folder begins empty, and what it wrote there is in FOLDER afterwards.
+// working folder begins empty, and what it wrote there is in FOLDER afterwards. TYGLAB_PROGRAM names the program, which is
+// tyglab without it.
 'use strict';
 const fs = require('fs'), path = require('path');
 const [page, folder, ...words] = process.argv.slice(2);
@@ -11,8 +12,10 @@ function unpack(file) {
   return JSON.parse(pack.toString('utf8', 4, at)).map(([name, size]) => [name, pack.subarray(at, at += size)]);
 }
 
-require(path.resolve(page, 'tyglab.js'))({
-  wasmBinary: fs.readFileSync(path.join(page, 'tyglab.wasm')),
+const program = process.env.TYGLAB_PROGRAM ?? 'tyglab';
+require(path.resolve(page, program + '.js'))({
+  wasmBinary: fs.readFileSync(path.join(page, program + '.wasm')),
+  threads: 12,
   print: (text) => process.stdout.write(text + '\n'),
   printErr: (text) => process.stderr.write(text + '\n'),
 }).then((tyglab) => {

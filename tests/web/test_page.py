@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""test_page.py --page FOLDER [--shots FOLDER]: the page in Chromium, with real events, from a plain server and a sub-path."""
+"""test_page.py --page FOLDER [--shots FOLDER] [--threads]: the page in Chromium, with real events, from a sub-path of a plain
+server; with --threads from one whose pages may have threads, what they change."""
 import argparse
 import contextlib
 import functools
@@ -17,9 +18,20 @@ from browser import Browser
 PALETTE = ("p", "KeyP", 80, 2)
 
 
+# What threads do, or write for the page.
+WITH_THREADS = ["opens_and_is_pulled", "cuts", "link", "lab_to_its_end", "files", "is_kept", "studies_leave_frames_alone", "offline",
+                "threads_leave_frames_alone", "no_errors"]
+
+
 @contextlib.contextmanager
-def served(folder):
+def served(folder, threads=False):
     class Handler(http.server.SimpleHTTPRequestHandler):
+        def end_headers(self):
+            if threads:
+                self.send_header("Cross-Origin-Opener-Policy", "same-origin")
+                self.send_header("Cross-Origin-Embedder-Policy", "require-corp")
+            super().end_headers()
+
         def log_message(self, *_):
             pass
 
@@ -269,6 +281,17 @@ class Tests:
         self.shot(page, "study")
         page.call("Page.close")
 
+    def test_threads_leave_frames_alone(self):
+        """A step that takes long goes on beside the frames."""
+        page = self.open("?report#hanging&rows=96&columns=96&integrator=implicit_euler&dt=0.02&k_s=1e5&precision=double")
+        before = wait_for(page, "a step", lambda now: now["steps"] > 1, 240)
+        time.sleep(10)
+        now = report(page)
+        frames, steps = now["frames"] - before["frames"], now["steps"] - before["steps"]
+        print(f"  {steps} steps of an implicit method and {frames} frames in 10 s", flush=True)
+        assert page.ask("crossOriginIsolated") and frames > 2 * steps, (frames, steps)
+        page.call("Page.close")
+
     def test_touch(self):
         page = self.open("?report#hanging", width=390, height=844, scale=2, touch=True)
         self.shot(page, "phone")
@@ -355,16 +378,18 @@ def main():
     parser.add_argument("--page", required=True, type=pathlib.Path)
     parser.add_argument("--shots", type=pathlib.Path)
     parser.add_argument("--only", help="tests whose names have this in them, after the first")
+    parser.add_argument("--threads", action="store_true")
     args = parser.parse_args()
     if args.shots:
         args.shots.mkdir(parents=True, exist_ok=True)
     names = [name for name in vars(Tests) if name.startswith("test_")]
     if args.only:
         names = [name for name in names if name == "test_opens_and_is_pulled" or args.only in name]
+    names = [name for name in names if (name.removeprefix("test_") in WITH_THREADS if args.threads else "threads" not in name)]
     failed = []
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(args.page, pathlib.Path(folder) / "course" / "tyglab")
-        with served(folder) as address, Browser() as browser:
+        with served(folder, args.threads) as address, Browser() as browser:
             tests = Tests(browser, f"{address}/course/tyglab", args.shots)
             for name in names:
                 start = time.monotonic()

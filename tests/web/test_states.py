@@ -7,6 +7,7 @@ its roots differ (core/simd/simd-inl.h); double precision differs by the order o
 """
 import argparse
 import csv
+import os
 import pathlib
 import subprocess
 import sys
@@ -31,9 +32,10 @@ class Programs:
     def native(self, *words):
         return subprocess.run([self.tyglab, *words], cwd=self.scratch, capture_output=True, text=True, check=False)
 
-    def web(self, *words):
+    def web(self, *words, program="tyglab"):
         script = pathlib.Path(__file__).parent / "program.js"
-        return subprocess.run(["node", script, self.page, self.scratch, *words], capture_output=True, text=True, check=False)
+        return subprocess.run(["node", script, self.page, self.scratch, *words], capture_output=True, text=True, check=False,
+                              env={**os.environ, "TYGLAB_PROGRAM": program})
 
     def compare(self, name, *words):
         """The largest difference of a coordinate between the two, m."""
@@ -90,6 +92,14 @@ def main():
                 check(f"{method} {precision}", difference <= bound, f"differs by {difference:.3g} m")
         found = programs.web("run", "hanging", "--set", "rows=8", "--set", "columns=8", "--seconds", "0.05", "--tolerance", "1e-3").stderr
         check("costs of methods", "CPU time" in found and "takes 0 s" not in found and "NaN" not in found, found)
+        for method in methods:
+            words = ["run", "hanging", "--integrator", method, "--engine", "cpu", "--set", "rows=64", "--set", "columns=64", "--dt",
+                     "0.0001", "--steps", "20", "--state", "state.csv"]
+            states = []
+            for program, threads in [("tyglab", "1"), ("tyglab-threads", "1"), ("tyglab-threads", "3")]:
+                ended = programs.web(*words, "--threads", threads, program=program)
+                states.append(ended.stderr if ended.returncode else positions(programs.scratch / "state.csv"))
+            check(f"{method} by threads", states[0] == states[1] == states[2] and len(states[0]) == 64 * 64, f"{states[2][:1]}")
         link = "https://example.org/lab/#hanging&k_s=80&W=%5B0,0,0.001%5D"
         difference, _ = programs.compare("a link", link, "--seconds", SECONDS)
         check("a link", difference <= BOUNDS["float"], f"differs by {difference:.3g} m")

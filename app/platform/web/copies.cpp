@@ -1,6 +1,7 @@
 #include "app/platform/copies.h"
 
 #include <emscripten.h>
+#include <emscripten/threading.h>
 
 #include <map>
 #include <string>
@@ -29,7 +30,7 @@ struct Copy::Parts {
 };
 
 bool works_in_copies() {
-  return true;
+  return !emscripten_has_threading_support();
 }
 
 Copy::Copy(std::function<void(const Report& report)> work, Report take)

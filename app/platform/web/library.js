@@ -270,7 +270,8 @@ addToLibrary({
     input.click();
   },
 
-  // localStorage holds text: JSON as it is, and nothing large.
+  // localStorage holds text: JSON as it is, and nothing large. It belongs to the page, whichever thread asks.
+  tyglab_keep_files__proxy: 'sync',
   tyglab_keep_files: (folder) => {
     if (typeof localStorage === 'undefined' || Module.embedded) return;  // a course's page changes nothing
     const keep = (path) => {

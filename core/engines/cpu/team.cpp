@@ -8,6 +8,8 @@
 #include <immintrin.h>
 #endif
 
+#include "core/engines/cpu/wait.h"
+
 namespace tyglab::cpu {
 namespace {
 
@@ -22,20 +24,19 @@ void pause() {
 }
 
 /// Returns once `value` is no longer `old`.
-template <class T>
-void wait_for_change(const std::atomic<T>& value, T old) {
+void wait_for_change(const std::atomic<int>& value, int old) {
   for (int n = 0; n < spins_before_sleep; ++n) {
     if (value.load() != old) return;
     pause();
   }
-  while (value.load() == old) value.wait(old);
+  while (value.load() == old) sleep_while(value, old);
 }
 
 }  // namespace
 
 void Progress::finished(int rows) {
   rows_.store(rows, std::memory_order_release);
-  rows_.notify_one();
+  wake_one(rows_);
 }
 
 void Progress::wait_for(int rows) const {
@@ -65,7 +66,7 @@ Team::~Team() {
 void Team::start(int number) {
   std::atomic<int>& runs = starts_[std::size_t(number) - 1].runs;
   ++runs;
-  runs.notify_one();
+  wake_one(runs);
 }
 
 void Team::serve(int number) {
@@ -74,7 +75,7 @@ void Team::serve(int number) {
     wait_for_change(runs, seen);
     if (closing_) return;
     work(number);
-    if (--working_ == 0) ++finished_, finished_.notify_all();
+    if (--working_ == 0) ++finished_, wake_all(finished_);
   }
 }
 
@@ -86,7 +87,7 @@ void Team::work(int number) noexcept {
   } catch (...) {
     if (failed_.exchange(true)) return;
     fault_ = std::current_exception();
-    ++passed_, passed_.notify_all();
+    ++passed_, wake_all(passed_);
   }
 }
 
@@ -110,7 +111,7 @@ void Team::barrier() {
   if (waiting_.fetch_add(1) + 1 == size_) {
     waiting_ = 0;
     passed_ = turn + 1;
-    passed_.notify_all();
+    wake_all(passed_);
   } else {
     wait_for_change(passed_, turn);
   }

@@ -1,5 +1,7 @@
 // A service worker: what the page is made of is kept at the first visit, so that it opens without a network afterwards.
-const version = 'tyglab-VERSION', files = FILES;
+// Of the programs, the page names the one that it uses.
+const version = 'tyglab-VERSION', used = new URLSearchParams(self.location.search).get('program');
+const files = FILES.filter((name) => !/^tyglab(-threads)?\.(js|wasm)$/.test(name) || name.startsWith(used + '.'));
 
 self.addEventListener('install', (event) => {
   event.waitUntil(caches.open(version).then((cache) => cache.addAll(files)).then(() => self.skipWaiting()));

@@ -5,6 +5,8 @@
 const canvas = document.getElementById('canvas');
 const words = document.getElementById('words'), bar = document.getElementById('progress');
 const asked = new URLSearchParams(location.search), embedded = asked.has('embed');
+// Where the server lets it (README.md), memory is shared among threads.
+const program = self.crossOriginIsolated ? 'tyglab-threads' : 'tyglab';
 
 class Refusal extends Error {}
 
@@ -42,7 +44,7 @@ async function fetched(name) {
   const counted = answer.body.pipeThrough(new TransformStream({
     transform(bytes, out) {
       loaded += bytes.length;
-      bar.value = loaded / tyglab_bytes;
+      bar.value = loaded / tyglab_bytes[program];
       out.enqueue(bytes);
     },
   }));
@@ -104,7 +106,14 @@ async function load_the_rest(tyglab) {
     tyglab.tyglabPage.withText(name, tyglab._tyglab_on_drop);
   }
   if ('serviceWorker' in navigator && !embedded)
-    navigator.serviceWorker.register('offline.js').catch((error) => console.warn('Tyglab: not offline: ' + error.message));
+    navigator.serviceWorker.register('offline.js?program=' + program).catch((error) => console.warn('Tyglab: not offline: ' + error.message));
+}
+
+/// How many the program may start: for its team on up to four processors (core/analysis/machine_web.cpp), for those of
+/// another cloth and of copies, and for what goes on beside the frames. Who gets none does without.
+function threads() {
+  const processors = Math.min(navigator.hardwareConcurrency || 1, 4);
+  return 8 + 4 * (processors - 1);
 }
 
 async function start() {
@@ -112,17 +121,17 @@ async function start() {
   const data = fetched('data.bin').then((answer) => answer.arrayBuffer());
   const code = new Promise((done, failed) => {
     const script = document.createElement('script');
-    script.src = 'tyglab.js';
+    script.src = program + '.js';
     script.onload = done;
-    script.onerror = () => failed(new Refusal('tyglab.js could not be loaded. Load the page again.'));
+    script.onerror = () => failed(new Refusal(`${program}.js could not be loaded. Load the page again.`));
     document.head.append(script);
   });
-  const compiled = await WebAssembly.compileStreaming(fetched('tyglab.wasm'));
+  const compiled = await WebAssembly.compileStreaming(fetched(program + '.wasm'));
   await code;
   show('Starting…');
   let said = '';
   const tyglab = await createTyglab({
-    canvas, compiled, embedded, workerAddress: 'worker.js',
+    canvas, compiled, embedded, workerAddress: 'worker.js', threads: threads(),
     instantiateWasm: (imports, take) => {
       WebAssembly.instantiate(compiled, imports).then((instance) => take(instance, compiled));
       return {};
