@@ -51,10 +51,11 @@ double exact_strain(const Preset& preset, const State& state) {
   const Field x = field_of(state.x, lattice), v = field_of(state.v, lattice);
   Field end = v;
   implicit::StiffStage stage;
+  implicit::Crew alone;
   SolveCounts counts;
   stage.solve(implicit::StiffTask<double>{preset, lattice, tears, fixed, preset.dt, x.row(0), v.row(0), x.row(0),
                                           end.row(0), x.pitch() / 3, [] { return false; }, [](double) { return false; },
-                                          [](double) {}, 1e-9},
+                                          [](double) {}, alone, 1e-9},
               counts);
   for (std::size_t n = 0; n < end.all().size(); ++n) end.all()[n] = x.all()[n] + preset.dt * end.all()[n];
   return largest_strain(end, lattice, preset.L);

@@ -17,7 +17,7 @@ class Machine {
  public:
   /// Seconds that so many threads take for a unit of work at that time.
   using Cost = std::function<double(int threads, double now)>;
-  Machine(int threads, Cost cost) : governor_(threads), cost_(std::move(cost)) {}
+  Machine(int threads, Cost cost) : governor_(threads, threads), cost_(std::move(cost)) {}
 
   /// Works for so many seconds more; returns the work done.
   double run(double seconds) {

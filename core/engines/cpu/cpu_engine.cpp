@@ -50,7 +50,9 @@ constexpr int lines_apart = 23;  // between vectors' places in their pages, of 6
 
 template <class R, unsigned Present>
 CpuEngine<R, Present>::CpuEngine(const Preset& preset, const Lattice& lattice, int threads)
-    : team_(std::make_unique<Team>(useful_threads(lattice, threads))), governor_(team_->capacity()) {
+    : team_(std::make_unique<Team>(useful_threads(lattice, threads))),
+      crew_(std::make_unique<TeamCrew>(*team_)),
+      governor_(team_->capacity(), team_->capacity()) {
   cloth_.preset = preset;
   cloth_.lattice = lattice;
   cloth_.stride = row_stride<R>(lattice.columns);

@@ -34,6 +34,7 @@
 #include "core/engines/cpu/implicit.h"
 #include "core/engines/cpu/projection.h"
 #include "core/engines/cpu/team.h"
+#include "core/engines/cpu/team_crew.h"
 #include "core/engines/cpu/thread_governor.h"
 #include "core/engines/engine.h"
 #include "core/engines/step_guard.h"
@@ -212,6 +213,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   int known_torn_ = 0;
   bool springs_changed_ = true;  ///< or what is fixed, since what follows from them was made
   std::unique_ptr<Team> team_;
+  std::unique_ptr<TeamCrew> crew_;
   ThreadGovernor governor_;
   std::function<int()> forced_threads_;
   double steps_per_second_ = 0;                           ///< of the last run; 0: not known

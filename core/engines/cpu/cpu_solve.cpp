@@ -1,4 +1,4 @@
-// Implicit stages: on one thread where a solver goes to the end, on all where each particle solves for itself.
+// Implicit stages: led by one thread where a solver goes to the end, on all where each particle solves for itself.
 #include "core/engines/cpu/cpu_engine.h"
 
 namespace tyglab::cpu {
@@ -12,8 +12,10 @@ bool CpuEngine<R, Present>::solve_stage(int number, const ResolvedSweep& sweep, 
     return descend(number, sweep, tears);
   }
   team_->barrier();  // solving uses all bands, which their threads may still be preparing
-  if (number == 0) abandoned_ = !solve(sweep, tears);
-  team_->barrier();
+  if (number == 0)
+    abandoned_ = !solve(sweep, tears), crew_->dismiss();
+  else
+    crew_->help(number);
   if (abandoned_ || !solver_.left_to_passes()) return !abandoned_;
   team_->barrier();  // all have seen that before the stage begins again
   return descend(number, sweep, tears);
@@ -28,7 +30,8 @@ bool CpuEngine<R, Present>::solve(const ResolvedSweep& sweep, const Tears& tears
       [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
       {repeating_ ? never_ : stop(),
        {can_end_early(*scheme_) ? step_limit() : 0, [&](double part) { return out_of_time((stage + part) / stages); }},
-       [&](double part) { set_step_progress((stage + part) / stages); }},
+       [&](double part) { set_step_progress((stage + part) / stages); },
+       *crew_},
       {scheme_->solver, springs_changed(tears)});
   if (solved && scheme_->solver == Solver::alternation) accept_springs(tears);
   return solved;
@@ -67,7 +70,7 @@ bool CpuEngine<R, Present>::descend(int number, const ResolvedSweep& sweep, cons
   if (number == 0)
     solver_.measure_stage(
         sweep.solve_dt, tears, [&](Field& out) { accelerations(sweep.position, sweep.velocity, tears, out, true); },
-        {never_, {}, [](double) {}}, made);
+        {never_, {}, [](double) {}, *crew_}, made);
   team_->barrier();
   return true;
 }

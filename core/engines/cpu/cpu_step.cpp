@@ -242,6 +242,7 @@ StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool
   using Clock = std::chrono::steady_clock;
   StepsMade all;
   while (all.count < steps && all.end == StepsEnd::complete) {
+    crew_->insist(forced_threads_ != nullptr);
     resize_team(forced_threads_ ? forced_threads_() : governor_.threads());
     const std::int64_t evaluations = control_.counts().force_evaluations;
     const auto begin = Clock::now();

@@ -131,7 +131,7 @@ Balance ImplicitSolver<R>::solve_stiff() {
       implicit::StiffTask<R>{cloth().preset, cloth().lattice, *task_.tears, cloth().fixed, task_.dt, start_x_.row(0),
                              start_v_.row(0), cloth().vector(vector_x).row(0), velocity().row(0), stride_,
                              [this] { return stops(); }, [this](double best) { return is_over(stiff_share(best)); },
-                             [this](double part) { note_progress(part); }},
+                             [this](double part) { note_progress(part); }, task_.watch->crew},
       counts_);
   if (!stopped_) evaluate();
   return balance;

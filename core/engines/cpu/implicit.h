@@ -1,5 +1,6 @@
-// The implicit stages of a method on the processor (newton.h), in SIMD, on one thread. Products with the matrix are
-// computed row by row from the stiffness of each spring (stiffness.h); it is stored only if it must be factorized.
+// The implicit stages of a method on the processor (newton.h), in SIMD; on one thread, but for the linear systems of
+// stiff stages. Products with the matrix are computed row by row from the stiffness of each spring (stiffness.h); it is
+// stored only if it must be factorized.
 #pragma once
 
 #include <functional>
@@ -26,6 +27,7 @@ class ImplicitSolver final : private implicit::EitherStage {
     const Stop& stop;
     StageLimit limit;
     std::function<void(double part)> progress;
+    implicit::Crew& crew;
   };
   /// How to solve, and whether springs or what is fixed may differ from the last call.
   struct Way {

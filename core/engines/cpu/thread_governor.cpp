@@ -19,12 +19,14 @@ constexpr double first_interval = 20, longest_interval = 320;  // trials
 
 }  // namespace
 
-ThreadGovernor::ThreadGovernor(int most) {
-  assert(most >= 1);
+ThreadGovernor::ThreadGovernor(int most, int first) {
+  assert(first >= 1 && most >= first);
   for (int threads = most; threads > 1; threads /= 2) levels_.push_back({threads, first_rest});
   levels_.push_back({1, first_rest});
   std::reverse(levels_.begin(), levels_.end());
-  serve_at(levels_.size() - 1);
+  std::size_t level = levels_.size() - 1;
+  while (levels_[level].threads > first) --level;
+  serve_at(level);
 }
 
 /// Without knowing what half as many would take.

@@ -7,7 +7,7 @@
 
 namespace tyglab::cpu {
 
-/// The number is halved at a time, from all threads down to one, and all work at first. The policy:
+/// The number is halved at a time, from all threads down to one. The policy:
 ///  - Threads pay if they take at most nine tenths of the time that half as many would. How long half as many take is
 ///    measured by letting them work alone for a moment, at growing intervals.
 ///  - Threads work on credit: time beyond those nine tenths is drawn from it, time below is paid in, up to a limit.
@@ -17,8 +17,8 @@ namespace tyglab::cpu {
 /// part of the interval before it, and a trial of all of them the credit that they start with.
 class ThreadGovernor {
  public:
-  /// `most`: threads, at least 1.
-  explicit ThreadGovernor(int most);
+  /// `most`: threads, at least 1; `first`: of these, at first.
+  ThreadGovernor(int most, int first);
   /// For the next run.
   int threads() const { return levels_[level_].threads; }
   /// How long the next run should be at most, in seconds.

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 
 #include "core/engines/implicit/stiffness.h"
+#include "core/model/clocks.h"
 
 namespace tyglab::implicit {
 namespace {
@@ -15,6 +18,12 @@ constexpr int most_gradients = 200;
 constexpr double to_border = 0.995;  // of the way to where a tension or slack becomes 0
 constexpr double predictor_tolerance = 0.05, corrector_tolerance = 0.02;
 constexpr double least_centering = 0.01;
+
+double sum(const std::vector<double>& parts) {
+  return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
+constexpr int rows_of_product = 2;  // above, which leave parts of a row's product in it, and below, of which it is made
 
 }  // namespace
 
@@ -28,7 +37,10 @@ void InteriorPoint<R>::resize(const Lattice& lattice) {
   for (Array<double>* springs : {&tension_, &slack_}) springs->assign(stretch, 1.0);
   for (Array<double>* springs : {&d_tension_, &d_slack_}) springs->assign(stretch, 0.0);
   free_.assign(std::size_t(rows) * stride_, 0.0);
-  for (RowField<R>* field : {&step_, &r_, &p_, &q_}) field->resize(rows + 3, fast);
+  for (RowField<R>* field : {&step_, &r_, &p_}) field->resize(rows + 3, fast);
+  for (std::vector<double>* sums : {&right_squares_, &left_squares_, &along_, &fall_})
+    sums->assign(std::size_t(rows), 0);
+  products_.clear();
   coefficients_.assign(std::size_t(rows) * coefficient_pitch(fast) + simd::widest_vector, R(0));
   multigrid_.resize(lattice, fast);
   lattice_ = lattice;
@@ -40,7 +52,8 @@ std::size_t InteriorPoint<R>::bytes() const {
   for (const Field* field : {&c_, &y_, &x_, &best_, &forces_, &right_, &moved_}) total += field->bytes();
   for (const Array<double>* springs : {&tension_, &slack_, &d_tension_, &d_slack_, &whole_, &free_})
     total += springs->size() * sizeof(double);
-  for (const RowField<R>* field : {&step_, &r_, &p_, &q_}) total += field->bytes();
+  for (const RowField<R>* field : {&step_, &r_, &p_}) total += field->bytes();
+  for (const Products& products : products_) total += products.q.bytes();
   return total;
 }
 
@@ -128,46 +141,120 @@ double InteriorPoint<R>::allowed() const {
   return std::max(task_->tolerance * force_, digits);
 }
 
+/// Calls work(number) on as many threads as pay now, each of which has its rows. Returns how long that took, s.
+template <class R>
+template <class Work>
+double InteriorPoint<R>::together(const Work& work) {
+  const int size = task_->crew.size();
+  multigrid_.share(task_->crew, size, task_->stops);
+  const int threads = multigrid_.threads();
+  if (int(products_.size()) != threads) {
+    products_.resize(std::size_t(threads));
+    for (int n = 0; n < threads; ++n) {
+      Products& products = products_[std::size_t(n)];
+      const RowRange own = multigrid_.rows_of(n);
+      products.first = std::max(own.begin - rows_of_product, 0);
+      products.q.resize(own.end - products.first + 3, int(fast_stride()));
+    }
+  }
+  const double begun = wall_seconds();
+  if (threads > 1)
+    task_->crew.run(work);
+  else
+    work(0);
+  return wall_seconds() - begun;
+}
+
+/// Of a thread's rows: r_ = right_ - A step_, or right_ where step_ is not `warm`.
+template <class R>
+void InteriorPoint<R>::subtract_product(int number, bool warm) {
+  Products& products = products_[std::size_t(number)];
+  const RowRange own = multigrid_.rows_of(number);
+  if (!warm) std::fill(step_.row(own.begin), step_.row(own.end), R(0));
+  for (int i = products.first; i < own.end; ++i) {
+    const RowField<R>& q = products.q;
+    const int at = i - products.first;
+    if (warm) multiply(products, step_, i);
+    if (i < own.begin) continue;
+    const double* free = free_.data() + std::ptrdiff_t(i) * stride_;
+    double whole = 0, left = 0;
+    for (int c = 0; c < 3; ++c)
+      for (int j = 0; j < lattice_.columns; ++j) {
+        const double b = free[j] * right_.row(i, c)[j], r = b - (warm ? free[j] * double(q.row(at, c)[j]) : 0);
+        r_.row(i, c)[j] = R(r), whole += b * b, left += r * r;
+      }
+    right_squares_[std::size_t(i)] = whole, left_squares_[std::size_t(i)] = left;
+  }
+}
+
+/// Row i of a thread's A p.
+template <class R>
+void InteriorPoint<R>::multiply(Products& products, const RowField<R>& p, int i) {
+  multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(fast_stride()), p.row(i),
+                              products.q.row(i - products.first), fast_stride(), lattice_.columns, i == products.first,
+                              1});
+}
+
+/// Of a thread's rows: p_ = z + keep p_, and then q = A p_. The product follows the sums through the rows, but for the
+/// first and last of a thread, which its neighbors need too.
+template <class R>
+void InteriorPoint<R>::make_product(int number, const RowField<R>& z, double keep) {
+  Products& products = products_[std::size_t(number)];
+  const RowRange own = multigrid_.rows_of(number);
+  const int count = int(p_.pitch());
+  const auto add = [&](int i) { add_scaled_row(z.row(i), keep, p_.row(i), count); };
+  RowRange later = own;
+  if (multigrid_.threads() > 1) {
+    for (int n = 0; n < rows_of_product; ++n) add(own.begin + n), add(own.end - 1 - n);
+    later = {own.begin + rows_of_product, own.end - rows_of_product};
+    task_->crew.barrier();
+  }
+  for (int i = products.first - rows_of_product; i < own.end; ++i) {
+    if (const int below = i + rows_of_product; below >= later.begin && below < later.end) add(below);
+    if (i < products.first) continue;
+    multiply(products, p_, i);
+    if (i >= own.begin)
+      along_[std::size_t(i)] = dot_row(p_.row(i), std::as_const(products.q).row(i - products.first), count);
+  }
+}
+
+/// A step of conjugate gradients, of one thread. All use the same sums, each over all rows in their order.
+template <class R>
+void InteriorPoint<R>::descend(int number, bool first) {
+  const auto meet = [&] {
+    if (multigrid_.threads() > 1) task_->crew.barrier();
+  };
+  const RowRange own = multigrid_.rows_of(number);
+  const RowField<R>& z = multigrid_.precondition(r_, number);
+  for (int i = own.begin; i < own.end; ++i) fall_[std::size_t(i)] = dot_row(r_.row(i), z.row(i), int(r_.pitch()));
+  meet();
+  const double fall = sum(fall_);
+  make_product(number, z, first ? 0 : fall / last_fall_);
+  meet();
+  const double along = sum(along_);
+  if (number == 0) next_fall_ = fall, falls_ = along > 0;
+  if (!(along > 0)) return;
+  Products& products = products_[std::size_t(number)];
+  for (int i = own.begin; i < own.end; ++i)
+    left_squares_[std::size_t(i)] =
+        multigrid_.descend(fall / along, p_.row(i), products.q.row(i - products.first), step_.row(i), r_.row(i), i);
+}
+
 /// Solves A step_ = right_ by conjugate gradients, from the present step_ on if it is `warm`.
 template <class R>
 bool InteriorPoint<R>::solve_linear(double tolerance, bool warm) {
-  const int rows = lattice_.rows, columns = lattice_.columns, count = int(step_.pitch());
-  const auto product = [&](RowField<R>& p, int i) {
-    multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(fast_stride()), p.row(i), q_.row(i),
-                                fast_stride(), columns, i == 0, 1});
-  };
-  if (!warm) std::fill(step_.all().begin(), step_.all().end(), R(0));
-  double whole = 0, left = 0;
-  for (int i = 0; i < rows; ++i) {
-    if (warm) product(step_, i);
-    const double* free = free_.data() + std::ptrdiff_t(i) * stride_;
-    for (int c = 0; c < 3; ++c)
-      for (int j = 0; j < columns; ++j) {
-        const double b = free[j] * right_.row(i, c)[j], r = b - (warm ? free[j] * double(q_.row(i, c)[j]) : 0);
-        r_.row(i, c)[j] = R(r), whole += b * b, left += r * r;
-      }
-  }
-  const double enough = tolerance * tolerance * whole;
-  double before = 0;
+  together([&](int number) { subtract_product(number, warm); });
+  const double enough = tolerance * tolerance * sum(right_squares_);
+  double left = sum(left_squares_);
   for (int n = 0; left > enough; ++n) {
     if (n == most_gradients || !std::isfinite(left) || task_->stops() ||
         (n > 0 && task_->out_of_time(best_balance_.residual)))
       return false;
-    const RowField<R>& z = multigrid_.precondition(r_, task_->stops);
-    double rz = 0;
-    for (int i = 0; i < rows; ++i) rz += dot_row(r_.row(i), z.row(i), count);
-    const double keep = n == 0 ? 0 : rz / before;
-    before = rz;
-    double pq = 0;
-    for (int i = 0; i < rows; ++i) add_scaled_row(z.row(i), keep, p_.row(i), count);
-    for (int i = 0; i < rows; ++i) {
-      multiply_row(ProductTask<R>{coefficients_.data() + i * coefficient_pitch(fast_stride()), p_.row(i), q_.row(i),
-                                  fast_stride(), columns, i == 0, 1});
-      pq += dot_row(p_.row(i), q_.row(i), count);
-    }
-    if (!(pq > 0)) return false;
-    left = 0;
-    for (int i = 0; i < rows; ++i) left += multigrid_.descend(rz / pq, p_, q_, step_, r_, i);
+    const double seconds = together([&](int number) { descend(number, n == 0); });
+    if (lattice_.rows >= Multigrid<R>::shared_rows(2)) task_->crew.worked(seconds);
+    if (!falls_) return false;
+    last_fall_ = next_fall_;
+    left = sum(left_squares_);
     ++counts_->linear;
   }
   return true;

@@ -14,11 +14,13 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/tears.h"
 #include "core/engines/balance.h"
 #include "core/engines/implicit/barrier_rows.h"
+#include "core/engines/implicit/crew.h"
 #include "core/engines/implicit/multigrid.h"
 #include "core/integrators/solve_counts.h"
 
@@ -41,6 +43,7 @@ class InteriorPoint {
     std::function<bool()> stops;
     std::function<bool(double best)> out_of_time;  ///< whether to end, where `best` is the least residual so far
     std::function<void(double part)> progress;
+    Crew& crew;
   };
   /// Takes the memory for a lattice.
   void resize(const Lattice& lattice);
@@ -55,12 +58,22 @@ class InteriorPoint {
   std::size_t bytes() const;
 
  private:
+  struct Products {
+    int first = 0;  ///< row of the lattice that is row 0 of q
+    RowField<R> q;
+  };
   void begin();
   void find_whole_springs();
   BarrierRow row(int i);
   /// The model's residual and the linear system at the present x. Returns Σ tension · slack.
   double linearize();
   bool solve_linear(double tolerance, bool warm);
+  template <class Work>
+  double together(const Work& work);
+  void descend(int number, bool first);
+  void subtract_product(int number, bool warm);
+  void multiply(Products& products, const RowField<R>& p, int i);
+  void make_product(int number, const RowField<R>& z, double keep);
   BarrierStep find_step(bool corrects, double mu);
   void advance(double primal, double dual);
   double allowed() const;
@@ -77,7 +90,13 @@ class InteriorPoint {
   double residual_ = 0, force_ = 0;  ///< the largest, m
   Balance best_balance_;             ///< of best_
   double size_ = 0;                  ///< largest coordinate, m
-  RowField<R> step_, r_, p_, q_;
+  /// Of the linear systems. Products are made by rows and leave parts in those below: each thread makes its own and,
+  /// again, the two rows above them.
+  RowField<R> step_, r_, p_;
+  std::vector<Products> products_;                                   ///< of each thread
+  std::vector<double> right_squares_, left_squares_, along_, fall_;  ///< Σ of each row: b·b, r·r, p·q, r·z
+  double last_fall_ = 0, next_fall_ = 0;                             ///< Σ r·z of the last step and of this one
+  bool falls_ = false;                                               ///< this step does, as it must
   Array<R> coefficients_;
   Multigrid<R> multigrid_;
 };

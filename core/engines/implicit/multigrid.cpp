@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/engines/implicit/multigrid_rows.h"
 #include "core/engines/implicit/stiffness.h"
 
 namespace tyglab::implicit {
@@ -37,7 +36,8 @@ void Multigrid<R>::resize(const Lattice& lattice, int stride) {
     level.pitch = operator_pitch(level.stride);
     if (!finest) level.blocks.assign(std::size_t(level.rows) * level.pitch + 4 * Level::lead, R(0));
     level.inverse.assign(std::size_t(rows + 2) * 6 * level.stride + 2 * Level::lead, R(0));
-    for (Field* field : {&level.r, &level.d, &level.q, &level.x}) field->resize(rows + 3, level.stride);
+    level.x.resize(rows + 3, level.stride);
+    if (!finest) level.given.resize(rows + 3, level.stride);
     if (coarser(rows) == rows && coarser(columns) == columns) break;
     rows = coarser(rows), columns = coarser(columns);
   }
@@ -50,12 +50,40 @@ void Multigrid<R>::resize(const Lattice& lattice, int stride) {
 }
 
 template <class R>
+void Multigrid<R>::share_level(Level& level, int size) const {
+  level.parts.resize(std::size_t(level.rows < shared_rows(size) ? 1 : size));
+  const int parts = int(level.parts.size());
+  if (parts > 1) level.r.resize(level.rows + 3, level.stride);
+  for (int n = 0; n < parts; ++n) {
+    Part& part = level.parts[std::size_t(n)];
+    part.own = share_of(level.rows, n, parts);
+    part.first = std::max(part.own.begin - halo, 0);
+    const int rows = std::min(part.own.end + halo, level.rows) - part.first;
+    for (Field* field : {&part.d, &part.q, &part.r}) field->resize(rows + 3, level.stride);
+    part.unused.assign(std::size_t(3 * level.stride), R(0));
+  }
+}
+
+template <class R>
+void Multigrid<R>::share(Crew& crew, int size, const std::function<bool()>& stops) {
+  crew_ = &crew, stops_ = &stops, stopped_ = false;
+  const std::size_t rows = 2 * std::size_t(size);
+  if (rows_.size() == rows && !levels_[0].parts.empty()) return;
+  for (Level& level : levels_) share_level(level, size);
+  rows_.assign(rows, Array<R>(std::size_t(3 * work_stride_ + 8 * Level::lead), R(0)));
+}
+
+template <class R>
 std::size_t Multigrid<R>::bytes() const {
   std::size_t total = (zeros_.size() + free_.size()) * sizeof(R) + coarsest_.size() * sizeof(double);
   for (const Array<R>& row : scratch_) total += row.size() * sizeof(R);
-  for (const Level& level : levels_)
-    total += (level.blocks.size() + level.inverse.size()) * sizeof(R) + level.r.bytes() + level.d.bytes() +
-             level.q.bytes() + level.x.bytes();
+  for (const Array<R>& row : rows_) total += row.size() * sizeof(R);
+  for (const Level& level : levels_) {
+    total += (level.blocks.size() + level.inverse.size()) * sizeof(R);
+    for (const Field* field : {&level.given, &level.r, &level.x}) total += field->bytes();
+    for (const Part& part : level.parts)
+      total += part.d.bytes() + part.q.bytes() + part.r.bytes() + part.unused.size() * sizeof(R);
+  }
   return total;
 }
 
@@ -178,7 +206,7 @@ void Multigrid<R>::solve_coarsest() {
   const int n = 3 * at.rows * at.columns;
   double r[3 * coarsest * coarsest];
   for (int p = 0; p < n / 3; ++p)
-    for (int c = 0; c < 3; ++c) r[3 * p + c] = double(at.r.row(p / at.columns, c)[p % at.columns]);
+    for (int c = 0; c < 3; ++c) r[3 * p + c] = double(at.given.row(p / at.columns, c)[p % at.columns]);
   for (int p = 0; p < n; ++p) {
     double sum = 0;
     for (int q = 0; q < n; ++q) sum += coarsest_[std::size_t(p) * n + q] * r[q];
@@ -186,49 +214,69 @@ void Multigrid<R>::solve_coarsest() {
   }
 }
 
-/// Row i of q = A d.
+/// Row i of q = A d. `first`: nothing was added to its row, or to the one below, so far.
 template <class R>
-void Multigrid<R>::multiply(std::size_t level, int i) {
-  Level& at = levels_[level];
+void Multigrid<R>::multiply(std::size_t level, Part& part, int i, bool first) const {
+  const Level& at = levels_[level];
+  R *d = part.of(part.d, i), *q = part.of(part.q, i);
   if (level == 0) {
-    multiply_row(ProductTask<R>{matrix_.coefficients + i * coefficient_pitch(at.stride), at.d.row(i), at.q.row(i),
-                                at.stride, at.columns, i == 0, matrix_.m});
+    multiply_row(ProductTask<R>{matrix_.coefficients + i * coefficient_pitch(at.stride), d, q, at.stride, at.columns,
+                                first, matrix_.m});
   } else {
-    multiply_blocks_row(BlockProduct<R>{at.block_row(i), at.d.row(i), at.q.row(i), at.stride, at.columns, i == 0});
-  }
-}
-
-/// r -= A d, and the next d. Row i of d is not needed any more once row i of the product is made.
-template <class R>
-void Multigrid<R>::smooth(std::size_t level, Pass pass) {
-  if ((*stops_)()) return;
-  Level& at = levels_[level];
-  for (int i = 0; i < at.rows; ++i) {
-    multiply(level, i);
-    smooth_row(SmoothTask<R>{at.q.row(i), at.inverse_row(i), at.r.row(i), at.d.row(i), at.x.row(i), at.stride,
-                             at.columns, pass.keep, pass.scale});
+    multiply_blocks_row(BlockProduct<R>{at.block_row(i), d, q, at.stride, at.columns, first});
   }
 }
 
 template <class R>
-void Multigrid<R>::leave_residual(std::size_t level) {
-  if ((*stops_)()) return;
-  Level& at = levels_[level];
-  for (int i = 0; i < at.rows; ++i) {
-    multiply(level, i);
-    subtract_row(
-        SmoothTask<R>{at.q.row(i), at.inverse_row(i), at.r.row(i), nullptr, nullptr, at.stride, at.columns, 0, 0});
+SmoothTask<R> Multigrid<R>::task_of(Level& at, Part& part, int i, Weights weights) const {
+  const bool own = i >= part.own.begin && i < part.own.end;
+  return {part.of(part.q, i),
+          at.inverse_row(i),
+          part.of(part.r, i),
+          part.of(part.d, i),
+          own ? at.x.row(i) : part.unused.data(),
+          at.stride,
+          at.columns,
+          weights.keep,
+          weights.scale};
+}
+
+/// A pass over some rows.
+template <class Work>
+struct RowPass {
+  RowRange rows;
+  Work work;
+  void at(int i) const {
+    if (i >= rows.begin && i < rows.end) work(i);
+  }
+};
+template <class Work>
+RowPass(RowRange, Work) -> RowPass<Work>;
+
+/// Calls each pass for its rows, in rising order. The passes go through the lattice together, so that what is read of
+/// memory is read once: each is two rows behind the one before it, since a row of a product needs d of the two rows
+/// below it, and leaves a part of q there.
+template <class R>
+template <class... Passes>
+void Multigrid<R>::follow_each_other(int number, RowRange rows, const Passes&... passes) {
+  constexpr int behind = 2, rows_between_asking = 64;
+  for (int i = rows.begin; i < rows.end + behind * int(sizeof...(passes) - 1); ++i) {
+    if ((i - rows.begin) % rows_between_asking == 0 && stops(number)) return;
+    int row = i;
+    ((passes.at(row), row -= behind), ...);
   }
 }
 
 template <class R>
-void Multigrid<R>::restrict_residual(std::size_t level) {
+void Multigrid<R>::restrict_residual(std::size_t level, int number) {
   Level &at = levels_[level], &next = levels_[level + 1];
   const std::ptrdiff_t wide = level == 0 ? work_stride_ : at.stride;
-  R* sum = scratch(0);
+  R* sum = rows_[std::size_t(2 * number)].data() + Level::lead;
   std::fill_n(sum - Level::lead, 3 * wide + 3 * Level::lead, R(0));
-  const auto row = [&](int i, int c) { return i >= 0 && i < at.rows ? at.r.row(i, c) : zeros_.data(); };
-  for (int I = 0; I < next.rows; ++I) {
+  const Field& r = at.residual();
+  const auto row = [&](int i, int c) { return i >= 0 && i < at.rows ? r.row(i, c) : zeros_.data(); };
+  const RowRange share = share_of(next.rows, number, int(at.parts.size()));
+  for (int I = share.begin; I < share.end; ++I) {
     const bool fewer = next.rows != at.rows;
     for (int c = 0; c < 3; ++c) {
       R* to = sum + c * wide;
@@ -240,69 +288,93 @@ void Multigrid<R>::restrict_residual(std::size_t level) {
       }
     }
     if (next.columns != at.columns) {
-      restrict_columns(sum, wide, next.r.row(I), next.stride, next.columns, 3);
+      restrict_columns(sum, wide, next.given.row(I), next.stride, next.columns, 3);
     } else {
-      for (int c = 0; c < 3; ++c) std::copy_n(sum + c * wide, at.columns, next.r.row(I, c));
+      for (int c = 0; c < 3; ++c) std::copy_n(sum + c * wide, at.columns, next.given.row(I, c));
     }
   }
 }
 
-/// d = P x of the next level, x += d.
+/// Row i of d = P x of the next level, x += d.
 template <class R>
-void Multigrid<R>::prolong_correction(std::size_t level) {
+void Multigrid<R>::prolong_correction(std::size_t level, int number, int i) {
   Level &at = levels_[level], &next = levels_[level + 1];
-  R *between = scratch(0), *fine = scratch(1);
-  for (int i = 0; i < at.rows; ++i) {
-    const bool fewer = next.rows != at.rows;
-    const R* coarse = next.x.row(fewer ? i / 2 : i);
-    if (fewer && i % 2 == 1) {
-      combine_rows<R>(0.5, coarse, 0.5, next.x.row(i / 2 + 1), between, 3 * next.stride);
-      coarse = between;
-    }
-    if (next.columns != at.columns) {
-      prolong_columns(coarse, next.stride, fine, at.stride, at.columns, 3);
-    } else {
-      for (int c = 0; c < 3; ++c) std::copy_n(coarse + c * next.stride, at.columns, fine + c * at.stride);
-    }
-    add_correction_row<R>(fine, at.inverse_row(i), at.d.row(i), at.x.row(i), at.stride, at.columns);
+  Part& part = at.parts[std::size_t(number)];
+  R *between = rows_[std::size_t(2 * number)].data(), *fine = rows_[std::size_t(2 * number + 1)].data();
+  const bool fewer = next.rows != at.rows;
+  const R* coarse = next.x.row(fewer ? i / 2 : i);
+  if (fewer && i % 2 == 1) {
+    combine_rows<R>(0.5, coarse, 0.5, next.x.row(i / 2 + 1), between, 3 * next.stride);
+    coarse = between;
   }
+  if (next.columns != at.columns) {
+    prolong_columns(coarse, next.stride, fine, at.stride, at.columns, 3);
+  } else {
+    for (int c = 0; c < 3; ++c) std::copy_n(coarse + c * next.stride, at.columns, fine + c * at.stride);
+  }
+  const SmoothTask<R> task = task_of(at, part, i, {});
+  add_correction_row<R>(fine, task.inverse, task.d, task.x, at.stride, at.columns);
 }
 
 template <class R>
-void Multigrid<R>::cycle(std::size_t level) {
+void Multigrid<R>::cycle(std::size_t level, const Field& given, int number) {
   Level& at = levels_[level];
+  if (number >= int(at.parts.size())) return;
   if (level > 0 && level + 1 == levels_.size()) return solve_coarsest();
+  Part& part = at.parts[std::size_t(number)];
   const double end = largest_eigenvalue(level == 0), theta = middle * end, ratio = half_width / middle;
   const double next_ratio = 1 / (2 / ratio - ratio);
-  const Pass first{0, 1 / theta}, second{next_ratio * ratio, 2 * next_ratio / (half_width * end)};
-  for (int i = 0; i < at.rows; ++i)
-    start_smoothing_row(SmoothTask<R>{nullptr, at.inverse_row(i), at.r.row(i), at.d.row(i), at.x.row(i), at.stride,
-                                      at.columns, 0, first.scale});
-  smooth(level, second);
-  if (levels_.size() == 1) return;
-  leave_residual(level);
-  restrict_residual(level);
-  cycle(level + 1);
-  prolong_correction(level);
-  smooth(level, first);
-  smooth(level, second);
+  const Weights first{0, 1 / theta}, second{next_ratio * ratio, 2 * next_ratio / (half_width * end)};
+  const RowRange own = part.own;
+  const auto around = [&](int more) {
+    return RowRange{std::max(own.begin - more, 0), std::min(own.end + more, at.rows)};
+  };
+  // A product of two rows more above is what these leave to the others.
+  const RowRange wide = around(halo), near = around(halo / 2);
+  const RowRange smoothed{wide.begin, near.end}, left{near.begin, own.end};
+  const auto take = [&](const Field& from, int i) { std::copy_n(from.row(i), from.pitch(), part.of(part.r, i)); };
+  const auto smooth = [&](RowRange rows, int from, Weights weights, int i) {
+    multiply(level, part, i, i == rows.begin);
+    if (i >= from) smooth_row(task_of(at, part, i, weights));
+  };
+  const RowPass start{wide, [&](int i) {
+                        take(given, i);
+                        start_smoothing_row(task_of(at, part, i, first));
+                      }};
+  const RowPass second_smoothing{smoothed, [&](int i) { smooth(smoothed, near.begin, second, i); }};
+  if (levels_.size() == 1) return follow_each_other(number, wide, start, second_smoothing);
+  const bool alone = at.parts.size() == 1;
+  const RowPass rest{left, [&](int i) {
+                       multiply(level, part, i, i == left.begin);
+                       if (i < own.begin) return;
+                       subtract_row(task_of(at, part, i, {}));
+                       if (!alone) std::copy_n(part.of(part.r, i), at.r.pitch(), at.r.row(i));
+                     }};
+  follow_each_other(number, wide, start, second_smoothing, rest);
+  meet(at);
+  restrict_residual(level, number);
+  meet(at);
+  cycle(level + 1, levels_[level + 1].given, number);
+  meet(at);
+  const RowPass correction{wide, [&](int i) {
+                             if (!alone) take(at.r, i);
+                             prolong_correction(level, number, i);
+                           }};
+  follow_each_other(number, wide, correction, RowPass{smoothed, [&](int i) { smooth(smoothed, near.begin, first, i); }},
+                    RowPass{left, [&](int i) { smooth(left, own.begin, second, i); }});
 }
 
 template <class R>
-const RowField<R>& Multigrid<R>::precondition(const Field& r, const std::function<bool()>& stops) {
-  stops_ = &stops;
-  levels_[0].r = r;
-  cycle(0);
+const RowField<R>& Multigrid<R>::precondition(const Field& r, int number) {
+  cycle(0, r, number);
   return levels_[0].x;
 }
 
 template <class R>
-double Multigrid<R>::descend(double part, const Field& p, const Field& q, Field& x, Field& r, int i) const {
+double Multigrid<R>::descend(double part, const R* p, const R* q, R* x, R* r, int i) const {
   const Level& at = levels_[0];
   // Of p nothing is written: the task holds it where a smoother has its own direction.
-  return descend_row(SmoothTask<R>{q.row(i), at.inverse_row(i), r.row(i), const_cast<R*>(p.row(i)), x.row(i), at.stride,
-                                   at.columns, 0, 0},
-                     part);
+  return descend_row(SmoothTask<R>{q, at.inverse_row(i), r, const_cast<R*>(p), x, at.stride, at.columns, 0, 0}, part);
 }
 
 template class Multigrid<float>;

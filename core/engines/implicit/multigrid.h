@@ -7,6 +7,8 @@
 // (2003).
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -14,6 +16,8 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
+#include "core/engines/implicit/crew.h"
+#include "core/engines/implicit/multigrid_rows.h"
 #include "core/simd/row_field.h"
 
 namespace tyglab::implicit {
@@ -34,42 +38,75 @@ class Multigrid {
   using Field = RowField<R>;
   /// Takes the memory for a lattice whose rows have that stride.
   void resize(const Lattice& lattice, int stride);
+  /// Who computes from now on: `size` threads, where there are rows enough for them, all of the crew or one. `stops` is
+  /// asked on the way, by the first of them; where it says yes results may be anything. Both must stay where they are.
+  void share(Crew& crew, int size, const std::function<bool()>& stops);
+  /// The fewest rows that so many threads share.
+  static constexpr int shared_rows(int size) { return size * least_rows; }
+  /// All of the crew, or one, and the rows of each.
+  int threads() const { return int(levels_[0].parts.size()); }
+  RowRange rows_of(int number) const { return levels_[0].parts[std::size_t(number)].own; }
   /// Takes a matrix, which must stay where it is.
   void prepare(const SpringMatrix<R>& matrix);
-  /// Returns B r, where B is symmetric and near A⁻¹. `stops` is asked between passes; where it says yes the result may
-  /// be anything.
-  const Field& precondition(const Field& r, const std::function<bool()>& stops);
+  /// Computes B r, where B is symmetric and near A⁻¹; to be called by all threads. Of what it returns each may read its
+  /// own rows.
+  const Field& precondition(const Field& r, int number);
   /// Row i of a step of conjugate gradients: x += part·p, r -= part·q but for fixed particles. Returns the row's Σ r·r.
-  double descend(double part, const Field& p, const Field& q, Field& x, Field& r, int i) const;
+  double descend(double part, const R* p, const R* q, R* x, R* r, int i) const;
   std::size_t bytes() const;
 
  private:
+  /// What a thread has of a level: its own rows, and of directions, products and residuals also the rows beside them on
+  /// which its own depend within a few passes. These it computes like their owner does, so that nobody waits.
+  struct Part {
+    RowRange own;
+    int first = 0;  ///< row of the lattice that is row 0 of these
+    Field d, q, r;
+    Array<R> unused;  ///< a row, for what only its owner keeps
+    R* of(Field& field, int i) { return field.row(i - first); }
+  };
   struct Level {
     int rows = 0, columns = 0, stride = 0;
     Array<R> blocks;   ///< rows of multigrid_rows.h; none of the finest lattice
     Array<R> inverse;  ///< of the blocks on the diagonal
-    Field r, d, q, x;
+    Field given;       ///< the residual from which it begins; of the finest lattice, that is the caller's
+    Field r;           ///< what is left of it on the way to the coarser level, where several threads share this one
+    Field x;
+    std::vector<Part> parts;
+    const Field& residual() const { return parts.size() == 1 ? parts[0].r : r; }
+    const R* block_row(int i) const { return blocks.data() + lead + std::ptrdiff_t(i) * pitch; }
     R* block_row(int i) { return blocks.data() + lead + std::ptrdiff_t(i) * pitch; }
     const R* inverse_row(int i) const { return inverse.data() + std::ptrdiff_t(i) * 6 * stride; }
     R* inverse_row(int i) { return inverse.data() + std::ptrdiff_t(i) * 6 * stride; }
     std::ptrdiff_t pitch = 0;
     static constexpr int lead = simd::widest_vector / int(sizeof(R));
   };
-  /// A pass of Chebyshev's iteration over all rows.
-  struct Pass {
+  /// Of a step of Chebyshev's iteration.
+  struct Weights {
     double keep = 0, scale = 0;
   };
+  static constexpr int halo = 4;               ///< rows beside a thread's own, two for each product in a phase
+  static constexpr int least_rows = 8 * halo;  ///< of a thread, on a level that several share
   void prepare_finest();
   void coarsen(std::size_t from);
   const R* next_coarse_columns(std::size_t level, int i);
   void build_nine_point_row(int i);
   void invert_coarsest();
-  void cycle(std::size_t level);
-  void multiply(std::size_t level, int i);
-  void smooth(std::size_t level, Pass pass);
-  void leave_residual(std::size_t level);
-  void restrict_residual(std::size_t level);
-  void prolong_correction(std::size_t level);
+  void share_level(Level& level, int size) const;
+  void cycle(std::size_t level, const Field& given, int number);
+  void multiply(std::size_t level, Part& part, int i, bool first) const;
+  SmoothTask<R> task_of(Level& at, Part& part, int i, Weights weights) const;
+  void restrict_residual(std::size_t level, int number);
+  void prolong_correction(std::size_t level, int number, int i);
+  template <class... Passes>
+  void follow_each_other(int number, RowRange rows, const Passes&... passes);
+  void meet(const Level& level) {
+    if (level.parts.size() > 1) crew_->barrier();
+  }
+  bool stops(int number) {
+    if (number == 0 && (*stops_)()) stopped_ = true;
+    return stopped_;
+  }
   void solve_coarsest();
   R* scratch(int n) { return scratch_[n].data() + Level::lead; }
 
@@ -80,7 +117,10 @@ class Multigrid {
   Array<R> free_;        ///< of the finest lattice, row by row: 1 at free particles
   int free_stride_ = 0, work_stride_ = 0;
   std::vector<double> coarsest_;  ///< inverse of its matrix
+  Crew* crew_ = nullptr;
+  std::vector<Array<R>> rows_;  ///< two of fields for each thread
   const std::function<bool()>* stops_ = nullptr;
+  std::atomic<bool> stopped_ = false;
 };
 
 }  // namespace tyglab::implicit

@@ -70,7 +70,8 @@ Balance StiffStage::solve_with(InteriorPoint<S>& solver, const StiffTask<R>& tas
                                         .others = {},
                                         .stops = task.stops,
                                         .out_of_time = task.out_of_time,
-                                        .progress = task.progress};
+                                        .progress = task.progress,
+                                        .crew = task.crew};
   if (p.W != glm::dvec3(0))
     inner.others = [&](const Field& x, Field& forces) { add_wind(p, task.tears, scale, x, forces); };
   const Balance balance = solver.solve(inner, counts);

@@ -41,6 +41,7 @@ struct StiffTask {
   std::function<bool()> stops;
   std::function<bool(double best)> out_of_time;  ///< as InteriorPoint::Task has it
   std::function<void(double part)> progress;
+  Crew& crew;
   double tolerance = balance_tolerance<R>;
 };
 
