@@ -140,7 +140,9 @@ std::vector<Setting> PresetArgument::all_settings() const {
   std::vector<Setting> all;
   for (const std::string& text : settings) all.push_back(parse_setting(text));
   const auto add = [&](const std::string& key, const std::string& value) {
-    if (!value.empty()) all.push_back({"--" + key + " " + value, key, value});
+    if (value.empty()) return;
+    if (sets(key)) throw UsageError("--" + key + " and --set " + key + "=…: leave one of the two out");
+    all.push_back({"--" + key + " " + value, key, value});
   };
   add("integrator", integrator);
   if (dt != automatic) add("dt", dt);

@@ -20,9 +20,10 @@ class ChildError : public std::runtime_error {
 };
 
 struct ChildOptions {
-  double most_seconds = 0;     ///< after which it is killed; 0: never
-  bool silent = false;         ///< what it writes to standard output and error goes nowhere
-  bool interruptible = false;  ///< Ctrl-C and SIGTERM end it, as by default; otherwise it ignores Ctrl-C
+  double most_seconds = 0;            ///< after which it is killed; 0: never
+  double most_processor_seconds = 0;  ///< likewise, of what it has computed: the same however busy the machine is
+  bool silent = false;                ///< what it writes to standard output and error goes nowhere
+  bool interruptible = false;         ///< Ctrl-C and SIGTERM end it, as by default; otherwise it ignores Ctrl-C
 };
 
 /// A function that runs in a process of its own, a copy of this one with the calling thread alone.
@@ -48,10 +49,11 @@ class Child {
  private:
   using Clock = std::chrono::steady_clock;
   double age() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double processor_seconds() const;
 
   pid_t process_ = -1;  ///< -1: it has ended
   int pipe_ = -1;
-  double most_seconds_ = 0;
+  double most_seconds_ = 0, most_processor_seconds_ = 0;
   Clock::time_point start_ = Clock::now();
   std::string result_;
 };

@@ -16,7 +16,9 @@ struct RunningCase {
 };
 
 RunningCase start_case(const ChildCases& cases, std::int64_t number) {
-  return {number, Child([&cases, number] { return cases.work(number); }, {.most_seconds = cases.most_seconds})};
+  return {number, Child([&cases, number] { return cases.work(number); },
+                        {.most_seconds = 10 * cases.most_processor_seconds,
+                         .most_processor_seconds = cases.most_processor_seconds})};
 }
 
 /// Waits a moment for any of them; which have something to say.

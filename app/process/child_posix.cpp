@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <ctime>
 #include <utility>
 
 #include "app/process/memory_limit.h"
@@ -62,7 +63,8 @@ int status_of(pid_t process) {
 
 }  // namespace
 
-Child::Child(const Work& work, const ChildOptions& options) : most_seconds_(options.most_seconds) {
+Child::Child(const Work& work, const ChildOptions& options)
+    : most_seconds_(options.most_seconds), most_processor_seconds_(options.most_processor_seconds) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail("pipe");
   process_ = ::fork();
@@ -81,7 +83,8 @@ Child::Child(Child&& from) noexcept {
 
 Child& Child::operator=(Child&& from) noexcept {
   std::swap(process_, from.process_), std::swap(pipe_, from.pipe_);
-  most_seconds_ = from.most_seconds_, start_ = from.start_, result_ = std::move(from.result_);
+  most_seconds_ = from.most_seconds_, most_processor_seconds_ = from.most_processor_seconds_;
+  start_ = from.start_, result_ = std::move(from.result_);
   return *this;
 }
 
@@ -99,8 +102,16 @@ bool Child::read() {
   return count > 0;
 }
 
+double Child::processor_seconds() const {
+  clockid_t clock;
+  timespec time{};
+  if (::clock_getcpuclockid(process_, &clock) != 0 || ::clock_gettime(clock, &time) != 0) return 0;
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
 bool Child::overdue() const {
-  return most_seconds_ > 0 && age() > most_seconds_;
+  return (most_seconds_ > 0 && age() > most_seconds_) ||
+         (most_processor_seconds_ > 0 && processor_seconds() > most_processor_seconds_);
 }
 
 ChildExit Child::end() {

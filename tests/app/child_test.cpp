@@ -32,6 +32,19 @@ TEST_CASE("a function's result arrives whole, and its crash, error or hang is to
   CHECK(hung.seconds >= 0.3);
 }
 
+TEST_CASE("a limit of processor time counts what a child has computed, not how long it took") {
+  const ChildOptions limited{.most_processor_seconds = 0.1};
+  CHECK(run_in_child([] { return usleep(300000), std::string("slept"); }, limited).result == "slept");
+  const ChildExit hung = run_in_child(
+      [] {
+        for (volatile bool go = true; go;) continue;
+        return std::string("no");
+      },
+      limited);
+  CHECK(hung.timed_out);
+  CHECK(hung.result.empty());
+}
+
 TEST_CASE("Ctrl-C ends a child only if it is interruptible") {
   const auto interrupted = [](const ChildOptions& options) {
     return run_in_child([] { return std::raise(SIGINT), std::string("went on"); }, options);

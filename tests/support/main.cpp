@@ -1,9 +1,18 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/lsan_interface.h>
+#endif
+
 #include "tests/support/devices.h"
 
 int main(int argc, char** argv) {
   tyglab::test::probe_drivers_in_child();
-  return doctest::Context(argc, argv).run();
+  const int code = doctest::Context(argc, argv).run();
+#if defined(__SANITIZE_ADDRESS__)
+  // Not at the end of the process, when LeakSanitizer has crashed among threads of OpenCL drivers that were ending too.
+  __lsan_do_leak_check();
+#endif
+  return code;
 }

@@ -45,6 +45,19 @@ struct RunOptions {
     return {{"--state", state},   {"--values", values}, {"--series", series},
             {"--ledger", ledger}, {"--pc2", pc2, true}, {"--json", json}};
   }
+  bool wants_frames() const { return !obj.empty() || !pc2.empty(); }
+
+  /// An option that would do nothing is a mistake of whoever typed it. Throws UsageError.
+  void check_combination() const {
+    const bool rows = !series.empty() || !ledger.empty();
+    if (series_every && !rows)
+      throw UsageError("--series-every: sets how often --series and --ledger write a row; add --series F.csv");
+    if (fps && !wants_frames() && !(rows && !series_every))
+      throw UsageError(
+          rows ? "--fps: --series-every sets the rows of --series and --ledger, and there are no frames; leave one of "
+                 "the two options out"
+               : "--fps: sets the frames of --obj, --pc2, --series and --ledger; add one of these");
+  }
 };
 
 /// The files of a run. Each is right as far as it goes, however the run ends, and replaces an older one only if whole.
@@ -52,7 +65,6 @@ class Outputs {
  public:
   Outputs(const RunOptions& options, const ResolvedPreset& scene, std::int64_t steps)
       : options_(options), scene_(scene), plan_(options.fps, scene.preset.dt, steps) {
-    check_combination();
     for (const Output& output : options.outputs())
       if (!options.obj.empty() && is_frame(output.file))
         throw UsageError(output.option + ": --obj writes frames in that folder under such names; use another name");
@@ -81,7 +93,7 @@ class Outputs {
   /// The next step at which something is to be written.
   std::int64_t next_step() const {
     std::int64_t next = std::numeric_limits<std::int64_t>::max();
-    if (wants_frames() && frame_ < plan_.count()) next = plan_.step_of(frame_);
+    if (options_.wants_frames() && frame_ < plan_.count()) next = plan_.step_of(frame_);
     if (series_ || ledger_) next = std::min(next, next_row());
     return next;
   }
@@ -91,7 +103,7 @@ class Outputs {
   /// Writes what is due at the present step.
   void write_due(Simulation& simulation) {
     const std::int64_t step = simulation.steps();
-    if (wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
+    if (options_.wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
       const VectorField<double>& x = simulation.read().x;
       if (cache_) cache_->add(x);
       if (!options_.obj.empty())
@@ -140,18 +152,6 @@ class Outputs {
                        [](char letter) { return letter >= '0' && letter <= '9'; });
   }
 
-  /// An option that would do nothing is a mistake of whoever typed it.
-  void check_combination() const {
-    const bool rows = !options_.series.empty() || !options_.ledger.empty();
-    if (options_.series_every && !rows)
-      throw UsageError("--series-every: sets how often --series and --ledger write a row; add --series F.csv");
-    if (options_.fps && !wants_frames() && !(rows && !options_.series_every))
-      throw UsageError(
-          rows ? "--fps: --series-every sets the rows of --series and --ledger, and there are no frames; leave one of "
-                 "the two options out"
-               : "--fps: sets the frames of --obj, --pc2, --series and --ledger; add one of these");
-  }
-  bool wants_frames() const { return !options_.obj.empty() || !options_.pc2.empty(); }
   std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
 
   const RunOptions& options_;
@@ -322,6 +322,7 @@ void check_step_limit(const Preset& preset) {
 }
 
 int run(const RunOptions& options) {
+  options.check_combination();
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds.value_or(4));
   warn_of_texture(scene.preset);
   if (options.step_limit_ms > 0) check_step_limit(scene.preset);

@@ -78,7 +78,7 @@ Json row_of(const StressOptions& options, std::int64_t number, const ChildExit& 
     StressResult lost;
     lost.preset = stress_preset(std::uint64_t(options.seed), std::uint64_t(number), options.integrator);
     lost.status = StressStatus::failed;
-    lost.problem = outcome.timed_out     ? "it hung and was killed after a minute"
+    lost.problem = outcome.timed_out     ? "it did not end and was killed after a minute of processor time, or ten"
                    : outcome.signal != 0 ? "it crashed: " + signal_words(outcome.signal)
                                          : "its process ended without a result";
     row = case_json(number, lost);

@@ -174,10 +174,12 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   const float buttons = std::min(buttons_width(ui, shown), room);
   const std::vector<ImVec2> places = flow(ui, shown, room);
   const float rows = places.back().y + line;
-  const std::string limit = changed_since_divergence(ui.session) ? ": since then constants have changed"
+  const bool changed = changed_since_divergence(ui.session);
+  const std::string limit = changed          ? ": since then constants have changed"
                             : over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit"
                                              : std::string();
-  const std::string texts[] = {"The simulation diverged" + limit, "The simulation diverged", "Diverged"};
+  const std::string texts[] = {"The simulation diverged" + limit,
+                               changed ? "Diverged; then constants changed" : "The simulation diverged", "Diverged"};
   FoldedBanner folded;
   std::vector<std::pair<bool, std::string>> ways_to_say;
   if (high) ways_to_say = {{false, texts[0]}, {true, texts[0]}};
