@@ -41,7 +41,7 @@ class Multigrid {
   /// Who computes from now on: `size` threads, where there are rows enough for them, all of the crew or one. `stops` is
   /// asked on the way, by the first of them; where it says yes results may be anything. Both must stay where they are.
   void share(Crew& crew, int size, const std::function<bool()>& stops);
-  /// The fewest rows that so many threads share.
+  /// The fewest rows that `size` threads share.
   static constexpr int shared_rows(int size) { return size * least_rows; }
   /// All of the crew, or one, and the rows of each.
   int threads() const { return int(levels_[0].parts.size()); }
