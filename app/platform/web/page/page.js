@@ -5,10 +5,18 @@
 const canvas = document.getElementById('canvas');
 const words = document.getElementById('words'), bar = document.getElementById('progress');
 const asked = new URLSearchParams(location.search), embedded = asked.has('embed');
-// Where the server lets it (README.md), memory is shared among threads.
-const program = self.crossOriginIsolated ? 'tyglab-threads' : 'tyglab';
+const program = may_share_memory() ? 'tyglab-threads' : 'tyglab';
 
 class Refusal extends Error {}
+
+/// Whether the server lets the page have threads (README.md), and the browser has an address space for what they share.
+function may_share_memory() {
+  try {
+    return self.crossOriginIsolated && Boolean(new WebAssembly.Memory({initial: 1, maximum: 32768, shared: true}));
+  } catch {
+    return false;
+  }
+}
 
 function show(text) {
   words.textContent = text;
