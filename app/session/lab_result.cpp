@@ -1,5 +1,6 @@
 // What a lab came to, told when it is left.
-#include <algorithm>
+#include <string>
+#include <vector>
 
 #include "app/session/lab_state.h"
 
@@ -18,17 +19,37 @@ std::string predictions_in_words(const LabRun& run) {
   return "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
 }
 
+/// "step 2", "steps 1 and 2", "steps 1, 2 and 4".
+std::string steps_in_words(const std::vector<int>& steps) {
+  std::string text = steps.size() == 1 ? "step " : "steps ";
+  for (std::size_t n = 0; n < steps.size(); ++n)
+    text += (n == 0 ? "" : n + 1 == steps.size() ? " and " : ", ") + std::to_string(steps[n]);
+  return text;
+}
+
+/// Those before the last one that was done here, from `done` on.
+std::vector<int> skipped_steps(const LabRun& run, int done) {
+  std::vector<int> skipped, since;
+  for (int k = done; k < int(run.records.size()); ++k) {
+    since.push_back(k + 1);
+    if (!run.records[std::size_t(k)].done) continue;
+    since.pop_back();
+    skipped.insert(skipped.end(), since.begin(), since.end()), since.clear();
+  }
+  return skipped;
+}
+
 }  // namespace
 
 std::string lab_result(const LabRun& run, int done) {
   const int steps = int(run.lab.steps.size());
-  const auto ahead = [](const StepRecord& record) { return record.done; };
-  const bool skipped = done < steps && std::any_of(run.records.begin() + done, run.records.end(), ahead);
+  const std::vector<int> skipped = skipped_steps(run, done);
   std::string text = "“" + run.lab.title + "” ";
   if (done == steps)
     text += "is done";
-  else if (skipped)
-    text += "ends here; step " + std::to_string(done + 1) + " was skipped and is still to be done";
+  else if (!skipped.empty())
+    text += "ends here; " + steps_in_words(skipped) +
+            (skipped.size() == 1 ? " was skipped and is still to be done" : " were skipped and are still to be done");
   else
     text += "ends here with " + std::to_string(done) + " of " + std::to_string(steps) + " steps done";
   return text + predictions_in_words(run) + ". Ctrl+L lists all labs.";

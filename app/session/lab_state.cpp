@@ -266,7 +266,7 @@ void leave_lab(Session& session) {
   session.pacing.restart_measure();
   if (!labs.kept.empty())
     session.messages.note("“" + labs.kept.back().constants.name +
-                          "” is kept as it was before the lab: Back to your experiment, in Ctrl+P, opens it.");
+                          "” is kept as it was before the lab: “Back to your experiment”, in Ctrl+P, opens it.");
 }
 
 bool no_work(const Session& session) {

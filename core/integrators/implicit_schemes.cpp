@@ -40,7 +40,9 @@ std::vector<Scheme> implicit_schemes() {
            R"(= \mu$, and $\mu$ goes to 0 by Mehrotra's predictor and corrector: Newton's method, which now meets )"
            R"(no switch. Its matrix resists with $k_s\lambda/(\lambda + k_s s)$ along a spring and )"
            R"($\lambda/|x_{ij}|$ across it; conjugate gradients solve with it, preconditioned by a V cycle of )"
-           R"(multigrid with Galerkin's coarser operators.)",
+           R"(multigrid with Galerkin's coarser operators. The threads of the CPU engine share the rows of these )"
+           R"(systems where that pays; what a row depends on beyond a thread's own rows each thread computes too, and )"
+           R"(sums are over all rows in their order, so that any number of threads computes the same bits.)",
        .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
        .start = {},
        .lag = 0},

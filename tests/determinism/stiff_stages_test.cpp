@@ -37,7 +37,7 @@ TEST_CASE("threads that come and go between stiff steps change nothing, to the l
     double k_s;
     int steps;
   };
-  constexpr Case cases[] = {{"implicit_euler", 1e3, 2}, {"tr_bdf2", 1e3, 2}, {"implicit_euler", 1e8, 1}};
+  constexpr Case cases[] = {{"implicit_euler", 1e3, 2}, {"tr_bdf2", 1e3, 1}, {"implicit_euler", 3e6, 1}};
   for (const auto& [integrator, k_s, steps] : cases) {
     const bool single = k_s < 1e6;  // precision of the linear systems
     if (test::sanitized && !single) continue;

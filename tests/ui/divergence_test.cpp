@@ -205,6 +205,21 @@ TEST_CASE("a constant pushed too far offers to undo that change and restart, whi
   run_to(window, 1);
 }
 
+TEST_CASE("an undo that leads to what diverges, too, is no way out") {
+  test::NullUi window;
+  window.type_value("k_s", "1000");
+  explode(window);
+  CHECK(window.sees("viewport.Undo_and_restart"));
+  window.type_value("k_s", "1520");
+  window.frames(2);
+  CHECK_FALSE(window.sees("viewport.Undo_and_restart"));  // to 1000
+  window.type_value("k_s", "900");
+  window.key(GLFW_KEY_R);
+  explode(window);
+  CHECK_FALSE(window.sees("viewport.Undo_and_restart"));  // to 1520
+  CHECK(window.sees("viewport.Implicit_Euler"));
+}
+
 TEST_CASE("after a divergence the past can be had back: paused, with the constants as they are") {
   test::NullUi window;
   const double t = push_over(window);

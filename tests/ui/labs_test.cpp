@@ -306,6 +306,9 @@ TEST_CASE("who leaves a lab is told how far it was gone through, whichever way i
   run.records[1].done = false;
   CHECK(lab_result(run, 1).find("” ends here; step 2 was skipped and is still to be done; 0 of 2 predictions") !=
         std::string::npos);
+  run.records[0].done = false;
+  CHECK(lab_result(run, 0).find("” ends here; steps 1 and 2 were skipped and are still to be done; ") !=
+        std::string::npos);
 }
 
 TEST_CASE("the list of labs begins at the one that goes on, or that is to be done next") {

@@ -50,6 +50,29 @@ TEST_CASE("Ctrl+P finds commands, methods, constants and presets by what is type
   CHECK(window.ui.dialog.kind == Dialog::Kind::unsaved);  // constants have changed
 }
 
+TEST_CASE("what is typed right after the key that opens a field is for the field, however slow the frames are") {
+  test::NullUi window;
+  const auto before = window.preset();
+  window.input.on_key(GLFW_KEY_P, GLFW_PRESS, GLFW_MOD_CONTROL);
+  window.input.on_key(GLFW_KEY_P, GLFW_RELEASE, 0);
+  window.add_typed("rk4");
+  window.frames(12);
+  CHECK(window.ui.palette.open);
+  CHECK(std::string(window.ui.palette.text) == "rk4");
+  CHECK(window.preset() == before);  // 4 is a view, and k colors the cloth
+  CHECK_FALSE(window.ui.scene.colors.chosen);
+  window.key(GLFW_KEY_ESCAPE);
+
+  window.input.on_key(GLFW_KEY_L, GLFW_PRESS, GLFW_MOD_CONTROL);
+  window.input.on_key(GLFW_KEY_L, GLFW_RELEASE, 0);
+  window.add_typed("chaos");
+  window.input.on_key(GLFW_KEY_ENTER, GLFW_PRESS, 0);
+  window.input.on_key(GLFW_KEY_ENTER, GLFW_RELEASE, 0);
+  window.frames(20);
+  REQUIRE(window.session.labs.run);
+  CHECK(window.session.labs.run->lab.label == "08_chaos");
+}
+
 TEST_CASE("a click beside the palette closes it and does nothing to the cloth") {
   test::NullUi window;
   window.pause();

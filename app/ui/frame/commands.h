@@ -40,6 +40,7 @@ struct CommandRow {
   std::string (*why_not)(const Ui& ui) = nullptr;  ///< a sentence where it cannot be done now; empty or null: it can
   std::optional<Export> writes = {};
   bool (*on)(const Ui& ui) = nullptr;  ///< of what is on or off; null: it is neither
+  bool opens_field = false;            ///< what is typed next is for a field that it opens
 };
 
 /// Of the keys of rows.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/base/glfw_keys.h"
+#include "app/ui/frame/keys.h"
 #include "app/ui/kit/imgui_compat.h"
 
 namespace tyglab {
@@ -50,6 +51,8 @@ void show_key(std::size_t key, bool down) {
 bool only_types(const KeyEvent& event) {
   return event.key < GLFW_KEY_ESCAPE && (event.mods & (GLFW_MOD_CONTROL | GLFW_MOD_SUPER)) == 0;
 }
+
+constexpr int most_held = 5;  // frames; a field that opens takes three
 
 /// Modifiers stand in what is pressed with them.
 bool is_modifier(int key) {
@@ -104,6 +107,7 @@ bool GuiInput::show(const KeyEvent& event, Frame& frame) {
   show_key(key, true);
   frame.key = true;
   frame.mods = event.mods;
+  if (opens_field(event)) held_ = most_held;
   return true;
 }
 
@@ -140,8 +144,9 @@ void GuiInput::feed(InputQueue& input) {
   if (std::exchange(focused_, input.focused) != input.focused) ImGui::GetIO().AddFocusEvent(input.focused);
   release_keys(input);
   Frame frame;
-  const auto next =
-      std::find_if_not(waiting_.begin(), waiting_.end(), [&](const InputEvent& event) { return show(event, frame); });
+  held_ = gui::typing_text() ? 0 : std::max(held_ - 1, 0);
+  const auto next = std::find_if_not(waiting_.begin(), waiting_.end(),
+                                     [&](const InputEvent& event) { return held_ == 0 && show(event, frame); });
   waiting_.erase(waiting_.begin(), next);
   if (waiting_.empty()) buttons_ = input.buttons, at_ = input.at;  // so that nothing lost stays
   input.unshown = !waiting_.empty();

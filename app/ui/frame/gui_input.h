@@ -34,6 +34,7 @@ class GuiInput {
   std::bitset<InputQueue::most_keys> keys_, changed_;  ///< keys shown as down; those that the present frame changed
   std::bitset<InputQueue::most_buttons> buttons_;      ///< shown as down
   glm::vec2 at_{-1e6f};                                ///< where the pointer is shown
+  int held_ = 0;  ///< frames at most for which all waits, until the field takes keys that the last key opens
   bool focused_ = true;
 };
 

@@ -83,7 +83,7 @@ bool palette_takes(Ui& ui, const KeyEvent& event) {
   CommandPalette& palette = ui.palette;
   if (!palette.open) return false;
   if (palette.enter) {
-    palette.later.push_back(event);
+    ui.later_keys.push_back(event);
     return true;
   }
   if (event.key == GLFW_KEY_ESCAPE || (event.key == GLFW_KEY_P && event.mods == GLFW_MOD_CONTROL)) palette.open = false;
@@ -114,6 +114,16 @@ bool list_takes(Ui& ui, const KeyEvent& event) {
   return ui.close_lists = true;
 }
 
+/// The command that a press of a key leads to; null: none.
+const CommandRow* row_for(const KeyEvent& event) {
+  for (const CommandTopic& topic : command_topics())
+    for (const CommandRow& row : topic.rows)
+      for (const Chord& chord : row.chords)
+        if (chord.key == event.key && chord.mods == (event.mods & counted) && (chord.repeats || !event.repeat))
+          return &row;
+  return nullptr;
+}
+
 void command_for(Ui& ui, const KeyEvent& event) {
   if (const auto mode = digit(event)) {
     Preset next = ui.session.requested_preset();
@@ -121,11 +131,7 @@ void command_for(Ui& ui, const KeyEvent& event) {
     ui.session.propose(std::move(next));
     return;
   }
-  for (const CommandTopic& topic : command_topics())
-    for (const CommandRow& row : topic.rows)
-      for (const Chord& chord : row.chords)
-        if (chord.key == event.key && chord.mods == (event.mods & counted) && (chord.repeats || !event.repeat))
-          return ui.command(row.id);
+  if (const CommandRow* row = row_for(event)) ui.command(row->id);
 }
 
 void take_key(Ui& ui, const KeyEvent& event) {
@@ -146,15 +152,28 @@ void forget_text_after(std::vector<InputEvent>& events, std::size_t n) {
 
 }  // namespace
 
+bool opens_field(const KeyEvent& event) {
+  const CommandRow* row = row_for(event);
+  return row != nullptr && row->opens_field;
+}
+
 void handle_keys(Ui& ui) {
   CommandPalette& palette = ui.palette;
-  // What was pressed after the palette's Enter comes once that has acted.
+  // What was pressed after the palette's Enter comes once that has acted; and what was after the key that opens it,
+  // once it is open.
   if (!palette.enter)
-    for (const KeyEvent& event : std::exchange(palette.later, {})) take_key(ui, event);
+    for (const KeyEvent& event : std::exchange(ui.later_keys, {})) take_key(ui, event);
+  bool opening = false;
   for (std::size_t n = 0; n < ui.input.keys.size(); ++n) {
+    const KeyEvent& event = ui.input.keys[n];
+    if (opening) {
+      ui.later_keys.push_back(event);
+      continue;
+    }
     const bool before = palette.enter;
-    take_key(ui, ui.input.keys[n]);
+    take_key(ui, event);
     if (palette.enter && !before) forget_text_after(ui.input.all, n);
+    opening = opens_field(event);
   }
 }
 

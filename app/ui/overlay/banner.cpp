@@ -26,12 +26,31 @@ float height_of(const ImFont& font, const std::string& lines) {
   return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.data(), lines.data() + lines.size()).y;
 }
 
+/// dt in parts of the worst-case limit; infinite where no dt is stable.
+double over_limit(const Preset& preset) {
+  return preset.dt / stable_dt(preset, preset.integrator);
+}
+
+/// The constants before the user's last change, if it was one of the model.
+std::optional<Preset> before_last_change(const Ui& ui) {
+  const HistoryEntry* last = ui.session.history.next(true);
+  if (last == nullptr || same_model(last->constants, ui.session.preset())) return std::nullopt;
+  return last->constants;
+}
+
 const Advice& advice_for(const Preset& then, Ui& ui) {
   Advice& advice = ui.advice;
   const Preset& now = ui.session.preset();
-  if (advice.then != then || advice.now != now)
-    advice = {
-        then, now, stable_dt(then, then.integrator), springs_too_weak(now), suggested_fix(now), with_advised_dt(now)};
+  const std::optional<Preset> before = before_last_change(ui);
+  if (advice.then != then || advice.now != now || advice.before != before)
+    advice = {.then = then,
+              .now = now,
+              .before = before,
+              .largest_dt = stable_dt(then, then.integrator),
+              .springs_too_weak = springs_too_weak(now),
+              .suggested_fix = suggested_fix(now),
+              .slower = with_advised_dt(now),
+              .undo_helps = before && !same_model(*before, then) && over_limit(*before) <= over_limit(now)};
   return advice;
 }
 
@@ -82,7 +101,7 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
     retry(fix_label(now, *advice.suggested_fix), *advice.suggested_fix, "what linear theory advises");
   if (advice.slower)
     retry("dt = " + short_number(advice.slower->dt) + " s", *advice.slower,
-          "0.9 of the worst-case limit of this method");
+          "dt at 0.9 of the worst-case limit of this method");
   if (is_implicit(scheme(now.integrator))) return;
   Preset implicit = now;
   implicit.integrator = "implicit_euler";
@@ -94,10 +113,11 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
 /// advises. Once constants have changed, to try them.
 std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   std::vector<Way> ways;
-  if (const HistoryEntry* last = ui.session.history.next(true);
-      last != nullptr && !same_model(last->constants, ui.session.preset()))
-    ways.push_back({"Undo and restart", "Undoes the last change of constants and restarts", "Ctrl+Z, then R",
-                    [](Ui& u) { u.command("undo_and_restart"); }});
+  if (advice.undo_helps)
+    ways.push_back(
+        {"Undo and restart",
+         "Takes the last change back (" + change_in_words(*advice.before, ui.session.preset()) + ") and restarts",
+         "Ctrl+Z, then R", [](Ui& u) { u.command("undo_and_restart"); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
                     [](Ui& u) { u.command("restart"); }};
   const bool past = ui.session.rewind.before(*ui.session.simulation, ui.session.simulation->time(), 1) != nullptr;
@@ -106,9 +126,11 @@ std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   // A restart that must end in the same way is not the first thing to try.
   const auto& limits = ui.session.studies.stability.limits();
   const Preset& present = ui.session.preset();
-  const bool again = !changed || (limits && same_model(limits->of, present) && present.dt > limits->every);
+  const bool known = limits && same_model(limits->of, present);
+  const bool again = !changed || (known && present.dt > limits->every);
   if (!again) ways.insert(ways.begin(), restart);
-  if (again && !advice.springs_too_weak) add_retries(ui, advice, past, ways);
+  const bool doubtful = known && present.dt > limits->any;
+  if ((again || doubtful) && !advice.springs_too_weak) add_retries(ui, advice, past, ways);
   if (nothing_to_replay(ui.session).empty())
     ways.push_back({replay_label,
                     std::string("At most the last 50 steps in a few seconds, colored by strain; what diverges first is "
@@ -175,11 +197,11 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   const std::vector<ImVec2> places = flow(ui, shown, room);
   const float rows = places.back().y + line;
   const bool changed = changed_since_divergence(ui.session);
-  const std::string limit = changed          ? ": since then constants have changed"
+  const std::string limit = changed          ? " with other constants"
                             : over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit"
                                              : std::string();
   const std::string texts[] = {"The simulation diverged" + limit,
-                               changed ? "Diverged; then constants changed" : "The simulation diverged", "Diverged"};
+                               changed ? "Diverged with other constants" : "The simulation diverged", "Diverged"};
   FoldedBanner folded;
   std::vector<std::pair<bool, std::string>> ways_to_say;
   if (high) ways_to_say = {{false, texts[0]}, {true, texts[0]}};

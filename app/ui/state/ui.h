@@ -93,10 +93,12 @@ struct Dialog {
 /// What linear theory says of a divergence and of the ways out (advice.h): kept, since it takes milliseconds and is
 /// asked for in every frame.
 struct Advice {
-  std::optional<Preset> then, now;  ///< what it is about: the constants that diverged, the present ones
-  double largest_dt = 0;            ///< s, that was stable then
-  bool springs_too_weak = false;    ///< now
+  /// What it is about: the constants that diverged, the present ones, and those before the user's last change.
+  std::optional<Preset> then, now, before;
+  double largest_dt = 0;          ///< s, that was stable then
+  bool springs_too_weak = false;  ///< now
   std::optional<Preset> suggested_fix, slower;
+  bool undo_helps = false;  ///< `before` are no nearer to what diverges
 };
 
 /// Ctrl+P: a list of all that can be done, narrowed by what is typed.
@@ -108,10 +110,9 @@ struct CommandPalette {
   char text[128] = "";
   std::string narrowed;  ///< the text for which `selected` counts
   int selected = 0;
-  bool scroll = false;          ///< the selected one is to come into sight
-  int go = 0;                   ///< entries to go down, by the keys of this frame
-  bool enter = false;           ///< Enter was pressed
-  std::vector<KeyEvent> later;  ///< pressed after it, for what stands there once it has acted
+  bool scroll = false;  ///< the selected one is to come into sight
+  int go = 0;           ///< entries to go down, by the keys of this frame
+  bool enter = false;   ///< Enter was pressed
 };
 
 /// The cards that show a newcomer round.
@@ -145,6 +146,8 @@ struct Ui : UiContext {
   Session& session;
   Scene& scene;
   Tools& tools;
+  /// Pressed after a key of which it depends what they do: after the palette's Enter, or what opens a field.
+  std::vector<KeyEvent> later_keys;
   CommandPalette palette;
   std::vector<PaletteEntry> menu;  ///< what the menu holds beside commands, since it was opened
   Tour tour;

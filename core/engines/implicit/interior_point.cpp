@@ -149,13 +149,14 @@ double InteriorPoint<R>::together(const Work& work) {
   multigrid_.share(task_->crew, size, task_->stops);
   const int threads = multigrid_.threads();
   if (int(products_.size()) != threads) {
-    products_.resize(std::size_t(threads));
+    std::vector<Products> all(std::size_t(threads), Products{});
     for (int n = 0; n < threads; ++n) {
-      Products& products = products_[std::size_t(n)];
+      Products& products = all[std::size_t(n)];
       const RowRange own = multigrid_.rows_of(n);
       products.first = std::max(own.begin - rows_of_product, 0);
       products.q.resize(own.end - products.first + 3, int(fast_stride()));
     }
+    products_ = std::move(all);
   }
   const double begun = wall_seconds();
   if (threads > 1)

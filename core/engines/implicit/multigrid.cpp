@@ -69,6 +69,7 @@ void Multigrid<R>::share(Crew& crew, int size, const std::function<bool()>& stop
   crew_ = &crew, stops_ = &stops, stopped_ = false;
   const std::size_t rows = 2 * std::size_t(size);
   if (rows_.size() == rows && !levels_[0].parts.empty()) return;
+  rows_.clear();  // they are there again once all of the memory is
   for (Level& level : levels_) share_level(level, size);
   rows_.assign(rows, Array<R>(std::size_t(3 * work_stride_ + 8 * Level::lead), R(0)));
 }

@@ -113,7 +113,7 @@ class Multigrid {
   SpringMatrix<R> matrix_{};
   std::vector<Level> levels_;
   Array<R> zeros_;
-  Array<R> scratch_[7];  ///< rows of an operator or of a field
+  Array<R> scratch_[5];  ///< rows of an operator
   Array<R> free_;        ///< of the finest lattice, row by row: 1 at free particles
   int free_stride_ = 0, work_stride_ = 0;
   std::vector<double> coarsest_;  ///< inverse of its matrix
