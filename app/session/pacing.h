@@ -10,7 +10,8 @@ class Pacing {
  public:
   bool playing = true;
   bool patient = false;  ///< all due steps are made, however long they take, so that they are the same on every machine
-  double speed = 1;      ///< simulated seconds per real second requested
+  double most_patient = 1e7;  ///< steps of a frame even so
+  double speed = 1;           ///< simulated seconds per real second requested
   static constexpr double slow_motion = 0.25;
   double slowed = 1;  ///< times which, while the hand is in the cloth
   /// Simulated seconds per real second that are aimed at now.
@@ -31,7 +32,7 @@ class Pacing {
     requested_ += wish, elapsed_ += std::min(real_seconds, 0.1);
     owed_ += wish;
     const double steps = std::floor(owed_ / dt * (1 + 1e-12));
-    if (patient) return int(std::min(steps, 1e7));
+    if (patient) return int(std::min(steps, most_patient));
     const double affordable = step_cost_s_ > 0 ? std::max(1.0, budget_s / step_cost_s_) : first_guess;
     return int(std::min({steps, affordable, 1e7}));
   }

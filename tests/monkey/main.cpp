@@ -3,6 +3,10 @@
 #include <doctest/doctest.h>
 #include <CLI/CLI.hpp>
 
+#ifdef __SANITIZE_ADDRESS__
+#include <sanitizer/lsan_interface.h>
+#endif
+
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -251,7 +255,11 @@ int main(int argc, char** argv) {
   });
   tyglab::probe_drivers_in_child();
   try {
-    return tyglab::monkey::run(argc, argv);
+    const int code = tyglab::monkey::run(argc, argv);
+#ifdef __SANITIZE_ADDRESS__
+    __lsan_do_leak_check();  // as in support/main.cpp
+#endif
+    return code;
   } catch (const std::exception& error) {
     std::cerr << "tyglab_monkey: " << error.what() << '\n';
     return 2;

@@ -336,6 +336,8 @@ void Player::after_frame(double seconds) {
   if (seconds > tally_.longest_frame_s) tally_.longest_frame_s = seconds, tally_.longest_after = now_;
   Session& session = window_->session;
   session.pacing.patient = patient(session);
+  // Also in a frame that makes dt much smaller.
+  session.pacing.most_patient = steps_in_patience / double(lattice_of(session.preset()).size());
   window_->ui.toggle_full_screen = false;  // there is none
   window_->ui.picture.reset();             // nor its pixels
   const auto present = [this] { return remember_session(window_->ui), window_->settings; };
