@@ -1,6 +1,7 @@
 #include "core/engines/cpu/projection.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -25,12 +26,18 @@ void Projector<R>::prepare(const Cloth<R>& cloth, const Tears& tears, bool chang
   const int columns = cloth.lattice.columns;
   free_.assign(std::size_t(rows_) * stride_ + widest_vector / sizeof(R), R(1));
   whole_.assign(std::size_t(rows_) * directions.size() * stride_ + widest_vector / sizeof(R), R(1));
+  row_free_.assign(std::size_t(rows_), 1);
+  row_whole_.assign(std::size_t(rows_) * directions.size(), 1);
   for (int i = 0; i < rows_; ++i)
     for (int j = 0; j < columns; ++j) {
       const std::size_t p = std::size_t(i) * columns + j;
-      if (!cloth.fixed.empty() && cloth.fixed[p] != 0) free_[std::size_t(i) * stride_ + j] = R(0);
+      if (!cloth.fixed.empty() && cloth.fixed[p] != 0)
+        free_[std::size_t(i) * stride_ + j] = R(0), row_free_[std::size_t(i)] = 0;
       for (int d = 0; d < int(directions.size()); ++d)
-        if (!tears.whole(d, i, j)) whole_[(std::size_t(i) * directions.size() + d) * stride_ + j] = R(0);
+        if (!tears.whole(d, i, j)) {
+          const std::size_t row = std::size_t(i) * directions.size() + d;
+          whole_[row * stride_ + j] = R(0), row_whole_[row] = 0;
+        }
     }
 }
 
@@ -51,26 +58,24 @@ bool Projector<R>::place(const Cloth<R>& cloth, const Color& color, int i, Row& 
     row.count = columns - std::abs(to.dj);
     if (row.count <= 0 || i + to.di >= rows_) return false;
   }
-  if (masked_) {
+  const std::size_t springs = std::size_t(i) * directions.size() + color.direction;
+  if (masked_ && !(row_free_[std::size_t(i)] && row_free_[std::size_t(i + to.di)] && row_whole_[springs])) {
     row.free_a = free_.data() + std::size_t(i) * stride_ + upper;
     row.free_b = free_.data() + std::size_t(i + to.di) * stride_ + lower;
-    row.whole = whole_.data() + (std::size_t(i) * directions.size() + color.direction) * stride_ + upper;
+    row.whole = whole_.data() + springs * stride_ + upper;
   }
   return true;
 }
 
 template <class R>
-void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int i) {
+void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int i, const ProjectionRow<R>& ready) {
   const Direction& to = directions[std::size_t(color.direction)];
-  const Preset& p = cloth.preset;
-  ProjectionRow<R> row;
+  ProjectionRow<R> row = ready;
   int upper = 0, lower = 0;
-  row.compliance = p.m / ((to.bending ? p.k_b : p.k_s) * cloth.dt * cloth.dt);
   if (!(row.compliance < softest) || !place(cloth, color, i, row, upper, lower)) return;
   row.x_a = cloth.row(vector_x, i, 0) + upper, row.x_b = cloth.row(vector_x, i + to.di, 0) + lower;
   row.q_a = cloth.row(q, i, 0) + upper, row.q_b = cloth.row(q, i + to.di, 0) + lower;
   row.lambda = lambda_.data() + (std::size_t(i) * lambdas + color.lambda) * stride_ + upper;
-  row.rest = to.rest * p.L, row.pushes = to.bending;
   project_row(row);
 }
 
@@ -131,14 +136,23 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
     return true;
   }
   assert(end % 2 == 0 || end == rows_);
+  std::array<ProjectionRow<R>, directions.size()> ready;
+  const Preset& p = cloth.preset;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    ProjectionRow<R>& row = ready[d];
+    row.rest = directions[d].rest * p.L, row.pushes = directions[d].bending;
+    row.compliance = p.m / ((row.pushes ? p.k_b : p.k_s) * cloth.dt * cloth.dt);
+    row.per_both = 1 / (2 + row.compliance), row.per_one = 1 / (1 + row.compliance);
+  }
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));
   for (int n = 0; n < cloth.preset.iterations; ++n) {
     // Read by all after the barriers of this iteration, and written again after those of the next.
     bool& stopped = stopped_[n % 2];
     if (begin == 0) stopped = n > 0 && !goes_on(n);
-    in_colors(begin, end, cloth.preset.k_b > 0, team,
-              [&](const Color& color, int i) { project_color(cloth, q, color, i); });
+    in_colors(begin, end, p.k_b > 0, team, [&](const Color& color, int i) {
+      project_color(cloth, q, color, i, ready[std::size_t(color.direction)]);
+    });
     if (stopped) return false;
   }
   return true;
@@ -160,7 +174,7 @@ void Projector<R>::damp(Cloth<R>& cloth, int begin, int end, Team& team) {
 
 template <class R>
 std::size_t Projector<R>::bytes() const {
-  return (lambda_.size() + free_.size() + whole_.size()) * sizeof(R);
+  return (lambda_.size() + free_.size() + whole_.size()) * sizeof(R) + row_free_.size() + row_whole_.size();
 }
 
 template class Projector<float>;

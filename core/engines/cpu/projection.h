@@ -3,7 +3,9 @@
 // the same rows at a time, so the result has the same bits for any number of threads.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/projection_rows.h"
@@ -35,7 +37,8 @@ class Projector {
     int first;   ///< row or column
     int lambda;  ///< index into lambda_
   };
-  void project_color(Cloth<R>& cloth, int q, const Color& color, int i);
+  /// `ready`: a row of that direction's springs, without its places.
+  void project_color(Cloth<R>& cloth, int q, const Color& color, int i, const ProjectionRow<R>& ready);
   /// `both_free`, `one_free`: of the relative velocity of a spring's ends, by how many of them are free.
   void damp_color(Cloth<R>& cloth, const Color& color, int i, const Decay& both_free, const Decay& one_free);
   void project_weight(Cloth<R>& cloth, int q);
@@ -52,6 +55,8 @@ class Projector {
   bool masked_ = false;
   Array<R> free_;   ///< of particles
   Array<R> whole_;  ///< row by row, in each direction by direction
+  // Rows in which nothing is pinned, held or torn need not look at either.
+  std::vector<std::uint8_t> row_free_, row_whole_;
 };
 
 }  // namespace tyglab::cpu

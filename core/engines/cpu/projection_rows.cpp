@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "core/cloth/lattice.h"
 #include "core/engines/cpu/projection_rows.h"
 #include "core/forces/spring-inl.h"
@@ -32,45 +34,81 @@ template <class D>
 struct Weights {
   Lanes<D> a, b, sum;
 };
+/// Where all weigh 1: nothing that has to be looked up, compared or multiplied by.
+template <class D>
+struct AllFree {};
+template <class D>
+HWY_INLINE Vec3<D> weighed(Weights<D> w, Vec3<D> way) {
+  return w.a * way;
+}
+template <class D>
+HWY_INLINE Vec3<D> weighed(AllFree<D>, Vec3<D> way) {
+  return way;
+}
+template <class D>
+HWY_INLINE Vec3<D> weighed_at_b(Weights<D> w, Vec3<D> way) {
+  return w.b * way;
+}
+template <class D>
+HWY_INLINE Vec3<D> weighed_at_b(AllFree<D>, Vec3<D> way) {
+  return way;
+}
+/// `both` where both ends are free, otherwise `one`.
+template <class D>
+HWY_INLINE Lanes<D> by_weight(Weights<D> w, Lanes<D> both, Lanes<D> one) {
+  return hn::IfThenElse(hn::Gt(w.sum.v, Lanes<D>::all(1.5).v), both.v, one.v);
+}
+template <class D>
+HWY_INLINE Lanes<D> by_weight(AllFree<D>, Lanes<D> both, Lanes<D>) {
+  return both;
+}
 template <bool masked, class D, class R>
-HWY_INLINE Weights<D> weights_at(const SpringRow<R>& t, int a, int b) {
+HWY_INLINE auto weights_at(const SpringRow<R>& t, int n) {
   using L = Lanes<D>;
-  if constexpr (!masked) return {L::all(1), L::all(1), L::all(2)};
-  const L whole = L::load(t.whole + a), on_a = whole * L::load(t.free_a + a), on_b = whole * L::load(t.free_b + b);
-  return {on_a, on_b, on_a + on_b};
+  if constexpr (masked) {
+    const L whole = L::load(t.whole + n), on_a = whole * L::load(t.free_a + n), on_b = whole * L::load(t.free_b + n);
+    return Weights<D>{on_a, on_b, on_a + on_b};
+  } else {
+    return AllFree<D>{};
+  }
+}
+/// Within a row: `a` is the lane's own end, `b` its partner's.
+template <bool masked, class D, class R, class Partners>
+HWY_INLINE auto weights_within(const SpringRow<R>& t, int n, Partners partners) {
+  using L = Lanes<D>;
+  if constexpr (masked) {
+    const L own = L::load(t.free_a + n), whole = partners.of_first(L::load(t.whole + n));
+    const L on_a = whole * own, on_b = whole * partners(own);
+    return Weights<D>{on_a, on_b, on_a + on_b};
+  } else {
+    return AllFree<D>{};
+  }
 }
 
-/// One step of Gauss-Seidel on a spring; apply() is the displacement of its end b where that weighs 1.
-template <class R>
+/// One step of Gauss-Seidel on a spring; apply() is the displacement of its end b where that weighs 1. `pushes`: as in
+/// ProjectionRow.
+template <bool pushes, class R>
 class Projection {
  public:
-  explicit HWY_INLINE Projection(const ProjectionRow<R>& row)
-      : row_(row),
-        least_(row.rest * shortest),
-        per_both_(1 / (2 + row.compliance)),
-        per_one_(1 / (1 + row.compliance)) {}
+  explicit HWY_INLINE Projection(const ProjectionRow<R>& row) : row_(row), least_(row.rest * shortest) {}
   const SpringRow<R>& springs() const { return row_; }
 
   template <bool masked, class D>
   HWY_INLINE void between(D, int n) const {
-    const auto w = weights_at<masked, D>(row_, n, n);
+    const auto w = weights_at<masked, D>(row_, n);
     const Vec3<D> q_a = at<D>(row_.q_a + n), q_b = at<D>(row_.q_b + n);
     const Vec3<D> d = at<D>(row_.x_b + n) - at<D>(row_.x_a + n) + (q_b - q_a);
     const Vec3<D> way = apply(d, w, row_.lambda + n);
-    put<D>(q_a - w.a * way, row_.q_a + n, row_.stride);
-    put<D>(q_b + w.b * way, row_.q_b + n, row_.stride);
+    put<D>(q_a - weighed(w, way), row_.q_a + n, row_.stride);
+    put<D>(q_b + weighed_at_b(w, way), row_.q_b + n, row_.stride);
   }
   /// A vector of particles of one row and their partners: each lane works its own spring out.
   template <bool masked, class D, class Partners>
   HWY_INLINE void within(D, int n, Partners partners) const {
     const Vec3<D> x = at<D>(row_.x_a + n), q = at<D>(row_.q_a + n);
-    Weights<D> w{Lanes<D>::all(1), Lanes<D>::all(1), Lanes<D>::all(2)};
-    if constexpr (masked) {
-      const Lanes<D> own = Lanes<D>::load(row_.free_a + n), whole = partners.of_first(Lanes<D>::load(row_.whole + n));
-      w.a = whole * own, w.b = whole * partners(own), w.sum = w.a + w.b;
-    }
+    const auto w = weights_within<masked, D>(row_, n, partners);
     const Vec3<D> d = partners(x) - x + (partners(q) - q);
-    put<D>(q - w.a * apply(d, w, row_.lambda + n), row_.q_a + n, row_.stride);
+    put<D>(q - weighed(w, apply(d, w, row_.lambda + n)), row_.q_a + n, row_.stride);
   }
 
  private:
@@ -78,23 +116,23 @@ class Projection {
   HWY_INLINE Vec3<D> at(const R* p) const {
     return Vec3<D>::load(p, row_.stride);
   }
-  template <class D>
-  HWY_INLINE Vec3<D> apply(Vec3<D> d, Weights<D> w, R* lambda) const {
+  template <class D, template <class> class Weight>
+  HWY_INLINE Vec3<D> apply(Vec3<D> d, Weight<D> w, R* lambda) const {
     using L = Lanes<D>;
     const L square = dot(d, d), per_length = one_over_root(square), length = square * per_length;
     const L old = L::load(lambda), error = multiply_add(L::all(row_.compliance), old, length - L::all(row_.rest));
-    const L per_weight = hn::IfThenElse(hn::Gt(w.sum.v, L::all(1.5).v), L::all(per_both_).v, L::all(per_one_).v);
-    const L wanted = old - error * per_weight;
-    const L next = row_.pushes ? positive(wanted) : negative(wanted);
+    const L wanted = old - error * by_weight(w, L::all(row_.per_both), L::all(row_.per_one));
+    const L next = pushes ? positive(wanted) : negative(wanted);
     // Shorter than that a spring has no direction; nor is there anything to move between two fixed ends.
-    const auto acts = hn::And(hn::Gt(length.v, L::all(least_).v), hn::Gt(w.sum.v, hn::Zero(D())));
+    auto acts = hn::Gt(length.v, L::all(least_).v);
+    if constexpr (std::is_same_v<Weight<D>, Weights<D>>) acts = hn::And(acts, hn::Gt(w.sum.v, hn::Zero(D())));
     const L change = hn::IfThenElseZero(acts, (next - old).v);
     hn::StoreU((old + change).v, D(), lambda);
     return L(hn::IfThenElseZero(acts, (change * per_length).v)) * d;
   }
 
   const ProjectionRow<R> row_;
-  const double least_, per_both_, per_one_;
+  const double least_;
 };
 
 template <class R>
@@ -105,27 +143,23 @@ class Damping {
 
   template <bool masked, class D>
   HWY_INLINE void between(D, int n) const {
-    const auto w = weights_at<masked, D>(row_, n, n);
+    const auto w = weights_at<masked, D>(row_, n);
     const Vec3<D> a = Vec3<D>::load(row_.v_a + n, row_.stride), b = Vec3<D>::load(row_.v_b + n, row_.stride);
     const Vec3<D> part = part_of(w) * (b - a);
-    put<D>(a + w.a * part, row_.v_a + n, row_.stride);
-    put<D>(b - w.b * part, row_.v_b + n, row_.stride);
+    put<D>(a + weighed(w, part), row_.v_a + n, row_.stride);
+    put<D>(b - weighed_at_b(w, part), row_.v_b + n, row_.stride);
   }
   template <bool masked, class D, class Partners>
   HWY_INLINE void within(D, int n, Partners partners) const {
     const Vec3<D> v = Vec3<D>::load(row_.v_a + n, row_.stride);
-    Weights<D> w{Lanes<D>::all(1), Lanes<D>::all(1), Lanes<D>::all(2)};
-    if constexpr (masked) {
-      const Lanes<D> own = Lanes<D>::load(row_.free_a + n), whole = partners.of_first(Lanes<D>::load(row_.whole + n));
-      w.a = whole * own, w.b = whole * partners(own), w.sum = w.a + w.b;
-    }
-    put<D>(v + w.a * (part_of(w) * (partners(v) - v)), row_.v_a + n, row_.stride);
+    const auto w = weights_within<masked, D>(row_, n, partners);
+    put<D>(v + weighed(w, part_of(w) * (partners(v) - v)), row_.v_a + n, row_.stride);
   }
 
  private:
-  template <class D>
-  HWY_INLINE Lanes<D> part_of(Weights<D> w) const {
-    return hn::IfThenElse(hn::Gt(w.sum.v, Lanes<D>::all(1.5).v), Lanes<D>::all(row_.both).v, Lanes<D>::all(row_.one).v);
+  template <class D, template <class> class Weight>
+  HWY_INLINE Lanes<D> part_of(Weight<D> w) const {
+    return by_weight(w, Lanes<D>::all(row_.both), Lanes<D>::all(row_.one));
   }
 
   const DampingRow<R> row_;
@@ -136,14 +170,9 @@ template <class D>
 class Partners {
  public:
   HWY_INLINE explicit Partners(int reach) {
-    using Bits = hn::RebindToSigned<D>;
-    constexpr std::size_t lanes = hn::MaxLanes(D());
-    alignas(64) hn::TFromD<Bits> other[lanes], first[lanes];
-    for (std::size_t n = 0; n < lanes; ++n) {
-      other[n] = hn::TFromD<Bits>(int(n) ^ reach);
-      first[n] = hn::TFromD<Bits>(int(n) & ~reach);
-    }
-    other_ = hn::SetTableIndices(D(), other), first_ = hn::SetTableIndices(D(), first);
+    static constexpr Tables of_reach[] = {tables(1), tables(2)};
+    const Tables& mine = of_reach[reach - 1];
+    other_ = hn::SetTableIndices(D(), mine.other), first_ = hn::SetTableIndices(D(), mine.first);
   }
   HWY_INLINE Lanes<D> operator()(Lanes<D> v) const { return hn::TableLookupLanes(v.v, other_); }
   HWY_INLINE Vec3<D> operator()(Vec3<D> v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
@@ -151,7 +180,17 @@ class Partners {
   HWY_INLINE Lanes<D> of_first(Lanes<D> v) const { return hn::TableLookupLanes(v.v, first_); }
 
  private:
-  decltype(hn::SetTableIndices(D(), static_cast<const hn::TFromD<hn::RebindToSigned<D>>*>(nullptr))) other_, first_;
+  using Index = hn::TFromD<hn::RebindToSigned<D>>;
+  struct Tables {
+    alignas(64) Index other[hn::MaxLanes(D())], first[hn::MaxLanes(D())];
+  };
+  static constexpr Tables tables(int reach) {
+    Tables made{};
+    for (std::size_t n = 0; n < hn::MaxLanes(D()); ++n)
+      made.other[n] = Index(int(n) ^ reach), made.first[n] = Index(int(n) & ~reach);
+    return made;
+  }
+  decltype(hn::SetTableIndices(D(), static_cast<const Index*>(nullptr))) other_, first_;
 };
 
 /// The springs between two rows from the n-th on: vector by vector, what is left in ever shorter ones.
@@ -169,7 +208,7 @@ template <bool masked, class R, int lanes, class Operation, class Rest>
 HWY_INLINE void within_row(const Operation& operation, int n, Rest rest) {
   const int reach = operation.springs().reach, count = operation.springs().count;
   if constexpr (lanes > 1) {
-    if (lanes >= 2 * reach) {
+    if (lanes >= 2 * reach && n + lanes <= count) {
       const hn::CappedTag<R, lanes> d;
       const Partners<hn::CappedTag<R, lanes>> partners(reach);
       for (; n + lanes <= count; n += lanes) operation.template within<masked>(d, n, partners);
@@ -181,14 +220,14 @@ HWY_INLINE void within_row(const Operation& operation, int n, Rest rest) {
   }
 }
 
-template <bool masked, class R>
+template <bool masked, bool pushes, class R>
 void project(const ProjectionRow<R>& row) {
-  const Projection<R> projection(row);
+  const Projection<pushes, R> projection(row);
   if (row.reach == 0) return between_rows<masked, R, widest<R>>(projection, 0, row.count);
   ProjectionRow<R> apart = row;  // with the partner in the place of b
   apart.x_b += row.reach, apart.q_b += row.reach;
   if (masked) apart.free_b += row.reach;
-  const Projection<R> single(apart);
+  const Projection<pushes, R> single(apart);
   within_row<masked, R, widest<R>>(projection, 0,
                                    [&](int k) HWY_ATTR { single.template between<masked>(hn::CappedTag<R, 1>(), k); });
 }
@@ -203,6 +242,11 @@ void damp(const DampingRow<R>& row) {
   const Damping<R> single(apart);
   within_row<masked, R, widest<R>>(damping, 0,
                                    [&](int k) HWY_ATTR { single.template between<masked>(hn::CappedTag<R, 1>(), k); });
+}
+
+template <bool masked, class R>
+void project(const ProjectionRow<R>& row) {
+  row.pushes ? project<masked, true>(row) : project<masked, false>(row);
 }
 
 #define TYGLAB_DEFINE(R, name)                                       \

@@ -27,6 +27,7 @@ struct ProjectionRow : SpringRow<R> {
   R* lambda = nullptr;                     ///< of each spring, times dt²/m: m; within a row at both of its ends
   double rest = 0;                         ///< m
   double compliance = 0;                   ///< m/(k dt²)
+  double per_both = 0, per_one = 0;        ///< 1/(2 + compliance) and 1/(1 + compliance): of two free ends, and of one
   bool pushes = false;                     ///< λ >= 0; otherwise λ <= 0: it pulls
 };
 template <class R>
