@@ -8,6 +8,7 @@
 #include "app/process/child_exit.h"
 #include "app/process/program_run.h"
 #include "core/engines/opencl/disk_cache.h"
+#include "core/engines/opencl/driver_loader.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
@@ -72,9 +73,8 @@ std::string try_in_child(const Preset& preset, bool contacts) {
   const std::string death = death_of(exit);
   if (death.empty()) return {};
   return "The OpenCL driver " + death + " when the kernels were tried in a process of their own." +
-         chatter_words(exit.output) +
-         " Pocl needs a linker (apt-get install binutils) and room in its cache folder; mend that and start again, or "
-         "use the CPU engine (--engine cpu).";
+         chatter_words(exit.output) + " " + std::string(opencl::how_to_mend_a_driver()) +
+         ", or use the CPU engine (--engine cpu).";
 }
 
 }  // namespace

@@ -4,7 +4,7 @@ include(cmake/Licenses.cmake)
 set(fonts fonts-inter fonts-stix fonts-jetbrains-mono fonts-fork-awesome fonts-dejavu-core)
 # Built from their source packages, whose copyright files are those of the packages with their headers.
 set(compiled_in libimgui-dev libglfw3-dev libhwy-dev libjpeg62-turbo-dev libglm-dev libstb-dev nlohmann-json3-dev
-                libcli11-dev python3-glad)
+                libcli11-dev opencl-c-headers python3-glad)
 # The libraries of the compiler: C++, threads, and what starts a program.
 set(runtime g++-mingw-w64-x86-64-posix mingw-w64-x86-64-dev)
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/engines/opencl/disk_cache.h"
+#include "core/engines/opencl/driver_loader.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -44,9 +45,9 @@ T number_of(cl_device_id device, cl_device_info what) {
 
 /// All devices; `problem`: why there is none.
 std::vector<DeviceId> ask_drivers(std::string& problem) {
-  cl_uint count = 0;
-  const cl_int code = clGetPlatformIDs(0, nullptr, &count);
   constexpr cl_int no_platform = -1001;  // CL_PLATFORM_NOT_FOUND_KHR
+  cl_uint count = 0;
+  const cl_int code = driver_loader_is_there() ? clGetPlatformIDs(0, nullptr, &count) : no_platform;
   if (code == no_platform || count == 0) problem = "no OpenCL driver is installed";
   if (code != CL_SUCCESS || count == 0) return {};
   std::vector<cl_platform_id> platforms(count);
@@ -283,8 +284,8 @@ std::shared_ptr<Device> open_device(int number) {
 namespace tyglab {
 
 std::string no_device_words(const std::string& problem) {
-  return "No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") +
-         ". On Debian, apt-get install pocl-opencl-icd makes the CPU one.";
+  return "No OpenCL device was found" + (problem.empty() ? "" : " (" + problem + ")") + ". " +
+         std::string(opencl::how_to_get_a_device());
 }
 
 void set_driver_probe(DriverProbe probe) {

@@ -1,9 +1,9 @@
 // Whether a device really computes: a small kernel is built, run and its result checked.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
+#include <new>
 #include <vector>
 
 #include "core/engines/opencl/arguments.h"
@@ -46,7 +46,9 @@ std::string probe(Device& device, const char* options) {
 
 bool opencl_works_in_place(int number) {
   constexpr std::size_t page = PositionMemory::page;
-  const std::unique_ptr<void, decltype(&std::free)> memory(std::aligned_alloc(page, page), &std::free);
+  const auto give_back = [](void* memory) { ::operator delete(memory, std::align_val_t(page)); };
+  const std::unique_ptr<void, decltype(give_back)> memory(::operator new(page, std::align_val_t(page), std::nothrow),
+                                                          give_back);
   try {
     return bool(opencl::open_device(number)->in_place(memory.get(), page));
   } catch (const EngineError&) {
