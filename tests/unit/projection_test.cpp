@@ -76,7 +76,8 @@ void check_row(int columns, int reach, bool masked, bool pushes) {
   row.stride = rows.stride, row.count = columns, row.reach = reach;
   if (masked) row.free_a = rows.free.row(0), row.free_b = rows.free.row(other), row.whole = rows.whole.row(0);
   row.x_a = rows.x.row(0), row.x_b = rows.x.row(other), row.q_a = rows.q.row(0), row.q_b = rows.q.row(other);
-  row.lambda = rows.lambda.row(0), row.rest = 1.1, row.compliance = 0.3, row.pushes = pushes;
+  row.lambda = rows.lambda.row(0), row.rest = 1.1, row.pushes = pushes;
+  row.soften(0.3);
   cpu::project_row(row), cpu::project_row(row);
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < columns; ++j)

@@ -141,8 +141,7 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
   for (std::size_t d = 0; d < directions.size(); ++d) {
     ProjectionRow<R>& row = ready[d];
     row.rest = directions[d].rest * p.L, row.pushes = directions[d].bending;
-    row.compliance = p.m / ((row.pushes ? p.k_b : p.k_s) * cloth.dt * cloth.dt);
-    row.per_both = 1 / (2 + row.compliance), row.per_one = 1 / (1 + row.compliance);
+    row.soften(p.m / ((row.pushes ? p.k_b : p.k_s) * cloth.dt * cloth.dt));
   }
   const std::size_t pitch = std::size_t(lambdas) * stride_;
   std::fill(lambda_.begin() + std::ptrdiff_t(begin * pitch), lambda_.begin() + std::ptrdiff_t(end * pitch), R(0));

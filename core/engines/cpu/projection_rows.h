@@ -26,9 +26,11 @@ struct ProjectionRow : SpringRow<R> {
   R *q_a = nullptr, *q_b = nullptr;        ///< displacements since then
   R* lambda = nullptr;                     ///< of each spring, times dt²/m: m; within a row at both of its ends
   double rest = 0;                         ///< m
-  double compliance = 0;                   ///< m/(k dt²)
-  double per_both = 0, per_one = 0;        ///< 1/(2 + compliance) and 1/(1 + compliance): of two free ends, and of one
+  double compliance = 0;                   ///< m/(k dt²); soften() sets it
+  double per_both = 0.5, per_one = 1;      ///< 1/(2 + compliance) and 1/(1 + compliance): of two free ends, and of one
   bool pushes = false;                     ///< λ >= 0; otherwise λ <= 0: it pulls
+
+  void soften(double by) { compliance = by, per_both = 1 / (2 + by), per_one = 1 / (1 + by); }
 };
 template <class R>
 void project_row(const ProjectionRow<R>& row);
