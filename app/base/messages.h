@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <string>
@@ -33,14 +34,26 @@ class Messages {
   /// since they cannot be seen to yet.
   void age(double now, bool held = false) {
     for (Message& m : list_)
-      if (held || m.born < 0) m.born = now;
-    std::erase_if(list_, [&](const Message& m) { return now - m.born > lifetime(m.severity); });
+      if (held) m.born = now;
+    std::erase_if(list_, [&](const Message& m) { return m.born >= 0 && now - m.born > lifetime(m.severity); });
   }
-  /// When the next one is to go, s of the window's clock.
+  /// That one is seen now: its time begins, if it has not.
+  void show(std::size_t index, double now) {
+    if (list_[index].born < 0) list_[index].born = now;
+  }
+  /// The one that matters most: of the most severe the latest. There is at least one.
+  std::size_t foremost() const {
+    std::size_t best = 0;
+    for (std::size_t k = 1; k < list_.size(); ++k)
+      if (list_[k].severity >= list_[best].severity) best = k;
+    return best;
+  }
+  /// When the next one is to go, s of the window's clock; at once while none has been shown.
   double next_end() const {
     double end = std::numeric_limits<double>::infinity();
-    for (const Message& m : list_) end = std::min(end, m.born + lifetime(m.severity));
-    return end;
+    for (const Message& m : list_)
+      if (m.born >= 0) end = std::min(end, m.born + lifetime(m.severity));
+    return list_.empty() || std::isfinite(end) ? end : 0;
   }
   void dismiss(std::size_t index) { list_.erase(list_.begin() + std::ptrdiff_t(index)); }
   const std::vector<Message>& list() const { return list_; }

@@ -84,7 +84,11 @@ class Reader {
                                 (key.empty() ? "" : ": ") + why));
   }
   [[noreturn]] void wrong_type(const JsonNode& node, const std::string& path, std::string_view expected) const {
-    fail(node.line, path, "must be " + std::string(expected) + ", not " + std::string(type_name(node.type)));
+    constexpr std::size_t short_enough = 30;  // bytes of a text that is worth repeating
+    const bool told = node.type == Type::text && !node.text.empty() && node.text.size() <= short_enough;
+    fail(node.line, path,
+         "must be " + std::string(expected) + ", not " +
+             (told ? "the string \"" + node.text + "\"" : std::string(type_name(node.type))));
   }
 
   template <class T>

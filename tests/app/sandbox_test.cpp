@@ -146,15 +146,42 @@ TEST_CASE("three messages at most are kept, the latest") {
   CHECK(messages.list()[2].text == "third");
 }
 
+TEST_CASE("a message that waits behind a more important one is not lost") {
+  Messages messages;
+  messages.error("first");
+  messages.note("second");
+  messages.error("third");
+  messages.warning("fourth");
+  REQUIRE(messages.list().size() == 3);
+  CHECK(messages.next_end() == 0);  // nothing has been shown: at once
+  CHECK(messages.foremost() == 1);  // of the errors the latest
+  messages.show(1, 0);
+  CHECK(messages.next_end() == 8);
+  messages.age(8.1);
+  REQUIRE(messages.list().size() == 2);
+  CHECK(messages.list()[messages.foremost()].text == "fourth");
+  messages.show(1, 8.1);
+  messages.age(16.2);
+  REQUIRE(messages.list().size() == 1);
+  CHECK(messages.list()[messages.foremost()].text == "second");
+  messages.show(0, 16.2);
+  messages.age(20.3);
+  CHECK(messages.list().empty());
+}
+
 TEST_CASE("a message that is already shown is renewed, and stands there once") {
   Messages messages;
+  const auto age = [&](double now) {
+    messages.age(now);
+    for (std::size_t k = 0; k < messages.list().size(); ++k) messages.show(k, now);
+  };
   messages.note("the same");
-  messages.age(0);
+  age(0);
   messages.note("another");
-  messages.age(3);
+  age(3);
   for (int n = 0; n < 3; ++n) messages.note("the same");
   REQUIRE(messages.list().size() == 2);
-  messages.age(3);
+  age(3);
   messages.age(6.9);  // 4 s after it was first said, and before 4 s after it was said again
   CHECK(messages.list().size() == 2);
   messages.age(7.1);

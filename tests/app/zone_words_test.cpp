@@ -22,8 +22,8 @@ TEST_CASE("it says in which zone the value is, by how much, and where all zones 
       {0, 133.3, Zone::stable}, {133.3, 1600, Zone::depends}, {1600, 1e6, Zone::unstable}};
   const std::string part = ": dt is 115 % of the worst-case limit and 92 % of this cloth's own, as it hangs now.\n",
                     where =
-                        "Verlet at this dt: with k_s stable in any shape up to 133 N/m, depends on the shape up to "
-                        "1600 N/m, unstable in every shape above.";
+                        "Verlet at this dt, as k_s grows: stable in any shape up to 133 N/m, depends on the shape up "
+                        "to 1600 N/m, unstable in every shape above that.";
   CHECK(zone_words(limits_with(usual, 180), "k_s", "N/m") == "Depends on the shape" + part + where);
   CHECK(zone_words(limits_with(usual, 50), "k_s", "N/m") == "Stable in any shape" + part + where);
   CHECK(zone_words(limits_with(usual, 5000), "k_s", "N/m") == "Unstable in every shape" + part + where);
@@ -41,7 +41,7 @@ TEST_CASE("of a mass on a spring it speaks of no shape") {
   limits.of.kind = Kind::one_weight, limits.of.k = 2;
   limits.zones.emplace("k", std::vector<ZoneSpan>{{0, 4, Zone::stable}, {4, 1e6, Zone::unstable}});
   CHECK(zone_words(limits, "k", "N/m") ==
-        "Stable: dt is 115 % of the limit.\nVerlet at this dt: with k stable up to 4 N/m, unstable above.");
+        "Stable: dt is 115 % of the limit.\nVerlet at this dt, as k grows: stable up to 4 N/m, unstable above that.");
 }
 
 TEST_CASE("it says of rest lengths that they move no limit") {

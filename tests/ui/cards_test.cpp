@@ -38,6 +38,11 @@ TEST_CASE("the other side of the accuracy card measures the order beside the fra
   const auto rows = test::lines(test::read_file(window.write_export("convergence.csv")));
   REQUIRE(rows.size() == 7);
   CHECK(rows[1] == "dt [s],error [m],difference to dt/2 [m],status");
+  CHECK(window.drew("nominal "));
+  window.type_value("k_s", "60");  // what was measured says nothing of other constants
+  window.frames(2);
+  CHECK_FALSE(window.drew("nominal "));
+  CHECK(window.drew("The order of Runge"));
   window.click("plots.accuracy_ways.1");
   window.until([&] { return studies(window).accuracy.study().has_value(); }, "the errors to come back");
   CHECK_FALSE(study().has_value());

@@ -306,7 +306,8 @@ TEST_CASE("the tooltip of k_s says in which zone it is: at 180 N/m on lab 03's s
   window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
   window.frames(2);
   CHECK(window.drew("Depends on the shape: dt is"));
-  CHECK(window.drew("stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape"));
+  CHECK(window.drew(
+      "stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape above that"));
 }
 
 TEST_CASE("a typed value makes the slider longer on its side alone, until it is reset") {

@@ -7,6 +7,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/render/camera.h"
 #include "app/session/requests.h"
+#include "app/ui/frame/transport.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::divergence_ui_test {
@@ -94,6 +95,8 @@ TEST_CASE("in a small window with a lab the details scroll, stand over all else,
   window.click("viewport.Details");
   window.frames(2);
   const Box banner = *window.ui.placing.find("banner");
+  const Box* views = window.ui.placing.find("views");
+  CHECK((views == nullptr || !overlap(banner, *views)));  // whole or not at all
   CHECK(banner.hi.y <= window.control("lab.leave").lo.y);
   CHECK(banner.lo.y >= window.control("top.brand").hi.y);
   window.scroll_to("viewport.Restart", "viewport.fold");
@@ -118,8 +121,11 @@ TEST_CASE("in a small window the banner is one line; its details come and go wit
   window.frames(2);
   CHECK(window.sees("viewport.Restart"));
   CHECK(covered() > 0.5);
+  const Box* views = window.ui.placing.find("views");
+  CHECK((views == nullptr || !overlap(*window.ui.placing.find("banner"), *views)));
   window.click("viewport.fold");
   window.frames(2);
+  CHECK(window.ui.placing.find("views") != nullptr);
   CHECK_FALSE(overlap(*window.ui.placing.find("banner"), window.ui.viewport.box));
   window.key(GLFW_KEY_R);
   window.resize({1280, 900});
@@ -263,6 +269,16 @@ TEST_CASE("a replay is colored by strain, until the cloth that it led to is left
   window.ui.color_by(ParticleField::tension);  // what is chosen meanwhile stays
   restart();
   CHECK(field() == ParticleField::tension);
+}
+
+TEST_CASE("a replay is as slow as it is meant to be: no part of real time is said") {
+  test::NullUi window({.preset = "explodes", .size = {1920, 1080}});
+  explode(window);
+  window.ui.command("replay");
+  window.until([&] { return window.session.replay.has_value(); }, "the replay to begin");
+  window.frames(20);
+  REQUIRE(window.session.replay.has_value());
+  CHECK(real_time(window.ui).text == "–");
 }
 
 TEST_CASE("the banner offers 0.9 of dt_crit, from a second back") {

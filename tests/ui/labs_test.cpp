@@ -397,6 +397,41 @@ TEST_CASE("the buttons of a lab keep their places when its strip grows") {
   CHECK(window.middle("lab.Next") == forward);
 }
 
+TEST_CASE("what a step tells to change is in sight in a low column too") {
+  test::NullUi window({.size = {900, 600}, .settings = [](Settings& settings) { settings.ui_scale = 1.5; }});
+  find_labs(window.session);
+  begin_lab(window.session, "03_stiffness");
+  window.frames(8);
+  CHECK(window.sees("constants.k_s.slider"));
+  enter_step(window.session, 2);
+  window.frames(8);
+  CHECK(window.sees("constants.k_s.slider"));
+}
+
+TEST_CASE("what has only held so far looks like no work that is done") {
+  test::NullUi window;
+  begin(window, "critical", "03_stiffness");
+  predict(window, "200");
+  CHECK(window.drew("Integrator: Verlet throughout · so far"));
+  CHECK_FALSE(window.drew("Diverged: yes · so far"));
+}
+
+TEST_CASE("the last step leaves the lab only once it is done; the cross does before that") {
+  test::NullUi window;
+  begin(window, "critical", "03_stiffness");
+  enter_step(window.session, 2);
+  window.frames(4);
+  window.click("lab.Finish");
+  window.frames(2);
+  CHECK(window.session.labs.run.has_value());
+  lab(window);
+  window.session.labs.run->record().predicted = window.session.labs.run->record().done = true;
+  window.frames(2);
+  window.click("lab.Finish");
+  window.frames(2);
+  CHECK_FALSE(window.session.labs.run.has_value());
+}
+
 TEST_CASE("the second click of a double click leaves out no step") {
   test::NullUi window;
   begin(window, "critical", "03_stiffness");

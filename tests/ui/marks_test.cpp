@@ -145,6 +145,7 @@ TEST_CASE("PAUSED stands clear of the one weight's spring") {
     const float x = window.pixel_of(0, 0).x;
     const Box& paused = *window.ui.placing.find("paused");
     CHECK((x < paused.lo.x || x > paused.hi.x));
+    for (const Box& part : drawn_parts(window.ui)) CHECK_FALSE(overlap(paused, part));  // its ceiling and its lines too
   }
 }
 
@@ -160,6 +161,29 @@ TEST_CASE("a message covers no cloth where a corner is free, and stays in its co
   window.frames(3);
   const Box wider = window.control("viewport.dismiss");
   CHECK(wider.lo.x == first.lo.x);
+}
+
+TEST_CASE("messages that would cover the cloth together follow one another, and none is lost") {
+  test::NullUi window(
+      {.preset = "hanging", .size = {900, 600}, .settings = [](Settings& settings) { settings.ui_scale = 1.5; }});
+  pause(window);
+  window.session.messages.note("A note that needs a line or two in a window as small as this, and waits for its turn.");
+  window.session.messages.error("An error that needs a line or two in a window as small as this, and is seen first.");
+  window.frames(3);
+  CHECK(window.drew("An error that needs"));
+  CHECK_FALSE(window.drew("A note that needs"));
+  window.until([&] { return window.session.messages.list().size() == 1; }, "the error to have been read");
+  window.frames(3);
+  CHECK(window.drew("A note that needs"));
+  window.until([&] { return window.session.messages.list().empty(); }, "the note to have been read");
+
+  test::NullUi roomy(options({{1920, 1080}, 1, "dark"}, "hanging"));
+  pause(roomy);
+  roomy.session.messages.note("One.");
+  roomy.session.messages.note("Two.");
+  roomy.frames(3);
+  CHECK(roomy.drew("One."));
+  CHECK(roomy.drew("Two."));
 }
 
 TEST_CASE("labels and scales of arrows make room for a tooltip, however low the window") {

@@ -117,6 +117,25 @@ TEST_CASE("menu, palette and help have every command: they read the same rows") 
   window.until([&] { return window.preset().mode == 4; }, "the view");
 }
 
+TEST_CASE("help has its buttons in sight in a small window, and its last line is read by scrolling") {
+  for (const double scale : {1.0, 1.5}) {
+    CAPTURE(scale);
+    test::NullUi window({.size = {900, 600}, .settings = [scale](Settings& settings) { settings.ui_scale = scale; }});
+    window.key(GLFW_KEY_F1);
+    window.frames(4);
+    const Box close = window.control("help.Close");
+    CHECK(close.hi.y <= 600);
+    window.move({450, 250});
+    for (int turn = 0; turn < 60; ++turn) window.wheel(-1);
+    window.frames(4);
+    CHECK(window.drew("Esc releases them."));
+    CHECK(window.control("help.Close").lo.y == close.lo.y);
+    window.click("help.Close");
+    window.frames(2);
+    CHECK_FALSE(window.ui.help);
+  }
+}
+
 TEST_CASE("the tour is walked through, skipped and seen again, and that it was seen is remembered") {
   test::NullUi window({.settings = [](Settings& settings) { settings.tour_seen = false; }});
   start_tour(window.ui);

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""speed.py --tyglab NATIVE --page FOLDER [--rounds N] [--json F.json]: time for a particle and step of Verlet in float, 128 x 128:
-the desktop's program with its best vectors, with AVX2 and with 128 bits, and the page's programs under Node. Processor time of one
-thread, and for the page with two threads real time.
+"""speed.py --tyglab NATIVE --page FOLDER [--windows FOLDER] [--rounds N] [--json F.json]: time for a particle and step of
+Verlet in float, 128 x 128: the desktop's program with its best vectors, with AVX2 and with 128 bits, the page's programs under
+Node, and the program for Windows under Wine. Processor time of one thread, and for the page with two threads real time.
 
 Each time is that of a long run less that of a short one, so that starting counts nowhere; the runs of all programs take
 turns, and the least time of each is kept, since other work on the machine only ever adds.
@@ -35,6 +35,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--tyglab", required=True)
     parser.add_argument("--page", required=True)
+    parser.add_argument("--windows", type=pathlib.Path, help="the folder that cmake/windows/build makes")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--json", type=pathlib.Path, help="for docs/make_benchmarks")
     args = parser.parse_args()
@@ -52,6 +53,11 @@ def main():
         programs["page, Node"] = (node, {}, 1)
         for threads, used in [(1, "one used"), (2, "two used, real time")]:
             programs[f"page with threads, {used}"] = (node, {"TYGLAB_PROGRAM": "tyglab-threads"}, threads)
+        wine = {"WINEPREFIX": f"{folder}/wine", "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
+        if args.windows:
+            for start in (["wineboot", "--init"], ["wineserver", "-w"], ["wineserver", "-p"]):
+                subprocess.run(start, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, **wine})
+            programs["for Windows, best vectors, Wine"] = (["wine", args.windows / "tyglab.exe"], wine, 1)
         least = {}
         for _ in range(args.rounds):
             for name, (command, environment, threads) in programs.items():
@@ -59,6 +65,8 @@ def main():
                     processor, real = times_of([*command, *run, "--threads", str(threads), "--steps", str(steps)], environment)
                     taken = processor if threads == 1 else real
                     least[name, steps] = min(taken, least.get((name, steps), taken))
+        if args.windows:
+            subprocess.run(["wineserver", "-k"], check=False, env={**os.environ, **wine})
     times = {name: (least[name, LONG] - least[name, SHORT]) / ((LONG - SHORT) * SIDE * SIDE) * 1e9 for name in programs}
     for name, taken in times.items():
         print(f"{name:34} {taken:6.2f} ns  {taken / times['AVX2']:5.2f} of AVX2")

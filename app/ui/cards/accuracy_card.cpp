@@ -312,6 +312,8 @@ void errors_shown(Ui& ui, float height) {
 /// How far the measurement of the order is.
 std::string order_words(const Ui& ui, const std::optional<Convergence>& study) {
   const std::string method(scheme(ui.session.preset().integrator).title);
+  if (!study && ui.session.simulation->divergence())
+    return "Nothing is measured once the cloth has diverged: restart it.";
   if (!study) return "The order of " + method + " is measured as soon as the constants stand still for a moment.";
   const std::string over = " over the next " + short_number(rounded(study->seconds, 2)) + " s";
   if (study->points.empty())
@@ -323,7 +325,9 @@ std::string order_words(const Ui& ui, const std::optional<Convergence>& study) {
 }
 
 void convergence_shown(Ui& ui, float height) {
-  const auto study = ui.session.studies.convergence.study();
+  auto study = ui.session.studies.convergence.study();
+  // A measurement of other constants says nothing of these.
+  if (study && !changes(study->of, ui.session.preset()).within(motionless)) study.reset();
   const std::string over = study ? " Over the " + short_number(rounded(study->seconds, 2)) +
                                        " s from t = " + time_number(study->t, study->of.dt) + " s, in double."
                                  : "";

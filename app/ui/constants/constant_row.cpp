@@ -225,6 +225,15 @@ void take_wanted_focus(Ui& ui, const std::string& key) {
   state.wanted_order = state.order;
 }
 
+/// Scrolls its column where it would not be seen whole.
+void come_into_sight(Ui& ui, const std::string& key, float height) {
+  SliderState& state = ui.slider;
+  if (state.shown_key != key) return;
+  state.shown_key.clear();
+  const float above = ImGui::GetCursorPosY() - state.rows_scroll;
+  if (above < 0 || above + 2 * height > ImGui::GetWindowHeight()) ImGui::SetScrollHereY(0.35f);
+}
+
 void vector_cells(Ui& ui, const Line& line, const RowColumns& columns, float slider_width) {
   const float width = slider_width + columns.gap + columns.value;
   const float cell = std::floor((width - 2 * ui.theme.px(4)) / 3);
@@ -244,6 +253,7 @@ void draw_line(Ui& ui, const Line& line) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float width = ui.row_width;
   const float slider_width = width - columns.symbol - columns.value - columns.unit - 2 * columns.gap;
+  come_into_sight(ui, line.key, columns.height);
   ImGui::BeginGroup();
   symbol_cell(ui, line, columns);
   ImGui::SameLine(0, 0);

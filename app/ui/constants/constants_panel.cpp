@@ -193,6 +193,11 @@ bool applies(const PresetRow& row, const Preset& preset) {
 void show_constant(Ui& ui, std::string_view key) {
   ui.panels = ui.settings.layout.left = true, ui.side_plots = ui.side_cloth = false;
   ui.slider.wanted_key = key;
+  bring_into_sight(ui, key);
+}
+
+void bring_into_sight(Ui& ui, std::string_view key) {
+  ui.slider.shown_key = key;
   for (const Section& wanted : sections()) {
     const auto list = rows_of(wanted);
     if (std::none_of(list.begin(), list.end(), [&](const PresetRow* row) { return row->key == key; })) continue;
@@ -244,6 +249,7 @@ void constants_panel(Ui& ui, const Region& region) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   ui.row_width = room.x;
   gui::begin_child("rows", {room.x + padding - ui.theme.px(3), room.y - below});
+  ui.slider.rows_scroll = ui.constants_to_top ? 0 : ImGui::GetScrollY();
   if (std::exchange(ui.constants_to_top, false)) ImGui::SetScrollY(0);
   constants_sections(ui);
   view_section(ui);

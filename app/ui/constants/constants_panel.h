@@ -21,6 +21,8 @@ void particle_panel(Ui& ui);
 float particle_panel_height(const Ui& ui);
 /// Brings a constant's row into sight, with its slider in focus.
 void show_constant(Ui& ui, std::string_view key);
+/// The column scrolls to that constant's row where it would not be seen, and unfolds its section.
+void bring_into_sight(Ui& ui, std::string_view key);
 /// Whether the constant plays a part in this scene.
 bool applies(const PresetRow& row, const Preset& preset);
 

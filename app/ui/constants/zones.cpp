@@ -25,12 +25,12 @@ std::string border_text(double value, std::string_view unit) {
   return short_number(rounded(value, 3)) + (unit.empty() ? "" : " " + std::string(unit));
 }
 
-/// "stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape above".
+/// "stable in any shape up to 133 N/m, depends on the shape up to 1600 N/m, unstable in every shape above that".
 std::string list_of(const std::vector<ZoneSpan>& zones, Kind kind, std::string_view unit) {
   std::string text;
   for (std::size_t n = 0; n < zones.size(); ++n) {
     text += (n > 0 ? ", " : "") + std::string(zone_name(zones[n].zone, kind));
-    text += n + 1 < zones.size() ? " up to " + border_text(zones[n].to, unit) : " above";
+    text += n + 1 < zones.size() ? " up to " + border_text(zones[n].to, unit) : " above that";
   }
   return text;
 }
@@ -86,11 +86,11 @@ std::string zone_words(const StabilityLimits& limits, std::string_view key, std:
   now.front() = char(now.front() - 'a' + 'A');
   const std::string part = part_words(limits, limits.of.dt);
   const std::string method(scheme(limits.of.integrator).title), name(key);
-  std::string text =
-      now + (part.empty() ? "." : ": " + part) + "\n" + method + (key == "dt" ? "" : " at this dt") + ": ";
+  std::string text = now + (part.empty() ? "." : ": " + part) + "\n" + method + (key == "dt" ? "" : " at this dt");
   if (zones.size() == 1)
-    return text + std::string(zone_name(here->zone, kind)) + ", whatever " + name + " is" + no_part_of_it(key) + ".";
-  return text + "with " + name + " " + list_of(zones, kind, unit) + ".";
+    return text + ": " + std::string(zone_name(here->zone, kind)) + ", whatever " + name + " is" + no_part_of_it(key) +
+           ".";
+  return text + ", as " + name + " grows: " + list_of(zones, kind, unit) + ".";
 }
 
 }  // namespace tyglab

@@ -13,6 +13,9 @@
 namespace tyglab {
 namespace {
 
+// Pixels at scale 1: above and below, the row of buttons, and of the tables in a very low window.
+constexpr float help_padding_at_1 = 20, help_foot_at_1 = 48, least_help_at_1 = 60;
+
 struct Entry {
   const char *keys, *does;
 };
@@ -119,13 +122,21 @@ void help_overlay(Ui& ui) {
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window.y - ui.theme.px(32)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, ui.theme.px(8));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(24), ui.theme.px(20)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(24), ui.theme.px(help_padding_at_1)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(ui.theme.px(8), ui.theme.px(5)));
   ImGui::SetNextWindowFocus();
   if (ImGui::Begin("help", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                        ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) {
+    const float around = ui.theme.px(32 + 2 * help_padding_at_1 + help_foot_at_1);
+    const float room = std::max(window.y - around, ui.theme.px(least_help_at_1));
+    // How high the tables are is known once they have been drawn.
+    gui::begin_child("tables", {0, ui.help_needs > 0 ? std::min(ui.help_needs, room) : room});
     tables(ui, ImGui::GetContentRegionAvail().x);
+    if (const float needs = ImGui::GetCursorPosY(); needs != ui.help_needs) ui.help_needs = needs, ui.draw_by = ui.now;
+    more_below(ui);
+    ImGui::EndChild();
+    ImGui::Dummy({0, ui.theme.px(4)});
     if (text_button(ui, "Close", true)) ui.help = false;
     for (const char* id : {"choose_lab", "start_tour", "open_palette"}) {
       ImGui::SameLine();

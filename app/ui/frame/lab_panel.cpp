@@ -143,6 +143,9 @@ void check_line(Ui& ui, const LabRun& run, const Condition& check, CheckState st
   if (run.record().done)
     return marked_line(ui, icon::check, "+", c.good, with_whole_terms(words_of(check) + compared(run, check)), c.text);
   const std::string words = with_whole_terms(check_in_words(ui.session, check, state, memory));
+  // What must hold to the end holds so far, and is nothing that has been done.
+  if (state == CheckState::holds && check.span == Span::throughout)
+    return marked_line(ui, icon::check, "+", c.quiet, words + " · so far", c.quiet);
   if (state == CheckState::holds) return marked_line(ui, icon::check, "+", c.good, words, c.text);
   if (state == CheckState::open) return marked_line(ui, icon::circle, "o", c.quiet, words, c.text);
   if (state == CheckState::broken) return marked_line(ui, icon::close, "x", c.warning, words, c.text);
@@ -238,19 +241,6 @@ void begin_lab_column(Ui& ui, const char* id, float left, float top, ImVec2 size
   ImGui::PushTextWrapPos(0);
 }
 
-/// What goes on below its edge is seen to: the last line fades, and an arrow points down.
-void more_below(Ui& ui) {
-  if (ImGui::GetScrollMaxY() - ImGui::GetScrollY() < ui.theme.px(6)) return;
-  const Tokens& c = ui.theme.colors;
-  const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
-  const float high = ui.theme.px(16), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
-  const float x = std::round((lo.x + right) / 2), y = bottom - ui.theme.px(7), r = ui.theme.px(5);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImU32 clear = faded(c.panel, 0);
-  draw.AddRectFilledMultiColor({lo.x, bottom - high}, {right, bottom}, clear, clear, c.panel, c.panel);
-  draw.AddTriangleFilled({x - r, y}, {x + r, y}, {x, y + r}, c.text);
-}
-
 /// Returns how high its contents are, px.
 float end_lab_column(Ui& ui) {
   const float height = ImGui::GetCursorPosY();
@@ -275,7 +265,7 @@ void fit_height(Ui& ui, const Region& region, float contents) {
 }
 
 /// What the button that leads on may say.
-constexpr std::array forward_labels{"Skip", "Next", "Leave", "Finish"};
+constexpr std::array forward_labels{"Skip", "Next", "Finish"};
 
 float button_width(const Ui& ui, const char* label) {
   return text_width(*ui.fonts.text, label) + 2 * ImGui::GetStyle().FramePadding.x;
@@ -303,14 +293,17 @@ float step_buttons_width(Ui& ui, LabRun& run) {
 /// Back and on, which keep their places from step to step, then the one that comes and goes.
 void step_buttons(Ui& ui, LabRun& run, ImVec2 at) {
   const bool last = run.step + 1 == run.lab.steps.size(), done = run.record().done, again = can_set_up_again(run);
-  const char* forward = forward_labels[std::size_t(2 * last + done)];
+  const char* forward = forward_labels[last ? 2 : std::size_t(done)];
+  // Where Next stood nothing leaves a lab that has not been done; the cross does.
+  const bool can = !last || done || cannot_be_done(ui.session);
   const float gap = ui.theme.px(button_gap_at_1);
   ImGui::SetCursorScreenPos(at);
   if (text_button(ui, "Back", false, run.step > 0)) return back_step(ui.session);
   ImGui::SameLine(0, gap);
   // The second click of a double click meets the next step's button, and is not meant for it.
   const bool second = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
-  const bool go = text_button(ui, forward, done, true, forward_width(ui)) && !second;
+  const bool go = text_button(ui, forward, done, can, forward_width(ui)) && !second;
+  if (!can) tooltip(ui, gui::item_id(), "Once the checks hold; × leaves the lab before that, and keeps your progress");
   if (again) {
     ImGui::SameLine(0, gap);
     if (text_button(ui, "Set up again")) set_up_step(ui.session);

@@ -47,6 +47,7 @@ void time_line(Ui& ui, ImVec2 at, float end) {
   draw_on_baseline(*ImGui::GetWindowDrawList(), mono, {at.x, baseline}, ui.theme.colors.text,
                    fitted(mono, time, end - at.x));
   const RealTime real = real_time(ui);
+  if (!real.known) return;
   const std::string after = "× " + real.text;
   const float left = std::max(at.x + text_width(mono, time) + ui.theme.px(10), end - text_width(mono, after));
   if (left + text_width(mono, after) > end + ui.theme.px(podium_gap_at_1 - 4)) return;

@@ -84,8 +84,10 @@ ImVec2 transport_buttons(Ui& ui, ImVec2 at, float side) {
 RealTime real_time(const Ui& ui) {
   const Pacing& pacing = ui.session.pacing;
   const Tokens& c = ui.theme.colors;
-  const bool running = pacing.playing && !ui.session.simulation->divergence() && !ui.session.asleep();
-  if (!running) return {"–", c.quiet};
+  // A replay is as slow as it is meant to be.
+  const bool running =
+      pacing.playing && !ui.session.replay && !ui.session.simulation->divergence() && !ui.session.asleep();
+  if (!running) return {"–", c.quiet, false};
   const bool reached = pacing.aim() > 0 && pacing.reached() / pacing.aim() > 0.95;
   return {short_number(std::round(100 * pacing.reached()), 4) + " %", reached ? c.good : c.warning};
 }

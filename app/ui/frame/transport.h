@@ -25,6 +25,7 @@ ImVec2 speed_list_size(const Ui& ui);
 struct RealTime {
   std::string text;
   ImU32 color;
+  bool known = true;  ///< false: time stands still, or is meant to be slow, and the text is a dash
 };
 RealTime real_time(const Ui& ui);
 inline constexpr const char* real_time_tip =

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/ui/cards/cards.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/frame/dialogs.h"
 
 namespace tyglab {
@@ -44,6 +45,13 @@ void Ui::remember_recent() {
   recent.resize(std::min(recent.size(), most));
 }
 
+/// What a step of a lab tells to change is to be in sight, in a low column too: the first constant that it checks.
+void Ui::show_what_to_change() {
+  for (const Condition& check : session.labs.run->now().checks)
+    if (const PresetRow* row = find_row(check.name); row != nullptr && applies(*row, session.preset()))
+      return bring_into_sight(*this, check.name);
+}
+
 void Ui::follow() {
   const SessionCounts& counts = session.counts;
   if (counts.documents != seen_.documents) slider = SliderState{}, constants_to_top = true;
@@ -53,7 +61,10 @@ void Ui::follow() {
     settings.layout.folded.erase(card_name::copies);
     if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;
   }
-  if (counts.lab_steps != seen_.lab_steps && session.labs.run) show_for_lab(*this, session.labs.run->now().show);
+  if (counts.lab_steps != seen_.lab_steps && session.labs.run) {
+    show_for_lab(*this, session.labs.run->now().show);
+    show_what_to_change();
+  }
   seen_ = counts;
   if (const auto question = std::exchange(session.question, std::nullopt)) {
     const bool unsaved = question->about == Question::About::unsaved_changes;

@@ -44,6 +44,8 @@ struct SliderState {
   int order = 0, focused_order = -1, wanted_order = -1;  ///< position in the panel, for Tab and up and down
   std::map<std::string, SliderReach> reaches;  ///< by the constant's key; of those that went beyond their usual span
   std::string wanted_key;  ///< of the constant whose slider is to take the focus when it is drawn next
+  std::string shown_key;   ///< of the constant whose row is to be in sight when it is drawn next
+  float rows_scroll = 0;   ///< by how much the column of constants is scrolled, or will be once this frame is drawn, px
 };
 
 /// Notes where controls are, for whoever drives the window.

@@ -397,6 +397,18 @@ bool begin_combo(UiContext& ui, const char* id, const char* shown, float width) 
   return false;
 }
 
+void more_below(UiContext& ui) {
+  if (ImGui::GetScrollMaxY() - ImGui::GetScrollY() < ui.theme.px(6)) return;
+  const Tokens& c = ui.theme.colors;
+  const ImVec2 lo = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  const float high = ui.theme.px(16), right = lo.x + size.x - ImGui::GetStyle().ScrollbarSize, bottom = lo.y + size.y;
+  const float x = std::round((lo.x + right) / 2), y = bottom - ui.theme.px(7), r = ui.theme.px(5);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 clear = faded(c.panel, 0);
+  draw.AddRectFilledMultiColor({lo.x, bottom - high}, {right, bottom}, clear, clear, c.panel, c.panel);
+  draw.AddTriangleFilled({x - r, y}, {x + r, y}, {x, y + r}, c.text);
+}
+
 void cover_viewport(UiContext& ui, ImVec2 lo, ImVec2 hi) {
   ui.viewport.covers.push_back({{lo.x, lo.y}, {hi.x, hi.y}});
 }

@@ -69,6 +69,10 @@ void end_combo();
 bool begin_menu(UiContext& ui, const char* id);
 void end_menu();
 
+/// For a child that scrolls, before its end: what goes on below its edge is seen to, the last line fades, and an arrow
+/// points down.
+void more_below(UiContext& ui);
+
 /// Leaves an area of the window to the panel: presses on the viewport there are not the viewport's.
 void cover_viewport(UiContext& ui, ImVec2 lo, ImVec2 hi);
 

@@ -19,7 +19,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float least_banner = 380;  // pixels at scale 1, of the width
+constexpr float least_banner = 380, under_views = 44;  // pixels at scale 1: of the width; below the view buttons
 constexpr const char* replay_label = "Replay slowly";
 
 float height_of(const ImFont& font, const std::string& lines) {
@@ -260,6 +260,15 @@ Box place_of_banner(const Ui& ui, const Box& region, glm::vec2 size) {
   return {{left, std::max(region.lo.y, foot - size.y)}, {left + size.x, std::max(region.lo.y, foot - size.y) + size.y}};
 }
 
+/// Below the view buttons where it has room there; otherwise those step aside, rather than being covered in part.
+Box area_of_whole(Ui& ui, const BannerPlan& plan, Box region) {
+  const float foot = region.hi.y - ui.theme.px(banner_margin_at_1), under = region.lo.y + ui.theme.px(under_views);
+  const bool over = foot - under < plan.height;
+  if (over != ui.banner_over_views) ui.banner_over_views = over, ui.draw_by = ui.now;
+  if (!over) region.lo.y = under;
+  return region;
+}
+
 void banner_ground(Ui& ui, const Box& box) {
   const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -320,11 +329,16 @@ float banner_strip(Ui& ui, glm::vec2 region) {
 
 void banner(Ui& ui, const Box& region) {
   const auto& divergence = ui.session.simulation->divergence();
-  if (!divergence) return ui.banner_whole.reset();
+  if (!divergence) {
+    ui.banner_over_views = false;
+    return ui.banner_whole.reset();
+  }
   const BannerPlan plan = plan_banner(ui, *divergence, region.hi - region.lo);
-  const float room = region.hi.y - region.lo.y - ui.theme.px(banner_margin_at_1);
+  if (!plan.whole) ui.banner_over_views = false;
+  const Box area = plan.whole ? area_of_whole(ui, plan, region) : region;
+  const float room = area.hi.y - area.lo.y - ui.theme.px(banner_margin_at_1);
   const Box box =
-      place_of_banner(ui, region, plan.whole ? glm::vec2(plan.width, std::min(plan.height, room)) : plan.folded.size);
+      place_of_banner(ui, area, plan.whole ? glm::vec2(plan.width, std::min(plan.height, room)) : plan.folded.size);
   banner_ground(ui, box);
   if (plan.whole) return draw_whole(ui, plan, box);
   draw_folded(ui, plan.folded, box);

@@ -21,6 +21,7 @@ constexpr float icon_at_1 = 24, close_at_1 = 22, between_at_1 = 8, edge_at_1 = 1
 
 /// A message in lines.
 struct Note {
+  std::size_t index;  ///< among the messages
   std::string text;
   glm::vec2 size;  ///< px
 };
@@ -30,18 +31,25 @@ std::vector<Note> notes_in_lines(const Ui& ui) {
   const float beside = ui.theme.px(2 * padding_at_1 + icon_at_1 + close_at_1);
   const float most = std::min(ui.theme.px(widest_at_1), ui.viewport.whole().x - ui.theme.px(2 * edge_at_1));
   std::vector<Note> notes;
-  for (const Message& message : ui.session.messages.list()) {
-    std::string text = in_lines(font, capitalised(message.text), most - beside);
+  const std::vector<Message>& list = ui.session.messages.list();
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    std::string text = in_lines(font, capitalised(list[k].text), most - beside);
     const float width = font.CalcTextSizeA(font.FontSize, 1e9f, 0, text.c_str()).x;
     const float height = std::max(height_of(font, text) + 2 * ui.theme.px(above_at_1), ui.theme.px(lowest_at_1));
-    notes.push_back({std::move(text), {std::min(std::ceil(width) + beside, most), height}});
+    notes.push_back({k, std::move(text), {std::min(std::ceil(width) + beside, most), height}});
   }
   return notes;
 }
 
-/// Where they stand below each other, all equally wide: in the corner in which they covered least of the cloth when the
-/// first of them came.
-Box place_of_notes(Ui& ui, glm::vec2 size) {
+/// Below each other, all equally wide, px.
+glm::vec2 size_of(const Ui& ui, const std::vector<Note>& notes) {
+  const float between = ui.theme.px(between_at_1);
+  glm::vec2 size{0, -between};
+  for (const Note& note : notes) size = {std::max(size.x, note.size.x), size.y + note.size.y + between};
+  return size;
+}
+
+std::array<std::optional<Box>, 4> places_of_notes(const Ui& ui, glm::vec2 size) {
   const glm::vec2 edge(ui.theme.px(edge_at_1));
   const Box area{{ui.viewport.box.lo.x + edge.x, ui.notes_from}, ui.viewport.box.hi - edge};
   const auto in = [&](ScreenCorner corner) { return ui.placing.in_corner(area, size, corner); };
@@ -49,9 +57,28 @@ Box place_of_notes(Ui& ui, glm::vec2 size) {
   // What is said of a divergence may reach up over the lower ones.
   if (!ui.session.simulation->divergence())
     places[2] = in(ScreenCorner::lower_left), places[3] = in(ScreenCorner::lower_right);
+  return places;
+}
+
+/// Where several would cover the cloth, one at a time is shown, until all have been.
+void keep_off_the_cloth(Ui& ui, std::vector<Note>& notes) {
+  if (notes.size() > 1 && !ui.one_note) {
+    const std::vector<Box> cloth = drawn_parts(ui);
+    const auto places = places_of_notes(ui, size_of(ui, notes));
+    const auto best = choose_place(places, cloth, {});
+    ui.one_note = !best || covered(*places[*best], cloth) > 0;
+  }
+  if (ui.one_note) notes = {notes[ui.session.messages.foremost()]};
+}
+
+/// In the corner in which they covered least of the cloth when the first of them came.
+Box place_of_notes(Ui& ui, glm::vec2 size) {
+  const auto places = places_of_notes(ui, size);
   // It stands still while it is read.
   if (!ui.notes_place || !places[*ui.notes_place]) ui.notes_place = choose_place(places, drawn_parts(ui), {});
-  return ui.notes_place ? *places[*ui.notes_place] : Box{area.lo, area.lo + size};
+  if (ui.notes_place) return *places[*ui.notes_place];
+  const glm::vec2 lo(ui.viewport.box.lo.x + ui.theme.px(edge_at_1), ui.notes_from);
+  return {lo, lo + size};
 }
 
 /// Returns whether it was clicked away.
@@ -70,7 +97,6 @@ bool draw_note(Ui& ui, const Message& message, const Note& note, ImVec2 lo, ImVe
   ImGui::SetCursorScreenPos(lo);
   const bool clicked = gui::press_area("dismiss", {hi.x - lo.x, hi.y - lo.y});
   report_control(ui, "dismiss");
-  tooltip(ui, gui::item_id(), "Click to dismiss");
   draw_text(draw, font, {hi.x - ui.theme.px(close_at_1), line + ui.theme.px(1)},
             ImGui::IsItemHovered() ? c.text : c.quiet, icon_or(ui.fonts, icon::close, "x"));
   cover_viewport(ui, lo, hi);
@@ -81,22 +107,25 @@ bool draw_note(Ui& ui, const Message& message, const Note& note, ImVec2 lo, ImVe
 
 void message_list(Ui& ui) {
   ui.session.messages.age(ui.now, ui.dialog.kind == Dialog::Kind::start);  // which shows warnings itself
-  const std::vector<Note> notes = notes_in_lines(ui);
-  if (notes.empty()) return ui.notes_place.reset();
-  const float between = ui.theme.px(between_at_1);
-  glm::vec2 size{0, -between};
-  for (const Note& note : notes) size = {std::max(size.x, note.size.x), size.y + note.size.y + between};
-  const Box box = place_of_notes(ui, size);
-  float y = box.lo.y;
-  std::size_t dismissed = notes.size();
-  for (std::size_t k = 0; k < notes.size(); ++k) {
-    ImGui::PushID(int(k));
-    const ImVec2 lo{box.lo.x, y}, hi{box.hi.x, y + notes[k].size.y};
-    if (draw_note(ui, ui.session.messages.list()[k], notes[k], lo, hi)) dismissed = k;
-    ImGui::PopID();
-    y = hi.y + between;
+  std::vector<Note> notes = notes_in_lines(ui);
+  if (notes.empty()) {
+    ui.one_note = false;
+    return ui.notes_place.reset();
   }
-  if (dismissed < notes.size()) ui.session.messages.dismiss(dismissed);
+  keep_off_the_cloth(ui, notes);
+  Messages& messages = ui.session.messages;
+  const Box box = place_of_notes(ui, size_of(ui, notes));
+  float y = box.lo.y;
+  std::optional<std::size_t> dismissed;
+  for (const Note& note : notes) {
+    ImGui::PushID(int(note.index));
+    const ImVec2 lo{box.lo.x, y}, hi{box.hi.x, y + note.size.y};
+    messages.show(note.index, ui.now);
+    if (draw_note(ui, messages.list()[note.index], note, lo, hi)) dismissed = note.index;
+    ImGui::PopID();
+    y = hi.y + ui.theme.px(between_at_1);
+  }
+  if (dismissed) messages.dismiss(*dismissed);
 }
 
 }  // namespace tyglab

@@ -34,6 +34,9 @@ void spring_arrows(Ui& ui, ImDrawList& draw, ImVec2 from) {
   }
 }
 
+/// What is drawn over the ring of a divergence.
+constexpr const char* marks_over_the_ring[] = {"views", "bending", "banner", "legend"};
+
 }  // namespace
 
 void divergence_mark(Ui& ui, ImDrawList& draw) {
@@ -47,14 +50,24 @@ void divergence_mark(Ui& ui, ImDrawList& draw) {
   const auto to = particle_on_screen(ui, 0, {of->i + of->di, of->j + of->dj});
   if (!from || !to) return;
   const ImVec2 middle{(from->x + to->x) / 2, (from->y + to->y) / 2};
-  // A spring that has left the picture is named by the banner; a part of its ring over the buttons says nothing.
-  const glm::vec2 lo = ui.viewport.origin(0), hi = lo + ui.viewport.size();
-  const Box* buttons = ui.placing.find("views");
-  if (!Box{lo, hi}.contains({middle.x, middle.y}) || (buttons != nullptr && buttons->contains({middle.x, middle.y})))
-    return;
+  // A spring that has left the picture is named by the banner; a ring that buttons or the banner cut off says nothing.
+  constexpr float least = 11, most = 40, line = 4;  // px at scale 1
+  const glm::vec2 lo = ui.viewport.origin(0), hi = lo + ui.viewport.size(), at(middle.x, middle.y);
+  if (!Box{lo, hi}.contains(at)) return;
+  const auto cut_off = [&](float radius) {
+    const glm::vec2 reach(ui.theme.px(radius + line));
+    const Box box{at - reach, at + reach};
+    return std::any_of(std::begin(marks_over_the_ring), std::end(marks_over_the_ring), [&](const char* name) {
+      const Box* mark = ui.placing.find(name);
+      return mark != nullptr && overlap(*mark, box);
+    });
+  };
   const float half = std::hypot(to->x - from->x, to->y - from->y) / 2 / ui.theme.scale;
+  float radius = std::clamp(half + 8, least, most);
+  if (cut_off(radius)) radius = least;
+  if (cut_off(radius)) return;
   draw.PushClipRect(vec(lo), vec(hi), true);
-  ring(ui, draw, middle, std::clamp(half + 8, 11.f, 40.f), ui.theme.colors.danger, 3);
+  ring(ui, draw, middle, radius, ui.theme.colors.danger, 3);
   draw.PopClipRect();
 }
 

@@ -42,8 +42,12 @@ void add_box(const Ui& ui, int tile, std::initializer_list<glm::dvec3> places, s
 void add_weight(const Ui& ui, const Simulation& cloth, int tile, std::vector<Box>& to) {
   const WeightModel model = weight_model(cloth.preset(), cloth.positions().at(0, 0));
   const glm::dvec3 weight(model.weight), side(1.2 * model.radius, 0, 0), down(0, 1.2 * model.radius, 0);
-  const glm::dvec3 top(weight.x, 3.1 * model.radius / 0.19 + cloth.preset().x_0.y, weight.z);
+  const double unit = model.radius / 0.19;
+  const glm::dvec3 rest(weight.x, cloth.preset().x_0.y, weight.z), top = rest + glm::dvec3(0, 3.1 * unit, 0);
   add_box(ui, tile, {top - side, top + side, weight - down - side, weight - down + side}, to);
+  const glm::dvec3 ceiling(0.5 * unit, 0, 0), thick(0, 0.1 * unit, 0), line(unit, 0, 0);
+  add_box(ui, tile, {top - ceiling - thick, top + ceiling}, to);
+  add_box(ui, tile, {rest - line, rest + line}, to);
 }
 
 /// Patches of the lattice, at most that many along each side.

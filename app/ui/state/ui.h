@@ -157,11 +157,14 @@ struct Ui : UiContext {
   SceneSketches sketches;
   Advice advice;
   bool help = false;
+  float help_needs = 0;              ///< height of what F1 shows, px; 0: not known yet
   bool panels = true;                ///< Tab hides them all
   bool presenting = false;           ///< a large cloth over a few large controls, and one card, in place of the panels
   bool presented_card = true;        ///< whether that card is there
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
   std::optional<std::size_t> pause_place, legend_place, notes_place;  ///< which of their places those marks took last
+  bool banner_over_views = false;        ///< it needs the view buttons' place: they are not there
+  bool one_note = false;                 ///< several messages would cover the cloth: they follow one another
   float notes_from = 0;                  ///< y from which notes may stand over the cloth, under the buttons; pixels
   bool arrows = true;                    ///< of the variables that are checked, at the picked particle
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
@@ -198,6 +201,7 @@ struct Ui : UiContext {
  private:
   void remember_recent();
   void follow_replay();
+  void show_what_to_change();
   SessionCounts seen_;
   std::optional<std::optional<ParticleField>> color_before_replay_;  ///< none: no replay has set it
 };
