@@ -279,6 +279,12 @@ class Tests:
         assert now["frames"] > frames, "no frame came beside the map"
         times("beside the map of stiffness and dt")
         self.shot(page, "study")
+        command(page, "order of convergence")
+        time.sleep(8)
+        times("beside the order of convergence")
+        page.ask("location.hash = 'hanging&rows=300&columns=400'; 1")
+        wait_for(page, "the large cloth", lambda now: now["preset"]["cloth"]["rows"] == 300, 240)
+        times("while a cloth of 300 x 400 is built and drawn first")
         page.call("Page.close")
 
     def test_threads_leave_frames_alone(self):
