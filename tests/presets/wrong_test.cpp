@@ -66,7 +66,7 @@ TEST_CASE("a doubled key is refused wherever it stands") {
 
 TEST_CASE("a wrong type is refused with what is expected") {
   for (const Wrong& wrong :
-       {Wrong{on_line_37("forces", "\"k_s\": \"50\""), {":37", "forces.k_s", "a number", "a string"}},
+       {Wrong{on_line_37("forces", "\"k_s\": \"50\""), {":37", "forces.k_s", "a number", "the string \"50\""}},
         {on_line_37("forces", "\"k_s\": null"), {":37", "forces.k_s", "a number", "null"}},
         {on_line_37("forces", "\"k_s\": true"), {":37", "forces.k_s", "a number"}},
         {on_line_37("forces", "\"k_s\": [50]"), {":37", "forces.k_s", "a number", "a list"}},
