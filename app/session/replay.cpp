@@ -49,7 +49,9 @@ void begin_replay(Session& session) {
   go_back(session, *start);
   // States are kept every tenth of a second.
   const std::int64_t left = of.step - 1 - Replay::steps - simulation.steps();
-  const std::int64_t affordable = cost > 0 ? std::int64_t(silently_s / cost) : Replay::steps;
+  const std::int64_t affordable = session.pacing.patient ? std::int64_t(session.pacing.most_patient)
+                                  : cost > 0             ? std::int64_t(silently_s / cost)
+                                                         : Replay::steps;
   if (left > 0) simulation.advance(int(std::min(left, affordable)));
   // What has fewer steps to show, since it diverged at once or was changed shortly before, shows them as long.
   const double shown = double(std::clamp<std::int64_t>(of.step - 1 - simulation.steps(), 1, Replay::steps));
