@@ -104,7 +104,7 @@ std::vector<Reference> make_references(const std::vector<AccuracyScene>& scenes,
 AccuracyResult measure(const AccuracyScene& scene, const Reference& reference, bool quick, std::ostream& out,
                        Progress& progress, std::size_t number, std::size_t of) {
   const Stop stop = InterruptGuard::interrupted;
-  const AccuracyEffort effort = quick ? AccuracyEffort{0.015, false, 1, 0.005} : AccuracyEffort{};
+  const AccuracyEffort effort = quick ? AccuracyEffort{0.012, false, 1, 0.005} : AccuracyEffort{};
   AccuracyResult result{scene, reference, {}};
   progress.clear();
   print_scene(out, result);
