@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+#include <cstring>
 #include <type_traits>
 
 #include "core/cloth/lattice.h"
@@ -15,18 +17,87 @@ namespace tyglab::cpu::HWY_NAMESPACE {
 using namespace tyglab::simd::HWY_NAMESPACE;
 using tyglab::HWY_NAMESPACE::shortest;
 
+/// What of a row is worked on at a time: a whole vector,
 template <class D>
-HWY_INLINE void put(Vec3<D> v, hn::TFromD<D>* to, std::ptrdiff_t stride) {
-  hn::StoreU(v.x.v, D(), to), hn::StoreU(v.y.v, D(), to + stride), hn::StoreU(v.z.v, D(), to + 2 * stride);
+struct AllLanes {
+  using Tag = D;
+  using T = hn::TFromD<D>;
+  HWY_INLINE Lanes<D> load(const T* from) const { return hn::LoadU(D(), from); }
+  HWY_INLINE void store(Lanes<D> v, T* to) const { hn::StoreU(v.v, D(), to); }
+};
+/// or, at its end, the first lanes of one. The others are read as zeros, between which no spring acts, and not written:
+/// there another component begins, or a row that another thread has.
+template <class D>
+class FirstLanes {
+ public:
+  using Tag = D;
+  using T = hn::TFromD<D>;
+#if HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
+  explicit HWY_INLINE FirstLanes(int lanes) : inside_(hn::FirstN(D(), std::size_t(lanes))) {}
+  HWY_INLINE Lanes<D> load(const T* from) const {
+    return hn::MaskedLoad(inside_, D(), from);
+  }
+  HWY_INLINE void store(Lanes<D> v, T* to) const {
+    hn::BlendedStore(v.v, inside_, D(), to);
+  }
+
+ private:
+  hn::Mask<D> inside_;
+#else
+  // Other instruction sets would read and write whole vectors here.
+  explicit HWY_INLINE FirstLanes(int lanes) : bytes_(std::size_t(lanes) * sizeof(T)) {}
+  HWY_INLINE Lanes<D> load(const T* from) const {
+    alignas(64) T all[hn::MaxLanes(D())] = {};
+    std::memcpy(all, from, bytes_);
+    return hn::Load(D(), all);
+  }
+  HWY_INLINE void store(Lanes<D> v, T* to) const {
+    alignas(64) T all[hn::MaxLanes(D())];
+    hn::Store(v.v, D(), all);
+    std::memcpy(to, all, bytes_);
+  }
+
+ private:
+  std::size_t bytes_;
+#endif
+};
+
+template <class Some, class T>
+HWY_INLINE Vec3<typename Some::Tag> load(Some some, const T* from, std::ptrdiff_t stride) {
+  return {some.load(from), some.load(from + stride), some.load(from + 2 * stride)};
+}
+template <class Some, class T>
+HWY_INLINE void store(Some some, Vec3<typename Some::Tag> v, T* to, std::ptrdiff_t stride) {
+  some.store(v.x, to), some.store(v.y, to + stride), some.store(v.z, to + 2 * stride);
 }
 
-/// 1/√a. The short form that springs take (simd-inl.h) is there for whole vectors alone.
-template <class D>
-HWY_INLINE Lanes<D> one_over_root(Lanes<D> a) {
-  if constexpr (hn::MaxLanes(D()) == hn::MaxLanes(hn::ScalableTag<hn::TFromD<D>>()))
-    return over_root(Lanes<D>::all(0.5), a, Lanes<D>());
-  else
-    return hn::Div(hn::Set(D(), 1), hn::Sqrt(a.v));
+/// Within a row, lane n's partner is lane n ^ reach: what stands at the partner of each.
+template <int reach, class D>
+HWY_INLINE Lanes<D> partners(Lanes<D> v) {
+  if constexpr (reach == 1) {
+    return hn::Reverse2(D(), v.v);
+  } else if constexpr (sizeof(hn::TFromD<D>) == 4) {
+    const hn::RepartitionToWide<D> pairs;
+    return hn::BitCast(D(), hn::Reverse2(pairs, hn::BitCast(pairs, v.v)));
+  } else {
+    return hn::SwapAdjacentBlocks(v.v);
+  }
+}
+template <int reach, class D>
+HWY_INLINE Vec3<D> partners(Vec3<D> v) {
+  return {partners<reach>(v.x), partners<reach>(v.y), partners<reach>(v.z)};
+}
+/// What stands at the spring's first end, at both of its ends.
+template <int reach, class D>
+HWY_INLINE Lanes<D> first_ends(Lanes<D> v) {
+  if constexpr (reach == 1) {
+    return hn::DupEven(v.v);
+  } else if constexpr (sizeof(hn::TFromD<D>) == 4) {
+    const hn::RepartitionToWide<D> pairs;
+    return hn::BitCast(D(), hn::DupEven(hn::BitCast(pairs, v.v)));
+  } else {
+    return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(v.v), v.v);
+  }
 }
 
 /// What the two ends of springs weigh: 1 or 0 each, and 0 for both where a spring is torn.
@@ -73,12 +144,12 @@ HWY_INLINE auto weights_at(const SpringRow<R>& t, int n) {
   }
 }
 /// Within a row: `a` is the lane's own end, `b` its partner's.
-template <bool masked, class D, class R, class Partners>
-HWY_INLINE auto weights_within(const SpringRow<R>& t, int n, Partners partners) {
+template <bool masked, int reach, class D, class R>
+HWY_INLINE auto weights_within(const SpringRow<R>& t, int n) {
   using L = Lanes<D>;
   if constexpr (masked) {
-    const L own = L::load(t.free_a + n), whole = partners.of_first(L::load(t.whole + n));
-    const L on_a = whole * own, on_b = whole * partners(own);
+    const L own = L::load(t.free_a + n), whole = first_ends<reach>(L::load(t.whole + n));
+    const L on_a = whole * own, on_b = whole * partners<reach>(own);
     return Weights<D>{on_a, on_b, on_a + on_b};
   } else {
     return AllFree<D>{};
@@ -91,43 +162,44 @@ template <bool pushes, class R>
 class Projection {
  public:
   explicit HWY_INLINE Projection(const ProjectionRow<R>& row) : row_(row), least_(row.rest * shortest) {}
-  const SpringRow<R>& springs() const { return row_; }
 
-  template <bool masked, class D>
-  HWY_INLINE void between(D, int n) const {
+  template <bool masked, class Some>
+  HWY_INLINE void between(Some some, int n) const {
+    using D = typename Some::Tag;
     const auto w = weights_at<masked, D>(row_, n);
-    const Vec3<D> q_a = at<D>(row_.q_a + n), q_b = at<D>(row_.q_b + n);
-    const Vec3<D> d = at<D>(row_.x_b + n) - at<D>(row_.x_a + n) + (q_b - q_a);
-    const Vec3<D> way = apply(d, w, row_.lambda + n);
-    put<D>(q_a - weighed(w, way), row_.q_a + n, row_.stride);
-    put<D>(q_b + weighed_at_b(w, way), row_.q_b + n, row_.stride);
+    const Vec3<D> q_a = at(some, row_.q_a + n), q_b = at(some, row_.q_b + n);
+    const Vec3<D> d = at(some, row_.x_b + n) - at(some, row_.x_a + n) + (q_b - q_a);
+    const Vec3<D> way = apply(some, d, w, row_.lambda + n);
+    store(some, q_a - weighed(w, way), row_.q_a + n, row_.stride);
+    store(some, q_b + weighed_at_b(w, way), row_.q_b + n, row_.stride);
   }
   /// A vector of particles of one row and their partners: each lane works its own spring out.
-  template <bool masked, class D, class Partners>
-  HWY_INLINE void within(D, int n, Partners partners) const {
-    const Vec3<D> x = at<D>(row_.x_a + n), q = at<D>(row_.q_a + n);
-    const auto w = weights_within<masked, D>(row_, n, partners);
-    const Vec3<D> d = partners(x) - x + (partners(q) - q);
-    put<D>(q - weighed(w, apply(d, w, row_.lambda + n)), row_.q_a + n, row_.stride);
+  template <bool masked, int reach, class Some>
+  HWY_INLINE void within(Some some, int n) const {
+    using D = typename Some::Tag;
+    const Vec3<D> x = at(some, row_.x_a + n), q = at(some, row_.q_a + n);
+    const auto w = weights_within<masked, reach, D>(row_, n);
+    const Vec3<D> d = partners<reach>(x) - x + (partners<reach>(q) - q);
+    store(some, q - weighed(w, apply(some, d, w, row_.lambda + n)), row_.q_a + n, row_.stride);
   }
 
  private:
-  template <class D>
-  HWY_INLINE Vec3<D> at(const R* p) const {
-    return Vec3<D>::load(p, row_.stride);
+  template <class Some>
+  HWY_INLINE Vec3<typename Some::Tag> at(Some some, const R* from) const {
+    return load(some, from, row_.stride);
   }
-  template <class D, template <class> class Weight>
-  HWY_INLINE Vec3<D> apply(Vec3<D> d, Weight<D> w, R* lambda) const {
+  template <class Some, class D, template <class> class Weight>
+  HWY_INLINE Vec3<D> apply(Some some, Vec3<D> d, Weight<D> w, R* lambda) const {
     using L = Lanes<D>;
-    const L square = dot(d, d), per_length = one_over_root(square), length = square * per_length;
-    const L old = L::load(lambda), error = multiply_add(L::all(row_.compliance), old, length - L::all(row_.rest));
+    const L square = dot(d, d), per_length = over_root(L::all(0.5), square, L()), length = square * per_length;
+    const L old = some.load(lambda), error = multiply_add(L::all(row_.compliance), old, length - L::all(row_.rest));
     const L wanted = old - error * by_weight(w, L::all(row_.per_both), L::all(row_.per_one));
     const L next = pushes ? positive(wanted) : negative(wanted);
     // Shorter than that a spring has no direction; nor is there anything to move between two fixed ends.
     auto acts = hn::Gt(length.v, L::all(least_).v);
     if constexpr (std::is_same_v<Weight<D>, Weights<D>>) acts = hn::And(acts, hn::Gt(w.sum.v, hn::Zero(D())));
     const L change = hn::IfThenElseZero(acts, (next - old).v);
-    hn::StoreU((old + change).v, D(), lambda);
+    some.store(old + change, lambda);
     return L(hn::IfThenElseZero(acts, (change * per_length).v)) * d;
   }
 
@@ -139,21 +211,22 @@ template <class R>
 class Damping {
  public:
   explicit HWY_INLINE Damping(const DampingRow<R>& row) : row_(row) {}
-  const SpringRow<R>& springs() const { return row_; }
 
-  template <bool masked, class D>
-  HWY_INLINE void between(D, int n) const {
+  template <bool masked, class Some>
+  HWY_INLINE void between(Some some, int n) const {
+    using D = typename Some::Tag;
     const auto w = weights_at<masked, D>(row_, n);
-    const Vec3<D> a = Vec3<D>::load(row_.v_a + n, row_.stride), b = Vec3<D>::load(row_.v_b + n, row_.stride);
+    const Vec3<D> a = load(some, row_.v_a + n, row_.stride), b = load(some, row_.v_b + n, row_.stride);
     const Vec3<D> part = part_of(w) * (b - a);
-    put<D>(a + weighed(w, part), row_.v_a + n, row_.stride);
-    put<D>(b - weighed_at_b(w, part), row_.v_b + n, row_.stride);
+    store(some, a + weighed(w, part), row_.v_a + n, row_.stride);
+    store(some, b - weighed_at_b(w, part), row_.v_b + n, row_.stride);
   }
-  template <bool masked, class D, class Partners>
-  HWY_INLINE void within(D, int n, Partners partners) const {
-    const Vec3<D> v = Vec3<D>::load(row_.v_a + n, row_.stride);
-    const auto w = weights_within<masked, D>(row_, n, partners);
-    put<D>(v + weighed(w, part_of(w) * (partners(v) - v)), row_.v_a + n, row_.stride);
+  template <bool masked, int reach, class Some>
+  HWY_INLINE void within(Some some, int n) const {
+    using D = typename Some::Tag;
+    const Vec3<D> v = load(some, row_.v_a + n, row_.stride);
+    const auto w = weights_within<masked, reach, D>(row_, n);
+    store(some, v + weighed(w, part_of(w) * (partners<reach>(v) - v)), row_.v_a + n, row_.stride);
   }
 
  private:
@@ -165,83 +238,54 @@ class Damping {
   const DampingRow<R> row_;
 };
 
-/// Lane n's partner is lane n ^ reach.
-template <class D>
-class Partners {
- public:
-  HWY_INLINE explicit Partners(int reach) {
-    static constexpr Tables of_reach[] = {tables(1), tables(2)};
-    const Tables& mine = of_reach[reach - 1];
-    other_ = hn::SetTableIndices(D(), mine.other), first_ = hn::SetTableIndices(D(), mine.first);
-  }
-  HWY_INLINE Lanes<D> operator()(Lanes<D> v) const { return hn::TableLookupLanes(v.v, other_); }
-  HWY_INLINE Vec3<D> operator()(Vec3<D> v) const { return {(*this)(v.x), (*this)(v.y), (*this)(v.z)}; }
-  /// What stands at the spring's first end, at both of its ends.
-  HWY_INLINE Lanes<D> of_first(Lanes<D> v) const { return hn::TableLookupLanes(v.v, first_); }
-
- private:
-  using Index = hn::TFromD<hn::RebindToSigned<D>>;
-  struct Tables {
-    alignas(64) Index other[hn::MaxLanes(D())], first[hn::MaxLanes(D())];
-  };
-  static constexpr Tables tables(int reach) {
-    Tables made{};
-    for (std::size_t n = 0; n < hn::MaxLanes(D()); ++n)
-      made.other[n] = Index(int(n) ^ reach), made.first[n] = Index(int(n) & ~reach);
-    return made;
-  }
-  decltype(hn::SetTableIndices(D(), static_cast<const Index*>(nullptr))) other_, first_;
-};
-
-/// The springs between two rows from the n-th on: vector by vector, what is left in ever shorter ones.
-template <bool masked, class R, int lanes, class Operation>
-HWY_INLINE void between_rows(const Operation& operation, int n, int count) {
-  const hn::CappedTag<R, lanes> d;
-  for (; n + lanes <= count; n += lanes) operation.template between<masked>(d, n);
-  if constexpr (lanes > 1) between_rows<masked, R, lanes / 2>(operation, n, count);
+/// The springs between two rows, [n, end).
+template <bool masked, class R, class Operation>
+HWY_INLINE void between_rows(const Operation& operation, int n, int end) {
+  using D = hn::ScalableTag<R>;
+  constexpr int lanes = int(hn::MaxLanes(D()));
+  for (; n + lanes <= end; n += lanes) operation.template between<masked>(AllLanes<D>(), n);
+  if (n < end) operation.template between<masked>(FirstLanes<D>(end - n), n);
 }
-template <class R>
-constexpr int widest = int(hn::MaxLanes(hn::ScalableTag<R>()));
 
-/// The springs within a row, likewise; `rest` does those for which no vector is short enough.
-template <bool masked, class R, int lanes, class Operation, class Rest>
-HWY_INLINE void within_row(const Operation& operation, int n, Rest rest) {
-  const int reach = operation.springs().reach, count = operation.springs().count;
-  if constexpr (lanes > 1) {
-    if (lanes >= 2 * reach && n + lanes <= count) {
-      const hn::CappedTag<R, lanes> d;
-      const Partners<hn::CappedTag<R, lanes>> partners(reach);
-      for (; n + lanes <= count; n += lanes) operation.template within<masked>(d, n, partners);
+/// The springs within a row, likewise. `apart`: the operation with each particle's partner in the place of b.
+template <bool masked, int reach, class R, class Operation>
+HWY_INLINE void within_row(const Operation& operation, const Operation& apart, int count) {
+  using D = hn::ScalableTag<R>;
+  constexpr int lanes = int(hn::MaxLanes(D())), group = 2 * reach;
+  int n = 0;
+  if constexpr (lanes >= group) {
+    for (; n + lanes <= count; n += lanes) operation.template within<masked, reach>(AllLanes<D>(), n);
+    // Whole groups: what has no partner would be joined to a zero.
+    if (const int left = (count - n) / group * group; left > 0) {
+      operation.template within<masked, reach>(FirstLanes<D>(left), n);
+      n += left;
     }
-    within_row<masked, R, lanes / 2>(operation, n, rest);
-  } else {
-    for (; n < count; n += 2 * reach)
-      for (int k = n; k < n + reach && k + reach < count; ++k) rest(k);
   }
+  for (; n + reach < count; n += group) between_rows<masked, R>(apart, n, n + std::min(reach, count - n - reach));
 }
 
 template <bool masked, bool pushes, class R>
 void project(const ProjectionRow<R>& row) {
   const Projection<pushes, R> projection(row);
-  if (row.reach == 0) return between_rows<masked, R, widest<R>>(projection, 0, row.count);
-  ProjectionRow<R> apart = row;  // with the partner in the place of b
-  apart.x_b += row.reach, apart.q_b += row.reach;
-  if (masked) apart.free_b += row.reach;
-  const Projection<pushes, R> single(apart);
-  within_row<masked, R, widest<R>>(projection, 0,
-                                   [&](int k) HWY_ATTR { single.template between<masked>(hn::CappedTag<R, 1>(), k); });
+  if (row.reach == 0) return between_rows<masked, R>(projection, 0, row.count);
+  ProjectionRow<R> partners = row;
+  partners.x_b += row.reach, partners.q_b += row.reach;
+  if (masked) partners.free_b += row.reach;
+  const Projection<pushes, R> apart(partners);
+  row.reach == 1 ? within_row<masked, 1, R>(projection, apart, row.count)
+                 : within_row<masked, 2, R>(projection, apart, row.count);
 }
 
 template <bool masked, class R>
 void damp(const DampingRow<R>& row) {
   const Damping<R> damping(row);
-  if (row.reach == 0) return between_rows<masked, R, widest<R>>(damping, 0, row.count);
-  DampingRow<R> apart = row;
-  apart.v_b += row.reach;
-  if (masked) apart.free_b += row.reach;
-  const Damping<R> single(apart);
-  within_row<masked, R, widest<R>>(damping, 0,
-                                   [&](int k) HWY_ATTR { single.template between<masked>(hn::CappedTag<R, 1>(), k); });
+  if (row.reach == 0) return between_rows<masked, R>(damping, 0, row.count);
+  DampingRow<R> partners = row;
+  partners.v_b += row.reach;
+  if (masked) partners.free_b += row.reach;
+  const Damping<R> apart(partners);
+  row.reach == 1 ? within_row<masked, 1, R>(damping, apart, row.count)
+                 : within_row<masked, 2, R>(damping, apart, row.count);
 }
 
 template <bool masked, class R>
