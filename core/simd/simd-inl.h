@@ -30,6 +30,8 @@ struct Lanes {
   friend HWY_INLINE Lanes operator*(Lanes a, Lanes b) { return hn::Mul(a.v, b.v); }
   friend HWY_INLINE Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.v, b.v); }
   friend HWY_INLINE Lanes multiply_add(Lanes a, Lanes b, Lanes c) { return hn::MulAdd(a.v, b.v, c.v); }
+  /// c - a b
+  friend HWY_INLINE Lanes subtract_times(Lanes a, Lanes b, Lanes c) { return hn::NegMulAdd(a.v, b.v, c.v); }
   friend HWY_INLINE Lanes if_greater(Lanes a, Lanes b, Lanes then) {
     return hn::IfThenElseZero(hn::Gt(a.v, b.v), then.v);
   }
@@ -69,6 +71,31 @@ struct Lanes {
     }
   }
 };
+
+/// √r2 and 1/√r2, likewise; of 0 neither is a number.
+template <class D>
+struct Root {
+  Lanes<D> root, inverse;
+};
+template <class D>
+HWY_INLINE Root<D> root_of(Lanes<D> r2) {
+  using T = hn::TFromD<D>;
+  [[maybe_unused]] const auto half = hn::Set(D(), T(0.5));
+  if constexpr (sizeof(T) == 4 && HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR) {
+    // Neither waits for the other.
+    const auto y = hn::ApproximateReciprocalSqrt(r2.v), r2_y = hn::Mul(r2.v, y);
+    const auto correction = hn::NegMulAdd(r2_y, y, hn::Set(D(), T(3)));
+    return {hn::Mul(hn::Mul(r2_y, half), correction), hn::Mul(hn::Mul(y, half), correction)};
+#if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
+  } else if constexpr (sizeof(T) == 8) {
+    const Lanes<D> inverse = over_root(Lanes<D>(half), r2, Lanes<D>());
+    return {r2 * inverse, inverse};
+#endif
+  } else {
+    const auto root = hn::Sqrt(r2.v);
+    return {root, hn::Div(hn::Set(D(), T(1)), root)};
+  }
+}
 
 /// a/b; in float on x86 by the approximation of 1/b and a Newton step, within 2 ulp.
 template <class D>
@@ -139,6 +166,9 @@ struct Vec3 {
   friend HWY_INLINE Vec3 operator*(L a, Vec3 b) { return {a * b.x, a * b.y, a * b.z}; }
   friend HWY_INLINE Vec3 multiply_add(L a, Vec3 b, Vec3 c) {
     return {multiply_add(a, b.x, c.x), multiply_add(a, b.y, c.y), multiply_add(a, b.z, c.z)};
+  }
+  friend HWY_INLINE Vec3 subtract_times(L a, Vec3 b, Vec3 c) {
+    return {subtract_times(a, b.x, c.x), subtract_times(a, b.y, c.y), subtract_times(a, b.z, c.z)};
   }
   friend HWY_INLINE Vec3 cross(Vec3 a, Vec3 b) {
     return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};

@@ -109,20 +109,20 @@ struct Weights {
 template <class D>
 struct AllFree {};
 template <class D>
-HWY_INLINE Vec3<D> weighed(Weights<D> w, Vec3<D> way) {
-  return w.a * way;
+HWY_INLINE Lanes<D> weighed_at_a(Weights<D> w, Lanes<D> part) {
+  return w.a * part;
 }
 template <class D>
-HWY_INLINE Vec3<D> weighed(AllFree<D>, Vec3<D> way) {
-  return way;
+HWY_INLINE Lanes<D> weighed_at_a(AllFree<D>, Lanes<D> part) {
+  return part;
 }
 template <class D>
-HWY_INLINE Vec3<D> weighed_at_b(Weights<D> w, Vec3<D> way) {
-  return w.b * way;
+HWY_INLINE Lanes<D> weighed_at_b(Weights<D> w, Lanes<D> part) {
+  return w.b * part;
 }
 template <class D>
-HWY_INLINE Vec3<D> weighed_at_b(AllFree<D>, Vec3<D> way) {
-  return way;
+HWY_INLINE Lanes<D> weighed_at_b(AllFree<D>, Lanes<D> part) {
+  return part;
 }
 /// `both` where both ends are free, otherwise `one`.
 template <class D>
@@ -156,8 +156,8 @@ HWY_INLINE auto weights_within(const SpringRow<R>& t, int n) {
   }
 }
 
-/// One step of Gauss-Seidel on a spring; apply() is the displacement of its end b where that weighs 1. `pushes`: as in
-/// ProjectionRow.
+/// One step of Gauss-Seidel on a spring; apply() is the displacement of its end b where that weighs 1, in parts of the
+/// way from a to b. `pushes`: as in ProjectionRow.
 template <bool pushes, class R>
 class Projection {
  public:
@@ -169,9 +169,9 @@ class Projection {
     const auto w = weights_at<masked, D>(row_, n);
     const Vec3<D> q_a = at(some, row_.q_a + n), q_b = at(some, row_.q_b + n);
     const Vec3<D> d = at(some, row_.x_b + n) - at(some, row_.x_a + n) + (q_b - q_a);
-    const Vec3<D> way = apply(some, d, w, row_.lambda + n);
-    store(some, q_a - weighed(w, way), row_.q_a + n, row_.stride);
-    store(some, q_b + weighed_at_b(w, way), row_.q_b + n, row_.stride);
+    const Lanes<D> part = apply(some, d, w, row_.lambda + n);
+    store(some, subtract_times(weighed_at_a(w, part), d, q_a), row_.q_a + n, row_.stride);
+    store(some, multiply_add(weighed_at_b(w, part), d, q_b), row_.q_b + n, row_.stride);
   }
   /// A vector of particles of one row and their partners: each lane works its own spring out.
   template <bool masked, int reach, class Some>
@@ -180,7 +180,8 @@ class Projection {
     const Vec3<D> x = at(some, row_.x_a + n), q = at(some, row_.q_a + n);
     const auto w = weights_within<masked, reach, D>(row_, n);
     const Vec3<D> d = partners<reach>(x) - x + (partners<reach>(q) - q);
-    store(some, q - weighed(w, apply(some, d, w, row_.lambda + n)), row_.q_a + n, row_.stride);
+    const Lanes<D> part = weighed_at_a(w, apply(some, d, w, row_.lambda + n));
+    store(some, subtract_times(part, d, q), row_.q_a + n, row_.stride);
   }
 
  private:
@@ -189,18 +190,20 @@ class Projection {
     return load(some, from, row_.stride);
   }
   template <class Some, class D, template <class> class Weight>
-  HWY_INLINE Vec3<D> apply(Some some, Vec3<D> d, Weight<D> w, R* lambda) const {
+  HWY_INLINE Lanes<D> apply(Some some, Vec3<D> d, Weight<D> w, R* lambda) const {
     using L = Lanes<D>;
-    const L square = dot(d, d), per_length = over_root(L::all(0.5), square, L()), length = square * per_length;
-    const L old = some.load(lambda), error = multiply_add(L::all(row_.compliance), old, length - L::all(row_.rest));
-    const L wanted = old - error * by_weight(w, L::all(row_.per_both), L::all(row_.per_one));
-    const L next = pushes ? positive(wanted) : negative(wanted);
+    const Root<D> length = root_of(dot(d, d));
+    const L per = by_weight(w, L::all(row_.per_both), L::all(row_.per_one)), old = some.load(lambda);
+    // (rest - compliance λ - length) per, with as little as can be after the length, for which everything waits.
+    const L without_length = per * subtract_times(L::all(row_.compliance), old, L::all(row_.rest));
+    const L wanted = subtract_times(length.root, per, without_length), none_left = L() - old;
+    const L change = pushes ? hn::Max(wanted.v, none_left.v) : hn::Min(wanted.v, none_left.v);
     // Shorter than that a spring has no direction; nor is there anything to move between two fixed ends.
-    auto acts = hn::Gt(length.v, L::all(least_).v);
+    auto acts = hn::Gt(length.root.v, L::all(least_).v);
     if constexpr (std::is_same_v<Weight<D>, Weights<D>>) acts = hn::And(acts, hn::Gt(w.sum.v, hn::Zero(D())));
-    const L change = hn::IfThenElseZero(acts, (next - old).v);
-    some.store(old + change, lambda);
-    return L(hn::IfThenElseZero(acts, (change * per_length).v)) * d;
+    const L made = hn::IfThenElseZero(acts, change.v);
+    some.store(old + made, lambda);
+    return made * hn::IfThenElseZero(acts, length.inverse.v);
   }
 
   const ProjectionRow<R> row_;
@@ -217,16 +220,16 @@ class Damping {
     using D = typename Some::Tag;
     const auto w = weights_at<masked, D>(row_, n);
     const Vec3<D> a = load(some, row_.v_a + n, row_.stride), b = load(some, row_.v_b + n, row_.stride);
-    const Vec3<D> part = part_of(w) * (b - a);
-    store(some, a + weighed(w, part), row_.v_a + n, row_.stride);
-    store(some, b - weighed_at_b(w, part), row_.v_b + n, row_.stride);
+    const Vec3<D> d = b - a;
+    store(some, multiply_add(weighed_at_a(w, part_of(w)), d, a), row_.v_a + n, row_.stride);
+    store(some, subtract_times(weighed_at_b(w, part_of(w)), d, b), row_.v_b + n, row_.stride);
   }
   template <bool masked, int reach, class Some>
   HWY_INLINE void within(Some some, int n) const {
     using D = typename Some::Tag;
     const Vec3<D> v = load(some, row_.v_a + n, row_.stride);
     const auto w = weights_within<masked, reach, D>(row_, n);
-    store(some, v + weighed(w, part_of(w) * (partners<reach>(v) - v)), row_.v_a + n, row_.stride);
+    store(some, multiply_add(weighed_at_a(w, part_of(w)), partners<reach>(v) - v, v), row_.v_a + n, row_.stride);
   }
 
  private:
