@@ -62,42 +62,83 @@ class FirstLanes {
 #endif
 };
 
-template <class Some, class T>
-HWY_INLINE Vec3<typename Some::Tag> load(Some some, const T* from, std::ptrdiff_t stride) {
-  return {some.load(from), some.load(from + stride), some.load(from + 2 * stride)};
-}
-template <class Some, class T>
-HWY_INLINE void store(Some some, Vec3<typename Some::Tag> v, T* to, std::ptrdiff_t stride) {
-  some.store(v.x, to), some.store(v.y, to + stride), some.store(v.z, to + 2 * stride);
+/// Something of both ends of a vector of springs.
+template <class D>
+struct Ends {
+  Lanes<D> a, b;
+};
+template <class D>
+struct Ends3 {
+  Vec3<D> a, b;
+};
+
+/// The springs from the n-th on between two rows.
+template <class Some>
+struct BetweenRows {
+  using Tag = typename Some::Tag;
+  using T = hn::TFromD<Tag>;
+  Some some;
+  int n;
+
+  HWY_INLINE Ends<Tag> load(const T* a, const T* b) const { return {some.load(a + n), some.load(b + n)}; }
+  HWY_INLINE void store(Ends<Tag> v, T* a, T* b) const { some.store(v.a, a + n), some.store(v.b, b + n); }
+  HWY_INLINE Lanes<Tag> load_spring(const T* from) const { return some.load(from + n); }
+  HWY_INLINE void store_spring(Lanes<Tag> v, T* to) const { some.store(v, to + n); }
+};
+
+/// From two vectors of a row's particles to the springs' first ends and their second ones, or back: what stands at the
+/// second ends in the first vector changes places with what stands at the first ends in the second.
+template <int reach, class D>
+HWY_INLINE Ends<D> exchanged(Lanes<D> first, Lanes<D> second) {
+#if HWY_TARGET == HWY_SCALAR
+  return {first, second};
+#else
+  constexpr int lanes = int(hn::MaxLanes(D())), per_block = 16 / int(sizeof(hn::TFromD<D>));
+  if constexpr (lanes == reach) {
+    return {first, second};
+  } else if constexpr (per_block == reach) {
+    return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(second.v), first.v),
+            hn::OddEvenBlocks(second.v, hn::SwapAdjacentBlocks(first.v))};
+  } else if constexpr (per_block == 2 * reach) {
+    const hn::Repartition<double, D> d;
+    const auto from = hn::BitCast(d, first.v), to = hn::BitCast(d, second.v);
+    return {hn::BitCast(D(), hn::InterleaveLower(d, from, to)), hn::BitCast(D(), hn::InterleaveUpper(d, from, to))};
+  } else {
+    return {hn::OddEven(hn::DupEven(second.v), first.v), hn::OddEven(second.v, hn::DupOdd(first.v))};
+  }
+#endif
 }
 
-/// Within a row, lane n's partner is lane n ^ reach: what stands at the partner of each.
-template <int reach, class D>
-HWY_INLINE Lanes<D> partners(Lanes<D> v) {
-  if constexpr (reach == 1) {
-    return hn::Reverse2(D(), v.v);
-  } else if constexpr (sizeof(hn::TFromD<D>) == 4) {
-    const hn::RepartitionToWide<D> pairs;
-    return hn::BitCast(D(), hn::Reverse2(pairs, hn::BitCast(pairs, v.v)));
-  } else {
-    return hn::SwapAdjacentBlocks(v.v);
+/// The springs of two vectors of a row's particles, from the n-th particle on. Their own values lie side by side.
+template <int reach, class Some>
+struct WithinRow {
+  using Tag = typename Some::Tag;
+  using T = hn::TFromD<Tag>;
+  static constexpr int lanes = int(hn::MaxLanes(Tag()));
+  Some first, second;
+  int n;
+
+  HWY_INLINE Ends<Tag> load(const T* row, const T*) const {
+    return exchanged<reach>(first.load(row + n), second.load(row + n + lanes));
   }
-}
-template <int reach, class D>
-HWY_INLINE Vec3<D> partners(Vec3<D> v) {
-  return {partners<reach>(v.x), partners<reach>(v.y), partners<reach>(v.z)};
-}
-/// What stands at the spring's first end, at both of its ends.
-template <int reach, class D>
-HWY_INLINE Lanes<D> first_ends(Lanes<D> v) {
-  if constexpr (reach == 1) {
-    return hn::DupEven(v.v);
-  } else if constexpr (sizeof(hn::TFromD<D>) == 4) {
-    const hn::RepartitionToWide<D> pairs;
-    return hn::BitCast(D(), hn::DupEven(hn::BitCast(pairs, v.v)));
-  } else {
-    return hn::OddEvenBlocks(hn::SwapAdjacentBlocks(v.v), v.v);
+  HWY_INLINE void store(Ends<Tag> v, T* row, T*) const {
+    const Ends<Tag> back = exchanged<reach>(v.a, v.b);
+    first.store(back.a, row + n), second.store(back.b, row + n + lanes);
   }
+  HWY_INLINE Lanes<Tag> load_spring(const T* from) const { return hn::LoadU(Tag(), from + n / 2); }
+  HWY_INLINE void store_spring(Lanes<Tag> v, T* to) const { hn::StoreU(v.v, Tag(), to + n / 2); }
+};
+
+template <class Springs, class T, class D = typename Springs::Tag>
+HWY_INLINE Ends3<D> load(Springs springs, const T* a, const T* b, std::ptrdiff_t stride) {
+  const Ends<D> x = springs.load(a, b), y = springs.load(a + stride, b + stride),
+                z = springs.load(a + 2 * stride, b + 2 * stride);
+  return {{x.a, y.a, z.a}, {x.b, y.b, z.b}};
+}
+template <class Springs, class T, class D = typename Springs::Tag>
+HWY_INLINE void store(Springs springs, Vec3<D> at_a, Vec3<D> at_b, T* a, T* b, std::ptrdiff_t stride) {
+  springs.store({at_a.x, at_b.x}, a, b), springs.store({at_a.y, at_b.y}, a + stride, b + stride);
+  springs.store({at_a.z, at_b.z}, a + 2 * stride, b + 2 * stride);
 }
 
 /// What the two ends of springs weigh: 1 or 0 each, and 0 for both where a spring is torn.
@@ -109,20 +150,12 @@ struct Weights {
 template <class D>
 struct AllFree {};
 template <class D>
-HWY_INLINE Lanes<D> weighed_at_a(Weights<D> w, Lanes<D> part) {
-  return w.a * part;
+HWY_INLINE Ends<D> weighed(Weights<D> w, Lanes<D> part) {
+  return {w.a * part, w.b * part};
 }
 template <class D>
-HWY_INLINE Lanes<D> weighed_at_a(AllFree<D>, Lanes<D> part) {
-  return part;
-}
-template <class D>
-HWY_INLINE Lanes<D> weighed_at_b(Weights<D> w, Lanes<D> part) {
-  return w.b * part;
-}
-template <class D>
-HWY_INLINE Lanes<D> weighed_at_b(AllFree<D>, Lanes<D> part) {
-  return part;
+HWY_INLINE Ends<D> weighed(AllFree<D>, Lanes<D> part) {
+  return {part, part};
 }
 /// `both` where both ends are free, otherwise `one`.
 template <class D>
@@ -133,67 +166,43 @@ template <class D>
 HWY_INLINE Lanes<D> by_weight(AllFree<D>, Lanes<D> both, Lanes<D>) {
   return both;
 }
-template <bool masked, class D, class R>
-HWY_INLINE auto weights_at(const SpringRow<R>& t, int n) {
-  using L = Lanes<D>;
+template <bool masked, class Springs, class R>
+HWY_INLINE auto weights_of(Springs springs, const SpringRow<R>& t) {
+  using D = typename Springs::Tag;
   if constexpr (masked) {
-    const L whole = L::load(t.whole + n), on_a = whole * L::load(t.free_a + n), on_b = whole * L::load(t.free_b + n);
-    return Weights<D>{on_a, on_b, on_a + on_b};
-  } else {
-    return AllFree<D>{};
-  }
-}
-/// Within a row: `a` is the lane's own end, `b` its partner's.
-template <bool masked, int reach, class D, class R>
-HWY_INLINE auto weights_within(const SpringRow<R>& t, int n) {
-  using L = Lanes<D>;
-  if constexpr (masked) {
-    const L own = L::load(t.free_a + n), whole = first_ends<reach>(L::load(t.whole + n));
-    const L on_a = whole * own, on_b = whole * partners<reach>(own);
+    const Lanes<D> whole = springs.load(t.whole, t.whole).a;
+    const Ends<D> free = springs.load(t.free_a, t.free_b);
+    const Lanes<D> on_a = whole * free.a, on_b = whole * free.b;
     return Weights<D>{on_a, on_b, on_a + on_b};
   } else {
     return AllFree<D>{};
   }
 }
 
-/// One step of Gauss-Seidel on a spring; apply() is the displacement of its end b where that weighs 1, in parts of the
-/// way from a to b. `pushes`: as in ProjectionRow.
+/// One step of Gauss-Seidel on springs. `pushes`: as in ProjectionRow.
 template <bool pushes, class R>
 class Projection {
  public:
   explicit HWY_INLINE Projection(const ProjectionRow<R>& row) : row_(row), least_(row.rest * shortest) {}
 
-  template <bool masked, class Some>
-  HWY_INLINE void between(Some some, int n) const {
-    using D = typename Some::Tag;
-    const auto w = weights_at<masked, D>(row_, n);
-    const Vec3<D> q_a = at(some, row_.q_a + n), q_b = at(some, row_.q_b + n);
-    const Vec3<D> d = at(some, row_.x_b + n) - at(some, row_.x_a + n) + (q_b - q_a);
-    const Lanes<D> part = apply(some, d, w, row_.lambda + n);
-    store(some, subtract_times(weighed_at_a(w, part), d, q_a), row_.q_a + n, row_.stride);
-    store(some, multiply_add(weighed_at_b(w, part), d, q_b), row_.q_b + n, row_.stride);
-  }
-  /// A vector of particles of one row and their partners: each lane works its own spring out.
-  template <bool masked, int reach, class Some>
-  HWY_INLINE void within(Some some, int n) const {
-    using D = typename Some::Tag;
-    const Vec3<D> x = at(some, row_.x_a + n), q = at(some, row_.q_a + n);
-    const auto w = weights_within<masked, reach, D>(row_, n);
-    const Vec3<D> d = partners<reach>(x) - x + (partners<reach>(q) - q);
-    const Lanes<D> part = weighed_at_a(w, apply(some, d, w, row_.lambda + n));
-    store(some, subtract_times(part, d, q), row_.q_a + n, row_.stride);
+  template <bool masked, class Springs>
+  HWY_INLINE void operator()(Springs springs) const {
+    using D = typename Springs::Tag;
+    const auto w = weights_of<masked>(springs, row_);
+    const Ends3<D> x = load(springs, row_.x_a, row_.x_b, row_.stride),
+                   q = load(springs, row_.q_a, row_.q_b, row_.stride);
+    const Vec3<D> d = x.b - x.a + (q.b - q.a);
+    const Ends<D> part = weighed(w, moved(springs, d, w));
+    store(springs, subtract_times(part.a, d, q.a), multiply_add(part.b, d, q.b), row_.q_a, row_.q_b, row_.stride);
   }
 
  private:
-  template <class Some>
-  HWY_INLINE Vec3<typename Some::Tag> at(Some some, const R* from) const {
-    return load(some, from, row_.stride);
-  }
-  template <class Some, class D, template <class> class Weight>
-  HWY_INLINE Lanes<D> apply(Some some, Vec3<D> d, Weight<D> w, R* lambda) const {
+  /// The displacement of an end that weighs 1, in parts of d, the way from a to b.
+  template <class Springs, class D, template <class> class Weight>
+  HWY_INLINE Lanes<D> moved(Springs springs, Vec3<D> d, Weight<D> w) const {
     using L = Lanes<D>;
     const Root<D> length = root_of(dot(d, d));
-    const L per = by_weight(w, L::all(row_.per_both), L::all(row_.per_one)), old = some.load(lambda);
+    const L per = by_weight(w, L::all(row_.per_both), L::all(row_.per_one)), old = springs.load_spring(row_.lambda);
     // (rest - compliance λ - length) per, with as little as can be after the length, for which everything waits.
     const L without_length = per * subtract_times(L::all(row_.compliance), old, L::all(row_.rest));
     const L wanted = subtract_times(length.root, per, without_length), none_left = L() - old;
@@ -202,7 +211,7 @@ class Projection {
     auto acts = hn::Gt(length.root.v, L::all(least_).v);
     if constexpr (std::is_same_v<Weight<D>, Weights<D>>) acts = hn::And(acts, hn::Gt(w.sum.v, hn::Zero(D())));
     const L made = hn::IfThenElseZero(acts, change.v);
-    some.store(old + made, lambda);
+    springs.store_spring(old + made, row_.lambda);
     return made * hn::IfThenElseZero(acts, length.inverse.v);
   }
 
@@ -215,29 +224,17 @@ class Damping {
  public:
   explicit HWY_INLINE Damping(const DampingRow<R>& row) : row_(row) {}
 
-  template <bool masked, class Some>
-  HWY_INLINE void between(Some some, int n) const {
-    using D = typename Some::Tag;
-    const auto w = weights_at<masked, D>(row_, n);
-    const Vec3<D> a = load(some, row_.v_a + n, row_.stride), b = load(some, row_.v_b + n, row_.stride);
-    const Vec3<D> d = b - a;
-    store(some, multiply_add(weighed_at_a(w, part_of(w)), d, a), row_.v_a + n, row_.stride);
-    store(some, subtract_times(weighed_at_b(w, part_of(w)), d, b), row_.v_b + n, row_.stride);
-  }
-  template <bool masked, int reach, class Some>
-  HWY_INLINE void within(Some some, int n) const {
-    using D = typename Some::Tag;
-    const Vec3<D> v = load(some, row_.v_a + n, row_.stride);
-    const auto w = weights_within<masked, reach, D>(row_, n);
-    store(some, multiply_add(weighed_at_a(w, part_of(w)), partners<reach>(v) - v, v), row_.v_a + n, row_.stride);
+  template <bool masked, class Springs>
+  HWY_INLINE void operator()(Springs springs) const {
+    using D = typename Springs::Tag;
+    const auto w = weights_of<masked>(springs, row_);
+    const Ends3<D> v = load(springs, row_.v_a, row_.v_b, row_.stride);
+    const Vec3<D> d = v.b - v.a;
+    const Ends<D> part = weighed(w, by_weight(w, Lanes<D>::all(row_.both), Lanes<D>::all(row_.one)));
+    store(springs, multiply_add(part.a, d, v.a), subtract_times(part.b, d, v.b), row_.v_a, row_.v_b, row_.stride);
   }
 
  private:
-  template <class D, template <class> class Weight>
-  HWY_INLINE Lanes<D> part_of(Weight<D> w) const {
-    return by_weight(w, Lanes<D>::all(row_.both), Lanes<D>::all(row_.one));
-  }
-
   const DampingRow<R> row_;
 };
 
@@ -246,8 +243,8 @@ template <bool masked, class R, class Operation>
 HWY_INLINE void between_rows(const Operation& operation, int n, int end) {
   using D = hn::ScalableTag<R>;
   constexpr int lanes = int(hn::MaxLanes(D()));
-  for (; n + lanes <= end; n += lanes) operation.template between<masked>(AllLanes<D>(), n);
-  if (n < end) operation.template between<masked>(FirstLanes<D>(end - n), n);
+  for (; n + lanes <= end; n += lanes) operation.template operator()<masked>(BetweenRows<AllLanes<D>>{{}, n});
+  if (n < end) operation.template operator()<masked>(BetweenRows<FirstLanes<D>>{FirstLanes<D>(end - n), n});
 }
 
 /// The springs within a row, likewise. `apart`: the operation with each particle's partner in the place of b.
@@ -256,39 +253,43 @@ HWY_INLINE void within_row(const Operation& operation, const Operation& apart, i
   using D = hn::ScalableTag<R>;
   constexpr int lanes = int(hn::MaxLanes(D())), group = 2 * reach;
   int n = 0;
-  if constexpr (lanes >= group) {
-    for (; n + lanes <= count; n += lanes) operation.template within<masked, reach>(AllLanes<D>(), n);
+  if constexpr (lanes >= reach) {
+    for (; n + 2 * lanes <= count; n += 2 * lanes)
+      operation.template operator()<masked>(WithinRow<reach, AllLanes<D>>{{}, {}, n});
     // Whole groups: what has no partner would be joined to a zero.
     if (const int left = (count - n) / group * group; left > 0) {
-      operation.template within<masked, reach>(FirstLanes<D>(left), n);
+      const FirstLanes<D> first(std::min(left, lanes)), second(std::max(left - lanes, 0));
+      operation.template operator()<masked>(WithinRow<reach, FirstLanes<D>>{first, second, n});
       n += left;
     }
   }
+  // The value of such a spring lies where that of none is, or of one between two zeros.
   for (; n + reach < count; n += group) between_rows<masked, R>(apart, n, n + std::min(reach, count - n - reach));
+}
+
+template <bool masked, class R, class Operation, class Row>
+HWY_INLINE void through_row(const Row& row, const Row& partners) {
+  const Operation operation(row);
+  if (row.reach == 0) return between_rows<masked, R>(operation, 0, row.count);
+  const Operation apart(partners);
+  row.reach == 1 ? within_row<masked, 1, R>(operation, apart, row.count)
+                 : within_row<masked, 2, R>(operation, apart, row.count);
 }
 
 template <bool masked, bool pushes, class R>
 void project(const ProjectionRow<R>& row) {
-  const Projection<pushes, R> projection(row);
-  if (row.reach == 0) return between_rows<masked, R>(projection, 0, row.count);
   ProjectionRow<R> partners = row;
   partners.x_b += row.reach, partners.q_b += row.reach;
   if (masked) partners.free_b += row.reach;
-  const Projection<pushes, R> apart(partners);
-  row.reach == 1 ? within_row<masked, 1, R>(projection, apart, row.count)
-                 : within_row<masked, 2, R>(projection, apart, row.count);
+  through_row<masked, R, Projection<pushes, R>>(row, partners);
 }
 
 template <bool masked, class R>
 void damp(const DampingRow<R>& row) {
-  const Damping<R> damping(row);
-  if (row.reach == 0) return between_rows<masked, R>(damping, 0, row.count);
   DampingRow<R> partners = row;
   partners.v_b += row.reach;
   if (masked) partners.free_b += row.reach;
-  const Damping<R> apart(partners);
-  row.reach == 1 ? within_row<masked, 1, R>(damping, apart, row.count)
-                 : within_row<masked, 2, R>(damping, apart, row.count);
+  through_row<masked, R, Damping<R>>(row, partners);
 }
 
 template <bool masked, class R>
