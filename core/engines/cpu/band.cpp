@@ -158,14 +158,14 @@ void Band<R, Present>::begin_sums(const std::vector<ResolvedSweep::ResolvedAssig
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::sum_row(int i) {
-  make_sums(sums_, i * 3 * std::ptrdiff_t(cloth_.stride), force_row(i, 0), cloth_.stride, cloth_.lattice.columns);
+void Band<R, Present>::sum_rows(int i, int count) {
+  make_sums(sums_, i * 3 * std::ptrdiff_t(cloth_.stride), force_row(i, 0),
+            RowRun{cloth_.stride, cloth_.lattice.columns, count});
 }
 
 template <class R, unsigned Present>
 void Band<R, Present>::save_pair(int i) {
-  for (int row = i; row < std::min(i + 2, end_); ++row)
-    std::copy_n(cloth_.row(vector_x, row, 0), old_rows_.pitch(), old_row(row, 0));
+  std::copy_n(cloth_.row(vector_x, i, 0), rows_of_pair(i) * old_rows_.pitch(), old_row(i, 0));
 }
 
 /// A pair swept in the halo goes back to the cloth.
@@ -230,9 +230,9 @@ void Band<R, Present>::collide_row(int i) {
 
 /// What the pair sweep does itself where it makes the update: keeps the largest way.
 template <class R, unsigned Present>
-void Band<R, Present>::watch_row(int i) {
+void Band<R, Present>::watch_rows(int i, int count) {
   watch_displacements(cloth_.row(vector_x, i, 0), old_row(i, 0), cloth_.row(vector_v, i, 0),
-                      R(cloth_.dt / cloth_.velocity_scale()), cloth_.stride, cloth_.lattice.columns,
+                      R(cloth_.dt / cloth_.velocity_scale()), RowRun{cloth_.stride, cloth_.lattice.columns, count},
                       max_displacement_.data());
 }
 
@@ -285,15 +285,17 @@ void Band<R, Present>::sweep_pair(int i) {
   if (bodies || (last && assigns)) save_pair(i);
   forces_on_pair(pass_.task, assigns ? Update::force : s.update);
   if (!assigns && in_tail(i)) restore_pair(pass_.task, s, i);
-  for (int row = i; row < std::min(i + 2, end_); ++row) {
-    if (assigns)
-      fix_row(row), sum_row(row);
-    else if constexpr (has(part::hand))
-      read_hand(row);
-    if (bodies && touches(row)) collide_row(row);
-    if (last && assigns) watch_row(row);
-    if (s.estimate != nullptr) measure(*s.estimate, s, row);
+  const int count = rows_of_pair(i);
+  if (assigns) {
+    for (int row = i; row < i + count; ++row) fix_row(row);
+    sum_rows(i, count);
+  } else if constexpr (has(part::hand)) {
+    for (int row = i; row < i + count; ++row) read_hand(row);
   }
+  for (int row = i; bodies && row < i + count; ++row)
+    if (touches(row)) collide_row(row);
+  if (last && assigns) watch_rows(i, count);
+  for (int row = i; s.estimate != nullptr && row < i + count; ++row) measure(*s.estimate, s, row);
 }
 
 template <class R, unsigned Present>
@@ -306,11 +308,13 @@ template <class R, unsigned Present>
 void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last) {
   const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && cloth_.preset.kind == Kind::cloth;
   begin_sums(assignments);
-  for (int i = begin_; i < end_; ++i) {
-    if (last && i % 2 == 0) save_pair(i);
-    sum_row(i);
-    if (bodies && touches(i)) collide_row(i);
-    if (last) watch_row(i);
+  for (int i = begin_; i < end_; i += 2) {
+    const int count = rows_of_pair(i);
+    if (last) save_pair(i);
+    sum_rows(i, count);
+    for (int row = i; bodies && row < i + count; ++row)
+      if (touches(row)) collide_row(row);
+    if (last) watch_rows(i, count);
   }
 }
 

@@ -136,6 +136,7 @@ class Band {
   PairTask<R> task(const ResolvedSweep& sweep);
   void point(PairTask<R>& task, const Tears& tears, int i, int x_row, Field& x, Field& v);
   void point_at_pair(PairTask<R>& task, const ResolvedSweep& sweep, const Tears& tears, int i);
+  int rows_of_pair(int i) const { return i + 1 < end_ ? 2 : 1; }
   bool in_tail(int i) const { return end_ < cloth_.lattice.rows && i >= end_ - 2; }
   void copy_rows(const ResolvedSweep& sweep, int first, int count, Halo& halo, int at);
   void begin_forces(PairTask<R>& task, const Tears& tears);
@@ -143,12 +144,12 @@ class Band {
   void read_hand(int i);
   void fix_row(int i);
   void begin_sums(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments);
-  void sum_row(int i);
+  void sum_rows(int i, int count);
   void save_pair(int i);
   void restore_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
   bool touches(int i) const;
   void collide_row(int i);
-  void watch_row(int i);
+  void watch_rows(int i, int count);
   void measure(const ResolvedEstimate& estimate, const ResolvedSweep& sweep, int i);
   R* old_row(int i, int c) { return old_rows_.row(i % 2, c); }
   R* force_row(int i, int c) { return ring_.row(i % 4, c); }

@@ -24,7 +24,7 @@ template <class R>
 struct ProjectionRow : SpringRow<R> {
   const R *x_a = nullptr, *x_b = nullptr;  ///< positions at the beginning of the step
   R *q_a = nullptr, *q_b = nullptr;        ///< displacements since then
-  R* lambda = nullptr;                     ///< of each spring, times dt²/m: m; within a row at both of its ends
+  R* lambda = nullptr;                     ///< times dt²/m, of each spring: m; within a row in an order of its own
   double rest = 0;                         ///< m
   double compliance = 0;                   ///< m/(k dt²); soften() sets it
   double per_both = 0.5, per_one = 1;      ///< 1/(2 + compliance) and 1/(1 + compliance): of two free ends, and of one

@@ -51,46 +51,46 @@ class Sum {
 };
 
 template <int terms, class R>
-void sum_of(const RowSum<R>& given, std::ptrdiff_t offset, const R* force, std::ptrdiff_t stride, int columns) {
+void sum_of(const RowSum<R>& given, std::ptrdiff_t offset, const R* force, RowRun run) {
   const Sum<terms, R> sum(given, offset, force);
-  // Rows without a gap between their components are one run.
-  if (columns == stride) return sum.make(0, 3 * stride);
-  for (int c = 0; c < 3; ++c) sum.make(c * stride, c * stride + columns);
+  // Without gaps all are one.
+  if (run.columns == run.stride) return sum.make(0, 3 * run.rows * run.stride);
+  for (int c = 0; c < 3 * run.rows; ++c) sum.make(c * run.stride, c * run.stride + run.columns);
 }
 
 template <class R>
-void make_all(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, std::ptrdiff_t stride, int columns) {
+void make_all(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, RowRun run) {
   static_assert(RowSum<R>::most_terms == 8);
   for (const RowSum<R>* s = sums.sum; s < sums.sum + sums.count; ++s) switch (s->terms) {
       case 1:
-        sum_of<1>(*s, offset, force, stride, columns);
+        sum_of<1>(*s, offset, force, run);
         break;
       case 2:
-        sum_of<2>(*s, offset, force, stride, columns);
+        sum_of<2>(*s, offset, force, run);
         break;
       case 3:
-        sum_of<3>(*s, offset, force, stride, columns);
+        sum_of<3>(*s, offset, force, run);
         break;
       case 4:
-        sum_of<4>(*s, offset, force, stride, columns);
+        sum_of<4>(*s, offset, force, run);
         break;
       case 5:
-        sum_of<5>(*s, offset, force, stride, columns);
+        sum_of<5>(*s, offset, force, run);
         break;
       case 6:
-        sum_of<6>(*s, offset, force, stride, columns);
+        sum_of<6>(*s, offset, force, run);
         break;
       case 7:
-        sum_of<7>(*s, offset, force, stride, columns);
+        sum_of<7>(*s, offset, force, run);
         break;
       case 8:
-        sum_of<8>(*s, offset, force, stride, columns);
+        sum_of<8>(*s, offset, force, run);
         break;
     }
 }
 
 template <class R>
-void watch(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, int columns, R* largest) {
+void watch(const R* x, const R* old, const R* v, R dt, RowRun run, R* largest) {
   using D = hn::ScalableTag<R>;
   constexpr hn::RebindToUnsigned<D> du;
   constexpr int lanes = int(hn::MaxLanes(D()));
@@ -102,9 +102,11 @@ void watch(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, in
     const auto next = hn::Abs(hn::Mul(by, hn::Load(D(), v + at)));
     return hn::Max(hn::BitCast(du, way), hn::BitCast(du, next));
   };
-  for (int c = 0; c < 3; ++c) {
-    std::ptrdiff_t at = c * stride;
-    const std::ptrdiff_t end = at + columns;
+  const bool gaps = run.columns < run.stride;
+  const std::ptrdiff_t together = gaps ? run.columns : 3 * run.rows * run.stride;
+  for (int c = 0; c < (gaps ? 3 * run.rows : 1); ++c) {
+    std::ptrdiff_t at = c * run.stride;
+    const std::ptrdiff_t end = at + together;
     for (; at + lanes <= end; at += lanes) most = hn::Max(most, larger(at));
     if (at == end) continue;
     const auto inside = hn::FirstN(D(), std::size_t(end - at));
@@ -164,21 +166,17 @@ RowMeasures measure_float(const RowEstimate<float>& e, std::ptrdiff_t stride, in
 RowMeasures measure_double(const RowEstimate<double>& e, std::ptrdiff_t stride, int columns) {
   return measure(e, stride, columns);
 }
-void sums_float(const RowSums<float>& s, std::ptrdiff_t offset, const float* force, std::ptrdiff_t stride,
-                int columns) {
-  make_all(s, offset, force, stride, columns);
+void sums_float(const RowSums<float>& s, std::ptrdiff_t offset, const float* force, RowRun run) {
+  make_all(s, offset, force, run);
 }
-void sums_double(const RowSums<double>& s, std::ptrdiff_t offset, const double* force, std::ptrdiff_t stride,
-                 int columns) {
-  make_all(s, offset, force, stride, columns);
+void sums_double(const RowSums<double>& s, std::ptrdiff_t offset, const double* force, RowRun run) {
+  make_all(s, offset, force, run);
 }
-void watch_float(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
-                 float* largest) {
-  watch(x, old, v, dt, stride, columns, largest);
+void watch_float(const float* x, const float* old, const float* v, float dt, RowRun run, float* largest) {
+  watch(x, old, v, dt, run, largest);
 }
-void watch_double(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride, int columns,
-                  double* largest) {
-  watch(x, old, v, dt, stride, columns, largest);
+void watch_double(const double* x, const double* old, const double* v, double dt, RowRun run, double* largest) {
+  watch(x, old, v, dt, run, largest);
 }
 
 }  // namespace tyglab::cpu::HWY_NAMESPACE
@@ -203,23 +201,20 @@ RowMeasures measure_row(const RowEstimate<double>& e, std::ptrdiff_t stride, int
   return HWY_DYNAMIC_DISPATCH(measure_double)(e, stride, columns);
 }
 template <>
-void make_sums(const RowSums<float>& s, std::ptrdiff_t offset, const float* force, std::ptrdiff_t stride, int columns) {
-  HWY_DYNAMIC_DISPATCH(sums_float)(s, offset, force, stride, columns);
+void make_sums(const RowSums<float>& s, std::ptrdiff_t offset, const float* force, RowRun run) {
+  HWY_DYNAMIC_DISPATCH(sums_float)(s, offset, force, run);
 }
 template <>
-void make_sums(const RowSums<double>& s, std::ptrdiff_t offset, const double* force, std::ptrdiff_t stride,
-               int columns) {
-  HWY_DYNAMIC_DISPATCH(sums_double)(s, offset, force, stride, columns);
+void make_sums(const RowSums<double>& s, std::ptrdiff_t offset, const double* force, RowRun run) {
+  HWY_DYNAMIC_DISPATCH(sums_double)(s, offset, force, run);
 }
 template <>
-void watch_displacements(const float* x, const float* old, const float* v, float dt, std::ptrdiff_t stride, int columns,
-                         float* largest) {
-  HWY_DYNAMIC_DISPATCH(watch_float)(x, old, v, dt, stride, columns, largest);
+void watch_displacements(const float* x, const float* old, const float* v, float dt, RowRun run, float* largest) {
+  HWY_DYNAMIC_DISPATCH(watch_float)(x, old, v, dt, run, largest);
 }
 template <>
-void watch_displacements(const double* x, const double* old, const double* v, double dt, std::ptrdiff_t stride,
-                         int columns, double* largest) {
-  HWY_DYNAMIC_DISPATCH(watch_double)(x, old, v, dt, stride, columns, largest);
+void watch_displacements(const double* x, const double* old, const double* v, double dt, RowRun run, double* largest) {
+  HWY_DYNAMIC_DISPATCH(watch_double)(x, old, v, dt, run, largest);
 }
 
 }  // namespace tyglab::cpu

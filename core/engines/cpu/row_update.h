@@ -23,15 +23,22 @@ struct RowSums {
   RowSum<R> sum[most];
 };
 
-/// Computes the sums for all components of a row's first `columns` particles; the rest of the row stays. `offset`:
-/// elements from the row with offset 0; `force`: the row that sources of nullptr stand for.
+/// Rows that follow each other in memory, as in row_field.h, of which the first `columns` particles are used; the rest
+/// stays.
+struct RowRun {
+  std::ptrdiff_t stride = 0;
+  int columns = 0, rows = 1;
+};
+
+/// Computes the sums for all components. `offset`: elements from the row with offset 0 to the first one; `force`: the
+/// first of the rows that sources of nullptr stand for.
 template <class R>
-void make_sums(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, std::ptrdiff_t stride, int columns);
+void make_sums(const RowSums<R>& sums, std::ptrdiff_t offset, const R* force, RowRun run);
 
 /// Updates `largest`, a vector of the widest kind, to the largest component of a displacement x - old or dt·v so far,
 /// m; one that is not finite makes it ∞ or NaN.
 template <class R>
-void watch_displacements(const R* x, const R* old, const R* v, R dt, std::ptrdiff_t stride, int columns, R* largest);
+void watch_displacements(const R* x, const R* old, const R* v, R dt, RowRun run, R* largest);
 
 /// Five sums of the same sources: the error of a step in x and v, and how much its last two stages differ in x, v and
 /// a.
