@@ -85,7 +85,7 @@ void check_row(int columns, int reach, bool masked, bool pushes) {
 }
 
 TEST_CASE_TEMPLATE("rows of springs are projected as one by one", R, float, double) {
-  for (const int columns : {1, 2, 3, 5, 16, 31, 32, 50})
+  for (const int columns : {1, 2, 3, 5, 7, 16, 19, 31, 32, 50})
     for (const int reach : {0, 1, 2})
       for (const bool masked : {false, true})
         for (const bool pushes : {false, true}) check_row<R>(columns, reach, masked, pushes);
