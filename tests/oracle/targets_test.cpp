@@ -2,38 +2,13 @@
 // the best one, so without this the others would go untested.
 #include <doctest/doctest.h>
 
-#include <hwy/targets.h>
-
 #include <set>
 
 #include "tests/oracle/oracle.h"
 #include "tests/support/scenes.h"
+#include "tests/support/targets.h"
 
 namespace tyglab::targets_test {
-
-/// Lets the engine pick only this target while it lives.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { allow(target); }
-  ~OnlyTarget() {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-
- private:
-  static void allow(std::int64_t target) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
-
-std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> found;
-  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) found.push_back(left & -left);
-  return found;
-}
 
 /// Everything that the sweep treats apart: wind, bending, damping, pins, a hand, tears.
 void compare(int rows, int columns, const std::string& integrator, Precision precision, double tolerance) {
@@ -65,8 +40,8 @@ void compare(int rows, int columns, const std::string& integrator, Precision pre
 
 TEST_CASE("every instruction set agrees with the oracle") {
   std::set<std::string> names;
-  for (const std::int64_t target : targets()) {
-    const OnlyTarget only(target);
+  for (const std::int64_t target : test::targets()) {
+    const test::OnlyTarget only(target);
     CAPTURE(std::string(hwy::TargetName(target)));
     names.insert(Simulation(test::cloth(2, 1)).engine().name());
     for (const char* integrator : {"verlet", "euler", "improved_euler"}) {
@@ -90,7 +65,7 @@ TEST_CASE("every instruction set agrees with the oracle") {
       }
     }
   }
-  MESSAGE("tried " << names.size() << " kinds of engine, of " << targets().size() << " targets");
+  MESSAGE("tried " << names.size() << " kinds of engine, of " << test::targets().size() << " targets");
 }
 
 }  // namespace tyglab::targets_test

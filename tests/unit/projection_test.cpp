@@ -9,6 +9,7 @@
 #include "core/simd/row_field.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
+#include "tests/support/targets.h"
 
 namespace tyglab::projection_test {
 
@@ -84,11 +85,15 @@ void check_row(int columns, int reach, bool masked, bool pushes) {
       CHECK(glm::length(rows.at(rows.q, i, j) - q[i][j]) < (sizeof(R) == 4 ? 1e-5 : 1e-13));
 }
 
-TEST_CASE_TEMPLATE("rows of springs are projected as one by one", R, float, double) {
-  for (const int columns : {1, 2, 3, 5, 7, 16, 19, 31, 32, 50})
-    for (const int reach : {0, 1, 2})
-      for (const bool masked : {false, true})
-        for (const bool pushes : {false, true}) check_row<R>(columns, reach, masked, pushes);
+TEST_CASE_TEMPLATE("rows of springs are projected as one by one, with every instruction set", R, float, double) {
+  for (const std::int64_t target : test::targets()) {
+    const test::OnlyTarget only(target);
+    CAPTURE(std::string(hwy::TargetName(target)));
+    for (const int columns : {1, 2, 3, 5, 7, 16, 19, 31, 32, 50})
+      for (const int reach : {0, 1, 2})
+        for (const bool masked : {false, true})
+          for (const bool pushes : {false, true}) check_row<R>(columns, reach, masked, pushes);
+  }
 }
 
 TEST_CASE_TEMPLATE("damping takes its part of the relative velocity and keeps momentum", R, float, double) {
