@@ -59,6 +59,7 @@ bool Projector<R>::place(const Cloth<R>& cloth, const Color& color, int i, Row& 
     if (row.count <= 0 || i + to.di >= rows_) return false;
   }
   const std::size_t springs = std::size_t(i) * directions.size() + color.direction;
+  row.free_a = row.free_b = row.whole = nullptr;
   if (masked_ && !(row_free_[std::size_t(i)] && row_free_[std::size_t(i + to.di)] && row_whole_[springs])) {
     row.free_a = free_.data() + std::size_t(i) * stride_ + upper;
     row.free_b = free_.data() + std::size_t(i + to.di) * stride_ + lower;
@@ -68,9 +69,8 @@ bool Projector<R>::place(const Cloth<R>& cloth, const Color& color, int i, Row& 
 }
 
 template <class R>
-void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int i, const ProjectionRow<R>& ready) {
+void Projector<R>::project_color(Cloth<R>& cloth, int q, const Color& color, int i, ProjectionRow<R>& row) {
   const Direction& to = directions[std::size_t(color.direction)];
-  ProjectionRow<R> row = ready;
   int upper = 0, lower = 0;
   if (!(row.compliance < softest) || !place(cloth, color, i, row, upper, lower)) return;
   row.x_a = cloth.row(vector_x, i, 0) + upper, row.x_b = cloth.row(vector_x, i + to.di, 0) + lower;
@@ -136,10 +136,10 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
     return true;
   }
   assert(end % 2 == 0 || end == rows_);
-  std::array<ProjectionRow<R>, directions.size()> ready;
+  std::array<ProjectionRow<R>, directions.size()> of_direction;
   const Preset& p = cloth.preset;
   for (std::size_t d = 0; d < directions.size(); ++d) {
-    ProjectionRow<R>& row = ready[d];
+    ProjectionRow<R>& row = of_direction[d];
     row.rest = directions[d].rest * p.L, row.pushes = directions[d].bending;
     row.soften(p.m / ((row.pushes ? p.k_b : p.k_s) * cloth.dt * cloth.dt));
   }
@@ -150,7 +150,7 @@ bool Projector<R>::project(Cloth<R>& cloth, int q, int begin, int end, Team& tea
     bool& stopped = stopped_[n % 2];
     if (begin == 0) stopped = n > 0 && !goes_on(n);
     in_colors(begin, end, p.k_b > 0, team, [&](const Color& color, int i) {
-      project_color(cloth, q, color, i, ready[std::size_t(color.direction)]);
+      project_color(cloth, q, color, i, of_direction[std::size_t(color.direction)]);
     });
     if (stopped) return false;
   }

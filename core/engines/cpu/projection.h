@@ -37,8 +37,8 @@ class Projector {
     int first;   ///< row or column
     int lambda;  ///< index into lambda_
   };
-  /// `ready`: a row of that direction's springs, without its places.
-  void project_color(Cloth<R>& cloth, int q, const Color& color, int i, const ProjectionRow<R>& ready);
+  /// `row`: of that direction's springs; where they lie is put into it.
+  void project_color(Cloth<R>& cloth, int q, const Color& color, int i, ProjectionRow<R>& row);
   /// `both_free`, `one_free`: of the relative velocity of a spring's ends, by how many of them are free.
   void damp_color(Cloth<R>& cloth, const Color& color, int i, const Decay& both_free, const Decay& one_free);
   void project_weight(Cloth<R>& cloth, int q);

@@ -267,34 +267,35 @@ HWY_INLINE void within_row(const Operation& operation, const Operation& apart, i
   for (; n + reach < count; n += group) between_rows<masked, R>(apart, n, n + std::min(reach, count - n - reach));
 }
 
+/// Each particle's partner in the place of b.
+template <class R>
+HWY_INLINE void look_at_partners(ProjectionRow<R>& row) {
+  row.x_b += row.reach, row.q_b += row.reach;
+}
+template <class R>
+HWY_INLINE void look_at_partners(DampingRow<R>& row) {
+  row.v_b += row.reach;
+}
+
 template <bool masked, class R, class Operation, class Row>
-HWY_INLINE void through_row(const Row& row, const Row& partners) {
+HWY_INLINE void through_row(const Row& row) {
   const Operation operation(row);
   if (row.reach == 0) return between_rows<masked, R>(operation, 0, row.count);
+  Row partners = row;
+  look_at_partners(partners);
+  if (masked) partners.free_b += row.reach;
   const Operation apart(partners);
   row.reach == 1 ? within_row<masked, 1, R>(operation, apart, row.count)
                  : within_row<masked, 2, R>(operation, apart, row.count);
 }
 
-template <bool masked, bool pushes, class R>
+template <bool masked, class R>
 void project(const ProjectionRow<R>& row) {
-  ProjectionRow<R> partners = row;
-  partners.x_b += row.reach, partners.q_b += row.reach;
-  if (masked) partners.free_b += row.reach;
-  through_row<masked, R, Projection<pushes, R>>(row, partners);
+  row.pushes ? through_row<masked, R, Projection<true, R>>(row) : through_row<masked, R, Projection<false, R>>(row);
 }
-
 template <bool masked, class R>
 void damp(const DampingRow<R>& row) {
-  DampingRow<R> partners = row;
-  partners.v_b += row.reach;
-  if (masked) partners.free_b += row.reach;
-  through_row<masked, R, Damping<R>>(row, partners);
-}
-
-template <bool masked, class R>
-void project(const ProjectionRow<R>& row) {
-  row.pushes ? project<masked, true>(row) : project<masked, false>(row);
+  through_row<masked, R, Damping<R>>(row);
 }
 
 #define TYGLAB_DEFINE(R, name)                                       \
