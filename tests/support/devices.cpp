@@ -21,6 +21,8 @@ void probe_drivers_in_child() {
   set_driver_probe([](const std::function<void()>& ask) {
     const pid_t child = fork();
     if (child == 0) {
+      constexpr int most_seconds = 60;  // another thread may hold a lock of the sanitizers that this one waits for
+      alarm(most_seconds);
       dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
       ask();
       _exit(0);
