@@ -103,9 +103,10 @@ void open_link(Session& session, const std::string& link) {
 bool save_document_as(Session& session, const std::filesystem::path& file, const std::string& name) {
   try {
     Preset preset = session.preset();
-    // What the former preset says of itself need not hold of another one that was made from it.
+    // What the former preset says of itself need not hold of one that is called otherwise.
     const Preset& former = session.document.saved;
-    if (name != former.name && preset.description == former.description && unsaved(session)) preset.description.clear();
+    if (name != former.name && preset.description == former.description)
+      preset.description = "Based on “" + former.name + "”.";
     preset.name = name;
     if (const std::string wrong = check_preset(preset); !wrong.empty()) throw PresetError(wrong);
     // The program's own folder is made where it is missing; nobody else's.

@@ -26,10 +26,21 @@ void add_curves(StabilityLimits& limits, const Scheme& method) {
   if (zeta_over_h > 0) limits.undamped = growth_curve(method, most, 0);
 }
 
-StabilityLimits work_out(const Preset& preset, const MotionMark& at, const std::optional<Linearisation>& cloth,
+/// What may be looked at of a cloth that has diverged: as a restart will find it. The wreck's springs say nothing of it.
+std::optional<Linearisation> at_its_start(Preset preset) {
+  preset.engine = EngineKind::cpu;
+  try {
+    return std::optional<Linearisation>(std::in_place, Simulation(preset, 1));
+  } catch (const std::exception&) {
+    return std::nullopt;  // no memory: the limits of any configuration remain
+  }
+}
+
+StabilityLimits work_out(const Preset& preset, const MotionMark& at, std::optional<Linearisation> cloth, bool at_start,
                          const Stop& stop) {
   const Scheme& method = scheme(preset.integrator);
   StabilityLimits limits{.of = preset, .at = at, .now = {}, .damped = {}, .undamped = {}, .region = {}, .zones = {}};
+  if (at_start) cloth = at_its_start(preset), limits.at_start = cloth.has_value();
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
   const auto add_zones = [&](const ZonedConstant& constant) {
@@ -113,11 +124,13 @@ void StabilityWatch::poll(StudyMoment& moment) {
     return moment.moving ? void() : moment.ask_again_in(begun_ + between_looks - moment.now);
   begun_ = moment.now, looked_at_ = moment.mark(), looked_for_ = simulation.preset();
   std::optional<Linearisation> cloth;
-  if (simulation.lattice().size() <= largest_looked_at) cloth.emplace(simulation);
-  work_.start(Priority::normal,
-              [preset = simulation.preset(), at = *looked_at_, cloth = std::move(cloth)](const JobControl& control) {
-                return work_out(preset, at, cloth, [&control] { return control.cancelled(); });
-              });
+  const bool small = simulation.lattice().size() <= largest_looked_at;
+  const bool at_start = small && simulation.divergence().has_value();
+  if (small && !at_start) cloth.emplace(simulation);
+  work_.start(Priority::normal, [preset = simulation.preset(), at = *looked_at_, cloth = std::move(cloth),
+                                 at_start](const JobControl& control) {
+    return work_out(preset, at, cloth, at_start, [&control] { return control.cancelled(); });
+  });
   moment.ask_again_in(soon);
 }
 

@@ -43,6 +43,7 @@ struct StabilityLimits {
   double any = 0;  ///< worst-case limit: dt_crit in any configuration of the springs
   std::optional<double>
       now;           ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
+  bool at_start = false;  ///< `now`, `omega` and `fastest` are the cloth's as it starts: after a divergence
   double every = 0;  ///< dt above which every shape is unstable
   double omega = 0;  ///< 1/s, of the fastest mode now, where `now` is there
   Mode fastest{};    ///< that mode; where `now` is not there, what no mode in any configuration exceeds

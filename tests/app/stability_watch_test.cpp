@@ -124,6 +124,29 @@ TEST_CASE("of rkc2 the region of its stages is drawn, and the cloth's bounds lie
   CHECK(stability_text(limits, preset.dt) == "no limit");
 }
 
+TEST_CASE("after a divergence the limits are the cloth's as it starts, not the wreck's") {
+  Preset preset = test::cloth(12, 12);
+  preset.initial_stretch = 1.05;
+  const StabilityLimits before = [&] {
+    Simulation at_rest(preset);
+    return limits_of(at_rest);
+  }();
+  Simulation simulation(preset);
+  Preset wild = preset;
+  wild.dt = 1.2 * before.every;
+  simulation.apply(edit::Change{wild});
+  for (int n = 0; n < 1000 && !simulation.divergence(); ++n) simulation.advance(100);
+  REQUIRE(simulation.divergence().has_value());
+  simulation.apply(edit::Change{preset});
+  const StabilityLimits after = limits_of(simulation);
+  CHECK(after.at_start);
+  CHECK_FALSE(before.at_start);
+  REQUIRE(after.now.has_value());
+  CHECK(*after.now == *before.now);
+  CHECK(after.omega == before.omega);
+  CHECK(says(stability_words(after, preset.dt), "this cloth's own, as it starts"));
+}
+
 TEST_CASE("a cloth too large to look at while it moves has the limit of any configuration alone") {
   Preset preset = test::cloth(200, 200);
   Simulation simulation(preset);

@@ -40,7 +40,7 @@ TEST_CASE("a preset is saved to a file and loaded again; what is not saved is as
   const Preset saved = load_preset(file);
   CHECK(saved.k_s == 123);
   CHECK(saved.name == "Stiff cloth");
-  CHECK(saved.description.empty());  // "The default scene." is said of another one
+  CHECK(saved.description == "Based on “Hanging cloth”.");  // "The default scene." is said of another one
   const test::Outcome judged = test::tyglab(window.config.path(), {"presets", "check", file.string()});
   CHECK(judged.code == 0);
 
@@ -100,7 +100,7 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   open_dialog(window, Kind::save);
   save_as(window, "Soft and slow", file);
   CHECK(window.settings.recent == std::vector<std::string>{file.string()});
-  CHECK_FALSE(load_preset(file).description.empty());  // nothing but the name is another
+  CHECK(load_preset(file).description == "Based on “Hanging cloth”.");
   window.settings.tour_seen = false;
   window.click("top.brand");
   window.frames(2);

@@ -151,6 +151,8 @@ TEST_CASE("a lab asks nothing: what it takes the place of is kept, and what is d
   window.click("lab.leave");
   CHECK_FALSE(window.session.labs.run.has_value());
   CHECK_FALSE(unsaved(window.session));
+  window.key(GLFW_KEY_R, GLFW_MOD_CONTROL);
+  CHECK(window.preset().k == 10);  // what a lab has left can be reset like all else
   CHECK(window.said("is kept as it was before the lab"));
   window.find("back to your");
   window.frames(2);

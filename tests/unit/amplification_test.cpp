@@ -27,6 +27,12 @@ TEST_CASE("spectral radii have their closed forms") {
   }
 }
 
+TEST_CASE("where two eigenvalues meet the radius is theirs, though rounding makes the powers vanish") {
+  CHECK(radius("verlet", 2, 0) == doctest::Approx(1).epsilon(1e-6));  // both are -1
+  const Matrix shifts{2, {0, 1, 0, 0}};
+  CHECK(spectral_radius(shifts) == 0);  // nilpotent indeed
+}
+
 TEST_CASE("stability limits have their closed forms") {
   for (const double zeta : {0.0, 0.01, 0.3, 2.0}) {
     CAPTURE(zeta);

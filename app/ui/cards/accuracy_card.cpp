@@ -69,7 +69,9 @@ std::string stability_sentence(const StabilityLimits& limits) {
   const double h = limits.fastest.omega() * limits.of.dt;
   const double zeta = limits.fastest.stiffness > 0 ? limits.fastest.damping / (2 * limits.fastest.omega()) : 0;
   const double radius = spectral_radius(amplification(method, h, zeta));
-  const std::string of = limits.now ? "The fastest mode now has ω·dt = " : "The fastest possible mode has ω·dt = ";
+  const std::string of = limits.at_start ? "As the cloth starts, its fastest mode has ω·dt = "
+                         : limits.now    ? "The fastest mode now has ω·dt = "
+                                         : "The fastest possible mode has ω·dt = ";
   const std::string size = short_number(rounded(100 * radius, 4)) + " % each step.";
   const std::string times = short_number(rounded(radius, 3)) + " times their size in each step.";
   return of + short_number(h, 3) +

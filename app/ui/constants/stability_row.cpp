@@ -29,6 +29,11 @@ std::optional<double> own_limit(const StabilityLimits& limits) {
   return cloth && limits.now && *limits.now > 0 && std::isfinite(*limits.now) ? limits.now : std::nullopt;
 }
 
+/// Which shape of the cloth its own limit belongs to.
+std::string when(const StabilityLimits& limits) {
+  return limits.at_start ? "as it starts" : "as it hangs now";
+}
+
 Zone zone_at(const StabilityLimits& limits, double dt) {
   return dt <= limits.any ? Zone::stable : dt <= limits.every ? Zone::depends : Zone::unstable;
 }
@@ -123,7 +128,7 @@ std::string part_words(const StabilityLimits& limits, double dt) {
   const bool cloth = limits.of.kind == Kind::cloth;
   std::string text = "dt is " + percent(dt / limits.any) + " of the " + (cloth ? "worst-case limit" : "limit");
   if (const auto own = own_limit(limits))
-    text += " and " + percent(dt / *own) + " of this cloth's own, as it hangs now";
+    text += " and " + percent(dt / *own) + " of this cloth's own, " + when(limits);
   return text + ".";
 }
 
@@ -135,7 +140,7 @@ std::vector<GaugeMark> gauge_marks(const StabilityLimits& limits, double dt) {
   const auto seconds = [](double value) { return short_number(rounded(value, 3)) + " s"; };
   if (const auto own = own_limit(limits))
     marks.push_back({"this cloth", *own,
-                     "Dot: this cloth's own limit, as it hangs now: " + seconds(*own) +
+                     "Dot: this cloth's own limit, " + when(limits) + ": " + seconds(*own) +
                          ", from its fastest mode, ω = " + short_number(rounded(limits.omega, 3)) +
                          " 1/s. It changes with the shape and promises nothing: slack cloths without damping have "
                          "diverged at 63 % of it."});

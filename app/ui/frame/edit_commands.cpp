@@ -2,6 +2,7 @@
 #include "app/session/document.h"
 #include "app/session/motion.h"
 #include "app/ui/frame/commands.h"
+#include "core/model/changes.h"
 
 namespace tyglab {
 namespace {
@@ -28,7 +29,9 @@ void undo_and_restart(Ui& ui) {
 }
 
 std::string nothing_changed(const Ui& ui) {
-  return unsaved(ui.session) ? "" : "The constants already are those of the preset.";
+  // In a lab, and after it, there is something to reset though no work could be lost.
+  const bool differ = !changes(ui.session.document.saved, ui.session.requested_preset()).within(Effect::view);
+  return differ ? "" : "The constants already are those of the preset.";
 }
 
 void reset_constants(Ui& ui) {

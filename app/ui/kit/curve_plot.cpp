@@ -104,9 +104,11 @@ void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const 
   for (const auto& [tick, label] : ticks) {
     const float x = std::round(axes.px(tick)), width = text_width(font, label);
     paint.draw.AddLine({x, axes.lo.y}, {x, axes.hi.y}, faded(c.line, 0.7f));
-    if (x - width / 2 < free_from) continue;
-    draw_text(paint.draw, font, {std::round(x - width / 2), axes.hi.y + paint.theme.px(4)}, c.quiet, label);
-    free_from = x + width / 2 + paint.theme.px(10);
+    // The last one stays within the plot: beyond it a card may end.
+    const float left = std::round(std::min(x - width / 2, axes.hi.x - width));
+    if (left < free_from) continue;
+    draw_text(paint.draw, font, {left, axes.hi.y + paint.theme.px(4)}, c.quiet, label);
+    free_from = left + width + paint.theme.px(10);
   }
 }
 

@@ -127,7 +127,7 @@ float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const Plot
   if (axes.hi.x - axes.lo.x < 8 || axes.hi.y - axes.lo.y < 8) return 0;
   draw_ground(paint, axes, ticks);
   draw_times(paint, axes);
-  if (curves.empty() || curves.front().x.empty()) {
+  if (curves.empty() || curves.front().x.empty() || curves.front().x.back() < frame.x_min) {
     const float width = text_width(font, frame.when_empty);
     draw_text(paint.draw, font,
               {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},

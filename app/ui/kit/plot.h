@@ -13,7 +13,7 @@ struct PlotFrame {
   bool log = false;
   bool from_zero = false;  ///< a linear axis of magnitudes begins at 0
   std::string_view unit;
-  std::string_view when_empty;  ///< said where there is nothing to plot
+  std::string_view when_empty;  ///< said where there is nothing to plot, or all of it was earlier
   double time_step = 1e-3;      ///< s, that the read-out of t tells apart
 };
 
