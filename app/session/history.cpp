@@ -24,8 +24,20 @@ std::optional<std::string> value_text(const Preset& preset, const PresetField& f
   return std::nullopt;
 }
 
+std::string name_of(const PresetField& field) {
+  return std::string(field.row != nullptr ? field.row->symbol : field.key);
+}
+
+std::vector<const PresetField*> changed_fields(const Preset& before, const Preset& after) {
+  std::vector<const PresetField*> fields;
+  for (const PresetField& field : preset_fields())
+    if (!std::visit([&](auto member) { return before.*member == after.*member; }, field.member))
+      fields.push_back(&field);
+  return fields;
+}
+
 std::string in_words(const PresetField& field, const Preset& before, const Preset& after) {
-  std::string text(field.row != nullptr ? field.row->symbol : field.key);
+  std::string text = name_of(field);
   const auto from = value_text(before, field), to = value_text(after, field);
   if (!from) return text;
   text += " " + *from + " → " + *to;
@@ -83,14 +95,17 @@ std::size_t History::bytes() const {
 }
 
 std::string change_in_words(const Preset& before, const Preset& after) {
-  std::string first;
-  int more = -1;
-  for (const PresetField& field : preset_fields()) {
-    if (std::visit([&](auto member) { return before.*member == after.*member; }, field.member)) continue;
-    if (++more == 0) first = in_words(field, before, after);
-  }
-  if (more <= 0) return first.empty() ? "nothing" : first;
+  const std::vector<const PresetField*> fields = changed_fields(before, after);
+  if (fields.empty()) return "nothing";
+  const std::string first = in_words(*fields.front(), before, after);
+  const std::size_t more = fields.size() - 1;
+  if (more == 0) return first;
   return first + " and " + std::to_string(more) + (more == 1 ? " more constant" : " more constants");
+}
+
+std::string only_change(const Preset& before, const Preset& after) {
+  const std::vector<const PresetField*> fields = changed_fields(before, after);
+  return fields.size() == 1 ? name_of(*fields.front()) : std::string();
 }
 
 }  // namespace tyglab

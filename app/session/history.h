@@ -60,5 +60,7 @@ class History {
 
 /// What the user has done to the constants, to be read: "k_s 50 → 100 N/m", "dt and 3 more constants".
 std::string change_in_words(const Preset& before, const Preset& after);
+/// The name of the one constant that differs; empty where none or several do.
+std::string only_change(const Preset& before, const Preset& after);
 
 }  // namespace tyglab

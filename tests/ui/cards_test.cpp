@@ -292,6 +292,22 @@ TEST_CASE("the Energy card says since when it counts, and offers to count from t
   CHECK(window.drew("counted since the start"));
 }
 
+TEST_CASE("a plot that was hidden for a while shows no old span as if it were the present") {
+  test::NullUi window;
+  window.until([&] { return window.t() > 0.3; }, "some motion");
+  window.key(GLFW_KEY_F5);
+  window.find("stability card");  // in place of the forces
+  const double hidden = window.t();
+  window.until([&] { return window.t() > hidden + 11; }, "more than a plot holds");
+  window.pause();
+  window.key(GLFW_KEY_F5);
+  window.frames(2);
+  CHECK(window.drew("Not recorded while the plot was hidden"));
+  window.key(GLFW_KEY_SPACE);
+  window.frames(4);
+  CHECK_FALSE(window.drew("Not recorded while the plot was hidden"));
+}
+
 TEST_CASE("what the Energy card shows moves no divergence") {
   std::int64_t steps[2] = {};
   for (const bool open : {false, true}) {

@@ -109,13 +109,20 @@ void add_retries(const Ui& ui, const Advice& advice, bool past, std::vector<Way>
   retry("Implicit Euler", implicit, "a method with no stability limit in linear theory");
 }
 
+/// "Undo k_s and restart", where that is short and says all.
+std::string undo_label(const Preset& before, const Preset& now) {
+  constexpr std::size_t short_name = 10;
+  const std::string key = only_change(before, now);
+  return key.empty() || key.size() > short_name ? "Undo and restart" : "Undo " + key + " and restart";
+}
+
 /// What is offered, the most helpful first: to take back what the user did, to go back and do what the linear theory
 /// advises. Once constants have changed, to try them.
 std::vector<Way> ways_out(const Ui& ui, const Advice& advice) {
   std::vector<Way> ways;
   if (advice.undo_helps)
     ways.push_back(
-        {"Undo and restart",
+        {undo_label(*advice.before, ui.session.preset()),
          "Takes the last change back (" + change_in_words(*advice.before, ui.session.preset()) + ") and restarts",
          "Ctrl+Z, then R", [](Ui& u) { u.command("undo_and_restart"); }});
   const Way restart{"Restart", "From the start, with the constants as they are", "R",
@@ -200,11 +207,15 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   const std::string limit = changed          ? " with other constants"
                             : over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit"
                                              : std::string();
-  const std::string texts[] = {"The simulation diverged" + limit,
-                               changed ? "Diverged with other constants" : "The simulation diverged", "Diverged"};
+  std::vector<std::string> texts{"The simulation diverged" + limit};
+  if (!changed && over_limit > 1) texts.push_back("Diverged: dt is " + short_number(over_limit, 2) + " × the limit");
+  const std::size_t telling = texts.size();  // those that say why
+  texts.insert(texts.end(), {changed ? "Diverged with other constants" : "The simulation diverged", "Diverged"});
   FoldedBanner folded;
   std::vector<std::pair<bool, std::string>> ways_to_say;
-  if (high) ways_to_say = {{false, texts[0]}, {true, texts[0]}};
+  if (high)
+    for (std::size_t n = 0; n < telling; ++n)
+      for (const bool under : {false, true}) ways_to_say.emplace_back(under, texts[n]);
   for (const bool under : {false, true})
     for (const std::string& text : texts) ways_to_say.emplace_back(under, text);
   for (const auto& [under, text] : ways_to_say) {
