@@ -35,8 +35,11 @@ std::pair<double, double> shown_time(const Ui& ui, const Series& series) {
     return {end - window_s.value_or(Replay::steps * ui.session.preset().dt), end};
   }
   const double t = ui.session.simulation->time();
-  // Of a plot that was hidden for a while the newest sample is no news of the cloth: its end would look like the present.
-  const double now = series.empty() ? t : ui.session.recorded.paused ? series.t().back() : std::max(t, series.t().back());
+  // Of a plot that was hidden for a while the newest sample is no news of the cloth: its end would look like the
+  // present.
+  const double now = series.empty()               ? t
+                     : ui.session.recorded.paused ? series.t().back()
+                                                  : std::max(t, series.t().back());
   const double length = series.empty() ? 0 : now - series.t().front();
   const double usual = length <= 2 ? 2 : length <= 5 ? 5 : 10;
   const double window = window_s.value_or(length > 0 ? std::min(usual, blow_up_span(ui, length)) : usual);
