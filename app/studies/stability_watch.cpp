@@ -26,7 +26,8 @@ void add_curves(StabilityLimits& limits, const Scheme& method) {
   if (zeta_over_h > 0) limits.undamped = growth_curve(method, most, 0);
 }
 
-/// What may be looked at of a cloth that has diverged: as a restart will find it. The wreck's springs say nothing of it.
+/// What may be looked at of a cloth that has diverged: as a restart will find it. The wreck's springs say nothing of
+/// it.
 std::optional<Linearisation> at_its_start(Preset preset) {
   preset.engine = EngineKind::cpu;
   try {

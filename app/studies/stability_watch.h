@@ -42,11 +42,11 @@ struct StabilityLimits {
   MotionMark at;   ///< the moment that `now`, `omega` and `fastest` belong to
   double any = 0;  ///< worst-case limit: dt_crit in any configuration of the springs
   std::optional<double>
-      now;           ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
+      now;                ///< dt_crit of the cloth as it hangs; none for cloths too large to look at while they move
   bool at_start = false;  ///< `now`, `omega` and `fastest` are the cloth's as it starts: after a divergence
-  double every = 0;  ///< dt above which every shape is unstable
-  double omega = 0;  ///< 1/s, of the fastest mode now, where `now` is there
-  Mode fastest{};    ///< that mode; where `now` is not there, what no mode in any configuration exceeds
+  double every = 0;       ///< dt above which every shape is unstable
+  double omega = 0;       ///< 1/s, of the fastest mode now, where `now` is there
+  Mode fastest{};         ///< that mode; where `now` is not there, what no mode in any configuration exceeds
   GrowthCurve damped, undamped;  ///< the method's growth, for modes damped as the fastest is, and without damping
   std::optional<StabilityRegion> region;                            ///< of a stabilized method
   std::map<std::string, std::vector<ZoneSpan>, std::less<>> zones;  ///< by the constant's key
