@@ -440,7 +440,8 @@ void Simulation::diverge(const Advance& part) {
 }
 
 Snapshot Simulation::snapshot() {
-  return {lattice_, preset_.kind, read(), tears_, time(), steps_, initial_velocity_};
+  return {lattice_, preset_.kind,           read(),       tears_,     time(), steps_, initial_velocity_,
+          preset_,  engine_->held_motion(), steps_at_dt_, time_at_dt_};
 }
 
 void Simulation::restore(const Snapshot& then) {
@@ -461,6 +462,10 @@ void Simulation::restore(const Snapshot& then) {
   time_at_dt_ = then.t;
   initial_velocity_ = then.begun_with;
   engine_->load(then.state, tears_);
+  if (then.held && changes(then.of, preset_).within(motionless)) {
+    engine_->go_on_from(*then.held);
+    steps_at_dt_ = then.steps_at_dt, time_at_dt_ = then.time_at_dt;
+  }
   ++revision_, ++tear_revision_;
   if (watch_) enable_ledger(true);
 }

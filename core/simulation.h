@@ -33,7 +33,8 @@ struct ForceSummary {
 };
 enum class Reduction { sum, maximum };
 
-/// The cloth as it was at a moment: what it takes to go back there.
+/// The cloth as it was at a moment: what it takes to go back there. With the constants and the engine of that moment
+/// the same motion follows, to the last bit; with others the method starts again from positions and velocities.
 struct Snapshot {
   Lattice lattice;
   Kind kind = Kind::cloth;
@@ -41,8 +42,12 @@ struct Snapshot {
   Tears tears;
   double t = 0;  ///< s
   std::int64_t steps = 0;
-  std::optional<glm::dvec3> begun_with{};  ///< m/s, of every free particle, while no step has been made
-  std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes(); }
+  std::optional<glm::dvec3> begun_with{};    ///< m/s, of every free particle, while no step has been made
+  Preset of{};                               ///< with which constants it moved: with these the same motion follows
+  std::shared_ptr<const HeldMotion> held{};  ///< as its engine had it; null: it goes on from `state`
+  std::int64_t steps_at_dt = 0;              ///< step at which the dt of that moment was set
+  double time_at_dt = 0;                     ///< and the time then, s
+  std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0); }
   /// At least that much will it be.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
 };

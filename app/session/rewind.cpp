@@ -12,6 +12,8 @@ void Rewind::look(Simulation& simulation) {
   changing_ = false;
   if (!kept_.empty() && t - kept_.back().t < interval) return;
   kept_.push_back(simulation.snapshot());
+  // Of a large cloth more states count for more than the last bits of each.
+  if (kept_.back().bytes() > most_bytes / fewest) kept_.back().held.reset();
   bytes_ += kept_.back().bytes();
   while (bytes_ > most_bytes || t - kept_.front().t > longest) {
     bytes_ -= kept_.front().bytes();

@@ -100,6 +100,17 @@ struct StepFeature {
   bool on;
 };
 
+/// What an engine holds of a motion between two steps, as it holds it: nothing is lost to rounding, or to what a method
+/// derives from velocities when it starts.
+class HeldMotion {
+ public:
+  HeldMotion() = default;
+  HeldMotion(const HeldMotion&) = delete;
+  HeldMotion& operator=(const HeldMotion&) = delete;
+  virtual ~HeldMotion() = default;
+  virtual std::size_t bytes() const = 0;
+};
+
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -135,6 +146,11 @@ class Engine {
   virtual void read(State& state, const Tears& tears) = 0;
   /// The state as files store it: as read(), but for Verlet with the backward velocity d/dt.
   virtual void read_raw(State& state, const Tears& tears) = 0;
+  /// The present motion, for go_on_from(); null: this engine can only be given positions and velocities.
+  virtual std::shared_ptr<const HeldMotion> held_motion() const { return nullptr; }
+  /// After load() with the state of the same moment and the same constants: from here the same steps follow that
+  /// followed then, to the last bit. Does nothing where another kind of engine held the motion.
+  virtual void go_on_from([[maybe_unused]] const HeldMotion& then) {}
   virtual PositionView positions() const = 0;
   /// How its positions reach OpenGL without a copy; null if its arrays are not on a device.
   virtual VertexSharing* vertex_sharing() { return nullptr; }

@@ -101,6 +101,18 @@ class StepGuard {
   }
   /// The motion begins with this one.
   void begin(const Motion& motion) { limit_.begin(motion), energy_stale_ = pushes_stale_ = false; }
+  /// What the motion has been given since it began.
+  struct Given {
+    MotionLimit limit;
+    bool energy_stale = false, pushes_stale = false;
+  };
+  Given given() const { return {limit_, energy_stale_, pushes_stale_}; }
+  /// The motion goes on from where it had been given that, with the same constants and wind. Whatever held a particle
+  /// then, `held` does now.
+  void go_on(const Given& given, const Preset& preset, const Lattice& lattice, const Held& held) {
+    limit_ = given.limit, energy_stale_ = given.energy_stale, pushes_stale_ = given.pushes_stale;
+    set_scene(preset, lattice, held);
+  }
   /// Constants change from some to others: what that does to the springs' energy, or where bodies are now, is measured
   /// before the next step.
   void accept_changes(const Preset& from, const Preset& to);

@@ -391,6 +391,26 @@ void CpuEngine<R, Present>::read_stored(State& state) const {
 }
 
 template <class R, unsigned Present>
+std::shared_ptr<const HeldMotion> CpuEngine<R, Present>::held_motion() const {
+  auto held = std::make_shared<CpuMotion<R>>();
+  held->method = scheme_->name;
+  held->vectors.assign(cloth_.vectors.begin(), cloth_.vectors.begin() + std::ptrdiff_t(backup_.size()));
+  held->control = control_, held->given = guard_.given();
+  return held;
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::go_on_from(const HeldMotion& then) {
+  const auto* held = dynamic_cast<const CpuMotion<R>*>(&then);
+  if (held == nullptr || held->method != scheme_->name) return;
+  assert(held->vectors.size() == backup_.size() &&
+         held->vectors.front().all().size() == cloth_.vector(vector_x).all().size());
+  for (std::size_t n = 0; n < held->vectors.size(); ++n) cloth_.vectors[n] = held->vectors[n];
+  control_ = held->control, knows_first_a_ = false;
+  guard_.go_on(held->given, cloth_.preset, cloth_.lattice, cloth_.held);
+}
+
+template <class R, unsigned Present>
 PositionView CpuEngine<R, Present>::positions() const {
   PositionView view{cloth_.lattice.rows, cloth_.lattice.columns, 3 * cloth_.stride};
   for (int c = 0; c < 3; ++c) {

@@ -43,6 +43,20 @@
 
 namespace tyglab::cpu {
 
+/// What steps go on from: of every engine of that precision, whichever parts are compiled in.
+template <class R>
+struct CpuMotion final : HeldMotion {
+  std::string_view method;  ///< Scheme::name
+  std::vector<RowField<R>> vectors;
+  StepControl control;
+  StepGuard::Given given;
+  std::size_t bytes() const override {
+    std::size_t total = 0;
+    for (const auto& field : vectors) total += field.bytes();
+    return total;
+  }
+};
+
 /// `Present`: the parts that are compiled in (parts.h).
 template <class R, unsigned Present = part::everything>
 class CpuEngine final : public Engine, private GuardedSteps {
@@ -59,6 +73,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<Contact> contacts() const override;
   void read(State& state, const Tears& tears) override;
   void read_raw(State& state, const Tears& tears) override;
+  std::shared_ptr<const HeldMotion> held_motion() const override;
+  void go_on_from(const HeldMotion& then) override;
   PositionView positions() const override;
   StoredParticle stored(int i, int j) const override;
   std::size_t bytes() const override;
