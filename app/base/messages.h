@@ -30,6 +30,11 @@ class Messages {
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }
 
+  /// What was said no longer holds.
+  void take_back(const std::string& text) {
+    std::erase_if(list_, [&](const Message& m) { return m.text == text; });
+  }
+
   /// Drops what has been shown long enough: notes after 4 s, warnings and errors after 8 s. `held`: all count as new,
   /// since they cannot be seen to yet.
   void age(double now, bool held = false) {

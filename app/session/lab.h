@@ -45,6 +45,7 @@ struct Condition {
   Span span = Span::now;
   double seconds = 0;           ///< simulated, of Span::lasting
   std::vector<Condition> when;  ///< of Span::when: the one that decides the moment
+  bool to_find = false;         ///< the student is to find out what it asks for, which is shown once the step is done
 };
 
 /// What the student says before doing anything: a number, or one of several sentences.
@@ -103,5 +104,7 @@ Lab load_lab(const std::filesystem::path& file);
 
 /// The check in words: "k_s ≥ 180 N/m throughout", "Integrator: Verlet".
 std::string words_of(const Condition& condition);
+/// The same without what it asks for: "The value of k_s when the cloth diverges", "Whether the simulation diverges".
+std::string subject_of(const Condition& condition);
 
 }  // namespace tyglab

@@ -118,9 +118,35 @@ std::string goal_in_words(Session& session, const Condition& check) {
   return number;
 }
 
-std::string subject(const Condition& check) {
-  const Observable* row = find_observable(check.name);
-  return row != nullptr && !row->label.empty() ? std::string(row->label) : check.name;
+bool is_upper(Relation relation) {
+  return relation == Relation::less || relation == Relation::at_most;
+}
+bool is_lower(Relation relation) {
+  return relation == Relation::greater || relation == Relation::at_least;
+}
+
+/// "a higher": all that is told of a value that is to be found out.
+std::string direction_of(Relation relation) {
+  return is_upper(relation) ? "a lower" : is_lower(relation) ? "a higher" : "another";
+}
+
+/// Whether its words are "no" and "yes", which are said in sentences.
+bool has_sentences(std::string_view name) {
+  const Observable* row = find_observable(name);
+  return row != nullptr && !row->present[0].empty();
+}
+
+/// "with a higher k_s", "with k_s at 180 N/m or more": how the moment is to be reached. What is to be found out is not
+/// told.
+std::string way_in_words(Session& session, const Condition& check) {
+  const std::string label = label_of(check.name);
+  if (!check.to_find) return "with " + label + " " + goal_in_words(session, check);
+  return "with " + direction_of(check.relation) + " " + label;
+}
+
+/// "was 50 N/m": what it was when the check broke.
+std::string past_in_words(const Condition& check, const CheckMemory& memory) {
+  return label_of(check.name) + " was " + (memory.was.empty() ? "not known" : memory.was);
 }
 
 /// Why the present motion no longer counts, and what to do.
@@ -129,17 +155,33 @@ std::string broken_in_words(Session& session, const Condition& check, const Chec
   if (check.name == "untouched")
     return (memory.was.empty() ? "Something else was changed" : memory.was) + at +
            ": restart, and change only what the task names";
-  const std::string was = subject(check) + " was " + (memory.was.empty() ? "not known" : memory.was);
-  const std::string goal = goal_in_words(session, check);
-  if (check.span == Span::when && memory.was.empty())
-    return (asks_divergence(check.when[0]) ? "The cloth had diverged" : words_of(check.when[0]) + " was true") +
-           " before this step began: restart, and reach it with " + subject(check) + " " + goal;
-  if (check.span == Span::when)
-    return was + at + ", when " +
-           (asks_divergence(check.when[0]) ? "the cloth diverged" : words_of(check.when[0]) + " became true") +
-           ": restart, and reach it with " + subject(check) + " " + goal;
-  if (is_word(check.name)) return was + at + ": choose " + goal + ", and restart";
+  const std::string was = past_in_words(check, memory);
+  if (check.span == Span::when) {
+    const bool divergence = asks_divergence(check.when[0]);
+    const std::string moment = words_of(check.when[0]), restart = ": restart, and reach it ";
+    if (memory.was.empty())
+      return (divergence ? "The cloth had diverged" : moment + " was true") + " before this step began" + restart +
+             way_in_words(session, check);
+    return was + at + ", when " + (divergence ? "the cloth diverged" : moment + " became true") + restart +
+           way_in_words(session, check);
+  }
+  if (has_sentences(check.name)) return words_of(check) + ": not so" + at + "; restart";
+  if (is_word(check.name)) return was + at + ": choose " + goal_in_words(session, check) + ", and restart";
+  const std::string goal =
+      check.to_find ? "at " + direction_of(check.relation) + " value" : goal_in_words(session, check);
   return was + at + ": restart, and keep it " + goal + " from the beginning";
+}
+
+/// ", that is 0.001 s": the value that a check compares with, where it is one of the step before; of what is to be
+/// found out only what it was there.
+std::string before_in_words(Session& session, const Condition& check) {
+  if (!check.right.before || (check.to_find && check.right.name != check.name)) return {};
+  Operand then = check.right;
+  if (check.to_find) then.factor = 1;
+  const auto value = value_of(session, then);
+  if (!value) return {};
+  const std::string number = with_unit(rounded(*value, 3), unit_of(check.name));
+  return check.to_find ? ", " + number + " in the step before" : ", that is " + number;
 }
 
 /// The first constant that differs and that no check of the step names, in words.
@@ -218,25 +260,35 @@ CheckState judge(Session& session, const Condition& check, MotionChange change, 
 
 std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory) {
   if (state == CheckState::broken) return broken_in_words(session, check, memory);
-  const std::string asked = words_of(check), now = value_in_words(session, check.name);
+  const std::string asked = (check.to_find ? subject_of(check) : words_of(check)) + before_in_words(session, check);
+  const std::string now = value_in_words(session, check.name);
   if (check.name == "untouched") return now.empty() ? asked : asked + " · " + now + ": set it back, and restart";
   const bool of_now = check.span == Span::now || check.span == Span::throughout;
-  const bool says_all = of_now && (is_word(check.name) || check.relation == Relation::equal);
+  const bool says_all = of_now && !check.to_find && (is_word(check.name) || check.relation == Relation::equal);
   if (says_all && state == CheckState::holds) return asked;
   std::string text = asked + " · ";
+  const Observable* row = find_observable(check.name);
   if (now.empty()) {
-    const Observable* row = find_observable(check.name);
     const bool coming = row != nullptr && row->shown_by != nullptr && session.wants.*row->shown_by;
     text += coming && !session.pacing.playing      ? "it is being measured"
             : row != nullptr && !row->hint.empty() ? std::string(row->hint)
                                                    : "not known yet";
+  } else if (has_sentences(check.name)) {
+    text += row->present[now == "yes" ? 1 : 0];
   } else if (is_word(check.name)) {
-    text += "now: " + now;
+    text += "now it is " + now;
   } else {
-    text += subject(check) + " is " + now + " now";
+    text += (label_of(check.name) == check.name ? check.name : "it") + " is " + now + " now";
+    // Before the motion begins there is nothing to be seen yet that could tell which way to go.
+    if (check.to_find && check.span == Span::throughout && state == CheckState::open)
+      text += is_upper(check.relation) ? ", too high" : is_lower(check.relation) ? ", too low" : "";
   }
   const std::string place = place_of(check.name);
   return place.empty() || now.empty() ? text : text + " · " + place;
+}
+
+bool found_together(const Condition& one, const Condition& other) {
+  return one.to_find && other.to_find && subject_of(one) == subject_of(other);
 }
 
 std::string touched_by(const Session& session) {

@@ -55,6 +55,9 @@ CheckState judge(Session& session, const Condition& check, MotionChange change, 
 /// one why it is broken and what to do.
 std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory);
 
+/// Whether both are bounds of one quantity that is to be found out, which the card lists as one.
+bool found_together(const Condition& one, const Condition& other);
+
 /// What was changed beside what the step's checks name, or touched by hand: "k_d is 0.02 N s/m instead of 0"; empty:
 /// nothing.
 std::string touched_by(const Session& session);

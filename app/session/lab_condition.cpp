@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <span>
 
 #include "app/session/lab_text.h"
@@ -141,29 +142,51 @@ std::string words_of_span(const Condition& condition) {
   return "";
 }
 
-/// "Nothing else changed", "Integrator: Verlet", "Precision: not float".
+/// "Nothing else changed", "The simulation diverges", "Integrator: Verlet", "Precision: not float".
 std::string words_of_word(const Condition& condition) {
-  const std::string label(find_observable(condition.name)->label);
+  const Observable& row = *find_observable(condition.name);
   const bool same = condition.relation == Relation::equal;
-  if (condition.name == "untouched" && same == (condition.right.word == "yes")) return label;
-  return label + (same ? ": " : ": not ") + shown_word(condition.name, condition.right.word);
+  if (!row.asked[1].empty()) return std::string(row.asked[same == (condition.right.word == "yes") ? 1 : 0]);
+  return std::string(row.label) + (same ? ": " : ": not ") + shown_word(condition.name, condition.right.word);
+}
+
+/// "t as in the step before", "dt half as large as in the step before", "energy > 2 × its value in the step before".
+std::string words_of_before(const Condition& condition) {
+  const Operand& right = condition.right;
+  const std::string before = " in the step before";
+  if (condition.relation == Relation::equal && right.name == condition.name) {
+    if (right.factor == 1) return condition.name + " as" + before;
+    if (right.factor == 0.5) return condition.name + " half as large as" + before;
+    if (right.factor == 2) return condition.name + " twice as large as" + before;
+  }
+  std::string text = condition.name + " " + std::string(sign_of(condition.relation)) + " ";
+  if (right.factor != 1) text += shortest_number(right.factor) + " × ";
+  return text + (right.name == condition.name ? "its value" : right.name) + before;
 }
 
 std::string words_of_number(const Condition& condition) {
   const Operand& right = condition.right;
-  std::string text = condition.name + " " + std::string(sign_of(condition.relation)) + " ";
+  if (right.before) return words_of_before(condition);
+  if (condition.name == "apart" && condition.relation == Relation::equal && right.name.empty() && right.factor == 0)
+    return "Each particle where it was in the step before";
+  std::string text = label_of(condition.name) + " " + std::string(sign_of(condition.relation)) + " ";
   if (right.name.empty()) {
     const std::string_view unit = unit_of(condition.name);
     return text + shortest_number(right.factor) + (unit.empty() ? "" : " " + std::string(unit));
   }
   if (right.factor != 1) text += shortest_number(right.factor) + " × ";
-  return text + right.name + (right.before ? " in the lab's previous step" : "");
+  return text + right.name;
 }
 
 }  // namespace
 
 bool asks_divergence(const Condition& condition) {
   return condition.name == "diverged" && condition.relation == Relation::equal && condition.right.word == "yes";
+}
+
+std::string label_of(std::string_view name) {
+  const Observable* row = find_observable(name);
+  return std::string(row != nullptr && !row->label.empty() ? row->label : name);
 }
 
 std::string shown_word(std::string_view name, std::string_view word) {
@@ -217,6 +240,15 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
     throw LabError(
         "a percentage of 0 is 0, so no other number would be right; give the tolerance in its unit: answer: 0 " +
         (given.unit.empty() ? "" : given.unit + " ") + "within 0.01");
+}
+
+std::string subject_of(const Condition& condition) {
+  const std::string label = label_of(condition.name), span = words_of_span(condition);
+  if (!is_word(condition.name)) return (label == condition.name ? "The value of " + label : label) + span;
+  std::string asked(find_observable(condition.name)->asked[1]);
+  if (asked.empty()) return label + span;
+  asked[0] = char(std::tolower(static_cast<unsigned char>(asked[0])));
+  return "Whether " + asked + span;
 }
 
 std::string words_of(const Condition& condition) {

@@ -18,6 +18,9 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given);
 /// "diverged = yes": a moment that has a verb of its own.
 bool asks_divergence(const Condition& condition);
 
+/// What a quantity is called on the card: "k_s", "Integrator".
+std::string label_of(std::string_view name);
+
 /// A word of an observable as people read it: "Verlet" for "verlet", "CPU" for "cpu".
 std::string shown_word(std::string_view name, std::string_view word);
 

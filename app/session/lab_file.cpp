@@ -23,9 +23,9 @@ namespace {
 constexpr std::uintmax_t most_bytes = 1 << 20;
 
 /// The last stands on the line of another, and the one before it in the head's block.
-constexpr std::array<std::string_view, 16> lab_keys{"open", "set",   "predict", "answer", "choice", "right",
-                                                    "do",   "stop",  "check",   "needs",  "show",   "speed",
-                                                    "view", "color", "minutes", "within"};
+constexpr std::array<std::string_view, 17> lab_keys{"open",  "set",  "predict", "answer",  "choice", "right",
+                                                    "do",    "stop", "check",   "find",    "needs",  "show",
+                                                    "speed", "view", "color",   "minutes", "within"};
 
 class LabReader {
  public:
@@ -241,7 +241,7 @@ void LabReader::take_key(std::string_view line) {
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
   if (std::find(lab_keys.begin(), lab_keys.end(), key) == lab_keys.end())
     fail("\"" + std::string(key) + "\" is not a key of a lab" +
-         did_you_mean(key, lab_keys, "; known: " + joined(std::span(lab_keys).first<15>())));
+         did_you_mean(key, lab_keys, "; known: " + joined(std::span(lab_keys).first<16>())));
   if (value.empty()) fail(std::string(key) + ": has no value; write it after the colon, or remove the line");
   if (lab_.steps.empty()) return take_minutes(key, value);
   take_value(key, value);
@@ -278,8 +278,9 @@ void LabReader::take_value(std::string_view key, std::string_view value) {
     step().todo.push_back(card_text(value));
   } else if (key == "stop") {
     take_seconds(value);
-  } else if (key == "check") {
+  } else if (key == "check" || key == "find") {
     step().checks.push_back(placed([&] { return parse_condition(value, first_step()); }));
+    step().checks.back().to_find = key == "find";
   } else if (key == "needs") {
     take_needs(value);
   } else if (key == "show") {

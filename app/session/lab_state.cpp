@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/base/data_files.h"
-#include "app/base/numbers.h"
 #include "app/base/preset_files.h"
 #include "app/base/settings.h"
 #include "app/session/document.h"
@@ -95,22 +94,6 @@ std::vector<Operand> wanted_values(const LabRun& run) {
     for (const Condition& moment : check.when) keep(moment.right);
   }
   return wanted;
-}
-
-/// Whether what was predicted is right; asked at the moment at which the step is done.
-void judge_prediction(Session& session, LabRun& run) {
-  if (!run.now().prediction) return;
-  const Prediction& asked = *run.now().prediction;
-  StepRecord& record = run.record();
-  if (!asked.choices.empty()) {
-    record.right = record.chosen == int(asked.right);
-    return;
-  }
-  const auto answer = value_of(session, asked.answer);
-  const auto said = typed_number(record.typed, asked.unit);
-  if (!answer || !said) return;
-  record.answer = *answer;
-  record.right = std::abs(*said - *answer) <= asked.within * (asked.relative ? std::abs(*answer) : 1);
 }
 
 /// The constants that a step opens with; none where they cannot be read.
@@ -269,6 +252,17 @@ void leave_lab(Session& session) {
                           "” is kept as it was before the lab: “Back to your experiment”, in Ctrl+P, opens it.");
 }
 
+bool next_lab(Session& session) {
+  if (!session.labs.run) return false;
+  const std::vector<Lab>& list = find_labs(session);
+  const LabRun& run = *session.labs.run;
+  auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == run.lab.label; });
+  if (lab == list.end() || ++lab == list.end()) return false;
+  session.messages.note(lab_result(run, steps_done(session, run.lab)));
+  begin_lab(session, lab->label);
+  return true;
+}
+
 bool no_work(const Session& session) {
   const LabState& labs = session.labs;
   if (labs.run) return !labs.opened.empty() && !lab_is_away(session);
@@ -297,15 +291,6 @@ void back_to_experiment(Session& session) {
   if (labs.run) labs.run.reset(), session.pacing.speed = labs.own_speed;
   session.pacing.playing = false;
   reopen_document(session, kept.constants, kept.document, Resumption{kept.state, kept.history});
-}
-
-bool predict(Session& session) {
-  LabRun& run = *session.labs.run;
-  StepRecord& record = run.record();
-  if (!run.now().prediction || record.predicted) return false;
-  const Prediction& asked = *run.now().prediction;
-  if (asked.choices.empty() ? !typed_number(record.typed, asked.unit) : record.chosen < 0) return false;
-  return record.predicted = true;
 }
 
 bool cannot_be_done(Session& session) {

@@ -102,6 +102,8 @@ void back_step(Session& session);
 void set_up_step(Session& session);
 /// Leaves it, and says what came of it.
 void leave_lab(Session& session);
+/// Begins the lab after the present one, and says what came of that. False where there is none after it.
+bool next_lab(Session& session);
 /// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", where that many steps are done.
 std::string lab_result(const LabRun& run, int done);
 /// Keeps the present experiment where it has unsaved changes, to be gone back to after the lab.
@@ -111,8 +113,12 @@ void back_to_experiment(Session& session);
 /// Whether the present cloth is a lab's: what is done there is no work that could be lost.
 bool no_work(const Session& session);
 
-/// Takes what was typed or chosen as the prediction. False where there is nothing yet, or no number.
+/// Why what was typed is refused as the number that is asked for, in sentences; empty where it is not.
+std::string refusal_of(const Prediction& asked, std::string_view typed);
+/// Takes what was typed or chosen as the prediction. False where there is nothing yet, or what is refused.
 bool predict(Session& session);
+/// Whether that is right; asked at the moment at which the step is done.
+void judge_prediction(Session& session, LabRun& run);
 /// Whether the machine lacks what the step needs, so that it can only be read.
 bool cannot_be_done(Session& session);
 

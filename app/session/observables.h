@@ -1,6 +1,7 @@
 // What a lab's checks can ask the sandbox: one row each, and every constant of the notation table.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +28,9 @@ struct Observable {
   bool Wants::*shown_by = nullptr;  ///< the study that does so, where somebody has to open it on purpose
   std::string_view (*word)(const Session&) = nullptr;
   std::span<const std::string_view> (*words)() = nullptr;  ///< those it can be
-  std::string_view label = {};                             ///< of a word: what it is called on the card
+  std::string_view label = {};                             ///< what it is called on the card, where not by its name
+  /// Where its words are "no" and "yes": what a check for each asks, and what is said of it at present.
+  std::array<std::string_view, 2> asked = {}, present = {};
 };
 
 std::span<const Observable> observables();

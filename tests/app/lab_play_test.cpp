@@ -12,7 +12,7 @@ namespace tyglab::lab_play_test {
 using test::finish;
 using test::LabPlayer;
 
-TEST_CASE("lab: Hooke's law and table B.1") {
+TEST_CASE("lab: Hooke's law and the forces on a particle") {
   LabPlayer play("01_hooke");
   play.run(1);
   CHECK_FALSE(play.done());  // nothing has been predicted
@@ -137,6 +137,9 @@ TEST_CASE("lab: what damping does to the limit") {
 TEST_CASE("lab: order of convergence, and what kinks do to it" * doctest::test_suite("slow")) {
   LabPlayer play("05_order");
   play.look();
+  CHECK_FALSE(play.done());  // nothing has been done
+  play.set("dt=0.0005");
+  play.look();
   finish(play);
   play.next();
   play.predict("4");
@@ -146,6 +149,9 @@ TEST_CASE("lab: order of convergence, and what kinks do to it" * doctest::test_s
   play.look();
   finish(play);
   play.next();
+  play.look();
+  CHECK_FALSE(play.done());
+  play.set("k_d=0.005");
   play.look();
   finish(play);
   play.next();
@@ -216,6 +222,9 @@ TEST_CASE("lab: the price of implicit methods" * doctest::test_suite("slow")) {
   play.run(2);
   finish(play);
   play.next();
+  play.look();
+  CHECK_FALSE(play.done());
+  play.set("dt=0.001");
   play.look();
   finish(play);
   play.next();

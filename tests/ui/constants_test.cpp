@@ -103,7 +103,7 @@ TEST_CASE("a field whose value was refused keeps the keys, and what is typed nex
     CHECK(window.preset().k_s == 15);
     CHECK(window.preset().mode == view);
     CHECK_FALSE(window.typing());
-    CHECK(window.session.messages.list().size() == said);
+    CHECK(window.session.messages.list().size() + 1 == said);  // the warning has had its effect
   }
 }
 

@@ -192,7 +192,7 @@ TEST_CASE("where a lab's strip would leave the plots too low, they take its plac
     CAPTURE(scale);
     CAPTURE(size.x);
     test::NullUi window(options("hanging", scale, "dark", size));
-    window.find("and kinks");
+    window.find("not smooth");
     window.frames(3);
     REQUIRE(window.session.labs.run.has_value());
     CHECK(window.sees("lab.leave"));
@@ -210,7 +210,7 @@ TEST_CASE("a lab begins without the copies that were there, and says so") {
   test::NullUi window(options("hanging"));
   window.find("copies card");
   window.add_copy("Euler");
-  window.find("and kinks");
+  window.find("not smooth");
   window.frames(2);
   CHECK(window.session.labs.run.has_value());
   CHECK(window.session.copies.lockstep.empty());

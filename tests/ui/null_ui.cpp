@@ -372,7 +372,7 @@ bool NullUi::said(std::string_view part) const {
 }
 
 bool NullUi::typing() const {
-  const bool starts = ui.slider.typing_starts || ui.dialog.refused || ui.dialog.selecting;
+  const bool starts = ui.slider.typing_starts || ui.dialog.refused || ui.dialog.selecting || ui.lab_field.again;
   return !starts && (ui.slider.typing != 0 || gui::typing_text());
 }
 

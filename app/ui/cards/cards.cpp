@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "app/session/lab.h"
 #include "app/ui/state/ui.h"
@@ -30,11 +31,26 @@ void show_for_lab(Ui& ui, std::string_view name) {
   if (found == lab_cards.end()) return;
   const char* const card = names[std::size_t(found - lab_cards.begin())];
   Layout& layout = ui.settings.layout;
-  layout.right = true;
-  layout.map |= card == card_name::map, layout.inside |= card == card_name::step;
-  layout.folded.erase(card);
+  LabCards& opened = ui.lab_cards;
+  const auto open = [](bool& shown, bool& by_lab) {
+    by_lab |= !shown;
+    shown = true;
+  };
+  open(layout.right, opened.column);
+  if (card == card_name::map) open(layout.map, opened.map);
+  if (card == card_name::step) open(layout.inside, opened.step);
+  if (layout.folded.erase(card) > 0) opened.unfolded.insert(card);
   ui.plots.wanted = card;
   ui.plots.accuracy = AccuracySide::errors;
+}
+
+void close_lab_cards(Ui& ui) {
+  const LabCards opened = std::exchange(ui.lab_cards, {});
+  Layout& layout = ui.settings.layout;
+  if (opened.column) layout.right = false;
+  if (opened.map) layout.map = false;
+  if (opened.step) layout.inside = false;
+  layout.folded.insert(opened.unfolded.begin(), opened.unfolded.end());
 }
 
 }  // namespace tyglab

@@ -22,4 +22,6 @@ void show_card(Ui& ui, std::string_view name);
 /// What a lab's step shows, by its name in lab_cards; empty: nothing. In a narrow window the lab itself stays in sight:
 /// the card is the one that its column shows.
 void show_for_lab(Ui& ui, std::string_view name);
+/// Closes what labs have opened so.
+void close_lab_cards(Ui& ui);
 }  // namespace tyglab

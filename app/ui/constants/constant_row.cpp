@@ -111,9 +111,9 @@ std::string all_values(const Line& line, const double* values) {
 bool in_range(Ui& ui, const Line& line, double value) {
   if (value >= line.min && value <= line.max && (!line.integer || value == std::round(value))) return true;
   const std::string unit = line.unit.empty() ? "" : " " + std::string(line.unit);
-  ui.session.messages.error(std::string(line.symbol) + " ranges from " + short_number(line.min) + " to " +
-                            short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
-                            short_number(value) + " was not accepted.");
+  ui.refuse_number(std::string(line.symbol) + " ranges from " + short_number(line.min) + " to " +
+                   short_number(line.max) + unit + (line.integer ? " in whole numbers" : "") + "; " +
+                   short_number(value) + " was not accepted.");
   return false;
 }
 

@@ -23,6 +23,13 @@ void choose_lab(Ui& ui) {
   open_palette(ui, true);
 }
 
+/// After the last lab the list shows what is left.
+void go_on_to_next_lab(Ui& ui) {
+  if (next_lab(ui.session)) return;
+  leave_lab(ui.session);
+  choose_lab(ui);
+}
+
 std::string no_lab(const Ui& ui) {
   return ui.session.labs.run ? "" : "There is no lab in progress.";
 }
@@ -68,6 +75,7 @@ std::vector<CommandRow> help_rows() {
            {},
            nullptr,
            true},
+          {"next_lab", "Next lab", "", {}, "", "lesson following go on", go_on_to_next_lab, no_lab},
           {"leave_lab", "Leave the lab", "", {}, "", "quit end", of_session<leave_lab>, no_lab},
           {"back_to_experiment",
            "Back to your experiment",

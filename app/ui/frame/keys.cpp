@@ -33,13 +33,13 @@ std::optional<int> digit(const KeyEvent& event) {
 
 /// Enter in the field of a lab's prediction gives it.
 void lab_field_takes(Ui& ui, const KeyEvent& event) {
-  ui.lab_enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
+  ui.lab_field.enter |= event.key == GLFW_KEY_ENTER || event.key == GLFW_KEY_KP_ENTER;
 }
 
 /// Keys of a text field: only those that end it matter here. True if the field has the key.
 bool typing_takes(Ui& ui, const KeyEvent& event) {
   SliderState& slider = ui.slider;
-  if (slider.typing == 0 && !gui::typing_text()) return false;
+  if (slider.typing == 0 && !gui::typing_text() && !ui.lab_field.again) return false;
   if (event.key == GLFW_KEY_Q && (event.mods & counted) == GLFW_MOD_CONTROL) {
     slider.cancel = true;  // a number half typed is no change that could be lost
     return false;

@@ -1,15 +1,16 @@
 // The current lab, in a strip below the viewport: what to read at the left; at the right what to predict, then what
 // to do, what is checked and why. The buttons stand at the strip's foot, since the strip grows upward as its text does.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
 #include "app/session/lab_check.h"
 #include "app/session/observables.h"
+#include "app/ui/frame/lab_header.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
@@ -64,32 +65,38 @@ void verdict(Ui& ui, const Prediction& asked, const StepRecord& record) {
   marked_line(ui, icon::check, "+", c.good, "Right: " + answer, c.text);
 }
 
-/// Why what was typed is no number in that unit.
-std::string not_understood(const char* typed, const std::string& unit) {
-  const std::string quoted = "“" + std::string(typed) + "” is not a number";
-  if (unit.empty()) return quoted + ". Type one such as 0.31 or 1e-4.";
-  return quoted + " in " + unit + ". Type one such as 0.31 or 1e-4, without a unit or in " + unit + ".";
+/// Takes what was typed; what is refused leaves the keyboard to the field.
+void take_prediction(Ui& ui, const Prediction& asked, const StepRecord& record) {
+  std::string why = refusal_of(asked, record.typed);
+  ui.lab_field.again = !why.empty();
+  if (!why.empty()) return ui.refuse_number(std::move(why));
+  ui.accept_number();
+  predict(ui.session);
 }
 
 void number_field(Ui& ui, const Prediction& asked, StepRecord& record) {
+  LabField& field = ui.lab_field;
+  field.seen = true;
+  // It takes the keys in a frame after the one that asks for that.
+  if (field.again) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(ui.theme.px(120));
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(ui.theme.px(8), ui.theme.px(7)));
-  ImGui::InputTextWithHint("##prediction", "your number", record.typed, sizeof record.typed);
+  ImGui::InputTextWithHint("##prediction", "your number", record.typed, sizeof record.typed,
+                           field.again ? ImGuiInputTextFlags_AutoSelectAll : 0);
   ImGui::PopStyleVar();
   report_control(ui, "prediction");
+  if (ImGui::IsItemActive()) field.again = false;
   const bool in_field = ImGui::IsItemActive() || ImGui::IsItemDeactivated();
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
   wrapped(ui, asked.unit, ui.theme.colors.quiet);
   if (!asked.unit.empty()) ImGui::SameLine();
-  const bool enter = ui.lab_enter && in_field && !ui.input.unread;
-  if (text_button(ui, "Predict", true, record.typed[0] != 0) || enter)
-    if (!predict(ui.session)) ui.session.messages.error(not_understood(record.typed, asked.unit));
+  const bool enter = field.enter && in_field && !ui.input.unread;
+  if (text_button(ui, "Predict", true, record.typed[0] != 0) || enter) take_prediction(ui, asked, record);
 }
 
 void choice_list(Ui& ui, const Prediction& asked, StepRecord& record) {
   const Tokens& c = ui.theme.colors;
-  bool clicked = false;
   for (int k = 0; k < int(asked.choices.size()); ++k) {
     ImGui::PushID(k);
     const bool chosen = record.chosen == k;
@@ -98,7 +105,7 @@ void choice_list(Ui& ui, const Prediction& asked, StepRecord& record) {
     const ImFont& font = *ui.fonts.text;
     const std::string words = in_lines(font, asked.choices[std::size_t(k)], width - indent - pad);
     const float height = font.CalcTextSizeA(font.FontSize, 1e9f, 0, words.c_str()).y + 2 * pad;
-    if (gui::press_area("choice", {width, height})) record.chosen = k, clicked = true;
+    if (gui::press_area("choice", {width, height})) record.chosen = k;
     report_control(ui, "choice." + std::to_string(k + 1));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (chosen || ImGui::IsItemHovered())
@@ -110,8 +117,6 @@ void choice_list(Ui& ui, const Prediction& asked, StepRecord& record) {
     draw_text(draw, font, {lo.x + indent, lo.y + pad}, c.text, words);
     ImGui::PopID();
   }
-  if (text_button(ui, "Predict", true, record.chosen >= 0)) predict(ui.session);
-  if (clicked) ImGui::SetScrollHereY(1);  // the button may stand below the column's edge
 }
 
 void prediction_part(Ui& ui, const LabStep& step, StepRecord& record) {
@@ -121,6 +126,12 @@ void prediction_part(Ui& ui, const LabStep& step, StepRecord& record) {
   if (record.predicted) return verdict(ui, *step.prediction, record);
   step.prediction->choices.empty() ? number_field(ui, *step.prediction, record)
                                    : choice_list(ui, *step.prediction, record);
+}
+
+/// Under the sentences to choose from, which scroll.
+void choice_foot(Ui& ui, const StepRecord& record, ImVec2 at) {
+  ImGui::SetCursorScreenPos(at);
+  if (text_button(ui, "Predict", true, record.chosen >= 0)) predict(ui.session);
 }
 
 bool to_be_predicted(const LabStep& step, const StepRecord& record) {
@@ -177,17 +188,32 @@ void task_part(Ui& ui, const LabStep& step) {
   paragraphs_of(ui, step.todo, ui.theme.colors.text);
 }
 
+/// The checks that have a line of their own: of those that are found together, the first that does not hold, and above
+/// all one that is broken.
+std::vector<std::size_t> listed_checks(const LabStep& step, const StepRecord& record) {
+  std::vector<std::size_t> listed;
+  for (std::size_t k = 0; k < std::min({step.checks.size(), record.checks.size(), record.seen.size()}); ++k) {
+    if (record.done || listed.empty() || !found_together(step.checks[listed.back()], step.checks[k])) {
+      listed.push_back(k);
+      continue;
+    }
+    const CheckState before = record.checks[listed.back()], now = record.checks[k];
+    if (now == CheckState::broken || before == CheckState::holds) listed.back() = k;
+  }
+  return listed;
+}
+
 void checks_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   const Tokens& c = ui.theme.colors;
   const LabRun& run = *ui.session.labs.run;
   if (step.checks.empty()) return;
+  const std::vector<std::size_t> listed = listed_checks(step, record);
   // How many hold: what does not may stand below the column's edge.
-  const auto holding = std::count(record.checks.begin(), record.checks.end(), CheckState::holds);
-  const std::string count = "CHECK: " + std::to_string(holding) + " OF " + std::to_string(step.checks.size());
+  const auto holding =
+      std::count_if(listed.begin(), listed.end(), [&](std::size_t k) { return record.checks[k] == CheckState::holds; });
+  const std::string count = "CHECK: " + std::to_string(holding) + " OF " + std::to_string(listed.size());
   small_head(ui, record.done ? "CHECK: DONE" : count.c_str(), record.done ? c.good : c.accent);
-  for (std::size_t k = 0; k < step.checks.size(); ++k)
-    if (k < record.checks.size() && k < record.seen.size())
-      check_line(ui, run, step.checks[k], record.checks[k], record.seen[k]);
+  for (const std::size_t k : listed) check_line(ui, run, step.checks[k], record.checks[k], record.seen[k]);
   const std::string& awaited = run.awaited;
   if (const Observable* row = find_observable(awaited); row != nullptr && !record.done)
     marked_line(ui, icon::unknown, "?", c.warning, awaited + " · " + std::string(row->hint), c.text);
@@ -264,83 +290,6 @@ void fit_height(Ui& ui, const Region& region, float contents) {
   ui.draw_by = std::min(ui.draw_by, ui.now);
 }
 
-/// What the button that leads on may say.
-constexpr std::array forward_labels{"Skip", "Next", "Finish"};
-
-float button_width(const Ui& ui, const char* label) {
-  return text_width(*ui.fonts.text, label) + 2 * ImGui::GetStyle().FramePadding.x;
-}
-
-float forward_width(const Ui& ui) {
-  float widest = 0;
-  for (const char* label : forward_labels) widest = std::max(widest, button_width(ui, label));
-  return widest;
-}
-
-constexpr float button_gap_at_1 = 6;
-
-bool can_set_up_again(LabRun& run) {
-  return run.now().open.has_value();
-}
-
-/// What all of them take beside each other, px.
-float step_buttons_width(Ui& ui, LabRun& run) {
-  const float gap = ui.theme.px(button_gap_at_1);
-  const float again = can_set_up_again(run) ? gap + button_width(ui, "Set up again") : 0;
-  return button_width(ui, "Back") + gap + forward_width(ui) + again;
-}
-
-/// Back and on, which keep their places from step to step, then the one that comes and goes.
-void step_buttons(Ui& ui, LabRun& run, ImVec2 at) {
-  const bool last = run.step + 1 == run.lab.steps.size(), done = run.record().done, again = can_set_up_again(run);
-  const char* forward = forward_labels[last ? 2 : std::size_t(done)];
-  // Where Next stood nothing leaves a lab that has not been done; the cross does.
-  const bool can = !last || done || cannot_be_done(ui.session);
-  const float gap = ui.theme.px(button_gap_at_1);
-  ImGui::SetCursorScreenPos(at);
-  if (text_button(ui, "Back", false, run.step > 0)) return back_step(ui.session);
-  ImGui::SameLine(0, gap);
-  // The second click of a double click meets the next step's button, and is not meant for it.
-  const bool second = ImGui::IsMouseReleased(ImGuiMouseButton_Left) && ImGui::GetIO().MouseClickedLastCount[0] > 1;
-  const bool go = text_button(ui, forward, done, can, forward_width(ui)) && !second;
-  if (!can) tooltip(ui, gui::item_id(), "Once the checks hold; × leaves the lab before that, and keeps your progress");
-  if (again) {
-    ImGui::SameLine(0, gap);
-    if (text_button(ui, "Set up again")) set_up_step(ui.session);
-  }
-  if (!go) return;
-  last ? ui.command("leave_lab") : enter_step(ui.session, run.step + 1);
-}
-
-/// The title, the buttons where `with_buttons`, and the cross. Returns whether the step's title had room.
-bool lab_header(Ui& ui, LabRun& run, const Region& region, bool with_buttons) {
-  const Tokens& c = ui.theme.colors;
-  const float gap = ui.theme.px(button_gap_at_1);
-  float end = region.at.x + region.size.x - ui.theme.px(12 + 22);
-  const float middle = region.at.y + ui.theme.px(24), margin = ui.theme.px(16);
-  ImGui::SetCursorScreenPos({end, region.at.y + ui.theme.px(13)});
-  if (quiet_button(ui, "leave", icon::close, "x", "Leave the lab; your progress is kept")) ui.command("leave_lab");
-  if (with_buttons) {
-    end -= gap + step_buttons_width(ui, run);
-    step_buttons(ui, run, {end, region.at.y + ui.theme.px(9)});
-  }
-  end -= ui.theme.px(12);
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  float x = region.at.x + margin;
-  const float baseline = baseline_at(ui.fonts, middle);
-  char place[32];
-  std::snprintf(place, sizeof place, "Step %zu of %zu", run.step + 1, run.lab.steps.size());
-  const float width = text_width(*ui.fonts.title, run.now().title);
-  const bool room = x + width <= end;
-  if (room)
-    draw_on_baseline(draw, *ui.fonts.title, {x, baseline}, c.text, run.now().title), x += width + ui.theme.px(10);
-  if (x + text_width(*ui.fonts.small, place) > end) return room;
-  const std::string full = std::string(place) + " · " + run.lab.title;
-  draw_on_baseline(draw, *ui.fonts.small, {x, baseline}, c.quiet,
-                   x + text_width(*ui.fonts.small, full) <= end ? full : place);
-  return room;
-}
-
 }  // namespace
 
 float lab_panel_height(const Ui& ui, float available) {
@@ -365,16 +314,19 @@ void lab_panel(Ui& ui, const Region& region) {
   // In one column the strip is as high as it may be, and the buttons stand in its header.
   if (two) step_buttons(ui, run, {left, top + height - foot + ui.theme.px(2)});
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
-  begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height - foot});
+  // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
+  const bool asks = to_be_predicted(run.now(), run.record()), beside = two && asks;
+  const float choice = asks && !run.now().prediction->choices.empty() ? ui.theme.px(foot_at_1) : 0;
+  begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height - (two ? foot : choice)});
   if (!titled) title_part(ui, run);
   reading_part(ui, run);
-  // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
-  const bool beside = two && to_be_predicted(run.now(), run.record());
   if (!beside) prediction_part(ui, run.now(), run.record());
-  float contents = 0;
-  if (two)
-    contents = end_lab_column(ui) + foot,
-    begin_lab_column(ui, ("do" + id).c_str(), left + column + gap, top, {column, height});
+  float contents = 0, last = left;
+  if (two) {
+    last += column + gap;
+    contents = end_lab_column(ui) + foot;
+    begin_lab_column(ui, ("do" + id).c_str(), last, top, {column, height - choice});
+  }
   if (beside) prediction_part(ui, run.now(), run.record());
   // Once a step is done, why comes first: it is what is left to be read.
   const bool waits = lab_waits(ui.session);
@@ -382,7 +334,8 @@ void lab_panel(Ui& ui, const Region& region) {
   doing_part(ui, run.now(), run.record());
   if (waits) explanation_part(ui, run);
   end_part(ui, run);
-  fit_height(ui, region, std::max(contents, end_lab_column(ui)));
+  fit_height(ui, region, std::max(contents, end_lab_column(ui) + choice));
+  if (choice > 0) choice_foot(ui, run.record(), {last, top + height - choice + ui.theme.px(2)});
   end_region();
 }
 

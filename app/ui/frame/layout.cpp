@@ -1,6 +1,7 @@
 // Where the regions are: top bar, constants, viewport, plots, status; the borders between them drag.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/ui/cards/plots_panel.h"
 #include "app/ui/constants/constants_panel.h"
@@ -167,7 +168,8 @@ void draw_layout(Ui& ui, ImVec2 window) {
   help_overlay(ui);
   palette(ui);
   dialogs(ui);
-  ui.lab_enter = false;
+  ui.lab_field.enter = false;
+  if (!std::exchange(ui.lab_field.seen, false)) ui.lab_field.again = false;
   ui.viewport.blocked = ui.palette.open || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 

@@ -1,6 +1,7 @@
 // Presentation mode's few controls, below a large cloth: what a lecture needs at hand. All else is a key away.
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "app/base/numbers.h"
 #include "app/ui/constants/constant_row.h"
@@ -79,6 +80,22 @@ void podium_column(Ui& ui, const char* id, ImVec2 at, float width, const Rows& r
   ImGui::PopStyleVar();
 }
 
+/// Beside dt: the constants that the lab's step asks for, or else the stiffness.
+std::vector<const PresetRow*> constants_at_hand(const Ui& ui) {
+  constexpr std::size_t most = 2;  // rows of a column
+  const Preset& preset = ui.session.requested_preset();
+  std::vector<const PresetRow*> rows;
+  if (ui.session.labs.run)
+    for (const Condition& check : ui.session.labs.run->now().checks) {
+      const PresetRow* row = find_row(check.name.substr(0, check.name.find('.')));
+      const bool known = std::find(rows.begin(), rows.end(), row) != rows.end();
+      if (row != nullptr && !known && row->key != "dt" && applies(*row, preset) && rows.size() < most)
+        rows.push_back(row);
+    }
+  if (rows.empty()) rows.push_back(find_row(preset.kind == Kind::one_weight ? "k" : "k_s"));
+  return rows;
+}
+
 void podium_buttons(Ui& ui, ImVec2 at, bool with_card) {
   ImGui::SetCursorScreenPos(at);
   if (icon_button(ui, {"present", icon::screen, "Panels", "Back to all panels", "F5", true, 28})) ui.command("present");
@@ -108,7 +125,7 @@ void podium(Ui& ui, const Region& region) {
   large_transport(ui, {region.at.x + margin, top}, !speeds);
   podium_buttons(ui, {region.at.x + width - margin - ui.theme.px(28), top}, presented_card_width(ui, width) > 0);
 
-  // What has no room is left out or made smaller, the speeds first, then the stiffness.
+  // What has no room is left out or made smaller, the speeds first, then the stiffness or what a lab asks for.
   float x = transport_end(ui, region.at.x), room = middle_room(ui, width);
   const float least = ui.theme.px(podium_column_at_1);
   if (speeds) {
@@ -117,17 +134,18 @@ void podium(Ui& ui, const Region& region) {
   }
   const bool both = room >= 2 * least + gap;
   const float column = both ? (room - gap) / 2 : room;
-  const bool weight = ui.session.requested_preset().kind == Kind::one_weight;
+  const std::vector<const PresetRow*> rows = constants_at_hand(ui);
+  const bool lab_alone = !both && ui.session.labs.run.has_value();
   if (both) {
     podium_column(ui, "stiffness", {x, top}, column, [&] {
-      constant_row(ui, *find_row(weight ? "k" : "k_s"));
-      integrator_row(ui);
+      for (const PresetRow* row : rows) constant_row(ui, *row);
+      if (rows.size() == 1) integrator_row(ui);
     });
     x += column + gap;
   }
   podium_column(ui, "step", {x, top}, column, [&] {
     constant_row(ui, *find_row("dt"));
-    stability_row(ui);
+    lab_alone ? constant_row(ui, *rows.front()) : stability_row(ui);
   });
   end_region();
 }

@@ -258,7 +258,8 @@ void add_window(Json& json, const Ui& ui) {
   json["handling"] = handling(ui);
   json["theme"] = ui.settings.theme;
   const SliderState& slider = ui.slider;
-  const bool starts = slider.typing_starts || ui.dialog.refused || ui.dialog.selecting;  // takes no keys yet
+  const bool starts =
+      slider.typing_starts || ui.dialog.refused || ui.dialog.selecting || ui.lab_field.again;  // takes no keys yet
   json["typing"] = !starts && (slider.typing != 0 || gui::typing_text());
   json["dialog"] = name_of(ui.dialog.kind);
   json["problem"] = ui.dialog.problem;

@@ -61,6 +61,7 @@ void Ui::follow() {
     settings.layout.folded.erase(card_name::copies);
     if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;
   }
+  if (!session.labs.run || counts.labs_begun != seen_.labs_begun) close_lab_cards(*this);
   if (counts.lab_steps != seen_.lab_steps && session.labs.run) {
     show_for_lab(*this, session.labs.run->now().show);
     show_what_to_change();

@@ -210,14 +210,15 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
   // Who leaves what was refused gives it up.
   if (state.cancel || (!state.commit && state.refused == state.text)) return;
   if (const auto typed = typed_number(state.text, unit)) {
+    ui.accept_number();
     result.changed = result.finished = *typed != value;
     result.value = *typed;
     if (state.commit) result.typed = field;
   } else {
     if (state.commit) type_again(state, field);
-    ui.messages.error(std::string("“") + state.text + "” is not a number" +
-                      (unit.empty() ? "" : " in " + std::string(unit)) +
-                      "; the value stays. Type one such as 310 or 1e-4.");
+    ui.refuse_number(std::string("“") + state.text + "” is not a number" +
+                     (unit.empty() ? "" : " in " + std::string(unit)) +
+                     "; the value stays. Type one such as 310 or 1e-4.");
   }
 }
 

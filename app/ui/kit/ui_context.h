@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/base/input.h"
@@ -84,6 +85,16 @@ struct UiContext {
   bool covered = false;          ///< something lies over everything: no tooltips
   bool wheel_scrolls = false;    ///< the wheel scrolls the column of plots, and zooms a plot only with Ctrl
   float row_width = 0;           ///< of what is laid out in rows, pixels
+  std::string refusal;           ///< said of the number that was refused last; empty once one has been accepted
+
+  /// Says why a number that was typed is refused, in place of what was said of the one before.
+  void refuse_number(std::string why) {
+    accept_number();
+    refusal = why;
+    messages.error(std::move(why));
+  }
+  /// What was said of those before it is of no more use.
+  void accept_number() { messages.take_back(std::exchange(refusal, {})); }
 };
 
 /// Names the item drawn last for the control log, if there is one: the region or "dialog" or "menu" that it stands in,

@@ -204,13 +204,13 @@ FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double ov
   const std::vector<ImVec2> places = flow(ui, shown, room);
   const float rows = places.back().y + line;
   const bool changed = changed_since_divergence(ui.session);
-  const std::string limit = changed          ? " with other constants"
+  const std::string limit = changed          ? " before the constants were changed"
                             : over_limit > 1 ? ": dt is " + short_number(over_limit, 2) + " times the worst-case limit"
                                              : std::string();
   std::vector<std::string> texts{"The simulation diverged" + limit};
   if (!changed && over_limit > 1) texts.push_back("Diverged: dt is " + short_number(over_limit, 2) + " × the limit");
   const std::size_t telling = texts.size();  // those that say why
-  texts.insert(texts.end(), {changed ? "Diverged with other constants" : "The simulation diverged", "Diverged"});
+  texts.insert(texts.end(), {changed ? "Diverged before this change" : "The simulation diverged", "Diverged"});
   FoldedBanner folded;
   std::vector<std::pair<bool, std::string>> ways_to_say;
   if (high)

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -139,6 +140,19 @@ struct PictureOrder {
   bool whole_window = false;
 };
 
+/// What a lab has opened of the plots' column: closed again when it ends. What was open before is not among it.
+struct LabCards {
+  std::set<std::string> unfolded;  ///< cards, by their names
+  bool column = false, map = false, step = false;
+};
+
+/// The field of a lab's prediction.
+struct LabField {
+  bool enter = false;  ///< Enter was pressed in it in this frame
+  bool again = false;  ///< what was typed is refused: it is to take keys again, all of its text selected
+  bool seen = false;   ///< it is drawn in this frame
+};
+
 struct Ui : UiContext {
   Ui(Session& of, Scene& in, Tools& with, InputQueue& events, Settings& remembered)
       : UiContext(events, remembered, of.messages, in.viewport), session(of), scene(in), tools(with) {}
@@ -170,7 +184,8 @@ struct Ui : UiContext {
   std::array<double, 3> arrow_scales{};  ///< N, m/s and m/s² for the longest arrow, smoothed
   bool constants_to_top = false;         ///< another preset was taken: its constants are shown from the first one on
   std::optional<AskedLattice> asked_lattice;
-  bool lab_enter = false;        ///< Enter was pressed in the field of a lab's prediction
+  LabField lab_field;
+  LabCards lab_cards;
   float viewport_left = 0;       ///< pixels
   float lab_needs = 0;           ///< height of a lab's strip that shows all of its step, pixels; 0: not known yet
   bool time_in_picture = false;  ///< presentation mode has no other place for the simulated time

@@ -1,0 +1,62 @@
+// What a student predicts: what is accepted, and whether it was right.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "app/base/numbers.h"
+#include "app/session/lab_check.h"
+#include "app/session/lab_state.h"
+#include "app/session/session.h"
+
+namespace tyglab {
+namespace {
+
+struct Quantity {
+  std::string_view unit, name;
+};
+/// What cannot be negative is told by its unit.
+constexpr std::array<Quantity, 4> never_negative{
+    {{"s", "A time"}, {"kg", "A mass"}, {"N/m", "A stiffness"}, {"N s/m", "A damping constant"}}};
+
+}  // namespace
+
+std::string refusal_of(const Prediction& asked, std::string_view typed) {
+  const std::string in_unit = asked.unit.empty() ? "" : " in " + asked.unit;
+  const auto number = typed_number(typed, asked.unit);
+  if (!number)
+    return "“" + std::string(typed) + "” is not a number" + in_unit + ". Type one such as 0.31 or 1e-4" +
+           (asked.unit.empty() ? "." : ", without a unit or" + in_unit + ".");
+  const auto* quantity = std::find_if(never_negative.begin(), never_negative.end(),
+                                      [&](const Quantity& q) { return q.unit == asked.unit; });
+  const bool asked_below = asked.answer.name.empty() && asked.answer.factor < 0;  // a difference of two
+  if (*number < 0 && quantity != never_negative.end() && !asked_below)
+    return std::string(quantity->name) + " cannot be negative. Type 0 " + asked.unit + " or more.";
+  return {};
+}
+
+bool predict(Session& session) {
+  LabRun& run = *session.labs.run;
+  StepRecord& record = run.record();
+  if (!run.now().prediction || record.predicted) return false;
+  const Prediction& asked = *run.now().prediction;
+  if (asked.choices.empty() ? !refusal_of(asked, record.typed).empty() : record.chosen < 0) return false;
+  return record.predicted = true;
+}
+
+void judge_prediction(Session& session, LabRun& run) {
+  if (!run.now().prediction) return;
+  const Prediction& asked = *run.now().prediction;
+  StepRecord& record = run.record();
+  if (!asked.choices.empty()) {
+    record.right = record.chosen == int(asked.right);
+    return;
+  }
+  const auto answer = value_of(session, asked.answer);
+  const auto said = typed_number(record.typed, asked.unit);
+  if (!answer || !said) return;
+  record.answer = *answer;
+  record.right = std::abs(*said - *answer) <= asked.within * (asked.relative ? std::abs(*answer) : 1);
+}
+
+}  // namespace tyglab
