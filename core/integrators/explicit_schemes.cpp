@@ -31,7 +31,9 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 1,
        .vectors = 2,
        .keeps_displacement = false,
-       .note = "A Taylor expansion of the position; its velocity is first order, and so is the method.",
+       .note =
+           "A Taylor expansion of the position; its velocity is first order, and so is the method. It is not Heun's "
+           "method, which other texts call improved Euler.",
        .stability = "grows at every dt without damping, more slowly than Euler",
        .cost = "one evaluation of the force",
        .formula = R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to )"

@@ -168,10 +168,8 @@ void result(Ui& ui, const StepTrace& trace) {
 }
 
 std::string step_heading(const StepTrace& trace) {
-  const Scheme& method = scheme(trace.integrator);
-  const std::string equation(method.equation);
-  return std::string(method.title) + (equation.empty() ? "" : " (" + equation + ")") + ", particle " +
-         site(trace.i, trace.j) + ", dt = " + short_number(trace.dt) + " s";
+  return std::string(scheme(trace.integrator).title) + ", particle " + site(trace.i, trace.j) +
+         ", dt = " + short_number(trace.dt) + " s";
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ void tool_rows(Ui& ui) {
     const int now = handling.cut_along_path ? 1 : 0;
     if (const int k = segments(ui, "cut", ways, 2, now); k >= 0 && k != now) ui.command("toggle_cut_path");
     tooltip(ui, gui::item_id(),
-            "What a left drag cuts: the springs above each particle near it, as in the report, or every spring "
+            "What a left drag cuts: the springs above each particle near it, or every spring "
             "and edge of a triangle that it crosses, through all layers.",
             ui.keys_of("toggle_cut_path"));
   });

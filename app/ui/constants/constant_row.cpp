@@ -149,7 +149,7 @@ void row_tooltip(Ui& ui, const Line& line) {
   std::string facts = short_number(line.min) + " to " + short_number(line.max);
   if (!line.unit.empty()) facts += " " + std::string(line.unit);
   if (line.zero_is_off) facts += ", 0 is off";
-  if (!line.equation.empty()) facts += " · equation (" + std::string(line.equation) + ")";
+  if (!line.equation.empty()) facts += " · equation (" + std::string(line.equation) + ") of the report";
   wrapped(ui, facts, c.quiet);
   if (const auto& limits = ui.session.studies.stability.limits())
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);

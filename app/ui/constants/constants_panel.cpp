@@ -64,12 +64,6 @@ std::string order_text(const Scheme& scheme) {
   return text;
 }
 
-/// "Verlet (2.15)"; methods that are not in the report have no number.
-std::string label_of(const Scheme& scheme) {
-  const std::string title(scheme.title);
-  return scheme.equation.empty() ? title : title + " (" + std::string(scheme.equation) + ")";
-}
-
 /// The line of a method's curves, as a sample beside its name.
 void draw_sample(const Theme& theme, ImDrawList& draw, float left, float middle, const Scheme& scheme) {
   CurveStyle style = integrator_style(theme.colors, scheme.name);
@@ -151,7 +145,7 @@ void integrator_row(Ui& ui) {
   const Scheme& now = scheme(ui.session.requested_preset().integrator);
   const float width = ui.row_width;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
-  const std::string room = "           ", label = room + label_of(now);
+  const std::string room = "           ", label = room + std::string(now.title);
   const bool open = begin_combo(ui, "##integrator", label.c_str(), width);
   const float middle = lo.y + ImGui::GetItemRectSize().y / 2;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -166,7 +160,7 @@ void integrator_row(Ui& ui) {
   }
   for (const Scheme& choice : schemes()) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const std::string name = room + label_of(choice);
+    const std::string name = room + std::string(choice.title);
     const bool chosen = ImGui::Selectable(name.c_str(), choice.name == now.name);
     draw_sample(ui.theme, *ImGui::GetWindowDrawList(), at.x + ui.theme.px(2), at.y + ImGui::GetTextLineHeight() / 2,
                 choice);
@@ -176,7 +170,7 @@ void integrator_row(Ui& ui) {
       ui.session.propose(std::move(next));
     }
     report_control(ui, choice.name);
-    tooltip(ui, gui::item_id(), sentence(order_text(choice)) + " " + std::string(choice.note));
+    tooltip(ui, gui::item_id(), sentence(order_text(choice)) + " " + std::string(choice.note), choice.source);
   }
   end_combo();
 }

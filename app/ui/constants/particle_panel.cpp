@@ -48,7 +48,7 @@ void variable_tooltip(Ui& ui, ImGuiID id, const Variable& what, const glm::dvec3
             "The particle lies on a body. Contact corrects position and velocity after each step and is not a force of "
             "the model, so neither F nor the acceleration includes it.",
             c.warning);
-  wrapped(ui, "equation (" + std::string(what.equation) + ")", c.quiet);
+  wrapped(ui, "equation (" + std::string(what.equation) + ") of the report", c.quiet);
   if (has_arrow(ui, what.key)) wrapped(ui, "Click to show or hide its arrow at the particle", c.quiet);
   end_tooltip(ui);
 }

@@ -9,7 +9,7 @@ void toggle_cut_path(Ui& ui) {
   bool& along = ui.settings.handling.cut_along_path;
   along = !along;
   ui.messages.note(along ? "A left drag cuts every spring that its path crosses."
-                         : "A left drag cuts the springs above the particles near it, as in the report.");
+                         : "A left drag cuts the springs above the particles near it.");
 }
 
 void toggle_wind_arrow(Ui& ui) {

@@ -106,8 +106,11 @@ void tables(Ui& ui, float width) {
     table(ui, each.title, each.entries, *now);
     shown = lines(shown, each);
   }
-  text_between(ui, "An active slider or text field keeps its keys; Esc releases them.",
-               {now->left, ImGui::GetCursorPosY()}, now->left + column, ui.theme.colors.quiet);
+  text_between(
+      ui,
+      "An active slider or text field keeps its keys; Esc releases them. Equation numbers in tooltips are those of "
+      "the report “Simulering av tyg” (Linköpings universitet, 2012).",
+      {now->left, ImGui::GetCursorPosY()}, now->left + column, ui.theme.colors.quiet);
   ImGui::SetCursorPos({start.x, std::max(half, ImGui::GetCursorPosY()) + ui.theme.px(4)});
 }
 

@@ -90,7 +90,7 @@ void view_buttons(Ui& ui, const Region& region) {
   const int mode = ui.session.requested_preset().mode;
   if (const int k = segments(ui, "views", shown.labels, 5, mode - 1, shown.padding); k >= 0 && k + 1 != mode)
     set_mode(ui, k + 1);
-  tooltip(ui, gui::item_id(), "How the cloth is drawn (2.4)", "Keys 1 to 5");
+  tooltip(ui, gui::item_id(), "How the cloth is drawn", "Keys 1 to 5");
   ImVec2 hi = ImGui::GetItemRectMax();
   ImGui::SetCursorScreenPos({hi.x + gap, lo.y});
   const float menu = std::clamp(lo.x + room - hi.x - gap, ui.theme.px(48), color_menu_width(ui));
