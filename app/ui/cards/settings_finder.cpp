@@ -16,7 +16,7 @@ namespace {
 
 // Pixels at scale 1.
 constexpr float finder_field_at_1 = 92, finder_row_at_1 = 21, finder_gap_at_1 = 8, finder_number_at_1 = 64;
-constexpr float finder_at_1 = 292, finder_rows_at_1 = 10 * finder_row_at_1, finder_button_at_1 = 34;
+constexpr float finder_at_1 = 292, finder_button_at_1 = 34;
 
 float asked_width(const Ui& ui) {
   const ImFont& font = *ui.fonts.text;
@@ -186,6 +186,20 @@ void finder_answer(Ui& ui, const SettingsSearch& search, double tolerance) {
   for (std::size_t n = 0; n < reached.size(); ++n) finder_line(ui, int(n), search, reached[n]);
 }
 
+void finder_part(Ui& ui) {
+  const SettingsWatch& watch = ui.session.studies.settings;
+  if (!watch.tolerance())
+    return finder_text(
+        ui,
+        "Tries methods and dt on the next second of this motion, and ranks those that keep this error by "
+        "their cost.");
+  if (ui.session.simulation->divergence() && !watch.search())
+    return finder_text(ui, "The motion has diverged; restart it first.");
+  const auto search = watch.search();
+  if (!search) return finder_text(ui, "The search begins once you let go of the cloth and its present step is done.");
+  finder_answer(ui, *search, *watch.tolerance());
+}
+
 }  // namespace
 
 std::optional<double> target_error(const Ui& ui) {
@@ -201,7 +215,7 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
            " done, " + std::to_string(search.points.size()) + " settings tried.";
   }
   if (const auto refusal = refusal_of(search, tolerance)) return refusal->words;
-  std::string words = "Largest errors over the " + two_digits_of(search.seconds) +
+  std::string words = "Largest rms errors over the " + two_digits_of(search.seconds) +
                       " s from t = " + short_number(search.t) + " s. Click a setting to use it.";
   if (search.seconds < 0.99 * search.goal.seconds)
     words +=
@@ -215,23 +229,18 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
 }
 
 float settings_finder_at_1(const Ui& ui, float width) {
-  return finder_at_1 + (find_below(ui, width) ? finder_button_at_1 : 0) +
-         (methods_above(ui, width) ? finder_rows_at_1 : 0);
+  return ui.plots.finder_needs.value_or(finder_at_1 + (find_below(ui, width) ? finder_button_at_1 : 0));
 }
 
 void settings_finder(Ui& ui, float) {
+  const float begin = ImGui::GetCursorScreenPos().y;
   target_row(ui);
-  const SettingsWatch& watch = ui.session.studies.settings;
-  if (!watch.tolerance())
-    return finder_text(
-        ui,
-        "Tries methods and dt on the next second of this motion, and ranks those that keep this error by "
-        "their cost.");
-  if (ui.session.simulation->divergence() && !watch.search())
-    return finder_text(ui, "The motion has diverged; restart it first.");
-  const auto search = watch.search();
-  if (!search) return finder_text(ui, "The search begins once you let go of the cloth and its present step is done.");
-  finder_answer(ui, *search, *watch.tolerance());
+  finder_part(ui);
+  const float needs = std::ceil((ImGui::GetCursorScreenPos().y - begin) / ui.theme.scale);
+  if (needs == ui.plots.finder_needs) return;
+  // What was asked for and has come is to be seen, and no room is left below it.
+  if (ui.plots.finder_needs && needs > *ui.plots.finder_needs) ui.plots.wanted = card_name::accuracy;
+  ui.plots.finder_needs = needs, ui.draw_by = ui.now;
 }
 
 }  // namespace tyglab

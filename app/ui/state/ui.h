@@ -36,7 +36,8 @@ struct Plots {
   std::array<bool, Recorded::forces_count> hidden{true, false, false, false, false, true, true};
   std::array<bool, 4> figure_hidden{};
   AccuracySide accuracy = AccuracySide::errors;
-  char target[32] = "1e-4";  ///< of the settings to be found: the largest error, m, as it is typed
+  char target[32] = "1e-4";           ///< of the settings to be found: the largest error, m, as it is typed
+  std::optional<float> finder_needs;  ///< height of the search for them, pixels at scale 1, once it is known
 };
 
 /// A line of the palette: what it is called, and what it does.
