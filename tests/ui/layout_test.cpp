@@ -408,6 +408,14 @@ TEST_CASE("windows of any size are drawn, in presentation mode and out of it") {
   CHECK(window.session.simulation->time() > 0);
 }
 
+TEST_CASE("what stands in the top bar keeps its place when the preset is no longer saved") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.theme = "projector"; }});
+  const glm::vec2 step = window.middle("top.speed.4");
+  window.type_value("k_s", "60");
+  REQUIRE(unsaved(window.session));
+  CHECK(window.middle("top.speed.4") == step);
+}
+
 TEST_CASE("slow motion is chosen by what one sees") {
   test::NullUi window;
   window.click("top.speed.3");

@@ -59,20 +59,22 @@ float menu_button(Ui& ui, float x) {
   return x + width;
 }
 
+constexpr float before_name_at_1 = 8, after_name_at_1 = 14;  // the dot has its room there whether or not it is shown
+
 /// What the preset's name takes with all that belongs to it, px.
 float document_width(const Ui& ui) {
-  return text_width(*ui.fonts.text, ui.session.preset().name) + ui.theme.px(16 + (unsaved(ui.session) ? 18 : 0));
+  return text_width(*ui.fonts.text, ui.session.preset().name) + ui.theme.px(before_name_at_1 + after_name_at_1);
 }
 
 /// Name of the preset, with a dot while it is not saved; leads to others. Returns where it ends.
 float document_name(Ui& ui, float x, float width) {
   const Tokens& c = ui.theme.colors;
   const float height = ui.theme.px(32), y = bar_middle(ui, height);
-  const float dot = unsaved(ui.session) ? ui.theme.px(18) : 0, padding = ui.theme.px(8);
-  const std::string name = fitted(*ui.fonts.text, ui.session.preset().name, width - dot - 2 * padding);
+  const float before = ui.theme.px(before_name_at_1), after = ui.theme.px(after_name_at_1);
+  const std::string name = fitted(*ui.fonts.text, ui.session.preset().name, width - before - after);
   const float text = text_width(*ui.fonts.text, name);
   ImGui::SetCursorScreenPos({x, y});
-  const float whole = text + dot + 2 * padding;
+  const float whole = before + text + after;
   if (gui::press_area("name", {whole, height})) ui.command("open_dialog");
   report_control(ui, "name");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -81,9 +83,10 @@ float document_name(Ui& ui, float x, float width) {
           ui.session.preset().name + (unsaved(ui.session) ? ": unsaved changes" : "") + "\n" +
               ui.session.preset().description,
           "Open Ctrl+O · save Ctrl+S");
-  const ImVec2 at{x + padding, std::round(y + (height - ui.fonts.text->FontSize) / 2)};
+  const ImVec2 at{x + before, std::round(y + (height - ui.fonts.text->FontSize) / 2)};
   draw_text(draw, *ui.fonts.text, at, c.quiet, name);
-  if (dot > 0) draw.AddCircleFilled({at.x + text + ui.theme.px(10), y + height / 2}, ui.theme.px(3.5f), c.warning, 16);
+  if (unsaved(ui.session))
+    draw.AddCircleFilled({at.x + text + after / 2, y + height / 2}, ui.theme.px(3.5f), c.warning, 16);
   return x + whole;
 }
 
