@@ -283,7 +283,7 @@ std::string check_in_words(Session& session, const Condition& check, CheckState 
     if (check.to_find && check.span == Span::throughout && state == CheckState::open)
       text += is_upper(check.relation) ? ", too high" : is_lower(check.relation) ? ", too low" : "";
   }
-  const std::string place = place_of(check.name);
+  const std::string place = has_sentences(check.name) ? "" : place_of(check.name);
   return place.empty() || now.empty() ? text : text + " · " + place;
 }
 

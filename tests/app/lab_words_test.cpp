@@ -56,7 +56,7 @@ TEST_CASE("the card says what is now, and of what is to be found no more than th
   LabPlayer play("03_stiffness");
   play.predict("200");
   play.update();
-  CHECK(play.card(0) == "The simulation diverges · it has not diverged · banner below the cloth");
+  CHECK(play.card(0) == "The simulation diverges · it has not diverged");
   CHECK(play.card(1) == "The value of k_s when the cloth diverges · k_s is 50 N/m now · constants, Springs");
   play.set("k_s=300");
   play.update();

@@ -87,6 +87,19 @@ TEST_CASE("the warning about a constant's number goes once one is accepted") {
   CHECK_FALSE(window.said("was not accepted"));
 }
 
+TEST_CASE("that what is to be found holds already is not shown before the step is done") {
+  test::NullUi window;
+  begin(window, "03_stiffness");
+  enter_step(window.session, 1);
+  window.frames(4);
+  window.click("lab.choice.1");
+  window.click("lab.Predict");
+  window.frames(4);
+  REQUIRE(window.session.labs.run->now().checks[2].to_find);  // that nothing diverges
+  CHECK(record(window).checks[2] == CheckState::holds);
+  CHECK(window.drew("CHECK: 1 OF 4"));  // that nothing else was changed
+}
+
 TEST_CASE("Skip never stands where Next does, whatever a step has, so that a double click on Next skips nothing") {
   for (const glm::ivec2 size : {glm::ivec2{1280, 720}, glm::ivec2{900, 600}}) {
     test::NullUi window({.size = size});
@@ -178,6 +191,7 @@ TEST_CASE("the button under a question's choices is whole in presentation mode, 
       return box.hi.y - box.lo.y;
     };
     CHECK(height("lab.Predict") == height("lab.Back"));
+    if (size.x == 1280) CHECK(height("lab.choice.3") == height("lab.choice.1"));
     window.click("lab.choice.1");
     window.click("lab.Predict");
     CHECK(record(window).predicted);

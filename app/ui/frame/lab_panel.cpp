@@ -149,11 +149,17 @@ std::string compared(const LabRun& run, const Condition& check) {
          ")";
 }
 
+/// That what is to be found holds already, as that nothing has diverged yet, would tell what is right.
+CheckState shown_state(const Condition& check, CheckState state) {
+  return check.to_find && state == CheckState::holds ? CheckState::open : state;
+}
+
 void check_line(Ui& ui, const LabRun& run, const Condition& check, CheckState state, const CheckMemory& memory) {
   const Tokens& c = ui.theme.colors;
   if (run.record().done)
     return marked_line(ui, icon::check, "+", c.good, with_whole_terms(words_of(check) + compared(run, check)), c.text);
   const std::string words = with_whole_terms(check_in_words(ui.session, check, state, memory));
+  state = shown_state(check, state);
   // What must hold to the end holds so far, and is nothing that has been done.
   if (state == CheckState::holds && check.span == Span::throughout)
     return marked_line(ui, icon::check, "+", c.quiet, words + " · so far", c.quiet);
@@ -209,8 +215,9 @@ void checks_part(Ui& ui, const LabStep& step, const StepRecord& record) {
   if (step.checks.empty()) return;
   const std::vector<std::size_t> listed = listed_checks(step, record);
   // How many hold: what does not may stand below the column's edge.
-  const auto holding =
-      std::count_if(listed.begin(), listed.end(), [&](std::size_t k) { return record.checks[k] == CheckState::holds; });
+  const auto holding = std::count_if(listed.begin(), listed.end(), [&](std::size_t k) {
+    return shown_state(step.checks[k], record.checks[k]) == CheckState::holds;
+  });
   const std::string count = "CHECK: " + std::to_string(holding) + " OF " + std::to_string(listed.size());
   small_head(ui, record.done ? "CHECK: DONE" : count.c_str(), record.done ? c.good : c.accent);
   for (const std::size_t k : listed) check_line(ui, run, step.checks[k], record.checks[k], record.seen[k]);
@@ -295,7 +302,9 @@ void fit_height(Ui& ui, const Region& region, float contents) {
 float lab_panel_height(const Ui& ui, float available) {
   if (!ui.session.labs.run) return 0;
   // In a low window some lines are to be seen at once, though the cloth becomes small.
-  const float usual = 0.45f * available, some_lines = std::min(0.6f * available, ui.theme.px(header_at_1 + 100));
+  // With the large text of presentation mode a question's choices need more.
+  const float usual = (ui.presenting ? 0.53f : 0.45f) * available;
+  const float some_lines = std::min(0.6f * available, ui.theme.px(header_at_1 + 100));
   const float most = std::round(std::min(ui.theme.px(290), std::max(usual, some_lines)));
   return ui.lab_needs > 0 ? std::min(std::max(ui.lab_needs, ui.theme.px(lowest_strip_at_1)), most) : most;
 }
