@@ -36,6 +36,15 @@ std::string time_number(double t, double dt) {
   return print("%.*f", decimals, t);
 }
 
+int digits_apart(double lo, double hi) {
+  constexpr int least = 4, most = 12;
+  const double larger = std::max(std::abs(lo), std::abs(hi)), span = std::abs(hi - lo);
+  if (!(span > 0) || !std::isfinite(larger)) return least;
+  // The last of n digits counts 10^(⌊lg larger⌋ + 1 − n), and rounding is off by half of that.
+  const double digits = std::floor(std::log10(larger)) + 1 - std::log10(span / 10);
+  return std::clamp(int(std::ceil(digits - 1e-9)), least, most);
+}
+
 namespace {
 
 /// A unit as a keyboard has it: "m/s^2" and "m/s²" are "m/s2", and no spaces.

@@ -62,7 +62,7 @@ bool ClothViews::take_ghosts(Scene& scene, glm::ivec2 size) {
       ClothRenderer& its = renderer(scene, n + 1);
       its.update(cloth, view);
       count(scene.session.costs, its.take_work());
-      ghosts.push_back({&its, scene.ghost_colors[scene.session.copies.lockstep[std::size_t(n)].seat]});
+      ghosts.push_back({&its, scene.ghost_colors[std::size_t(n)]});
       revisions.push_back(cloth.revision());
     }
   const bool moved = revisions != ghost_revisions_ || ghosts.size() != ghosts_.size();

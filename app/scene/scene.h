@@ -27,7 +27,7 @@ struct Scene {
   Effects effects;
   Viewport viewport;
   float scale = 1;                                       ///< of lines and points, as of the text
-  std::array<glm::vec3, Lockstep::most> ghost_colors{};  ///< of overlaid copies, by seat
+  std::array<glm::vec3, Lockstep::most> ghost_colors{};  ///< of overlaid copies
   bool redraw = true;           ///< something that the renderer's revision does not tell changed (a texture)
   bool wants_framing = true;    ///< the camera is to frame the scene once the viewport's size is known
   bool camera_by_hand = false;  ///< it was turned, moved or zoomed since: a picture of another size frames nothing

@@ -95,9 +95,11 @@ Simulation& cloth_of(const Session& session, int n) {
   return n == Copies::original ? *session.simulation : *session.copies.lockstep[std::size_t(n)].simulation;
 }
 
-std::optional<std::size_t> seat_of_cloth(const Session& session, int n) {
-  if (n == Copies::original) return std::nullopt;
-  return session.copies.lockstep[std::size_t(n)].seat;
+std::optional<std::size_t> seat_of_style(const Session& session, int n) {
+  for (int before = Copies::original; before < n; ++before)
+    if (cloth_of(session, before).preset().integrator == cloth_of(session, n).preset().integrator)
+      return session.copies.lockstep[std::size_t(n)].seat;
+  return std::nullopt;
 }
 
 std::string name_of_cloth(const Session& session, int n) {
@@ -109,26 +111,26 @@ std::string name_of_cloth(const Session& session, int n) {
 
 std::vector<CopyChoice> copy_choices(const Preset& preset) {
   const bool single = preset.precision == Precision::float_, cpu = preset.engine == EngineKind::cpu;
-  std::vector<CopyChoice> choices{{.label = "Reference: Dormand-Prince, error 1e-9 m per step",
+  std::vector<CopyChoice> choices{{.label = "Accurate solution: Dormand-Prince 5(4), tolerance 1e-9 m",
                                    .differences = {{&Preset::integrator, "dopri5"},
                                                    {&Preset::tolerance, 1e-9},
                                                    {&Preset::precision, Precision::double_}},
                                    .reference = true},
                                   {.label = "Equal copy", .differences = {}}};
-  const auto add = [&](std::string label, Difference difference, int group) {
+  const auto add = [&](std::string label, Difference difference, std::string_view group) {
     choices.push_back({std::move(label), {std::move(difference)}, group});
   };
-  for (const Scheme& method : schemes())
-    if (method.name != preset.integrator)
-      add(std::string(method.title), {&Preset::integrator, std::string(method.name)}, 1);
   const auto with_dt = [&](const char* label, double dt) {
-    add(label + short_number(dt) + " s", {&Preset::dt, rounded(dt, 6)}, 2);
+    add(label + short_number(dt) + " s", {&Preset::dt, rounded(dt, 6)}, "Step");
   };
   with_dt("dt / 2 = ", preset.dt / 2), with_dt("dt · 2 = ", preset.dt * 2);
   const Precision other = single ? Precision::double_ : Precision::float_;
-  add(std::string(name_of(other)), {&Preset::precision, other}, 2);
-  if (!cpu) add("CPU", {&Preset::engine, EngineKind::cpu}, 2);
-  if (cpu && runs_on_opencl(scheme(preset.integrator))) add("OpenCL", {&Preset::engine, EngineKind::opencl}, 2);
+  add(std::string(name_of(other)), {&Preset::precision, other}, "Precision");
+  if (!cpu) add("CPU", {&Preset::engine, EngineKind::cpu}, "Engine");
+  if (cpu && runs_on_opencl(scheme(preset.integrator))) add("OpenCL", {&Preset::engine, EngineKind::opencl}, "Engine");
+  for (const Scheme& method : schemes())
+    if (method.name != preset.integrator)
+      add(std::string(method.title), {&Preset::integrator, std::string(method.name)}, "Method");
   for (CopyChoice& choice : choices)
     if (!cpu && needs_cpu(choice.differences)) choice.differences.emplace_back(&Preset::engine, EngineKind::cpu);
   return choices;

@@ -44,8 +44,8 @@ struct Copies {
 
 /// The n-th cloth: the original (n = Copies::original) or a copy.
 Simulation& cloth_of(const Session& session, int n);
-/// Its seat among the copies, which decides how it is drawn; none: the original.
-std::optional<std::size_t> seat_of_cloth(const Session& session, int n);
+/// The seat that decides how it is drawn where a cloth before it has the same method; none: it is drawn as its method.
+std::optional<std::size_t> seat_of_style(const Session& session, int n);
 /// How it is called: what tells it from the original, "k_s = 80, rk4"; or of the original what the copies change.
 std::string name_of_cloth(const Session& session, int n);
 
@@ -53,9 +53,10 @@ std::string name_of_cloth(const Session& session, int n);
 struct CopyChoice {
   std::string label;
   std::vector<Difference> differences;
-  int group = 0;           ///< rows of one group stand together
-  bool reference = false;  ///< it becomes the one from which distances are measured
+  std::string_view group = {};  ///< the heading over the rows of one group, which stand together; none over the first
+  bool reference = false;       ///< it becomes the one from which distances are measured
 };
+/// The short groups come first, so that all headings are seen before a list is scrolled.
 std::vector<CopyChoice> copy_choices(const Preset& preset);
 
 /// Adds a copy that differs in these constants, at once or when its programs are there, or says why not.

@@ -141,4 +141,9 @@ void watch_dt(Session& session) {
   session.messages.note(next.integrator + " was adding energy: dt is halved to " + short_number(*dt) + " s.");
 }
 
+double clock_time(const Session& session) {
+  const auto& divergence = session.simulation->divergence();
+  return divergence ? divergence->t : session.simulation->time();
+}
+
 }  // namespace tyglab

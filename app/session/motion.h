@@ -31,4 +31,8 @@ void watch_dt(Session& session);
 /// Sends the hand that holds the cloth there over the next `steps` steps.
 void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int steps);
 
+/// What clocks show, s: the end of the last step or, after a divergence, of the step that diverged, which is also what
+/// sentences about it say.
+double clock_time(const Session& session);
+
 }  // namespace tyglab

@@ -55,7 +55,7 @@ void begin_replay(Session& session) {
   if (left > 0) simulation.advance(int(std::min(left, affordable)));
   // What has fewer steps to show, since it diverged at once or was changed shortly before, shows them as long.
   const double shown = double(std::clamp<std::int64_t>(of.step - 1 - simulation.steps(), 1, Replay::steps));
-  const Replay replay{of, simulation.steps(), shown * dt / Replay::lasts,
+  const Replay replay{of, simulation.steps() + 1, simulation.steps(), shown * dt / Replay::lasts,
                       session.replay ? session.replay->former_speed : former};
   session.pacing.speed = replay.speed;
   session.pacing.playing = true;

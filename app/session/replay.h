@@ -15,6 +15,7 @@ struct Replay {
   static constexpr double lasts = 6;  ///< s, about
 
   Divergence of;            ///< what it leads to
+  std::int64_t first = 0;   ///< the step with which it begins
   std::int64_t at = 0;      ///< the step to which it has come
   double speed = 0;         ///< of the replay
   double former_speed = 0;  ///< to go on with afterwards

@@ -125,6 +125,28 @@ TEST_CASE("methods are told apart by color, by the color-blind also by the line,
   }
 }
 
+TEST_CASE("copies of one method are told apart from all methods and each other, and can be seen on every ground") {
+  constexpr double plainly = 15, by_color_alone = 20;  // 2.3 can just be seen
+  for (const Look& look : looks()) {
+    CAPTURE(std::string(look.name));
+    const Tokens c = look.tokens();
+    std::vector<CurveStyle> others;
+    for (const std::string_view name : integrator_names()) others.push_back(integrator_style(c, name));
+    others.push_back(integrator_style(c, "exact"));
+    for (std::size_t seat = 0; seat < Lockstep::most; ++seat) {
+      CAPTURE(seat);
+      const CurveStyle one = copy_style(c, "verlet", seat);
+      for (const ImU32 ground : {c.ground, c.panel, c.field}) CHECK(contrast(one.color, ground) >= 3);
+      for (const CurveStyle& other : others) {
+        CHECK(difference(one.color, other.color, visions[0]) > by_color_alone);
+        for (const Vision& vision : std::span(visions).first(3))
+          CHECK((one.line != other.line || difference(one.color, other.color, vision) > plainly));
+      }
+      others.push_back(one);
+    }
+  }
+}
+
 TEST_CASE("a method looks the same in every chart") {
   for (const std::string_view name : integrator_names()) {
     CAPTURE(std::string(name));

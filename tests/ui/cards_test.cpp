@@ -278,6 +278,16 @@ TEST_CASE("the map fills while the cloth moves; a click takes k_s and dt from it
   CHECK_FALSE(studies(window).map.findings().has_value());
 }
 
+TEST_CASE("the Energy card has the textbook's names, and says what a whole bar stands for") {
+  test::NullUi window(
+      {.preset = "one_weight", .with = [](Preset& preset) { preset.k = 10, preset.g = 0, preset.offset = 0.2; }});
+  window.pause();
+  window.click("plots.Energy");
+  window.frames(3);
+  for (const char* name : {"kinetic", "elastic, stretch", "gravitational potential", "total"}) CHECK(window.drew(name));
+  CHECK(window.drew("full bar: 0.2 J"));  // ½ k x²
+}
+
 TEST_CASE("the Energy card says since when it counts, and offers to count from the start") {
   test::NullUi window(test::UiOptions{.preset = "hanging"});
   window.until([&] { return window.t() > 0.3; }, "some motion");

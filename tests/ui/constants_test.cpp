@@ -14,6 +14,40 @@ namespace tyglab::constants_test {
 constexpr double preset_k_s = 50;
 constexpr int ctrl = GLFW_MOD_CONTROL;
 
+TEST_CASE("the dot of what is not saved moves nothing in the top bar") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.theme = "projector"; }});
+  const Box before = window.control("top.play");
+  window.type_value("k_s", "60");
+  REQUIRE(unsaved(window.session));
+  window.frames(2);
+  CHECK(window.control("top.play").lo == before.lo);
+}
+
+TEST_CASE("a number of the report stands where it is said which report, not in a method's name") {
+  test::NullUi window;
+  CHECK_FALSE(window.drew("(2.15)"));
+  window.move(window.middle("constants.integrator"));
+  window.until([&] { return window.drew("the report's (2.15)"); }, "the tooltip");
+}
+
+TEST_CASE("the lattice's numbers are called by their words") {
+  test::NullUi window({.size = {1280, 2000}});
+  window.frames(2);
+  CHECK(window.drew("rows"));
+  CHECK(window.drew("columns"));
+}
+
+TEST_CASE("what is left of numbers that cancel is 0 in the picked particle's read-outs") {
+  test::NullUi window({.preset = "one_weight", .with = [](Preset& preset) {
+                         preset.offset = 4e-16, preset.k = 10, preset.g = 0, preset.k_d = 0;
+                       }});
+  window.pause();
+  window.frames(2);
+  const double F_s = window.cloth().particle(0, 0).F_s.y;
+  REQUIRE(F_s != 0);
+  CHECK_FALSE(window.drew("e-15"));
+}
+
 TEST_CASE("dragging the slider of k_s changes k_s, and one undo takes the whole drag back") {
   test::NullUi window({.with = [](Preset& preset) { preset.dt = 1e-4; }});
   const auto k_s = [&] { return window.preset().k_s; };
@@ -66,8 +100,11 @@ TEST_CASE("a value typed after Ctrl+click is taken; Escape, nonsense and values 
                "the gauge to say that dt is too long for it");
   window.type_value("k_s", "7", test::NullUi::escape);
   CHECK(window.preset().k_s == 310);
-  for (const auto& [text, message] :
-       {std::pair{"abc", "not a number"}, {"1e12", "ranges from"}, {"-3", "ranges from"}, {"nan", "not a number"}}) {
+  for (const auto& [text, message] : {std::pair{"abc", "not a number"},
+                                      {"1e12", "ranges from"},
+                                      {"-3", "ranges from"},
+                                      {"nan", "not a number"},
+                                      {"1e999", "“1e999” is out of range; the value stays. Type one such as"}}) {
     CAPTURE(text);
     window.type_value("k_s", text);
     CHECK(window.preset().k_s == 310);
@@ -230,6 +267,8 @@ TEST_CASE("a tooltip stands beside its row and hides no constant; while the help
     window.pause();
     window.move(window.middle("constants.k_s.slider"));
     window.until([&] { return window.tooltip().has_value(); }, "the tooltip to come");
+    // Which add lines to it, whenever they come; marks make room in the frame after.
+    window.until([&] { return window.session.studies.stability.limits().has_value(); }, "its limits");
     window.frames(30);
     REQUIRE(window.tooltip().has_value());
     int seen = 0;

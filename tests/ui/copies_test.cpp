@@ -1,11 +1,12 @@
 // Copies that move in lockstep beside the cloth: the same hand, different settings.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/base/glfw_keys.h"
 #include "app/base/numbers.h"
-#include "app/ui/kit/curves.h"
+#include "app/ui/state/cloth_style.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::copies_ui_test {
@@ -63,15 +64,23 @@ TEST_CASE("equal copies stay equal under the hand; another method parts from the
   CHECK(pictures(window) == glm::ivec2(1, 1));
 }
 
-TEST_CASE("an overlaid copy has the color of its curve, in every theme") {
+TEST_CASE("a copy is drawn as its method is in lists, one of a method that is there as nothing else; in every theme") {
   test::NullUi window;
+  window.pause();
+  window.click("plots.Copies");
+  for (const char* item : {"Equal_copy", "Implicit_Euler", "dt_2_5e_4_s"}) window.add_copy(item);
+  const auto is = [](const CurveStyle& a, const CurveStyle& b) { return a.color == b.color && a.line == b.line; };
   for (int theme = 0; theme < 3; ++theme) {
     CAPTURE(window.settings.theme);
-    const auto& colors = window.scene.ghost_colors;
-    for (std::size_t seat = 0; seat < colors.size(); ++seat) {
-      const ImVec4 curve = ImGui::ColorConvertU32ToFloat4(copy_style(window.ui.theme.colors, seat).color);
-      CHECK(colors[seat] == glm::vec3(curve.x, curve.y, curve.z));
-      for (std::size_t other = 0; other < seat; ++other) CHECK(colors[seat] != colors[other]);
+    const Tokens& c = window.ui.theme.colors;
+    CHECK(is(cloth_style(window.ui.theme.colors, window.session, Copies::original), integrator_style(c, "verlet")));
+    CHECK(is(cloth_style(window.ui.theme.colors, window.session, 1), integrator_style(c, "implicit_euler")));
+    for (const int n : {0, 1, 2}) {
+      const ImVec4 curve = ImGui::ColorConvertU32ToFloat4(cloth_style(window.ui.theme.colors, window.session, n).color);
+      CHECK(window.scene.ghost_colors[std::size_t(n)] == glm::vec3(curve.x, curve.y, curve.z));
+      for (int other = Copies::original; other < n; ++other)
+        CHECK_FALSE(is(cloth_style(window.ui.theme.colors, window.session, n),
+                       cloth_style(window.ui.theme.colors, window.session, other)));
     }
     window.key(GLFW_KEY_T, GLFW_MOD_CONTROL);
     window.frames(2);
@@ -105,6 +114,47 @@ TEST_CASE("a constant's own menu adds a copy that keeps its value; the original'
   window.click(glm::vec2{ways.hi.x - 10, (ways.lo.y + ways.hi.y) / 2});
   window.frames(2);
   CHECK(pictures(window) == glm::ivec2(1, 1));
+}
+
+TEST_CASE("the menu of copies leaves most of the window in sight, under headings, and every row can be reached") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.theme = "projector"; }});
+  window.pause();
+  window.click("plots.Copies");
+  window.click("plots.add");
+  for (const char* heading : {"Step", "Precision", "Engine", "Method"}) CHECK(window.drew(heading));
+  float least = 1e9f, most = 0;
+  for (const auto& [name, box] : window.controls())
+    if (name.starts_with("menu.")) least = std::min(least, box.lo.y), most = std::max(most, box.hi.y);
+  CHECK(most - least < 450);
+  window.scroll_to("menu.XPBD", "menu.Equal_copy");
+  window.click("menu.XPBD");
+  window.frames(2);
+  CHECK(name_of_cloth(window.session, 0) == "XPBD");
+}
+
+TEST_CASE("the columns of the copies' card say what they hold") {
+  test::NullUi window;
+  window.pause();
+  window.click("plots.Copies");
+  window.add_copy("Equal_copy");
+  window.move(window.middle("plots.distance"));
+  window.until([&] { return window.drew("Root mean square (rms)"); }, "which distance is meant");
+  window.move(window.middle("plots.cost"));
+  window.until([&] { return window.drew("CPU seconds per simulated second"); }, "what the cost is");
+}
+
+TEST_CASE("a plot whose head has no room for the unit has it on its axis") {
+  test::NullUi window;
+  window.pause();
+  window.click("plots.Copies");
+  window.add_copy("Implicit_Euler");
+  window.frames(2);
+  CHECK(window.drew("m, log"));
+  CHECK_FALSE(window.drew("1 m"));
+  window.key(GLFW_KEY_F5);
+  window.frames(4);
+  CHECK_FALSE(window.drew("m, log"));
+  CHECK(window.drew("1 m"));
 }
 
 TEST_CASE("a copy that diverges is told so while the others go on, and a restart mends it") {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/base/glfw_keys.h"
+#include "app/base/numbers.h"
 #include "app/render/camera.h"
 #include "app/session/requests.h"
 #include "app/ui/frame/transport.h"
@@ -277,6 +278,30 @@ TEST_CASE("a replay is colored by strain, until the cloth that it led to is left
   window.ui.color_by(ParticleField::tension);  // what is chosen meanwhile stays
   restart();
   CHECK(field() == ParticleField::tension);
+}
+
+TEST_CASE("a replay says which steps are seen again and how slowly, its plot where it is, the ring what it marks") {
+  test::NullUi window({.preset = "explodes", .size = {1920, 1080}});
+  explode(window);
+  const auto divergence = window.cloth().divergence();
+  CHECK(window.drew("t = " + time_number(divergence->t, window.preset().dt) + " s"));
+  window.ui.command("replay");
+  window.until([&] { return window.session.replay.has_value(); }, "the replay to begin");
+  window.frames(20);
+  REQUIRE(window.session.replay.has_value());
+  const Replay& replay = *window.session.replay;
+  CHECK(window.drew("REPLAY"));
+  CHECK(window.drew("steps " + std::to_string(replay.first) + " to " + std::to_string(divergence->step) + " at 1/"));
+  CHECK(replay.first <= window.steps());
+  CHECK(window.drew("diverges first"));
+}
+
+TEST_CASE("both ends of a short span are told apart") {
+  CHECK(digits_apart(0, 10) == 4);
+  CHECK(digits_apart(-2, 0) == 4);
+  CHECK(digits_apart(17.581, 17.631) == 5);
+  CHECK(digits_apart(17.6305, 17.6315) == 6);
+  CHECK(digits_apart(5, 5) == 4);
 }
 
 TEST_CASE("a replay is as slow as it is meant to be: no part of real time is said") {

@@ -81,7 +81,7 @@ TEST_CASE("an engine chosen by the menu and the palette; a method of the CPU eng
   window.click("menu.opencl_float");
   window.until([&] { return window.preset().engine == EngineKind::opencl && rests(window); }, "the OpenCL engine");
   window.click("plots.Copies");
-  for (const char* copy : {"Reference_Dormand_Prince_error_1e_9_m_per_step", "XPBD"}) {
+  for (const char* copy : {"Accurate_solution_Dormand_Prince_5_4_tolerance_1e_9_m", "XPBD"}) {
     window.add_copy(copy);
     CHECK(window.session.messages.list().empty());  // nothing speaks against it
   }

@@ -301,6 +301,7 @@ void NullUi::fill(const std::string& field, std::string_view text) {
 void NullUi::add_copy(const std::string& item) {
   const std::size_t before = session.copies.lockstep.size();
   click("plots.add");
+  scroll_to("menu." + item, "menu.Equal_copy");
   click("menu." + item);
   until([&] { return session.copies.lockstep.size() == before + 1; }, "the copy");
 }

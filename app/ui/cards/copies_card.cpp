@@ -7,12 +7,12 @@
 #include "app/base/numbers.h"
 #include "app/ui/cards/cards.h"
 #include "app/ui/cards/time_plot.h"
-#include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/plot.h"
 #include "app/ui/kit/plot_card.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "app/ui/state/cloth_style.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {
@@ -20,13 +20,14 @@ namespace {
 
 constexpr const char* heading = card_name::copies;
 constexpr float line_at_1 = 24, buttons_at_1 = 34, under_words_at_1 = 12;  // pixels at scale 1
-constexpr float cost_at_1 = 72, apart_at_1 = 84, remove_at_1 = 26;         // columns
-constexpr float costs_from_at_1 = 250;                                     // a narrower card leaves the costs out
+constexpr float cost_at_1 = 84, apart_at_1 = 84, remove_at_1 = 26;         // columns
+constexpr float costs_from_at_1 = 262;                                     // a narrower card leaves the costs out
+constexpr float menu_at_1 = 300;                                           // its greatest height
 constexpr const char* copies_explanation =
     "Copies run alongside this cloth with the same start, hand and wind, each with another method, dt or constant: "
     "see where their motions part.";
 constexpr const char* add_label = "Add a copy with…";
-constexpr std::array<const char*, 2> copies_ways{"Beside", "Overlaid"};
+constexpr std::array<const char*, 2> copies_ways{"Split view", "Overlaid"};
 
 bool costs_shown(const Ui& ui) {
   return plot_card_inner_width(ui, ui.plots.width) >= ui.theme.px(costs_from_at_1);
@@ -55,14 +56,15 @@ float explanation_height(const Ui& ui, float width) {
 
 /// What a copy may be made with; constants offer the same in their own menus.
 void copy_menu(Ui& ui) {
-  if (!begin_menu(ui, "copy menu")) return;
-  int group = 0;
+  if (!begin_menu(ui, "copy menu", ui.theme.px(menu_at_1))) return;
+  std::string_view group;
   for (const CopyChoice& choice : copy_choices(ui.session.preset())) {
-    if (std::exchange(group, choice.group) != choice.group) ImGui::Separator();
+    if (std::exchange(group, choice.group) != choice.group) menu_heading(ui, choice.group);
     if (ImGui::MenuItem(choice.label.c_str()))
       ui.session.request(request::AddCopy{choice.differences, choice.reference});
     report_control(ui, choice.label);
   }
+  more_below(ui);
   end_menu();
 }
 
@@ -81,23 +83,27 @@ void right_aligned(Ui& ui, const ImFont& font, float x, float middle, ImU32 colo
                    color, text);
 }
 
+/// What a column holds, from `lo` to `right`, and under the pointer what that means.
+void column_head(Ui& ui, const char* id, ImVec2 lo, float right, const char* words, const char* meaning) {
+  const float height = ui.theme.px(card::line);
+  right_aligned(ui, *ui.fonts.small, right, lo.y + height / 2, ui.theme.colors.quiet, words);
+  ImGui::SetCursorScreenPos(lo);
+  gui::press_area(id, {right - lo.x, height});
+  report_control(ui, id);
+  tooltip(ui, gui::item_id(), meaning);
+}
+
 void head(Ui& ui) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const Columns at = columns_of(ui);
-  const float middle = lo.y + ui.theme.px(card::line) / 2;
-  const Tokens& c = ui.theme.colors;
-  if (costs_shown(ui)) {
-    right_aligned(ui, *ui.fonts.small, lo.x + at.cost, middle, c.quiet, "cost, s/s");
-    const float width = ui.theme.px(cost_at_1);
-    ImGui::SetCursorScreenPos({lo.x + at.cost - width, lo.y});
-    gui::press_area("cost", {width, ui.theme.px(card::line)});
-    report_control(ui, "cost");
-    tooltip(ui, gui::item_id(),
-            "Seconds of computing per simulated second, on the thread that makes the steps. What other programs take "
-            "meanwhile does not count, except with OpenCL.");
-    ImGui::SetCursorScreenPos(lo);
-  }
-  right_aligned(ui, *ui.fonts.small, lo.x + at.apart, middle, c.quiet, "apart, m");
+  if (costs_shown(ui))
+    column_head(ui, "cost", {lo.x + at.cost - ui.theme.px(cost_at_1), lo.y}, lo.x + at.cost, "CPU time, s/s",
+                "CPU seconds per simulated second, on the thread that makes the steps. What other programs take "
+                "meanwhile does not count, except with OpenCL.");
+  column_head(
+      ui, "distance", {lo.x + at.apart - ui.theme.px(apart_at_1), lo.y}, lo.x + at.apart, "distance, m",
+      "Root mean square (rms) of the distances between the particles of this cloth and those of the reference.");
+  ImGui::SetCursorScreenPos(lo);
   ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }
 
@@ -126,7 +132,7 @@ void cloth_line(Ui& ui, int n) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, ui.theme.px(4));
   const ImVec2 ends[2] = {{lo.x, name_middle}, {lo.x + sample, name_middle}};
-  draw_styled_line(draw, ends, 2, copy_style(ui.theme.colors, seat_of_cloth(ui.session, n)), ui.theme.scale);
+  draw_styled_line(draw, ends, 2, cloth_style(ui.theme.colors, ui.session, n), ui.theme.scale);
   const bool diverged = cloth_of(ui.session, n).divergence().has_value();
   const float left = lo.x + sample + ui.theme.px(6),
               room = above ? at.apart - sample - ui.theme.px(6)
@@ -188,8 +194,8 @@ void copies_plot(Ui& ui, ImVec2 size) {
   for (int n = Copies::original; n < int(copies.lockstep.size()); ++n) names.push_back(name_of_cloth(ui.session, n));
   for (int n = Copies::original; n < int(copies.lockstep.size()); ++n)
     if (energy || n != copies.reference)
-      curves.push_back({names[std::size_t(n + 1)], copy_style(ui.theme.colors, seat_of_cloth(ui.session, n)),
-                        series.t(), series.column(std::size_t(n + 1))});
+      curves.push_back({names[std::size_t(n + 1)], cloth_style(ui.theme.colors, ui.session, n), series.t(),
+                        series.column(std::size_t(n + 1))});
   for (PlotCurve& curve : curves) curve.gaps = series.gaps();
   PlotFrame frame = time_frame(ui, series, !energy, energy ? "J" : "m", why_empty(ui));
   frame.from_zero = false;

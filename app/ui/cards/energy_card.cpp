@@ -13,7 +13,7 @@ namespace tyglab {
 namespace {
 
 constexpr const char* energy_heading = card_name::energy;
-constexpr std::string_view height_row = "height", total_row = "energy";
+constexpr std::string_view height_row = "gravitational potential", total_row = "total";
 constexpr float gap_at_1 = 7, restart_at_1 = 36;  // pixels at scale 1
 
 ImU32 color_of(const Tokens& c, double share) {
@@ -34,7 +34,7 @@ void draw_bar(Ui& ui, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
   draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, ui.theme.colors.line);
 }
 
-void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double largest, float width) {
+void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double full, float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const float height = ui.theme.px(card::line), middle = std::round(lo.y + height / 2);
@@ -56,15 +56,22 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink, row.name);
   const float value = ui.theme.px(96), bar = ui.theme.px(4), left = lo.x + ui.theme.px(128);
   if (from_zero(row) && left + ui.theme.px(24) < lo.x + width - value)
-    draw_bar(ui, {left, middle - bar}, {lo.x + width - value, middle + bar}, largest > 0 ? row.joule / largest : 0,
-             faded(color, 0.8f));
+    draw_bar(ui, {left, middle - bar}, {lo.x + width - value, middle + bar}, row.joule / full, faded(color, 0.8f));
   const std::string text = unknown ? "–" : short_number(row.joule, 3) + " J";
   const ImFont& mono = *ui.fonts.mono;
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, unexplained ? color : ink, text);
 }
 
+/// What a bar stands for that reaches the end: the least of 1, 2 and 5 times a power of ten that holds them all, J.
+double full_bar(double largest) {
+  if (!(largest > 0) || !std::isfinite(largest)) return 1;
+  const double power = std::pow(10, std::floor(std::log10(largest))), lead = largest / power;
+  constexpr double rounding = 1e-9;  // that a lead of 2 may come out as 2 + 4e-16
+  return power * (lead <= 1 + rounding ? 1 : lead <= 2 + rounding ? 2 : lead <= 5 + rounding ? 5 : 10);
+}
+
 /// Since when all this has been counted: the ledger is kept only while somebody wants it.
-void since_line(Ui& ui, const LedgerReading& reading) {
+void since_line(Ui& ui, const LedgerReading& reading, double full) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool late = reading.began > 0;
   const std::string text = late ? "counted since t = " + time_number(reading.began, ui.session.preset().dt) + " s"
@@ -72,6 +79,12 @@ void since_line(Ui& ui, const LedgerReading& reading) {
   draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,
                    {lo.x, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)},
                    late ? ui.theme.colors.warning : ui.theme.colors.quiet, text);
+  const ImFont& small = *ui.fonts.small;
+  const std::string scale = "full bar: " + short_number(full, 3) + " J";
+  const float right = lo.x + card_width(ui) - text_width(small, scale);
+  if (right > lo.x + text_width(small, text) + ui.theme.px(12))
+    draw_on_baseline(*ImGui::GetWindowDrawList(), small,
+                     {right, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)}, ui.theme.colors.quiet, scale);
   if (!late) return;
   ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(card::line + 4)});
   if (text_button(ui, "Restart and count")) ui.command("restart");
@@ -83,10 +96,12 @@ void since_line(Ui& ui, const LedgerReading& reading) {
 
 std::vector<EnergyRow> energy_rows(const LedgerReading& r) {
   return {
-      {EnergyKind::has, "motion", "Kinetic energy, ½ m v² of every particle.", r.energy.kinetic},
-      {EnergyKind::has, "stretch springs", "½ k_s (|x_ij| − L)² of springs that pull.", r.energy.stretch},
-      {EnergyKind::has, "bending springs", "½ k_b (2L − |x_ij|)² of springs that push.", r.energy.bending},
-      {EnergyKind::has, height_row, "m g y of every particle, from y = 0.", r.energy.gravity},
+      {EnergyKind::has, "kinetic", "½ m v² of every particle.", r.energy.kinetic},
+      {EnergyKind::has, "elastic, stretch", "½ k_s (|x_ij| − L)² of springs that pull.", r.energy.stretch},
+      {EnergyKind::has, "elastic, bending", "½ k_b (2L − |x_ij|)² of springs that push.", r.energy.bending},
+      {EnergyKind::has, height_row,
+       "m g y of every particle, from y = 0: a different origin would add a constant, so it has no bar.",
+       r.energy.gravity},
       {EnergyKind::has, total_row, "All of the above together.", r.energy.total()},
       {EnergyKind::works, "damping", "Work of F_d since the ledger began: never above 0.", r.works.damping},
       {EnergyKind::works, "contact", "Removed by bodies: impacts and friction.", r.works.contact},
@@ -120,13 +135,14 @@ void energy_card(Ui& ui, float height) {
     double largest = 0;
     for (const EnergyRow& row : rows)
       if (from_zero(row)) largest = std::max(largest, std::abs(row.joule));
+    const double full = full_bar(largest);
     for (const EnergyRow& row : rows) {
       if (row.kind != last) ImGui::Dummy({width, ui.theme.px(gap_at_1)});
       last = row.kind;
-      energy_line(ui, row, *reading, largest, width);
+      energy_line(ui, row, *reading, full, width);
     }
     ImGui::Dummy({width, ui.theme.px(gap_at_1)});
-    since_line(ui, *reading);
+    since_line(ui, *reading, full);
   }
   end_card(ui);
 }

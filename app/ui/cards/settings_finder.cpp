@@ -115,8 +115,8 @@ void finder_head(Ui& ui, bool relative) {
   finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
   finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color,
                 methods_above(ui, at.whole) ? (relative ? "× now" : "s/s")
-                : relative                  ? "cost, × now"
-                                            : "cost, s/s");
+                : relative                  ? "CPU, × now"
+                                            : "CPU, s/s");
   ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }
 
@@ -215,7 +215,7 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
            " done, " + std::to_string(search.points.size()) + " settings tried.";
   }
   if (const auto refusal = refusal_of(search, tolerance)) return refusal->words;
-  std::string words = "Largest rms errors over the " + two_digits_of(search.seconds) +
+  std::string words = "Largest rms position errors over the " + two_digits_of(search.seconds) +
                       " s from t = " + short_number(search.t) + " s. Click a setting to use it.";
   if (search.seconds < 0.99 * search.goal.seconds)
     words +=

@@ -149,7 +149,7 @@ void row_tooltip(Ui& ui, const Line& line) {
   std::string facts = short_number(line.min) + " to " + short_number(line.max);
   if (!line.unit.empty()) facts += " " + std::string(line.unit);
   if (line.zero_is_off) facts += ", 0 is off";
-  if (!line.equation.empty()) facts += " · equation (" + std::string(line.equation) + ") of the report";
+  if (!line.equation.empty()) facts += " · " + equation_of_report(line.equation);
   wrapped(ui, facts, c.quiet);
   if (const auto& limits = ui.session.studies.stability.limits())
     if (const std::string words = zone_words(*limits, line.key, line.unit); !words.empty()) wrapped(ui, words, c.text);
@@ -214,7 +214,12 @@ void symbol_cell(Ui& ui, const Line& line, const RowColumns& columns) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float middle = lo.y + columns.height / 2;
   if (changed) draw.AddCircleFilled({lo.x - ui.theme.px(7), std::round(middle)}, ui.theme.px(2.5f), c.warning, 12);
-  draw_symbol(draw, ui.fonts, {lo.x, baseline_at(ui.fonts, middle)}, line.symbol, c.text);
+  const ImVec2 at{lo.x, baseline_at(ui.fonts, middle)};
+  // Numbers of the lattice are known by their words; as symbols they would be taken for physical quantities.
+  if (line.key == "rows" || line.key == "columns")
+    draw_on_baseline(draw, *ui.fonts.small, at, c.text, line.key);
+  else
+    draw_symbol(draw, ui.fonts, at, line.symbol, c.text);
 }
 
 /// The palette asked for this constant: its slider, which is drawn next, takes the focus.
@@ -342,6 +347,10 @@ void labeled_row(Ui& ui, const char* label, const std::function<void(float)>& co
   // A control that is drawn last on the line ends it; whatever its height, the next row keeps clear of it.
   const float bottom = std::max(ImGui::GetItemRectMax().y, lo.y + ui.theme.px(30));
   ImGui::SetCursorScreenPos({lo.x, bottom + ui.theme.px(4)});
+}
+
+std::string equation_of_report(std::string_view equation) {
+  return "equation (" + std::string(equation) + ") of the report “Simulering av tyg” (2012)";
 }
 
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <string_view>
 
 #include "app/ui/state/ui.h"
@@ -16,6 +17,9 @@ void body_row(Ui& ui, const BodyRow& row, int index);
 
 /// A line whose slider column `content` fills (combos, buttons): a plain label stands where symbols do.
 void labeled_row(Ui& ui, const char* label, const std::function<void(float width)>& content);
+
+/// "equation (2.5) of the report “Simulering av tyg” (2012)": a number alone would not say where to look.
+std::string equation_of_report(std::string_view equation);
 
 /// Height of a row and width of its columns, at the present scale.
 struct RowColumns {

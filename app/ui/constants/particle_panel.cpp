@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/base/numbers.h"
+#include "app/ui/constants/constant_row.h"
 #include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/curves.h"
 #include "app/ui/kit/imgui_compat.h"
@@ -25,8 +26,25 @@ bool has_arrow(const Ui& ui, std::string_view key) {
   return ui.session.preset().kind == Kind::cloth && key != "x";
 }
 
-glm::dvec3 value_of(const ParticleReadout* readout, std::string_view key) {
-  return readout != nullptr ? vector_of(*readout, key) : glm::dvec3(0);
+/// Below this a variable is the rounding of numbers that cancel, and is shown as 0: 10⁻¹² of what the scene's own
+/// weight gives, m g, or without gravity of the force that stretches a spring to twice its length. Doubles round at
+/// 10⁻¹⁶ of what is added up, so what physics leaves is far above it.
+double noise_of(const Preset& preset, std::string_view key) {
+  constexpr double part = 1e-12;
+  const double k = preset.kind == Kind::one_weight ? preset.k : preset.k_s;
+  const double force = preset.g != 0 ? preset.m * std::abs(preset.g) : k * preset.L;
+  if (key == "x") return part * preset.L;
+  if (key == "v") return part * std::sqrt(force / preset.m * preset.L);
+  return part * (key == "a" ? force / preset.m : force);
+}
+
+glm::dvec3 value_of(const Ui& ui, const ParticleReadout* readout, std::string_view key) {
+  if (readout == nullptr) return glm::dvec3(0);
+  const double noise = noise_of(ui.session.preset(), key);
+  glm::dvec3 value = vector_of(*readout, key);
+  for (int n = 0; n < 3; ++n)
+    if (std::abs(value[n]) < noise) value[n] = 0;
+  return value;
 }
 
 /// Whether a body's contact, which no formula gives, is missing from what is shown.
@@ -48,7 +66,7 @@ void variable_tooltip(Ui& ui, ImGuiID id, const Variable& what, const glm::dvec3
             "The particle lies on a body. Contact corrects position and velocity after each step and is not a force of "
             "the model, so neither F nor the acceleration includes it.",
             c.warning);
-  wrapped(ui, "equation (" + std::string(what.equation) + ") of the report", c.quiet);
+  wrapped(ui, equation_of_report(what.equation), c.quiet);
   if (has_arrow(ui, what.key)) wrapped(ui, "Click to show or hide its arrow at the particle", c.quiet);
   end_tooltip(ui);
 }
@@ -133,7 +151,7 @@ void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout,
   if (gui::press_area("variable", {width, height}) && has_arrow(ui, key)) toggle_arrow(ui, key);
   report_control(ui, key);
   tick_and_sample(ui, key, lo.x, middle);
-  variable_tooltip(ui, gui::item_id(), what, value_of(readout, key), lacks_contact(readout, key));
+  variable_tooltip(ui, gui::item_id(), what, value_of(ui, readout, key), lacks_contact(readout, key));
   ImGui::PopID();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float baseline = baseline_at(ui.fonts, middle);
@@ -150,13 +168,13 @@ void variable_cell(Ui& ui, std::string_view key, const ParticleReadout* readout,
 
 /// Its magnitude ends `end` after the cell's left edge.
 void force_cell(Ui& ui, std::string_view key, const ParticleReadout* readout, float end) {
-  const std::string magnitude = steady_number(glm::length(value_of(readout, key)));
+  const std::string magnitude = steady_number(glm::length(value_of(ui, readout, key)));
   variable_cell(ui, key, readout, end + ui.theme.px(18), {&magnitude, 1}, {&end, 1});
 }
 
 /// Three components.
 void motion_line(Ui& ui, std::string_view key, const ParticleReadout* readout, const Grid& columns) {
-  const glm::dvec3 value = value_of(readout, key);
+  const glm::dvec3 value = value_of(ui, readout, key);
   const std::string numbers[3] = {steady_number(value.x), steady_number(value.y), steady_number(value.z)};
   const float ends[3] = {columns.first_end, columns.middle_end, columns.last_end};
   variable_cell(ui, key, readout, ui.row_width, numbers, ends);

@@ -7,13 +7,22 @@
 
 #include "app/ui/frame/keys.h"
 #include "app/ui/frame/panels.h"
-#include "app/ui/kit/curves.h"
+#include "app/ui/state/cloth_style.h"
 
 namespace tyglab {
 namespace {
 
 constexpr double gesture_end = 0.6;  // s without a change
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
+
+/// Overlaid copies have the colors of their curves.
+void color_copies(Ui& ui) {
+  for (std::size_t n = 0; n < ui.session.copies.lockstep.size(); ++n) {
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(cloth_style(ui.theme.colors, ui.session, int(n)).color);
+    const glm::vec3 color{c.x, c.y, c.z};
+    if (std::exchange(ui.scene.ghost_colors[n], color) != color) ui.scene.redraw = true;
+  }
+}
 
 }  // namespace
 
@@ -34,10 +43,6 @@ bool take_look(Ui& ui, float content_scale) {
   ui.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
   apply_style(ui.theme);
   ui.scene.scale = ui.theme.scale;
-  for (std::size_t seat = 0; seat < ui.scene.ghost_colors.size(); ++seat) {
-    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(copy_style(ui.theme.colors, seat).color);
-    ui.scene.ghost_colors[seat] = {c.x, c.y, c.z};
-  }
   return true;
 }
 
@@ -54,6 +59,7 @@ void act_on_events(Ui& ui, double elapsed, double frame_time) {
   input.frame_time = frame_time;
   ui.session.update(elapsed, input);
   follow_session(ui);
+  color_copies(ui);
 }
 
 void draw_panels(Ui& ui) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "app/base/numbers.h"
+#include "app/session/motion.h"
 #include "app/ui/constants/engine_menu.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/panels.h"
@@ -166,7 +167,7 @@ void readings(Ui& ui, float x, float end) {
   char text[64];
   // The speed is a control, and the time can also be read off a plot.
   if (x + time_room(ui) + speed_list_size(ui).x <= end)
-    x = reading(ui, x, end, "", time_text(ui, ui.session.simulation->time()), time_text(ui, 10).c_str(), c.text,
+    x = reading(ui, x, end, "", time_text(ui, clock_time(ui.session)), time_text(ui, 10).c_str(), c.text,
                 "Simulated time");
   x = speed(ui, x, end);
   if (const std::string step = step_under_way(ui.session); !step.empty()) {

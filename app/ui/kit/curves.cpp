@@ -44,13 +44,22 @@ CurveStyle integrator_style(const Tokens& c, std::string_view name) {
   return {c.quiet, LineStyle::solid, 1.8f};
 }
 
-CurveStyle copy_style(const Tokens& c, std::optional<std::size_t> seat) {
-  static constexpr std::array<ImU32 Tokens::*, Lockstep::most> colors{&Tokens::orange, &Tokens::green, &Tokens::magenta,
-                                                                      &Tokens::yellow, &Tokens::vermilion};
-  static constexpr std::array<LineStyle, Lockstep::most> lines{
-      LineStyle::dashed, LineStyle::long_dash, LineStyle::dotted, LineStyle::dash_dot, LineStyle::sparse_dots};
-  if (!seat) return {c.sky, LineStyle::solid, 2};
-  return {c.*colors[*seat], lines[*seat], 2};
+CurveStyle copy_style(const Tokens& c, std::string_view method, std::optional<std::size_t> seat) {
+  struct Style {
+    unsigned dark, light;
+    LineStyle line;
+  };
+  // Far from the colors of all methods, and from each other (tests/app/theme_test.cpp).
+  static constexpr std::array<Style, Lockstep::most> own{{{0xF7369C, 0xBE00FC, LineStyle::dashed},
+                                                          {0xBFFC02, 0xFF0001, LineStyle::long_dash},
+                                                          {0x028E01, 0xF02796, LineStyle::dotted},
+                                                          {0xD871FB, 0xCC4C4E, LineStyle::dash_dot},
+                                                          {0xD1FFC6, 0x582F43, LineStyle::sparse_dots}}};
+  constexpr float width = 2;
+  if (seat) return {rgb(c.light ? own[*seat].light : own[*seat].dark), own[*seat].line, width};
+  CurveStyle style = integrator_style(c, method);
+  style.width = width;
+  return style;
 }
 
 }  // namespace tyglab

@@ -14,7 +14,7 @@ CurveStyle curve_style(const Tokens& colors, std::string_view key);
 /// Of a method's curve in every chart, legend and list: figure 3.2's blue Verlet, green improved Euler and magenta
 /// Euler; "exact" is the closed form's. No two methods have the same color. Gray for a method without a row.
 CurveStyle integrator_style(const Tokens& colors, std::string_view name);
-/// Of a copy in lockstep, by its seat, in plots, labels and as an overlay; none: the original.
-CurveStyle copy_style(const Tokens& colors, std::optional<std::size_t> seat);
+/// Of a cloth among copies, in plots, labels and as an overlay: its method's or, with a seat, one that no method has.
+CurveStyle copy_style(const Tokens& colors, std::string_view method, std::optional<std::size_t> seat);
 
 }  // namespace tyglab

@@ -42,6 +42,13 @@ double quantile(const std::vector<double>& sorted, double q) {
   return sorted[std::size_t(q * double(sorted.size() - 1))];
 }
 
+/// The unit stands after the topmost number.
+void name_unit(std::vector<PlotTick>& ticks, std::string_view unit) {
+  const auto by_value = [](const PlotTick& a, const PlotTick& b) { return a.at < b.at; };
+  const auto top = std::max_element(ticks.begin(), ticks.end(), by_value);
+  if (top != ticks.end()) top->label += " " + std::string(unit);
+}
+
 float label_width(UiContext& ui, std::span<const PlotTick> ticks) {
   float width = ui.theme.px(38);
   for (const PlotTick& tick : ticks) width = std::max(width, text_width(*ui.fonts.small, tick.label) + ui.theme.px(7));
@@ -52,7 +59,9 @@ float label_width(UiContext& ui, std::span<const PlotTick> ticks) {
 void draw_times(const PlotPaint& paint, const PlotAxes& axes) {
   const ImFont& font = *paint.fonts.small;
   const float below = axes.hi.y + paint.theme.px(4);
-  const std::string from = short_number(rounded(axes.x.lo, 4)) + " s", to = short_number(rounded(axes.x.hi, 4)) + " s";
+  const int digits = digits_apart(axes.x.lo, axes.x.hi);
+  const auto time = [&](double t) { return short_number(rounded(t, digits), digits) + " s"; };
+  const std::string from = time(axes.x.lo), to = time(axes.x.hi);
   draw_text(paint.draw, font, {axes.lo.x, below}, paint.theme.colors.quiet, from);
   draw_text(paint.draw, font, {axes.hi.x - text_width(font, to), below}, paint.theme.colors.quiet, to);
 }
@@ -118,7 +127,8 @@ float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const Plot
   const bool hovered = ImGui::IsItemHovered() && !ui.covered;
   const PlotPaint paint{*ImGui::GetWindowDrawList(), ui.theme, ui.fonts};
   const PlotRange range = plot_range(curves, frame);
-  const std::vector<PlotTick> ticks = labeled(range.ticks);
+  std::vector<PlotTick> ticks = labeled(range.ticks);
+  if (ui.unit_on_axis) name_unit(ticks, frame.unit);
   const ImFont& font = *ui.fonts.small;
   const PlotAxes axes{{lo.x + label_width(ui, ticks), lo.y + std::round(font.FontSize / 2)},
                       {hi.x, hi.y - font.FontSize - ui.theme.px(6)},

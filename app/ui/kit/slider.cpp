@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 #include <variant>
 
@@ -216,9 +217,10 @@ void type_value(UiContext& ui, double value, float width, float height, std::str
     if (state.commit) result.typed = field;
   } else {
     if (state.commit) type_again(state, field);
-    ui.refuse_number(std::string("“") + state.text + "” is not a number" +
-                     (unit.empty() ? "" : " in " + std::string(unit)) +
-                     "; the value stays. Type one such as 310 or 1e-4.");
+    const bool beyond = std::isinf(std::strtod(state.text, nullptr));  // "1e999"
+    const std::string in_unit = unit.empty() ? "" : " in " + std::string(unit);
+    ui.refuse_number(std::string("“") + state.text + "” is " + (beyond ? "out of range" : "not a number" + in_unit) +
+                     "; the value stays. Type one such as " + short_number(value) + ".");
   }
 }
 

@@ -370,11 +370,20 @@ void end_combo() {
   ImGui::EndCombo();
 }
 
-bool begin_menu(UiContext& ui, const char* id) {
+bool begin_menu(UiContext& ui, const char* id, float most_height) {
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {1e9f, most_height});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(ui.theme.px(14), ui.theme.px(12)));
   const bool open = ImGui::BeginPopup(id);
   ImGui::PopStyleVar();
   return open && list_opened(ui);
+}
+
+void menu_heading(UiContext& ui, std::string_view words) {
+  const Tokens& c = ui.theme.colors;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const float top = lo.y + ui.theme.px(4), height = ui.fonts.small->FontSize;
+  draw_text(*ImGui::GetWindowDrawList(), *ui.fonts.small, {lo.x, top}, c.quiet, words);
+  ImGui::Dummy({text_width(*ui.fonts.small, words), top - lo.y + height});
 }
 
 void end_menu() {

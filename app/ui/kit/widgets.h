@@ -65,8 +65,10 @@ float card_width(const UiContext& ui, float width);  ///< in one that is so wide
 /// A combo box; while it is open its list is written with ImGui::Selectable, then end_combo.
 bool begin_combo(UiContext& ui, const char* id, const char* shown, float width);
 void end_combo();
-/// A menu that was opened with ImGui::OpenPopup; Esc closes it.
-bool begin_menu(UiContext& ui, const char* id);
+/// A menu that was opened with ImGui::OpenPopup; Esc closes it. One that is higher than `most_height` (px) scrolls.
+bool begin_menu(UiContext& ui, const char* id, float most_height = 1e9f);
+/// Over the rows of a group.
+void menu_heading(UiContext& ui, std::string_view words);
 void end_menu();
 
 /// For a child that scrolls, before its end: what goes on below its edge is seen to, the last line fades, and an arrow

@@ -5,9 +5,9 @@
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
-#include "app/ui/kit/curves.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/overlay/overlay.h"
+#include "app/ui/state/cloth_style.h"
 
 namespace tyglab {
 namespace {
@@ -48,7 +48,7 @@ void cloth_names(Ui& ui, ImDrawList& draw) {
     ui.placing.take("name " + std::to_string(n + 1), {lo, lo + size});
     const float middle = std::round(lo.y + pad / 2 + font.FontSize / 2);
     const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
-    CurveStyle style = copy_style(ui.theme.colors, seat_of_cloth(ui.session, n));
+    CurveStyle style = cloth_style(ui.theme.colors, ui.session, n);
     if (copies.overlaid) style.line = LineStyle::solid;  // as the nets are drawn
     draw_styled_line(draw, ends, 2, style, ui.theme.scale);
     for (std::size_t k = 0; k < words.size(); ++k)

@@ -37,6 +37,26 @@ void spring_arrows(Ui& ui, ImDrawList& draw, ImVec2 from) {
 /// What is drawn over the ring of a divergence.
 constexpr const char* marks_over_the_ring[] = {"views", "bending", "banner", "legend"};
 
+/// What a ring means, beside it or below or above it; left out where none of these places in the picture is free.
+void ring_label(Ui& ui, ImDrawList& draw, glm::vec2 at, float radius_at_1, const char* words) {
+  const ImFont& font = *ui.fonts.small;
+  const float pad = ui.theme.px(5), reach = ui.theme.px(radius_at_1 + 4);
+  const glm::vec2 size = glm::ceil(glm::vec2(text_width(font, words) + 2 * pad, font.FontSize + pad));
+  const Box picture{ui.viewport.origin(0), ui.viewport.origin(0) + ui.viewport.size()};
+  std::vector<Box> places;
+  for (const glm::vec2 lo :
+       {glm::vec2(at.x + reach, at.y - size.y / 2), glm::vec2(at.x - reach - size.x, at.y - size.y / 2),
+        glm::vec2(at.x - size.x / 2, at.y + reach), glm::vec2(at.x - size.x / 2, at.y - reach - size.y)}) {
+    const Box box{glm::round(lo), glm::round(lo) + size};
+    if (picture.contains(box.lo) && picture.contains(box.hi)) places.push_back(box);
+  }
+  const auto box = ui.placing.first_free(places);
+  if (!box) return;
+  ui.placing.take("ring", *box);
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), faded(ui.theme.colors.ground, 0.85f), ui.theme.px(4));
+  draw_text(draw, font, {box->lo.x + pad, std::round(box->lo.y + pad / 2)}, ui.theme.colors.danger, words);
+}
+
 }  // namespace
 
 void divergence_mark(Ui& ui, ImDrawList& draw) {
@@ -69,6 +89,7 @@ void divergence_mark(Ui& ui, ImDrawList& draw) {
   draw.PushClipRect(vec(lo), vec(hi), true);
   ring(ui, draw, middle, radius, ui.theme.colors.danger, 3);
   draw.PopClipRect();
+  ring_label(ui, draw, at, radius + line, session.replay ? "diverges first" : "diverged first");
 }
 
 void picked_overlay(Ui& ui, ImDrawList& draw) {

@@ -1,7 +1,9 @@
-// PAUSED, with the keys that go on.
+// PAUSED, with the keys that go on; or REPLAY, with what is replayed and how slowly.
 #include <array>
 #include <cmath>
+#include <string>
 
+#include "app/base/numbers.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/overlay/overlay.h"
 #include "app/ui/overlay/viewport_panel.h"
@@ -9,7 +11,7 @@
 namespace tyglab {
 namespace {
 
-constexpr const char* paused_word = "PAUSED";
+constexpr const char *paused_word = "PAUSED", *replay_word = "REPLAY";
 
 /// How to go on from a pause: the keys that reach the transport now, if there are any.
 const char* ways_on(const Ui& ui) {
@@ -17,6 +19,14 @@ const char* ways_on(const Ui& ui) {
   if (ui.slider.typing != 0 || ImGui::GetIO().WantTextInput) return "Enter accepts · Esc cancels";
   if (ui.slider.focused != 0) return "Space runs · O makes one step · → moves the slider until Esc";
   return "Space runs · → makes one step";
+}
+
+/// Which steps are seen once more, and how slowly; without the latter where both are wider than `room`, px.
+std::string replay_words(const Ui& ui, float room) {
+  const Replay& replay = *ui.session.replay;
+  const std::string steps = "steps " + std::to_string(replay.first) + " to " + std::to_string(replay.of.step);
+  std::string with_speed = steps + " at 1/" + short_number(rounded(1 / replay.speed, 2)) + " of real time";
+  return text_width(*ui.fonts.text, with_speed) <= room ? with_speed : steps;
 }
 
 /// Where it can stand, the best first: beside the view buttons, where the viewport has room for one more picture, or in
@@ -50,21 +60,24 @@ glm::vec2 pause_mark_size(const Ui& ui) {
 }
 
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row) {
-  if (ui.session.pacing.playing || ui.session.simulation->divergence()) return ui.pause_place.reset();
+  const bool replaying = ui.session.replay && ui.session.pacing.playing;
+  if ((ui.session.pacing.playing && !replaying) || ui.session.simulation->divergence()) return ui.pause_place.reset();
   const Tokens& c = ui.theme.colors;
   const ImFont &bold = *ui.fonts.brand, &text = *ui.fonts.text;
-  const char* how = ways_on(ui);
-  const float pad = ui.theme.px(12), height = ui.theme.px(26), word_width = text_width(bold, paused_word);
-  const glm::vec2 brief = pause_mark_size(ui);
-  const glm::vec2 full{*how == 0 ? brief.x : std::ceil(word_width + text_width(text, how) + 3 * pad), height};
+  const char* const word = replaying ? replay_word : paused_word;
+  const float pad = ui.theme.px(12), height = ui.theme.px(26), word_width = text_width(bold, word);
+  const float beside = row.hi.x - row.lo.x - word_width - 3 * pad;
+  const std::string how = replaying ? replay_words(ui, beside) : ways_on(ui);
+  const glm::vec2 brief{std::ceil(word_width + 2 * pad), height};
+  const glm::vec2 full{how.empty() ? brief.x : std::ceil(word_width + text_width(text, how) + 3 * pad), height};
   const auto list = pause_places(ui, row, full, brief);
   ui.pause_place = choose_place(list, drawn_parts(ui), ui.pause_place);
   if (!ui.pause_place) return;
   const Box& box = *list[*ui.pause_place];
-  ui.placing.take("paused", box);
+  ui.placing.take(replaying ? "replay" : "paused", box);
   const float baseline = baseline_at(ui.fonts, box.lo.y + height / 2);
   draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), ui.theme.px(6));
-  draw_on_baseline(draw, bold, {box.lo.x + pad, baseline}, c.text, paused_word);
+  draw_on_baseline(draw, bold, {box.lo.x + pad, baseline}, c.text, word);
   if (box.hi.x - box.lo.x > brief.x)
     draw_on_baseline(draw, text, {box.lo.x + word_width + 2 * pad, baseline}, c.quiet, how);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/base/numbers.h"
+#include "app/session/motion.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/overlay/overlay.h"
 
@@ -15,7 +16,7 @@ void scene_name(Ui& ui, ImDrawList& draw, const Box& row) {
   const float pad = ui.theme.px(12), gap = ui.theme.px(14);
   const Preset& preset = ui.session.preset();
   const std::string time =
-      ui.time_in_picture ? "t = " + time_number(ui.session.simulation->time(), preset.dt) + " s" : std::string();
+      ui.time_in_picture ? "t = " + time_number(clock_time(ui.session), preset.dt) + " s" : std::string();
   const float time_width = time.empty() ? 0 : gap + text_width(mono, time);
   // PAUSED has its place beside it.
   const float most = row.hi.x - row.lo.x - pause_mark_size(ui).x - gap;
