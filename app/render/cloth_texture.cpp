@@ -27,18 +27,24 @@ bool drawn_in_software() {
   return renderer != nullptr && (std::strstr(renderer, "llvmpipe") || std::strstr(renderer, "softpipe"));
 }
 
-void filter() {
+ClothTexture::Driver ask_driver() {
+  GLint largest = 0;
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  GLfloat most = 1;
+  if (!drawn_in_software() && has_extension("GL_EXT_texture_filter_anisotropic"))
+    glGetFloatv(max_texture_max_anisotropy, &most);
+  return {std::min(most, wanted_anisotropy), largest};
+}
+
+void filter(float anisotropy) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  if (drawn_in_software() || !has_extension("GL_EXT_texture_filter_anisotropic")) return;
-  GLfloat most = 1;
-  glGetFloatv(max_texture_max_anisotropy, &most);
-  glTexParameterf(GL_TEXTURE_2D, texture_max_anisotropy, std::min(most, wanted_anisotropy));
+  if (anisotropy > 1) glTexParameterf(GL_TEXTURE_2D, texture_max_anisotropy, anisotropy);
 }
 
-gl::Texture upload(const std::vector<Image>& sizes) {
+gl::Texture upload(const std::vector<Image>& sizes, float anisotropy) {
   gl::Texture texture;
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -46,7 +52,7 @@ gl::Texture upload(const std::vector<Image>& sizes) {
     glTexImage2D(GL_TEXTURE_2D, GLint(level), GL_RGB8, sizes[level].width, sizes[level].height, 0, GL_RGB,
                  GL_UNSIGNED_BYTE, sizes[level].rgb.data());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  filter();
+  filter(anisotropy);
   glBindTexture(GL_TEXTURE_2D, 0);
   return texture;
 }
@@ -57,17 +63,16 @@ ClothPicture read_picture(const std::filesystem::path& file) {
   return {file, halvings(read_image(file))};
 }
 
-ClothTexture::ClothTexture() : texture_(upload({{1, 1, {200, 204, 212}}})) {}
+ClothTexture::ClothTexture() : driver_(ask_driver()), texture_(upload({{1, 1, {200, 204, 212}}}, driver_.anisotropy)) {}
 
 void ClothTexture::take(const ClothPicture& picture) {
   const Image& image = picture.sizes.front();
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+  const int largest = driver_.largest;
   if (image.width > largest || image.height > largest) {
     throw std::runtime_error(picture.file.string() + " has more than the " + std::to_string(largest) +
                              " pixels a side that this graphics driver supports. Make it smaller.");
   }
-  texture_ = upload(picture.sizes);
+  texture_ = upload(picture.sizes, driver_.anisotropy);
 }
 
 void ClothTexture::bind(int unit) const {

@@ -19,6 +19,13 @@ ClothPicture read_picture(const std::filesystem::path& file);
 
 class ClothTexture {
  public:
+  /// What the driver can do. It is asked once: in a browser every answer waits until all that was drawn so far is
+  /// there.
+  struct Driver {
+    float anisotropy;  ///< of the filter; 1: none
+    int largest;       ///< pixels a side
+  };
+
   /// A plain light gray.
   ClothTexture();
   /// Takes a picture with its halvings (read_picture). Throws std::runtime_error with a sentence and keeps the old one.
@@ -27,6 +34,7 @@ class ClothTexture {
   void bind(int unit) const;
 
  private:
+  Driver driver_;
   gl::Texture texture_;
 };
 

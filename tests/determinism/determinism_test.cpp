@@ -131,6 +131,30 @@ TEST_CASE("threads change nothing, to the last bit") {
   }
 }
 
+TEST_CASE("rows of narrow cloths, of which many are swept together, have the same bits wherever a band begins") {
+  for (const char* integrator : {"verlet", "improved_euler", "velocity_verlet", "rk4", "dopri5"}) {
+    for (const int columns : {3, 16, 33}) {
+      CAPTURE(std::string(integrator));
+      CAPTURE(columns);
+      Preset preset = busy(integrator, Precision::float_);
+      preset.rows = 4700 / columns, preset.columns = columns, preset.L = 0.01;  // worth three threads
+      const auto run = [&](Simulation& simulation) {
+        simulation.advance(some_steps);
+        simulation.apply(edit::Grab{50, columns / 2});
+        simulation.apply(edit::MoveHand{{0.1, 0.5, 0.2}, 30});
+        simulation.apply(edit::Cut{{{20, 1}, {21, 1}, {65, 2}}});
+        simulation.advance(some_steps);
+      };
+      Simulation alone(preset, 1), team(preset, 3);
+      CHECK(team.engine().threads() == 3);
+      run(alone), run(team);
+      CHECK(test::identical(alone.read_raw(), team.read_raw()));
+      CHECK(alone.tears().torn_count() == team.tears().torn_count());
+      CHECK(alone.hand_force() == team.hand_force());
+    }
+  }
+}
+
 /// Lets another number of threads make every few steps; `seen` gets the numbers.
 template <class R>
 void switch_threads(Simulation& simulation, std::set<int>& seen) {

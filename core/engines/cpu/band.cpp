@@ -1,6 +1,7 @@
 #include "core/engines/cpu/band.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -14,11 +15,19 @@ namespace {
 
 constexpr int ring_lead = 43;  // cache lines: away from where the vectors lie in their pages (row_field.h)
 
+/// Rows of a block. Narrow ones go together, since what is done once for each call would cost as much as they do; what
+/// a block needs stays in the first-level cache.
+int rows_of_block(std::size_t bytes_of_row) {
+  constexpr std::size_t block = 4096;  // bytes of forces
+  return int(std::bit_floor(std::max(std::size_t(2), block / bytes_of_row)));
+}
+
 }  // namespace
 
 template <class R, unsigned Present>
-Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end) : cloth_(cloth) {
-  ring_.resize(4, cloth.stride, ring_lead);
+Band<R, Present>::Band(Cloth<R>& cloth, int begin, int end)
+    : cloth_(cloth), block_(rows_of_block(3 * std::size_t(cloth.stride) * sizeof(R))) {
+  ring_.resize(2 * block_, cloth.stride, ring_lead);
   // The sweep loads rows that lie beyond the halo before it masks them: as in the cloth's own arrays.
   if (begin > 0) head_.x.resize(6, cloth.stride), head_.v.resize(6, cloth.stride);
   if (end < cloth.lattice.rows) tail_.x.resize(6, cloth.stride), tail_.v.resize(6, cloth.stride);
@@ -35,7 +44,7 @@ void Band<R, Present>::cover(int begin, int end) {
 
 template <class R, unsigned Present>
 void Band<R, Present>::allocate(bool old_rows) {
-  if (old_rows && old_rows_.empty()) old_rows_.resize(2, cloth_.stride);
+  if (old_rows && old_rows_.empty()) old_rows_.resize(block_, cloth_.stride);
 }
 
 template <class R, unsigned Present>
@@ -164,8 +173,8 @@ void Band<R, Present>::sum_rows(int i, int count) {
 }
 
 template <class R, unsigned Present>
-void Band<R, Present>::save_pair(int i) {
-  std::copy_n(cloth_.row(vector_x, i, 0), rows_of_pair(i) * old_rows_.pitch(), old_row(i, 0));
+void Band<R, Present>::save_rows(int i, int count) {
+  std::copy_n(cloth_.row(vector_x, i, 0), count * old_rows_.pitch(), old_row(i, 0));
 }
 
 /// A pair swept in the halo goes back to the cloth.
@@ -277,40 +286,43 @@ void Band<R, Present>::begin_sweep(const ResolvedSweep& s, const Tears& tears, b
   begin_forces(pass_.task, tears);
 }
 
+/// Rows of one block. What follows the forces may wait for those of the whole block: no pair looks at rows above it.
 template <class R, unsigned Present>
-void Band<R, Present>::sweep_pair(int i) {
+void Band<R, Present>::sweep_rows(int i, int count) {
   const ResolvedSweep& s = *pass_.sweep;
   const bool last = pass_.last, bodies = pass_.bodies, assigns = pass_.assigns;
-  point_at_pair(pass_.task, s, *pass_.tears, i);
-  if (bodies || (last && assigns)) save_pair(i);
-  forces_on_pair(pass_.task, assigns ? Update::force : s.update);
-  if (!assigns && in_tail(i)) restore_pair(pass_.task, s, i);
-  const int count = rows_of_pair(i);
+  const int end = i + count;
+  if (bodies || (last && assigns)) save_rows(i, count);
+  for (int pair = i; pair < end; pair += 2) {
+    point_at_pair(pass_.task, s, *pass_.tears, pair);
+    forces_on_pair(pass_.task, assigns ? Update::force : s.update);
+    if (!assigns && in_tail(pair)) restore_pair(pass_.task, s, pair);
+  }
   if (assigns) {
-    for (int row = i; row < i + count; ++row) fix_row(row);
+    for (int row = i; row < end; ++row) fix_row(row);
     sum_rows(i, count);
   } else if constexpr (has(part::hand)) {
-    for (int row = i; row < i + count; ++row) read_hand(row);
+    for (int row = i; row < end; ++row) read_hand(row);
   }
-  for (int row = i; bodies && row < i + count; ++row)
+  for (int row = i; bodies && row < end; ++row)
     if (touches(row)) collide_row(row);
   if (last && assigns) watch_rows(i, count);
-  for (int row = i; s.estimate != nullptr && row < i + count; ++row) measure(*s.estimate, s, row);
+  for (int row = i; s.estimate != nullptr && row < end; ++row) measure(*s.estimate, s, row);
 }
 
 template <class R, unsigned Present>
 void Band<R, Present>::sweep(const ResolvedSweep& s, const Tears& tears, bool last) {
   begin_sweep(s, tears, last);
-  for (int i = begin_; i < end_; i += 2) sweep_pair(i);
+  for (int i = begin_; i < end_; i += block_) sweep_rows(i, rows_of(i, block_));
 }
 
 template <class R, unsigned Present>
 void Band<R, Present>::assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last) {
   const bool bodies = has(part::bodies) && last && !cloth_.preset.bodies.empty() && cloth_.preset.kind == Kind::cloth;
   begin_sums(assignments);
-  for (int i = begin_; i < end_; i += 2) {
-    const int count = rows_of_pair(i);
-    if (last) save_pair(i);
+  for (int i = begin_; i < end_; i += block_) {
+    const int count = rows_of(i, block_);
+    if (last) save_rows(i, count);
     sum_rows(i, count);
     for (int row = i; bodies && row < i + count; ++row)
       if (touches(row)) collide_row(row);

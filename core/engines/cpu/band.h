@@ -107,7 +107,7 @@ class Band {
   void sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
   /// The same pair by pair: rows i and i + 1, from the band's first row on. The arguments must outlive the pass.
   void begin_sweep(const ResolvedSweep& sweep, const Tears& tears, bool last);
-  void sweep_pair(int i);
+  void sweep_pair(int i) { sweep_rows(i, rows_of(i, 2)); }
   /// Makes assignments that do not use a. `last` as above.
   void assign(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments, bool last);
   /// Writes F/m of the present state. `of_step`: it belongs to the step, so the force on the hand is updated; otherwise
@@ -136,7 +136,8 @@ class Band {
   PairTask<R> task(const ResolvedSweep& sweep);
   void point(PairTask<R>& task, const Tears& tears, int i, int x_row, Field& x, Field& v);
   void point_at_pair(PairTask<R>& task, const ResolvedSweep& sweep, const Tears& tears, int i);
-  int rows_of_pair(int i) const { return i + 1 < end_ ? 2 : 1; }
+  /// How many of the next `most` rows there are.
+  int rows_of(int i, int most) const { return std::min(most, end_ - i); }
   bool in_tail(int i) const { return end_ < cloth_.lattice.rows && i >= end_ - 2; }
   void copy_rows(const ResolvedSweep& sweep, int first, int count, Halo& halo, int at);
   void begin_forces(PairTask<R>& task, const Tears& tears);
@@ -145,14 +146,15 @@ class Band {
   void fix_row(int i);
   void begin_sums(const std::vector<ResolvedSweep::ResolvedAssignment>& assignments);
   void sum_rows(int i, int count);
-  void save_pair(int i);
+  void save_rows(int i, int count);
+  void sweep_rows(int i, int count);
   void restore_pair(const PairTask<R>& task, const ResolvedSweep& sweep, int i);
   bool touches(int i) const;
   void collide_row(int i);
   void watch_rows(int i, int count);
   void measure(const ResolvedEstimate& estimate, const ResolvedSweep& sweep, int i);
-  R* old_row(int i, int c) { return old_rows_.row(i % 2, c); }
-  R* force_row(int i, int c) { return ring_.row(i % 4, c); }
+  R* old_row(int i, int c) { return old_rows_.row((i - begin_) & (block_ - 1), c); }
+  R* force_row(int i, int c) { return ring_.row((i - begin_) & (2 * block_ - 1), c); }
 
   /// The sweep being made.
   struct Pass {
@@ -167,8 +169,9 @@ class Band {
   Pass pass_;
   RowSums<R> sums_;        ///< that follow the sweep being made
   unsigned features_ = 0;  ///< of the sweep
-  Field ring_;             ///< force rows i … i+3
-  Field old_rows_;         ///< positions of a pair before it is overwritten
+  int block_;              ///< rows, a power of 2: the forces on so many come before sums, bodies and the watch
+  Field ring_;             ///< force rows of the present block and of the next, which its last pair begins
+  Field old_rows_;         ///< positions of a block before it is overwritten
   Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
   glm::dvec3 hand_force_{0};
   bool has_hand_ = false;
