@@ -169,7 +169,7 @@ class Band {
   Pass pass_;
   RowSums<R> sums_;        ///< that follow the sweep being made
   unsigned features_ = 0;  ///< of the sweep
-  int block_;              ///< rows, a power of 2: the forces on so many come before sums, bodies and the watch
+  int block_;              ///< rows, a power of 2: forces on this many come before sums, bodies and the watch
   Field ring_;             ///< force rows of the present block and of the next, which its last pair begins
   Field old_rows_;         ///< positions of a block before it is overwritten
   Halo head_, tail_;       ///< rows begin-2 … begin+1 and end-2 … end+1
