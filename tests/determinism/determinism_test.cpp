@@ -138,6 +138,8 @@ TEST_CASE("rows of narrow cloths, of which many are swept together, have the sam
       CAPTURE(columns);
       Preset preset = busy(integrator, Precision::float_);
       preset.rows = 4700 / columns, preset.columns = columns, preset.L = 0.01;  // worth three threads
+      // A body in the way of twenty rows, whose old positions contacts and the watch need.
+      preset.bodies[0].c = Simulation(preset, 1).particle(40, columns / 2).x, preset.bodies[0].r = 10 * preset.L;
       const auto run = [&](Simulation& simulation) {
         simulation.advance(some_steps);
         simulation.apply(edit::Grab{50, columns / 2});
