@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "app/base/numbers.h"
+#include "core/integrators/scheme.h"
 #include "core/model/fields.h"
+#include "core/model/words.h"
 
 namespace tyglab {
 namespace {
@@ -20,12 +22,17 @@ std::size_t state_bytes(const std::vector<HistoryEntry>& list) {
 std::optional<std::string> value_text(const Preset& preset, const PresetField& field) {
   if (const auto* number = std::get_if<double Preset::*>(&field.member)) return short_number(preset.**number);
   if (const auto* whole = std::get_if<int Preset::*>(&field.member)) return std::to_string(preset.**whole);
-  if (const auto* word = std::get_if<std::string Preset::*>(&field.member)) return preset.**word;
+  if (const auto* word = std::get_if<std::string Preset::*>(&field.member))
+    return *word == &Preset::integrator ? std::string(scheme(preset.integrator).title) : preset.**word;
+  if (std::holds_alternative<Precision Preset::*>(field.member)) return std::string(name_of(preset.precision));
+  if (std::holds_alternative<EngineKind Preset::*>(field.member))
+    return preset.engine == EngineKind::cpu ? "CPU" : "OpenCL";
   return std::nullopt;
 }
 
+/// As it stands beside the constant; of one without a symbol its name.
 std::string name_of(const PresetField& field) {
-  return std::string(field.row != nullptr ? field.row->symbol : field.key);
+  return std::string(field.row != nullptr && !field.row->symbol.empty() ? field.row->symbol : field.key);
 }
 
 std::vector<const PresetField*> changed_fields(const Preset& before, const Preset& after) {

@@ -77,6 +77,22 @@ TEST_CASE("a cut is taken back with the moment in which it was made, and nothing
   CHECK(said(session, "There is nothing to undo."));
 }
 
+TEST_CASE("what is undone is named, methods and precisions too") {
+  Session session = session_with(test::cloth(8, 8));
+  const Preset before = session.preset();
+  Preset preset = before;
+  preset.integrator = "rk4";
+  REQUIRE(apply_edit(session, edit::Change{preset}, 1));
+  preset.precision = Precision::float_;
+  REQUIRE(apply_edit(session, edit::Change{preset}, 2));
+  CHECK(only_change(before, session.preset()).empty());
+  take_from_history(session, true);
+  CHECK(said(session, "Undone: precision float → double."));
+  CHECK(only_change(before, session.preset()) == "integrator");
+  take_from_history(session, true);
+  CHECK(said(session, "Undone: integrator Runge-Kutta 4 → Verlet."));
+}
+
 TEST_CASE("a knife that goes through nothing leaves nothing to undo") {
   Session session = moving_cloth();
   REQUIRE(apply_edit(session, edit::CutSprings{}, 5));

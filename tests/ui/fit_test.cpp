@@ -148,7 +148,7 @@ TEST_CASE("once a step is done, all of why is seen without scrolling") {
   run.record().predicted = run.record().done = run.show_explanation = true;
   window.move({10, 300});
   window.frames(6);
-  CHECK(window.drew("a flat sheet never comes to the worst. CHECK: DONE"));  // not below what was checked
+  CHECK(window.drew("a flat sheet never reaches the worst case. CHECK: DONE"));  // not below what was checked
   for (const std::string& text : window.cut_texts()) CHECK_FALSE(text.starts_with("lab"));
 }
 

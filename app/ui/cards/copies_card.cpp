@@ -127,8 +127,8 @@ void cloth_line(Ui& ui, int n) {
   report_control(ui, n == Copies::original ? "original" : "copy" + std::to_string(n));
   const bool hovered = ImGui::IsItemHovered();
   tooltip(ui, gui::item_id(),
-          copies.reference == n ? "The reference: distances are measured from this one."
-                                : "Click to measure distances from this one.");
+          name_of_cloth(ui.session, n) + (copies.reference == n ? ": the reference, from which distances are measured."
+                                                                : ". Click to measure distances from this one."));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, ui.theme.px(4));
   const ImVec2 ends[2] = {{lo.x, name_middle}, {lo.x + sample, name_middle}};
