@@ -29,7 +29,7 @@ void say(Session& session, const std::vector<std::string>& gone) {
 /// "k_s = 80", or of a method its title alone.
 std::string spoken(const Difference& difference, int digits = 6) {
   if (const auto* method = difference.value_of(&Preset::integrator)) return std::string(scheme(*method).title);
-  if (const auto* engine = difference.value_of(&Preset::engine)) return *engine == EngineKind::cpu ? "CPU" : "OpenCL";
+  if (const auto* engine = difference.value_of(&Preset::engine)) return std::string(title_of(*engine));
   if (const auto* precision = difference.value_of(&Preset::precision)) return std::string(name_of(*precision));
   return difference.key() + " = " + difference.value_text(digits);
 }

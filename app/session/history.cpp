@@ -25,8 +25,7 @@ std::optional<std::string> value_text(const Preset& preset, const PresetField& f
   if (const auto* word = std::get_if<std::string Preset::*>(&field.member))
     return *word == &Preset::integrator ? std::string(scheme(preset.integrator).title) : preset.**word;
   if (std::holds_alternative<Precision Preset::*>(field.member)) return std::string(name_of(preset.precision));
-  if (std::holds_alternative<EngineKind Preset::*>(field.member))
-    return preset.engine == EngineKind::cpu ? "CPU" : "OpenCL";
+  if (std::holds_alternative<EngineKind Preset::*>(field.member)) return std::string(title_of(preset.engine));
   return std::nullopt;
 }
 

@@ -31,6 +31,10 @@ constexpr std::string_view name_of(EngineKind v) {
 constexpr std::string_view name_of(Precision v) {
   return precision_names[std::size_t(v)];
 }
+/// As people call it.
+constexpr std::string_view title_of(EngineKind v) {
+  return v == EngineKind::cpu ? "CPU" : "OpenCL";
+}
 /// Sections of a preset file.
 inline constexpr std::array<std::string_view, 6> section_names{"cloth",  "forces", "tearing",
                                                                "bodies", "solver", "view"};
