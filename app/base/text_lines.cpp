@@ -65,22 +65,29 @@ class Filled {
   /// After a space, or where the line has no room for it on a new one.
   void add(const std::string& word) {
     const std::string longer = line_.empty() ? word : line_ + " " + word;
-    if (line_.empty() || fits(longer)) {
-      line_ = longer;
-    } else {
-      lines_ += line_ + "\n";
+    if (!line_.empty() && !fits(longer)) {
+      end_line();
       line_ = word;
+    } else {
+      line_ = longer;
     }
   }
   /// The same of one that may be wider than a line: it is then cut where the line ends.
   void add_any(std::string word) {
     while (!fits(word)) {
-      std::size_t end = 1;
-      for (std::size_t next = 1; next < word.size() && fits(word.substr(0, next)); ++next)
+      std::size_t end = 1, folder = 0, part = 0;
+      for (std::size_t next = 1; next < word.size() && fits(word.substr(0, next)); ++next) {
         if ((word[next] & 0xC0) != 0x80) end = next;
+        const char before = word[next - 1];
+        if (before == '/' || before == '\\') folder = next;
+        if (before == '_' || before == '-') part = next;
+      }
+      // A path is parted behind a folder, or else within a name.
+      if (folder > 0 || part > 0) end = folder > 0 ? folder : part;
       while (end < word.size() && (word[end] & 0xC0) == 0x80) ++end;
       if (end >= word.size()) break;
       add(word.substr(0, end));
+      end_line();
       word.erase(0, end);
     }
     add(word);
@@ -88,6 +95,10 @@ class Filled {
   std::string all() const { return lines_ + line_; }
 
  private:
+  void end_line() {
+    lines_ += line_ + "\n";
+    line_.clear();
+  }
   float width_;
   const Measure& measure_;
   std::string lines_, line_;

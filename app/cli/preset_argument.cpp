@@ -236,9 +236,7 @@ void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional
   try {
     ToleranceChoice choice = choose_for_tolerance(
         resolved.preset, goal, [] { return false; },
-        [&](const SettingsSearch& search) {
-          if (search.methods > 0) progress.update(double(search.methods_done) / search.methods);
-        });
+        [&](const SettingsSearch& search) { progress.update(search.part_done()); });
     // Whole steps are to end at the time asked for: with a dt that is no longer the error is no larger.
     if (shown > 0 && choice.chosen.tolerance == 0)
       choice.preset.dt = std::max(shown / std::ceil(shown / choice.preset.dt - 1e-9), least_dt);

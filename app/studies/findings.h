@@ -30,9 +30,10 @@ void visit_parts(Visit&& visit, MapBoundary& boundary) {
 }
 template <class Visit>
 void visit_parts(Visit&& visit, SettingsSearch& search) {
-  auto& [of, t, goal, seconds, rough, agreement, references, present, points, methods, methods_done, done, problem] =
-      search;
-  visit(of, t, goal, seconds, rough, agreement, references, present, points, methods, methods_done, done, problem);
+  auto& [of, t, goal, seconds, rough, part, agreement, references, present, points, methods, methods_done, done,
+         problem] = search;
+  visit(of, t, goal, seconds, rough, part, agreement, references, present, points, methods, methods_done, done,
+        problem);
 }
 
 }  // namespace tyglab

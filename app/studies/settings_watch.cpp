@@ -9,7 +9,21 @@ namespace tyglab {
 void SettingsWatch::drop() {
   work_.drop();
   tolerance_.reset();
-  asked_ = false;
+  asked_ = stopped_ = false;
+}
+
+void SettingsWatch::stop() {
+  if (!searching()) return;
+  // What another error was asked for before is no answer to this one.
+  if (asked_) return drop();
+  stopped_ = true;
+  work_.cancel();
+}
+
+bool SettingsWatch::searching() const {
+  if (asked_) return true;
+  const auto known = search();
+  return known && !known->done && !stopped_;
 }
 
 bool SettingsWatch::is_about(const SettingsSearch& search, const Preset& preset) {
@@ -22,6 +36,7 @@ bool SettingsWatch::is_about(const SettingsSearch& search, const Preset& preset)
 
 void SettingsWatch::ask(double tolerance, const Preset& preset) {
   tolerance_ = tolerance;
+  stopped_ = false;
   const auto known = search();
   asked_ = !known || !known->done || known->goal.tolerance > tolerance || !is_about(*known, preset);
 }
@@ -29,7 +44,10 @@ void SettingsWatch::ask(double tolerance, const Preset& preset) {
 void SettingsWatch::poll(StudyMoment& moment) {
   if (work_.working()) moment.ask_again_in(0.1);
   if (!asked_) return;
-  if (moment.simulation.divergence() || moment.simulation.held() || !moment.readable) return moment.ask_again_in(0.1);
+  // The search of before ends soon, but is not waited for.
+  if (work_.working()) work_.cancel();
+  if (moment.simulation.divergence() || moment.simulation.held() || !moment.readable || work_.working())
+    return moment.ask_again_in(0.1);
   asked_ = false;
   SettingsSearch first;
   first.of = moment.preset(), first.t = moment.simulation.time();

@@ -20,6 +20,12 @@ class SettingsWatch {
   void ask(double tolerance, const Preset& preset);
   /// Called in every frame in which it is wanted.
   void poll(StudyMoment& moment);
+  /// The search is stopped; what it has found stays.
+  void stop();
+  /// Whether one is wanted that has not ended.
+  bool searching() const;
+  /// Whether the newest was stopped before its end.
+  bool stopped() const { return stopped_; }
   /// What is running is stopped, and everything is forgotten.
   void drop();
 
@@ -35,7 +41,8 @@ class SettingsWatch {
 
   Work work_;
   std::optional<double> tolerance_;
-  bool asked_ = false;  ///< and not begun yet
+  bool asked_ = false;    ///< and not begun yet
+  bool stopped_ = false;  ///< by stop()
 };
 
 }  // namespace tyglab

@@ -8,12 +8,13 @@
 #include "core/analysis/frequency.h"
 #include "core/integrators/scheme.h"
 #include "core/model/changes.h"
+#include "core/model/notation.h"
 #include "core/theory/amplification.h"
 
 namespace tyglab {
 namespace {
 
-constexpr double reaches = 1e5;               // zones, to either side of a value: further than any slider
+constexpr double reaches = 1e5;               // zones, to either side of a value and of the constant's default
 constexpr double between_looks = 0.5;         // s, at a cloth in motion
 constexpr int largest_looked_at = 128 * 128;  // particles: to linearise more of them would be felt in the frame
 
@@ -45,8 +46,11 @@ StabilityLimits work_out(const Preset& preset, const MotionMark& at, std::option
   limits.any = dt_crit(method, worst_modes(preset)), limits.every = every_shape_limit(preset);
   limits.fastest = any_configuration(preset);
   const auto add_zones = [&](const ZonedConstant& constant) {
-    const double value = preset.*constant.field > 0 ? preset.*constant.field : Preset{}.*constant.field;
-    limits.zones.emplace(constant.key, stability_zones(preset, constant.field, value / reaches, value * reaches, stop));
+    const double usual = Preset{}.*constant.field, now = preset.*constant.field, value = now > 0 ? now : usual;
+    const double least = std::min(value, usual) / reaches;
+    // A slider may have grown for any value that was once typed.
+    const double most = std::max(value * reaches, find_row(constant.key)->max);
+    limits.zones.emplace(constant.key, stability_zones(preset, constant.field, least, most, stop));
   };
   if (preset.kind == Kind::cloth)
     std::for_each(zoned_cloth.begin(), zoned_cloth.end(), add_zones);

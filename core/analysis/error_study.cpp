@@ -83,7 +83,8 @@ StudyReference reference_over(const StudyStart& start, double seconds, double fi
   return reference;
 }
 
-void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop) {
+void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop,
+                             const ReferenceProgress& progress) {
   Preset preset = start.preset;
   preset.precision = Precision::double_;
   // Runge-Kutta evaluates the forces four times in a step: with twice the dt it takes as long as both references.
@@ -91,8 +92,10 @@ void check_by_another_method(const StudyStart& start, StudyReference& reference,
   preset.integrator = cheap ? "rk4" : "velocity_verlet";
   int steps = 0;
   preset.dt = whole_dt(reference.seconds, cheap ? 2 * reference.dt : reference.dt / 2, steps);
-  reference.agreement_rms_m =
-      std::max(reference.agreement_rms_m, reference.error_of(follow(start, preset, steps, stop)));
+  const Track other = follow(start, preset, steps, stop, [&](double part) {
+    if (progress) progress(reference.seconds, part);
+  });
+  reference.agreement_rms_m = std::max(reference.agreement_rms_m, reference.error_of(other));
 }
 
 StudyReference study_reference(const StudyStart& start, double seconds, const StudyEffort& effort, const Stop& stop,

@@ -82,7 +82,8 @@ double reference_effort(const Preset& preset, double seconds, double finer);
 /// Follows the motion once more, by a method of another kind, and raises the reference's disagreement to how far that
 /// run is from it: in contact and where springs tear, runs of one method can agree and be wrong together. Takes about
 /// as long as the reference did. Throws as study_reference does.
-void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop);
+void check_by_another_method(const StudyStart& start, StudyReference& reference, const Stop& stop,
+                             const ReferenceProgress& progress = {});
 
 /// One setting: those of the preset, with that integrator, precision, dt and tolerance. `most`: processor seconds after
 /// which it is given up; what it had taken by then is its cost.

@@ -62,10 +62,18 @@ Window window_of(const StudyStart& start, double seconds, const Stop& stop) {
                            " s that have to be seen finely enough. Use fewer rows and columns, or --dt auto");
 }
 
-StudyReference find_reference(const StudyStart& start, SettingsSearch& search, const Stop& stop) {
+StudyReference find_reference(const StudyStart& start, SettingsSearch& search, const Stop& stop, const Found& found) {
   const Window window = window_of(start, search.goal.seconds, stop);
-  StudyReference reference = reference_over(start, window.seconds, window.finer, ErrorOver::worst_time, stop);
-  if (search.rough) check_by_another_method(start, reference, stop);
+  // The check by another method takes as long as the reference.
+  const double share = search.rough ? 0.5 : 1;
+  const auto from = [&](double before) {
+    return [&, before](double, double part) {
+      search.reference_part = before + share * part;
+      found(search);
+    };
+  };
+  StudyReference reference = reference_over(start, window.seconds, window.finer, ErrorOver::worst_time, stop, from(0));
+  if (search.rough) check_by_another_method(start, reference, stop, from(share));
   reference.blow = hardest_blow(start, window.seconds, stop);
   search.seconds = reference.seconds, search.agreement_rms_m = reference.agreement_rms_m;
   search.references = std::string(search.rough ? "velocity_verlet and rk4" : reference.method) +
@@ -183,7 +191,7 @@ std::vector<std::string> methods_of(const Preset& preset, const SettingsKeeps& k
 }
 
 void measure_settings(const StudyStart& start, SettingsSearch& search, const Stop& stop, const Found& found) {
-  const StudyReference reference = find_reference(start, search, stop);
+  const StudyReference reference = find_reference(start, search, stop, found);
   if (search.goal.present) {
     constexpr double present_patience = 4;  // s of processor time
     search.present = measure_point(start, reference, stop, present_patience);
@@ -211,6 +219,10 @@ double two_digits_above(double value) {
 }
 
 }  // namespace
+
+double SettingsSearch::part_done() const {
+  return (reference_part + (methods > 0 ? double(methods_done) / methods : 0)) / 2;
+}
 
 SettingsSearch search_settings(const StudyStart& start, const SettingsGoal& goal, const Stop& stop,
                                const Found& found) {

@@ -33,6 +33,7 @@ struct SettingsSearch {
   SettingsGoal goal;
   double seconds = 0;  ///< of motion that is compared: less than asked for only where nothing new happens afterwards
   bool rough = false;  ///< with bodies or tearing: errors do not fall evenly with dt
+  double reference_part = 0;            ///< of the fine runs to compare with that is done, 0 to 1
   double agreement_rms_m = 0;           ///< how far references of it differ
   std::string references;               ///< what they are
   std::optional<ErrorPoint> present;    ///< the present settings, where they were asked for
@@ -40,6 +41,9 @@ struct SettingsSearch {
   int methods = 0, methods_done = 0;
   bool done = false;
   std::string problem;  ///< a sentence: why nothing can be found
+
+  /// How much of the search is done, 0 to 1: fine runs and methods count as half of it each.
+  double part_done() const;
 };
 
 /// Measures settings until the goal is reached by each method that can; tells `found` what it knows after every step of

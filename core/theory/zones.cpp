@@ -115,7 +115,8 @@ double every_shape_limit(const Preset& preset) {
 
 std::vector<ZoneSpan> stability_zones(const Preset& preset, double Preset::*field, double least, double most,
                                       const Stop& stop) {
-  constexpr int samples = 40, most_borders = 8;  // of a method that rounding lets flicker
+  constexpr int most_borders = 8;  // of a method that rounding lets flicker
+  const int samples = std::max(1, int(std::lround(4 * std::log10(most / least))));
   const Judge judge(scheme(preset.integrator));
   Preset probe = preset;
   const auto at = [&](double value) {

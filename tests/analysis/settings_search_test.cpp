@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "core/analysis/motion_news.h"
 #include "core/integrators/scheme.h"
@@ -123,6 +124,31 @@ TEST_CASE("the present settings are measured where they are asked for, and progr
   CHECK(known.present->integrator == std::string("verlet"));
   CHECK(known.done);
   CHECK(told >= known.methods);
+}
+
+TEST_CASE("how far the fine runs are is told evenly up to the first method, with a body too") {
+  Preset preset = test::cloth(8, 8, "verlet");
+  Body plane;
+  plane.shape = Body::Shape::plane;
+  plane.y = preset.x_0.y - 4;
+  for (const bool bodies : {false, true}) {
+    if (bodies) preset.bodies = {plane};
+    std::vector<double> parts;
+    double whole = 0;
+    search_settings({preset, std::nullopt}, {.tolerance = 1e-3, .seconds = 0.1}, never, [&](const SettingsSearch& now) {
+      if (now.methods == 0) parts.push_back(now.reference_part);
+      CHECK(now.part_done() >= whole);
+      whole = now.part_done();
+    });
+    CAPTURE(bodies);
+    REQUIRE(parts.size() > 50);
+    CHECK(std::is_sorted(parts.begin(), parts.end()));
+    CHECK(parts.back() == doctest::Approx(1));
+    double jump = parts.front();
+    for (std::size_t n = 1; n < parts.size(); ++n) jump = std::max(jump, parts[n] - parts[n - 1]);
+    CHECK(jump < 0.15);
+    CHECK(whole == doctest::Approx(1));
+  }
 }
 
 }  // namespace tyglab::settings_search_test

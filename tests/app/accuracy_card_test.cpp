@@ -95,19 +95,28 @@ SettingsSearch finished_search() {
 
 TEST_CASE("the finder says how far it is, what it found, and what can be promised where it refuses") {
   SettingsSearch search = finished_search();
-  CHECK(finder_words(search, 1e-3).find("over the 1 s from t = 0 s") != std::string::npos);
-  CHECK(finder_words(search, 1e-3).find("whole second") == std::string::npos);
-  CHECK(finder_words(search, 1e-5).find("The tightest tolerance that can be promised is 2e-4 m.") != std::string::npos);
-  CHECK(finder_words(search, 1e-6).find("differ by 1e-6 m") != std::string::npos);
+  search.of = test::cloth(8, 8, "euler");
+  search.of.dt = 0.001;
+  const auto words = [&](double tolerance) { return finder_words(search, tolerance, search.of); };
+  CHECK(words(1e-3).find("over the 1 s from t = 0 s") != std::string::npos);
+  CHECK(words(1e-3).find("whole second") == std::string::npos);
+  CHECK(words(1e-5).find("The tightest tolerance that can be promised is 2e-4 m.") != std::string::npos);
+  CHECK(words(1e-6).find("differ by 1e-6 m") != std::string::npos);
   search.present = point("euler", 3e-3, 0.2);
-  CHECK(finder_words(search, 1e-3).find("Now: error 0.003 m") != std::string::npos);
+  CHECK(words(1e-3).find(" Now: error 0.003 m") != std::string::npos);
+  Preset other = search.of;
+  other.integrator = "rk4";  // once another setting is used, the one measured at first is the present one no more
+  CHECK(finder_words(search, 1e-3, other).find(" Before, with Euler and dt = 0.001 s: error 0.003 m") !=
+        std::string::npos);
   search.seconds = 0.4;
-  CHECK(finder_words(search, 1e-3).find("whole second") != std::string::npos);
+  CHECK(words(1e-3).find("whole second") != std::string::npos);
   search.done = false, search.methods_done = 3;
-  CHECK(finder_words(search, 1e-3) ==
-        "Trying methods: 3 of 8 done, " + std::to_string(search.points.size()) + " settings tried.");
-  search.methods = 0;
-  CHECK(finder_words(search, 1e-3).find("fine run") != std::string::npos);
+  const std::string tried = std::to_string(search.points.size()) + " settings tried.";
+  CHECK(words(1e-3) == "Trying methods: 3 of 8 done, " + tried);
+  CHECK(finder_words(search, 1e-3, search.of, true) == "Stopped after 3 of 8 methods, " + tried);
+  search.methods = 0, search.reference_part = 0.25;
+  CHECK(words(1e-3) == "First fine runs to compare with, from t = 0 s: 25 % done.");
+  CHECK(finder_words(search, 1e-3, search.of, true).find("Stopped before any method was tried") != std::string::npos);
 }
 
 TEST_CASE("its chart has a line for each method, and leaves out what cannot be told or diverged") {

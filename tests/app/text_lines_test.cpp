@@ -33,6 +33,17 @@ TEST_CASE("a formula that is wider than a line is parted before a relation, else
   CHECK(broken("one\ntwo words", 7) == "one\ntwo\nwords");
 }
 
+TEST_CASE("a path that is wider than a line is parted behind its parts, and loses and gains nothing") {
+  const std::string path = "/home/somebody/a_lecture-of-mine/cloths/hanging.json";
+  const std::string lines = broken_into_lines("Saved in " + path + ".", 20, letters);
+  CHECK(lines == "Saved in\n/home/somebody/\na_lecture-of-mine/\ncloths/hanging.json.");
+  const std::string narrow = broken_into_lines(path, 8, letters);
+  CHECK(std::count(narrow.begin(), narrow.end(), ' ') == 0);
+  std::string together = narrow;
+  std::erase(together, '\n');
+  CHECK(together == path);
+}
+
 TEST_CASE("a name gives way to what has become of it") {
   const auto lines = [](const std::string& name, const std::string& state, float width) {
     std::string all;

@@ -219,6 +219,7 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
   window.click("plots.setting" + std::to_string(reached.size()));
   window.until([&] { return window.preset() == chosen; }, "the setting to be used");
   CHECK(window.sees("plots.setting1"));  // the ranking stays: it is about the same motion
+  window.until([&] { return window.drew("× before"); }, "costs to be those of the settings of before");
   window.rest();
   window.key(GLFW_KEY_Z, GLFW_MOD_CONTROL);
   window.until([&] { return window.preset() == before; }, "one undo to take method and dt back");
@@ -227,6 +228,26 @@ TEST_CASE("settings for an error are found beside the frames, ranked by their co
   CHECK_FALSE(window.sees("plots.setting1"));
   window.click("plots.Accuracy");
   window.until([&] { return !search().has_value(); }, "the search to end with its card");
+}
+
+TEST_CASE("a search for settings is stopped with the button that began it, and begun again") {
+  test::NullUi window(cloth_of(60));  // which takes seconds
+  const auto& watch = studies(window).settings;
+  window.pause();
+  window.find("settings for an error");
+  window.click("plots.Find");
+  window.until([&] { return window.sees("plots.Stop"); }, "a button that stops");
+  window.until([&] { return watch.search().has_value(); }, "the search to begin");
+  CHECK(watch.searching());
+  window.click("plots.Stop");
+  window.until([&] { return window.sees("plots.Find"); }, "a button that begins");
+  CHECK(watch.stopped());
+  CHECK_FALSE(watch.searching());
+  CHECK(window.drew("Stopped"));
+  CHECK_FALSE(watch.search()->done);
+  window.click("plots.Find");
+  window.until([&] { return window.drew("First fine runs"); }, "the search to begin anew");
+  CHECK(watch.searching());
 }
 
 TEST_CASE("an error that cannot be promised is refused, and the tightest that can be is a click away" *

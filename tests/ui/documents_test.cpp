@@ -182,6 +182,22 @@ TEST_CASE("cards are gone through by keys; a preset with errors says what is wro
   CHECK(window.session.document.label == "fold_with_k_b");
 }
 
+TEST_CASE("the button of the dialog that opens presets opens the card that is chosen") {
+  test::NullUi window;
+  open_dialog(window, Kind::open);
+  window.until([&] { return window.typing(); }, "the field to take keys");
+  window.click("dialog.Open");  // nothing is chosen yet
+  window.frames(3);
+  CHECK(window.ui.dialog.kind == Kind::open);
+  window.click("dialog.find");
+  window.type("denim");
+  window.frames(2);
+  window.click("dialog.Open");
+  window.frames(3);
+  CHECK(window.ui.dialog.kind == Kind::none);
+  CHECK(window.session.document.label == "denim");
+}
+
 TEST_CASE("a shipped preset's name typed into the dialog opens it; its constants begin at the top") {
   test::NullUi window;
   const Box top = window.control("constants.integrator");

@@ -386,6 +386,35 @@ TEST_CASE("presentation mode gives the cloth two thirds of the window, and keeps
   }
 }
 
+TEST_CASE("Escape leaves presentation mode once it has nothing else to end") {
+  test::NullUi window;
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(3);
+  CHECK_FALSE(window.ui.presenting);  // it does not begin it
+  window.key(GLFW_KEY_F5);
+  window.key(GLFW_KEY_P, GLFW_MOD_CONTROL);
+  window.frames(3);
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(3);
+  CHECK_FALSE(window.ui.palette.open);
+  CHECK(window.ui.presenting);
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(3);
+  CHECK_FALSE(window.ui.presenting);
+}
+
+TEST_CASE("the status line says how to grab and cut, whatever there is to tell of the cloth") {
+  for (const float width : {900.f, 1280.f}) {
+    CAPTURE(width);
+    test::NullUi window(options("hanging", 1, "projector", {int(width), 720}));
+    window.pause();
+    window.frames(6);
+    CHECK(window.drew("Right drag"));
+    CHECK(window.drew("Left drag"));
+    CHECK(window.drew("cuts"));
+  }
+}
+
 TEST_CASE("in a small window with large text presentation mode keeps the step and its gauge") {
   test::NullUi window(options("one_weight", 1.5, "light", {900, 600}));
   window.key(GLFW_KEY_F5);

@@ -37,7 +37,7 @@ float settings_finder_at_1(const Ui& ui, float width);  ///< its height in that 
 /// The error that is typed there, m; none while it is no number in the range of a tolerance.
 std::optional<double> target_error(const Ui& ui);
 /// What is known for that error, in sentences: how far the search has come, over which time, or why there is nothing.
-std::string finder_words(const SettingsSearch& search, double tolerance);
+std::string finder_words(const SettingsSearch& search, double tolerance, const Preset& now, bool stopped = false);
 
 /// The chart of a method's spectral radius.
 Chart stability_chart(const Tokens& colors, const StabilityLimits& limits);

@@ -26,7 +26,8 @@ float asked_width(const Ui& ui) {
 
 /// Where the button has no room beside the field, it stands below it.
 bool find_below(const Ui& ui, float width) {
-  const float button = text_width(*ui.fonts.text, "Find") + 2 * ImGui::GetStyle().FramePadding.x;
+  const float button = std::max(text_width(*ui.fonts.text, "Find"), text_width(*ui.fonts.text, "Stop")) +
+                       2 * ImGui::GetStyle().FramePadding.x;
   return asked_width(ui) + ui.theme.px(finder_gap_at_1) + button > width;
 }
 
@@ -85,7 +86,12 @@ void target_row(Ui& ui) {
     ImGui::Dummy({0, ui.theme.px(4)});
   else
     ImGui::SameLine();
-  if (text_button(ui, "Find", true) || enter) ask_for_settings(ui);
+  SettingsWatch& watch = ui.session.studies.settings;
+  const bool searching = watch.searching();
+  if (text_button(ui, searching ? "Stop" : "Find", !searching))
+    searching ? watch.stop() : ask_for_settings(ui);
+  else if (enter)
+    ask_for_settings(ui);
   ImGui::PopStyleVar();
   ImGui::Dummy({0, ui.theme.px(6)});
 }
@@ -106,7 +112,8 @@ void finder_number(Ui& ui, const ImFont& font, float right, float middle, ImU32 
                    color, text);
 }
 
-void finder_head(Ui& ui, bool relative) {
+/// `to`: what costs are relative to, "now" or "before"; null where they are not.
+void finder_head(Ui& ui, const char* to) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const FinderColumns at = finder_columns(ui);
   const float middle = lo.y + ui.theme.px(card::line) / 2;
@@ -114,14 +121,27 @@ void finder_head(Ui& ui, bool relative) {
   finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, s");
   finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
   finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color,
-                methods_above(ui, at.whole) ? (relative ? "× now" : "s/s")
-                : relative                  ? "CPU, × now"
-                                            : "CPU, s/s");
+                std::string(methods_above(ui, at.whole) ? "" : "CPU, ") + (to ? std::string("× ") + to : "s/s"));
   ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }
 
 std::string two_digits_of(double value) {
   return short_number(rounded(value, 2));
+}
+
+/// Whether the method, its dt or tolerance, and the precision are the same.
+bool same_settings(const Preset& a, const Preset& b) {
+  const bool own = chooses_steps(scheme(a.integrator));
+  return a.integrator == b.integrator && a.precision == b.precision &&
+         (own ? a.tolerance == b.tolerance : a.dt == b.dt);
+}
+
+/// "Verlet and dt = 0.001 s".
+std::string setting_words(const Preset& preset) {
+  const Scheme& method = scheme(preset.integrator);
+  return std::string(method.title) + " and " +
+         (chooses_steps(method) ? "a tolerance of " + two_digits_of(preset.tolerance) + " m"
+                                : "dt = " + two_digits_of(preset.dt) + " s");
 }
 
 /// The present settings' cost, processor seconds for a simulated second; none where it is not known.
@@ -137,7 +157,8 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
   const bool above = methods_above(ui, at.whole);
   const float row = ui.theme.px(finder_row_at_1), height = above ? 2 * row : row;
   const float name_middle = std::round(lo.y + row / 2), middle = above ? name_middle + row : name_middle;
-  const Preset with = with_setting(ui.session.requested_preset(), point);
+  const Preset now = ui.session.requested_preset(), with = with_setting(now, point);
+  const bool used = same_settings(now, with);
   ImGui::PushID(n);
   if (gui::press_area("setting", {at.whole, height})) ui.session.request(request::Apply{.edit = edit::Change{with}});
   report_control(ui, "setting" + std::to_string(n + 1));
@@ -146,13 +167,20 @@ void finder_line(Ui& ui, int n, const SettingsSearch& search, const ErrorPoint& 
   const std::string step =
       own ? "tolerance " + two_digits_of(with.tolerance) + " m" : "dt = " + two_digits_of(with.dt) + " s";
   tooltip(ui, gui::item_id(),
-          "Click to use " + std::string(scheme(point.integrator).title) + " with " + step + ": " +
+          (used ? "In use: " : "Click to use ") + std::string(scheme(point.integrator).title) + " with " + step + ": " +
               two_digits_of(point.cost) + " s of CPU time per simulated second.");
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.whole, lo.y + height}, c.field, ui.theme.px(4));
   const float name = above ? at.whole : at.dt - ui.theme.px(finder_number_at_1 - 10);
-  draw_on_baseline(draw, *ui.fonts.small, {lo.x + ui.theme.px(4), baseline_at(ui.fonts, name_middle)}, c.text,
-                   fitted(*ui.fonts.small, std::string(scheme(point.integrator).title), name));
+  const float baseline = baseline_at(ui.fonts, name_middle), margin = ui.theme.px(4);
+  float mark = 0;
+  if (used) {
+    const char* tick = icon_or(ui.fonts, icon::check, "+");
+    draw_on_baseline(draw, *ui.fonts.text, {lo.x + margin, baseline}, c.good, tick);
+    mark = text_width(*ui.fonts.text, tick) + margin;
+  }
+  draw_on_baseline(draw, *ui.fonts.small, {lo.x + margin + mark, baseline}, c.text,
+                   fitted(*ui.fonts.small, std::string(scheme(point.integrator).title), name - mark));
   finder_number(ui, *ui.fonts.mono, lo.x + at.dt, middle, c.text, own ? "own" : two_digits_of(with.dt));
   finder_number(ui, *ui.fonts.mono, lo.x + at.error, middle, c.text, two_digits_of(point.error_rms_m));
   const auto present = present_cost(search);
@@ -173,7 +201,8 @@ void finder_text(Ui& ui, const std::string& words) {
 void finder_answer(Ui& ui, const SettingsSearch& search, double tolerance) {
   if (!SettingsWatch::is_about(search, ui.session.preset()))
     return finder_text(ui, "The constants have changed since these settings were measured. Press Find again.");
-  finder_text(ui, finder_words(search, tolerance));
+  finder_text(ui,
+              finder_words(search, tolerance, ui.session.requested_preset(), ui.session.studies.settings.stopped()));
   if (search.done)
     if (const auto refusal = refusal_of(search, tolerance)) {
       if (refusal->tightest && text_button(ui, ("Use " + two_digits_of(*refusal->tightest) + " m").c_str(), true))
@@ -182,7 +211,8 @@ void finder_answer(Ui& ui, const SettingsSearch& search, double tolerance) {
     }
   const std::vector<ErrorPoint> reached = settings_for(search, tolerance);
   if (reached.empty()) return;
-  finder_head(ui, present_cost(search).has_value());
+  const bool present = same_settings(search.of, ui.session.requested_preset());
+  finder_head(ui, !present_cost(search) ? nullptr : present ? "now" : "before");
   for (std::size_t n = 0; n < reached.size(); ++n) finder_line(ui, int(n), search, reached[n]);
 }
 
@@ -207,12 +237,16 @@ std::optional<double> target_error(const Ui& ui) {
   return typed && *typed >= 1e-12 && *typed <= 1 ? typed : std::nullopt;
 }
 
-std::string finder_words(const SettingsSearch& search, double tolerance) {
+std::string finder_words(const SettingsSearch& search, double tolerance, const Preset& now, bool stopped) {
   if (!search.done) {
     if (search.methods == 0)
-      return "First a fine run to compare with, from t = " + short_number(search.t) + " s; no setting tried yet.";
-    return "Trying methods: " + std::to_string(search.methods_done) + " of " + std::to_string(search.methods) +
-           " done, " + std::to_string(search.points.size()) + " settings tried.";
+      return stopped ? "Stopped before any method was tried. Find begins again from nothing."
+                     : "First fine runs to compare with, from t = " + short_number(search.t) +
+                           " s: " + std::to_string(int(100 * search.reference_part)) + " % done.";
+    const std::string tried = std::to_string(search.methods_done) + " of " + std::to_string(search.methods);
+    const std::string settings = std::to_string(search.points.size()) + " settings tried.";
+    return stopped ? "Stopped after " + tried + " methods, " + settings
+                   : "Trying methods: " + tried + " done, " + settings;
   }
   if (const auto refusal = refusal_of(search, tolerance)) return refusal->words;
   std::string words = "Largest rms position errors over the " + two_digits_of(search.seconds) +
@@ -223,8 +257,9 @@ std::string finder_words(const SettingsSearch& search, double tolerance) {
         "or tear "
         "follows in the rest of it.";
   if (search.present && std::isfinite(search.present->error_rms_m))
-    words += " Now: error " + two_digits_of(search.present->error_rms_m) + " m, " +
-             two_digits_of(search.present->cost) + " s of CPU time per simulated second.";
+    words += (same_settings(search.of, now) ? " Now" : " Before, with " + setting_words(search.of)) + ": error " +
+             two_digits_of(search.present->error_rms_m) + " m, " + two_digits_of(search.present->cost) +
+             " s of CPU time per simulated second.";
   return words;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/base/data_files.h"
+#include "app/base/file_names.h"
 #include "app/base/preset_files.h"
 #include "app/base/text_lines.h"
 #include "app/platform/files.h"
@@ -40,16 +41,7 @@ fs::path path_of(const char* typed) {
 }
 
 std::string file_name_for(const std::string& name) {
-  std::string file;
-  for (const char letter : name) {
-    const bool plain = (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9');
-    const bool capital = letter >= 'A' && letter <= 'Z';
-    if (plain || capital)
-      file += capital ? char(letter - 'A' + 'a') : letter;
-    else if (!file.empty() && file.back() != '_')
-      file += '_';
-  }
-  while (!file.empty() && file.back() == '_') file.pop_back();
+  const std::string file = plain_file_name(name);
   return (file.empty() ? std::string("preset") : file) + ".json";
 }
 
@@ -124,10 +116,12 @@ void open_presets(Ui& ui) {
   label(ui, "Or a file, by its path");
   if (path_field(ui)) dialog.problem.clear();
   problem(ui);
-  const bool open = text_button(ui, "Open", true, dialog.path[0] != 0) || dialog.enter;
+  const bool typed = dialog.path[0] != 0;
+  const bool open = text_button(ui, "Open", true, typed || gallery_choice(ui)) || dialog.enter;
   ImGui::SameLine();
   if (text_button(ui, "Cancel")) return close(ui);
-  if (!open || dialog.path[0] == 0) return;
+  if (open && !typed) return open_gallery_choice(ui);
+  if (!open) return;
   fs::path file;
   try {
     file = find_preset(path_of(dialog.path).string()).file;  // shipped ones by name, as on the command line

@@ -220,6 +220,16 @@ void gallery(Ui& ui, const std::function<void(bool low)>& head) {
   choose(ui, gallery.cards[std::size_t(chosen)]);
 }
 
+bool gallery_choice(const Ui& ui) {
+  return ui.gallery.selected >= 0;
+}
+
+void open_gallery_choice(Ui& ui) {
+  const std::vector<int> found = found_cards(ui.gallery);
+  const auto place = std::size_t(ui.gallery.selected);
+  if (place < found.size()) choose(ui, ui.gallery.cards[std::size_t(found[place])]);
+}
+
 void end_gallery(Ui& ui) {
   ui.gallery.below = ImGui::GetCursorPosY() - ui.gallery.end;
 }

@@ -114,6 +114,13 @@ bool list_takes(Ui& ui, const KeyEvent& event) {
   return ui.close_lists = true;
 }
 
+/// Escape leaves presentation mode, as F5 does, where it ends nothing else.
+bool presentation_takes(Ui& ui, const KeyEvent& event) {
+  if (!ui.presenting || event.key != GLFW_KEY_ESCAPE) return false;
+  ui.command("present");
+  return true;
+}
+
 /// The command that a press of a key leads to; null: none.
 const CommandRow* row_for(const KeyEvent& event) {
   for (const CommandTopic& topic : command_topics())
@@ -137,7 +144,7 @@ void command_for(Ui& ui, const KeyEvent& event) {
 void take_key(Ui& ui, const KeyEvent& event) {
   const bool taken = dialog_takes(ui, event) || palette_takes(ui, event) || help_takes(ui, event) ||
                      list_takes(ui, event) || typing_takes(ui, event) || resolution_takes(ui, event) ||
-                     slider_takes(ui, event) || tour_takes(ui, event);
+                     slider_takes(ui, event) || tour_takes(ui, event) || presentation_takes(ui, event);
   if (!taken) command_for(ui, event);
 }
 

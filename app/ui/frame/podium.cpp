@@ -49,7 +49,7 @@ void time_line(Ui& ui, ImVec2 at, float end) {
                    fitted(mono, time, end - at.x));
   const RealTime real = real_time(ui);
   if (!real.known) return;
-  const std::string after = "× " + real.text;
+  const std::string& after = real.text;
   const float left = std::max(at.x + text_width(mono, time) + ui.theme.px(10), end - text_width(mono, after));
   if (left + text_width(mono, after) > end + ui.theme.px(podium_gap_at_1 - 4)) return;
   ImGui::SetCursorScreenPos({left, at.y});
@@ -98,7 +98,8 @@ std::vector<const PresetRow*> constants_at_hand(const Ui& ui) {
 
 void podium_buttons(Ui& ui, ImVec2 at, bool with_card) {
   ImGui::SetCursorScreenPos(at);
-  if (icon_button(ui, {"present", icon::screen, "Panels", "Back to all panels", "F5", true, 28})) ui.command("present");
+  if (icon_button(ui, {"present", icon::screen, "Panels", "Back to all panels", "F5 or Esc", true, 28}))
+    ui.command("present");
   if (!with_card) return;
   ImGui::SetCursorScreenPos({at.x, at.y + ui.theme.px(34)});
   if (icon_button(

@@ -16,17 +16,48 @@ struct Hint {
   const char *what, *does;
 };
 
-/// The hints that fit, most useful first.
-void hints(Ui& ui, ImDrawList& draw, ImVec2 at, float end, std::initializer_list<Hint> list) {
+/// What the pointer and keys do here, most useful first.
+std::vector<Hint> hints_of(const Ui& ui) {
+  const bool cloth = ui.session.preset().kind == Kind::cloth;
+  if (ui.input.by_touch) {
+    if (!cloth) return {{"Two fingers", "turn and zoom"}};
+    return {{"One finger", ui.tools.finger_cuts ? "cuts" : "grabs"}, {"Two", "turn and zoom"}};
+  }
+  if (!cloth) return {{"Middle drag", "orbits"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}};
+  return {{"Right drag", "grabs"},
+          {"Left drag", ui.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},
+          {"Middle drag", "orbits"},
+          {"Right click", "picks"},
+          {"Right double-click", "pins"},
+          {"Wheel", "zooms"},
+          {"F", "frames"},
+          {"F1", "help"}};
+}
+
+/// Of a hint and what parts it from the next, px.
+float hint_width(const Ui& ui, const Hint& hint) {
+  const ImFont& font = *ui.fonts.small;
+  return text_width(font, hint.what) + ui.theme.px(6) + text_width(font, hint.does) + ui.theme.px(20);
+}
+
+/// What the first two, without which nothing can be done with a cloth, take at least, px.
+float room_for_hints(const Ui& ui, const std::vector<Hint>& hints) {
+  float room = 0;
+  for (std::size_t n = 0; n < std::min<std::size_t>(2, hints.size()); ++n) room += hint_width(ui, hints[n]);
+  return room;
+}
+
+/// Those that fit.
+void draw_hints(Ui& ui, ImDrawList& draw, ImVec2 at, float end, const std::vector<Hint>& hints) {
   const Tokens& c = ui.theme.colors;
   const ImFont& font = *ui.fonts.small;
   float x = at.x;
-  for (const Hint& hint : list) {
-    const float what = text_width(font, hint.what), does = text_width(font, hint.does), gap = ui.theme.px(6);
-    if (x + what + gap + does > end) return;
+  for (const Hint& hint : hints) {
+    const float next = x + hint_width(ui, hint);
+    if (next - ui.theme.px(20) > end) return;
     draw_text(draw, font, {x, at.y}, c.text, hint.what);
-    draw_text(draw, font, {x + what + gap, at.y}, c.quiet, hint.does);
-    x += what + gap + does + ui.theme.px(20);
+    draw_text(draw, font, {x + text_width(font, hint.what) + ui.theme.px(6), at.y}, c.quiet, hint.does);
+    x = next;
   }
 }
 
@@ -62,6 +93,8 @@ float draw_facts(Ui& ui, ImDrawList& draw, ImVec2 right, float room) {
   std::string shown = all;
   for (std::size_t count = facts.size() - 1; count > 0 && text_width(font, shown) > room; --count)
     shown = first_of(facts, count) + " · …";
+  // The number of particles alone is known by its form.
+  if (text_width(font, shown) > room) shown = shown.substr(0, shown.find(" particles"));
   shown = fitted(font, shown, room);
   const float x = right.x - text_width(font, shown);
   draw_text(draw, font, {x, right.y}, ui.theme.colors.quiet, shown);
@@ -80,26 +113,12 @@ void status_bar(Ui& ui, const Region& region) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float margin = ui.theme.px(16);
   const float y = std::round(region.at.y + (region.size.y - ui.fonts.small->FontSize) / 2);
-  const float facts_x = draw_facts(ui, draw, {region.at.x + region.size.x - margin, y}, region.size.x - 2 * margin);
-  const ImVec2 at{region.at.x + margin, y};
-  const float end = facts_x - ui.theme.px(16);
-  if (ui.input.by_touch) {
-    const bool cuts = ui.tools.finger_cuts, cloth = ui.session.preset().kind == Kind::cloth;
-    if (cloth) hints(ui, draw, at, end, {{"One finger", cuts ? "cuts" : "grabs"}, {"Two", "turn and zoom"}});
-    if (!cloth) hints(ui, draw, at, end, {{"Two fingers", "turn and zoom"}});
-  } else if (ui.session.preset().kind == Kind::cloth) {
-    hints(ui, draw, at, end,
-          {{"Right drag", "grabs"},
-           {"Left drag", ui.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},
-           {"Middle drag", "orbits"},
-           {"Right click", "picks"},
-           {"Right double-click", "pins"},
-           {"Wheel", "zooms"},
-           {"F", "frames"},
-           {"F1", "help"}});
-  } else {
-    hints(ui, draw, at, end, {{"Middle drag", "orbits"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}});
-  }
+  const std::vector<Hint> hints = hints_of(ui);
+  constexpr float least_facts = 60;  // at scale 1: the beginning of the first, whose whole is a tooltip
+  const float whole = region.size.x - 2 * margin;
+  const float room = std::max(whole - room_for_hints(ui, hints), ui.theme.px(least_facts));
+  const float facts_x = draw_facts(ui, draw, {region.at.x + region.size.x - margin, y}, room);
+  draw_hints(ui, draw, {region.at.x + margin, y}, facts_x - ui.theme.px(16), hints);
   end_region();
 }
 
