@@ -181,7 +181,7 @@ std::string before_in_words(Session& session, const Condition& check) {
   const auto value = value_of(session, then);
   if (!value) return {};
   const std::string number = with_unit(rounded(*value, 3), unit_of(check.name));
-  return check.to_find ? ", " + number + " in the step before" : ", that is " + number;
+  return check.to_find ? ", " + number + " in the previous lab step" : ", that is " + number;
 }
 
 /// The first constant that differs and that no check of the step names, in words.

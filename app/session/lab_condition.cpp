@@ -150,10 +150,11 @@ std::string words_of_word(const Condition& condition) {
   return std::string(row.label) + (same ? ": " : ": not ") + shown_word(condition.name, condition.right.word);
 }
 
-/// "t as in the step before", "dt half as large as in the step before", "energy > 2 × its value in the step before".
+/// "t as in the previous lab step", "dt half as large as in the previous lab step", "energy > 2 × its value in the
+/// previous lab step".
 std::string words_of_before(const Condition& condition) {
   const Operand& right = condition.right;
-  const std::string before = " in the step before";
+  const std::string before = " in the previous lab step";
   if (condition.relation == Relation::equal && right.name == condition.name) {
     if (right.factor == 1) return condition.name + " as" + before;
     if (right.factor == 0.5) return condition.name + " half as large as" + before;
@@ -168,7 +169,7 @@ std::string words_of_number(const Condition& condition) {
   const Operand& right = condition.right;
   if (right.before) return words_of_before(condition);
   if (condition.name == "apart" && condition.relation == Relation::equal && right.name.empty() && right.factor == 0)
-    return "Each particle where it was in the step before";
+    return "Each particle where it was in the previous lab step";
   std::string text = label_of(condition.name) + " " + std::string(sign_of(condition.relation)) + " ";
   if (right.name.empty()) {
     const std::string_view unit = unit_of(condition.name);
@@ -244,7 +245,11 @@ void parse_answer(std::string_view value, bool first_step, Prediction& given) {
 
 std::string subject_of(const Condition& condition) {
   const std::string label = label_of(condition.name), span = words_of_span(condition);
-  if (!is_word(condition.name)) return (label == condition.name ? "The value of " + label : label) + span;
+  if (!is_word(condition.name)) {
+    if (label != condition.name) return label + span;
+    // A quantity's word takes an article, a symbol none.
+    return (condition.name == "energy" ? "The value of the " : "The value of ") + label + span;
+  }
   std::string asked(find_observable(condition.name)->asked[1]);
   if (asked.empty()) return label + span;
   asked[0] = char(std::tolower(static_cast<unsigned char>(asked[0])));

@@ -1,4 +1,5 @@
 // What a lab came to, told when it is left.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -39,19 +40,29 @@ std::vector<int> skipped_steps(const LabRun& run, int done) {
   return skipped;
 }
 
+/// " with 1 of 3 steps done", " before its first step was done".
+std::string steps_done_in_words(int done, int steps) {
+  if (done == 0) return " before its first step was done";
+  return " with " + std::to_string(done) + " of " + std::to_string(steps) + " steps done";
+}
+
 }  // namespace
 
 std::string lab_result(const LabRun& run, int done) {
   const int steps = int(run.lab.steps.size());
   const std::vector<int> skipped = skipped_steps(run, done);
-  std::string text = "“" + run.lab.title + "” ";
-  if (done == steps)
-    text += "is done";
-  else if (!skipped.empty())
-    text += "ends here; " + steps_in_words(skipped) +
-            (skipped.size() == 1 ? " was skipped and is still to be done" : " were skipped and are still to be done");
+  const int here = int(std::count_if(run.records.begin(), run.records.end(), [](auto& record) { return record.done; }));
+  const bool before = done == steps && here < steps;
+  const std::string title = "“" + run.lab.title + "”";
+  std::string text;
+  if (done == steps && !before)
+    text = title + " is done";
+  else if (!before && !skipped.empty())
+    text = "You left " + title + "; " + steps_in_words(skipped) +
+           (skipped.size() == 1 ? " was skipped and is still to be done" : " were skipped and are still to be done");
   else
-    text += "ends here with " + std::to_string(done) + " of " + std::to_string(steps) + " steps done";
+    text = "You left " + title + steps_done_in_words(before ? here : done, steps) +
+           (before ? ", which you had finished before" : "");
   return text + predictions_in_words(run) + ". Ctrl+L lists all labs.";
 }
 

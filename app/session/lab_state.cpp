@@ -132,6 +132,41 @@ void complete(Session& session, LabRun& run) {
   while (std::size_t(done) < run.records.size() && run.records[std::size_t(done)].done) ++done;
 }
 
+/// What a step that is to be done again keeps: what was predicted, until it is done.
+StepRecord begun_again(const StepRecord& before) {
+  StepRecord record;
+  std::copy(std::begin(before.typed), std::end(before.typed), record.typed);
+  record.chosen = before.chosen, record.predicted = before.predicted;
+  return record;
+}
+
+bool all_done(const std::vector<StepRecord>& records) {
+  return std::all_of(records.begin(), records.end(), [](const StepRecord& record) { return record.done; });
+}
+
+/// The lab as it was left, up to the step at which it goes on; nothing of one that was done.
+std::vector<StepRecord> records_of(const LabState& labs, const Lab& lab, std::size_t at) {
+  const auto left = labs.left.find(lab.label);
+  if (left == labs.left.end() || left->second.size() != lab.steps.size())
+    return std::vector<StepRecord>(lab.steps.size());
+  std::vector<StepRecord> records = left->second;
+  for (std::size_t k = at; k < records.size(); ++k) records[k] = begun_again(records[k]);
+  return records;
+}
+
+/// Says what came of the lab, and remembers what was predicted and found in it.
+void put_aside(Session& session, const LabRun& run) {
+  LabState& labs = session.labs;
+  session.messages.note(lab_result(run, steps_done(session, run.lab)));
+  if (all_done(run.records)) {
+    labs.left.erase(run.lab.label);
+    return;
+  }
+  std::vector<StepRecord>& left = labs.left[run.lab.label] = run.records;
+  // No step is gone on with that compares with a state of before (resumed_at).
+  for (StepRecord& record : left) record.outcome.state.reset();
+}
+
 /// What the step wants to be seen, and at which speed.
 void set_out(Session& session) {
   const LabStep& step = session.labs.run->now();
@@ -146,6 +181,12 @@ void set_out(Session& session) {
 }
 
 }  // namespace
+
+std::string_view LabRun::shown() const {
+  std::size_t at = step;
+  while (at > 0 && lab.steps[at].show.empty()) --at;
+  return lab.steps[at].show;
+}
 
 fs::path find_lab_file(const std::string& name_or_file) {
   std::error_code ignored;
@@ -198,16 +239,17 @@ void begin_lab(Session& session, std::string_view label) {
   ++session.counts.labs_begun;
   LabRun& run = session.labs.run.emplace();
   run.lab = *lab;
-  run.records.resize(lab->steps.size());
+  const std::size_t at = resumed_at(*lab, steps_done(session, *lab));
+  run.records = records_of(session.labs, *lab, at);
   session.labs.opened.clear();
-  enter_step(session, resumed_at(*lab, steps_done(session, *lab)));
+  enter_step(session, at);
 }
 
 void enter_step(Session& session, std::size_t step) {
   LabRun& run = *session.labs.run;
   run.step = std::min(step, run.lab.steps.size() - 1);
   run.show_explanation = false;
-  if (!run.record().done) run.record() = {};
+  if (!run.record().done) run.record() = begun_again(run.record());
   begin_watching(session, run);
   if (run.now().needs_opencl && !session.labs.opencl) session.labs.opencl = !opencl_devices().devices.empty();
   // What can only be read opens nothing that cannot run.
@@ -242,7 +284,7 @@ void set_up_step(Session& session) {
 void leave_lab(Session& session) {
   LabState& labs = session.labs;
   if (!labs.run) return;
-  session.messages.note(lab_result(*labs.run, steps_done(session, labs.run->lab)));
+  put_aside(session, *labs.run);
   if (!lab_is_away(session)) labs.left_behind = session.requested_preset();
   labs.run.reset();
   session.pacing.speed = labs.own_speed;
@@ -258,7 +300,7 @@ bool next_lab(Session& session) {
   const LabRun& run = *session.labs.run;
   auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == run.lab.label; });
   if (lab == list.end() || ++lab == list.end()) return false;
-  session.messages.note(lab_result(run, steps_done(session, run.lab)));
+  put_aside(session, run);
   begin_lab(session, lab->label);
   return true;
 }

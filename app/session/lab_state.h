@@ -55,6 +55,8 @@ struct LabRun {
   Preset begun;                   ///< the constants with which the present step began
   MotionWatch watch;
   const LabStep& now() const { return lab.steps[step]; }
+  /// The card that the present step wants in sight, or else the last step before it that wanted one.
+  std::string_view shown() const;
   StepRecord& record() { return records[step]; }
   const StepRecord& record() const { return records[step]; }
 };
@@ -79,6 +81,7 @@ struct LabState {
   std::uint64_t begun_with = 0;         ///< SessionCounts::documents of the cloth that was there when the lab began
   std::optional<Preset> left_behind;    ///< constants of the lab's cloth, which is open still after the lab
   std::map<std::string, int> progress;  ///< by its name: a lab's steps that are done, up to the first that is not
+  std::map<std::string, std::vector<StepRecord>> left;  ///< of labs left unfinished since the program started
 };
 
 /// A file, or else the lab of that name: one that comes with the program or of the user's folder. Throws LabError; an
@@ -104,7 +107,8 @@ void set_up_step(Session& session);
 void leave_lab(Session& session);
 /// Begins the lab after the present one, and says what came of that. False where there is none after it.
 bool next_lab(Session& session);
-/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", where that many steps are done.
+/// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", or with how many steps it was left; `done`:
+/// those that are remembered as done.
 std::string lab_result(const LabRun& run, int done);
 /// Keeps the present experiment where it has unsaved changes, to be gone back to after the lab.
 void keep_experiment(Session& session);

@@ -108,7 +108,7 @@ TEST_CASE("a lab is read whole") {
   const LabStep& second = lab.steps[1];
   CHECK(second.prediction->right == 1);
   CHECK(words_of(second.checks[0]) == "F < 0.5 × F_g");
-  CHECK(words_of(second.checks[1]) == "energy > 2 × its value in the step before");
+  CHECK(words_of(second.checks[1]) == "energy > 2 × its value in the previous lab step");
   CHECK(second.explanation.empty());
 }
 

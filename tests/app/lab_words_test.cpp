@@ -22,13 +22,13 @@ Condition check(const std::string& line) {
 }
 
 TEST_CASE("a check says in plain words what it compares with the step before") {
-  CHECK(words_of(check("check: t = before.t")) == "t as in the step before");
-  CHECK(words_of(check("check: dt = 0.5 * before.dt")) == "dt half as large as in the step before");
-  CHECK(words_of(check("check: dt = 2 * before.dt")) == "dt twice as large as in the step before");
-  CHECK(words_of(check("check: error < 0.3 * before.error")) == "error < 0.3 × its value in the step before");
-  CHECK(words_of(check("check: F < before.F_g")) == "F < F_g in the step before");
-  CHECK(words_of(check("check: apart = 0 m")) == "Each particle where it was in the step before");
-  CHECK(words_of(check("check: apart > 0.1 m")) == "Distance from the cloth of the step before > 0.1 m");
+  CHECK(words_of(check("check: t = before.t")) == "t as in the previous lab step");
+  CHECK(words_of(check("check: dt = 0.5 * before.dt")) == "dt half as large as in the previous lab step");
+  CHECK(words_of(check("check: dt = 2 * before.dt")) == "dt twice as large as in the previous lab step");
+  CHECK(words_of(check("check: error < 0.3 * before.error")) == "error < 0.3 × its value in the previous lab step");
+  CHECK(words_of(check("check: F < before.F_g")) == "F < F_g in the previous lab step");
+  CHECK(words_of(check("check: apart = 0 m")) == "Each particle where it was in the previous lab step");
+  CHECK(words_of(check("check: apart > 0.1 m")) == "Distance from the cloth of the previous lab step > 0.1 m");
 }
 
 TEST_CASE("what is yes or no is asked in a sentence") {
@@ -41,11 +41,11 @@ TEST_CASE("what is yes or no is asked in a sentence") {
 TEST_CASE("what is to be found out is not told by the check") {
   CHECK(check("find: k_s > 185").to_find);
   CHECK_FALSE(check("check: k_s > 185").to_find);
-  CHECK(subject_of(check("find: energy > 0.52 J")) == "The value of energy");
+  CHECK(subject_of(check("find: energy > 0.52 J")) == "The value of the energy");
   CHECK(subject_of(check("find: k_s > 185 when diverged = yes")) == "The value of k_s when the cloth diverges");
   CHECK(subject_of(check("find: diverged = no")) == "Whether the simulation diverges");
   CHECK(subject_of(check("find: integrator = euler")) == "Integrator");
-  CHECK(subject_of(check("find: apart > 0.1 m")) == "Distance from the cloth of the step before");
+  CHECK(subject_of(check("find: apart > 0.1 m")) == "Distance from the cloth of the previous lab step");
   CHECK(found_together(check("find: energy > 1 J"), check("find: energy < 2 J")));
   CHECK_FALSE(found_together(check("find: energy > 1 J"), check("check: energy < 2 J")));
   CHECK_FALSE(found_together(check("find: energy > 1 J"), check("find: kinetic < 2 J")));
@@ -72,14 +72,14 @@ TEST_CASE("the card says what is now, and of what is to be found no more than th
   CHECK(says(play.card(2), "Whether the simulation diverges · it has diverged"));
 }
 
-TEST_CASE("what a check compares with is told with its value in the step before") {
+TEST_CASE("what a check compares with is told with its value in the previous lab step") {
   LabPlayer play("06_float");
   play.run(1);
   play.next();
   play.choose(0);
   play.update();
-  CHECK(says(play.card(0), "t as in the step before, that is 0.5 s · t is 0 s now"));
-  CHECK(says(play.card(1), "Distance from the cloth of the step before · it is "));
+  CHECK(says(play.card(0), "t as in the previous lab step, that is 0.5 s · t is 0 s now"));
+  CHECK(says(play.card(1), "Distance from the cloth of the previous lab step · it is "));
 }
 
 TEST_CASE("no bound of what is to be found stands on a lab's card before it is found") {

@@ -133,7 +133,7 @@ TEST_CASE("at its end a lab leads on to the next, and the last one to the list")
   window.frames(3);
   REQUIRE(window.session.labs.run.has_value());
   CHECK(window.session.labs.run->lab.label == "04_damping");
-  CHECK(window.said("“k_s and the critical time step” ends here"));
+  CHECK(window.said("You left “k_s and the critical time step”"));
   const Lab& last = window.session.labs.list.back();
   begin(window, last.label);
   enter_step(window.session, last.steps.size() - 1);

@@ -1,6 +1,8 @@
 // Labs played by mouse and keyboard: chosen, predicted, left.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "app/base/glfw_keys.h"
 #include "app/session/lab_state.h"
 #include "app/session/requests.h"
@@ -296,11 +298,12 @@ TEST_CASE("who leaves a lab is told how far it was gone through, whichever way i
   test::NullUi window;
   begin(window, "hooke", "01_hooke");
   window.click("lab.leave");
-  CHECK(said(window).find("ends here with 0 of 3 steps done. Ctrl+L") != std::string::npos);
+  CHECK(said(window).find("You left “") != std::string::npos);
+  CHECK(said(window).find("” before its first step was done. Ctrl+L") != std::string::npos);
   begin(window, "hooke", "01_hooke");
   predict(window, "0.1");  // asked and not answered yet: it counts neither way
   window.find("leave the lab");
-  CHECK(said(window).find("ends here with 0 of 3 steps done. Ctrl+L") != std::string::npos);
+  CHECK(said(window).find("” before its first step was done. Ctrl+L") != std::string::npos);
 
   Session& session = window.session;
   begin_lab(session, "01_hooke");
@@ -309,11 +312,55 @@ TEST_CASE("who leaves a lab is told how far it was gone through, whichever way i
   run.records[1].right = true;
   CHECK(lab_result(run, 3) == "“" + run.lab.title + "” is done; 1 of 3 predictions were right. Ctrl+L lists all labs.");
   run.records[1].done = false;
-  CHECK(lab_result(run, 1).find("” ends here; step 2 was skipped and is still to be done; 0 of 2 predictions") !=
+  CHECK(lab_result(run, 3).find("” with 2 of 3 steps done, which you had finished before; ") != std::string::npos);
+  CHECK(lab_result(run, 1).find("”; step 2 was skipped and is still to be done; 0 of 2 predictions") !=
         std::string::npos);
   run.records[0].done = false;
-  CHECK(lab_result(run, 0).find("” ends here; steps 1 and 2 were skipped and are still to be done; ") !=
-        std::string::npos);
+  CHECK(lab_result(run, 0).find("”; steps 1 and 2 were skipped and are still to be done; ") != std::string::npos);
+}
+
+TEST_CASE("a lab that is gone on with keeps what was predicted and found, and opens the card that it needs") {
+  test::NullUi window;
+  begin(window, "euler gains", "02_euler");
+  predict(window, "2.9");
+  window.key(GLFW_KEY_SPACE);
+  until_done(window, "the first step");
+  go_on(window, 1);
+  choose(window, 1);
+  window.click("lab.leave");
+  window.frames(2);
+  begin(window, "euler gains", "02_euler");
+  // The second step compares with the first, so the lab goes on with that: its prediction stands.
+  CHECK(lab(window).step == 0);
+  CHECK_FALSE(lab(window).record().done);
+  CHECK(lab(window).record().predicted);
+  CHECK(lab(window).record().typed == std::string("2.9"));
+  CHECK(lab(window).records[1].predicted);
+  CHECK(lab(window).records[1].chosen == 0);
+  window.key(GLFW_KEY_SPACE);
+  until_done(window, "the first step again");
+  CHECK(lab(window).record().right);
+}
+
+TEST_CASE("a lab that is begun at a later step opens the card of the step before") {
+  test::NullUi window;
+  Session& session = window.session;
+  find_labs(session);
+  auto& labs = session.labs.list;
+  auto second = std::find_if(labs.begin(), labs.end(), [](const Lab& each) { return each.label == "02_euler"; });
+  REQUIRE(second != labs.end());
+  second->steps[1].show.clear(), second->steps[1].checks.clear();  // it is begun there, and wants no card
+  session.labs.progress["02_euler"] = 1;
+  const auto energy_open = [&] { return window.ui.settings.layout.folded.count(card_name::energy) == 0; };
+  window.ui.settings.layout.folded.insert(card_name::energy);
+  REQUIRE_FALSE(energy_open());
+  begin_lab(session, "02_euler");
+  window.frames(4);
+  CHECK(lab(window).step == 1);
+  CHECK(energy_open());
+  window.click("lab.leave");
+  window.frames(2);
+  CHECK_FALSE(energy_open());
 }
 
 TEST_CASE("the list of labs begins at the one that goes on, or that is to be done next") {

@@ -61,9 +61,11 @@ void Ui::follow() {
     settings.layout.folded.erase(card_name::copies);
     if (!in_front(*this, card_name::copies)) plots.wanted = card_name::distances;
   }
-  if (!session.labs.run || counts.labs_begun != seen_.labs_begun) close_lab_cards(*this);
+  const bool lab_begins = counts.labs_begun != seen_.labs_begun;
+  if (!session.labs.run || lab_begins) close_lab_cards(*this);
   if (counts.lab_steps != seen_.lab_steps && session.labs.run) {
-    show_for_lab(*this, session.labs.run->now().show);
+    // Begun at a later step, it lacks the card that one before has opened.
+    show_for_lab(*this, lab_begins ? session.labs.run->shown() : session.labs.run->now().show);
     show_what_to_change();
   }
   seen_ = counts;

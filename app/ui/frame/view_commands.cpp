@@ -54,7 +54,7 @@ void present(Ui& ui) {
   ui.presenting = !ui.presenting;
   ui.panels = ui.scale_changed = ui.scene.redraw = true;
   if (ui.presenting) ui.messages.note("F5 or Esc brings the panels back; Ctrl+T changes the theme.");
-  if (ui.presenting && ui.session.labs.run) show_for_lab(ui, ui.session.labs.run->now().show);
+  if (ui.presenting && ui.session.labs.run) show_for_lab(ui, ui.session.labs.run->shown());
 }
 
 }  // namespace
