@@ -46,7 +46,9 @@ struct Copies {
 Simulation& cloth_of(const Session& session, int n);
 /// The seat that decides how it is drawn where a cloth before it has the same method; none: it is drawn as its method.
 std::optional<std::size_t> seat_of_style(const Session& session, int n);
-/// How it is called: what tells it from the original, "k_s = 80, rk4"; or of the original what the copies change.
+/// What tells it from the original, "k_s = 80, rk4"; or of the original what the copies change.
+std::string settings_of_cloth(const Session& session, int n);
+/// How it is called: by those settings, but "accurate solution" where they are those of that choice.
 std::string name_of_cloth(const Session& session, int n);
 
 /// What a copy may be made with: a row of the card's menu, and of the palette.

@@ -26,6 +26,21 @@ TEST_CASE("a copy is called by its differences, the original by what its copies 
         "Verlet, bodies[0].r = 0.2, dt = 0.001, iterations = 10, k_s = 51.23, double");
 }
 
+TEST_CASE("an accurate solution is called so, and its settings are told whole") {
+  Session session;
+  Preset preset = test::cloth(6, 6);
+  for (const EngineKind engine : {EngineKind::cpu, EngineKind::opencl}) {
+    preset.engine = engine;
+    session.copies.lockstep.clear();
+    session.simulation = std::make_shared<Simulation>(test::cloth(6, 6));
+    session.copies.lockstep.add(*session.simulation, copy_choices(preset).front().differences);
+    CHECK(name_of_cloth(session, 0) == "accurate solution");
+    CHECK(settings_of_cloth(session, 0).starts_with("Dormand-Prince 5(4), tolerance = 1e-9, double"));
+  }
+  session.copies.lockstep.add(*session.simulation, {{&Preset::integrator, "dopri5"}, {&Preset::tolerance, 1e-8}});
+  CHECK(name_of_cloth(session, 1) == "Dormand-Prince 5(4), tolerance = 1e-8");
+}
+
 TEST_CASE("a choice of dt is the number that its label says, to six digits") {
   Preset preset = test::cloth(6, 6);
   preset.dt = 1.0 / 3000;

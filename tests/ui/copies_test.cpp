@@ -6,6 +6,7 @@
 
 #include "app/base/glfw_keys.h"
 #include "app/base/numbers.h"
+#include "app/ui/frame/commands.h"
 #include "app/ui/state/cloth_style.h"
 #include "tests/ui/null_ui.h"
 
@@ -169,6 +170,65 @@ TEST_CASE("a copy that diverges is told so while the others go on, and a restart
   window.key(GLFW_KEY_R);
   CHECK(window.t() < at);
   CHECK_FALSE(cloth_of(window.session, 0).divergence().has_value());
+}
+
+TEST_CASE("a copy that has diverged tells why, cannot be cut through its name, and is no reference") {
+  test::NullUi window;
+  window.click("plots.Copies");
+  window.add_copy("Euler");
+  window.until([&] { return cloth_of(window.session, 0).divergence().has_value(); }, "Euler to diverge");
+  window.pause();
+  window.frames(3);
+  const Divergence why = *cloth_of(window.session, 0).divergence();
+  const auto torn = [&] {
+    return window.cloth().tears().torn_count() + cloth_of(window.session, 0).tears().torn_count();
+  };
+  const int before = torn();
+
+  window.click("viewport.name_of_copy0");
+  window.frames(3);
+  CHECK(window.drew("Euler diverged"));
+  CHECK(window.drew("step " + std::to_string(why.step)));
+  CHECK(window.drew("times the worst-case limit"));
+  CHECK(torn() == before);
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(3);
+  CHECK_FALSE(window.drew("Euler diverged"));
+
+  window.click("plots.copy0");
+  window.frames(3);
+  CHECK(window.drew("Euler diverged"));
+  CHECK(window.session.copies.reference == Copies::original);
+  window.click("viewport.close_details");
+  window.frames(3);
+  CHECK_FALSE(window.ui.copy_details.has_value());
+
+  window.click("plots.copy0");
+  window.key(GLFW_KEY_R);  // what they are about is gone
+  window.frames(3);
+  CHECK_FALSE(window.ui.copy_details.has_value());
+  window.click("plots.copy0");
+  CHECK(window.session.copies.reference == 0);
+}
+
+TEST_CASE("the palette overlays the copies, parts them, and removes them all") {
+  test::NullUi window;
+  window.pause();
+  CHECK_FALSE(why_not(window.ui, row_of("toggle_overlaid")).empty());
+  CHECK_FALSE(why_not(window.ui, row_of("remove_copies")).empty());
+  window.click("plots.Copies");
+  window.add_copy("Euler");
+  window.add_copy("Implicit_Euler");
+  CHECK(window.session.copies.tiles() == 3);
+  window.find("overlaid");
+  window.frames(3);
+  CHECK(window.session.copies.tiles() == 1);
+  window.find("copies overlaid");
+  window.frames(3);
+  CHECK(window.session.copies.tiles() == 3);
+  window.find("remove all");
+  window.frames(3);
+  CHECK(window.session.copies.lockstep.empty());
 }
 
 TEST_CASE("where the original diverges its copies go on") {

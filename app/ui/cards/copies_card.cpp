@@ -111,8 +111,24 @@ std::string number_or_dash(double value) {
   return std::isfinite(value) ? short_number(value, 2) : "–";
 }
 
-/// A cloth: its line, its name, what a simulated second costs, how far it is from the reference. A click makes it the
-/// reference.
+/// What a click on a cloth's line does: it becomes the reference, or where it has diverged that tells why, since from
+/// it nothing can be measured any more.
+void choose_cloth(Ui& ui, int n) {
+  Copies& copies = ui.session.copies;
+  if (cloth_of(ui.session, n).divergence()) return ui.show_why_diverged(n);
+  if (copies.reference != n) copies.reference = n, copies.forget();
+}
+
+std::string tip_of(const Ui& ui, int n) {
+  const std::string settings = settings_of_cloth(ui.session, n);
+  if (const auto& divergence = cloth_of(ui.session, n).divergence())
+    return settings + ": diverged at t = " + time_number(divergence->t, cloth_of(ui.session, n).preset().dt) +
+           " s. Click to see why.";
+  return settings + (ui.session.copies.reference == n ? ": the reference, from which distances are measured."
+                                                      : ". Click to measure distances from this one.");
+}
+
+/// A cloth: its line, its name, what a simulated second costs, how far it is from the reference.
 void cloth_line(Ui& ui, int n) {
   Copies& copies = ui.session.copies;
   const Tokens& c = ui.theme.colors;
@@ -123,12 +139,10 @@ void cloth_line(Ui& ui, int n) {
   const float name_middle = std::round(lo.y + ui.theme.px(line_at_1) / 2),
               middle = above ? std::round(lo.y + height - ui.theme.px(line_at_1) / 2) : name_middle;
   ImGui::PushID(n);
-  if (gui::press_area("cloth", {at.apart, height}) && copies.reference != n) copies.reference = n, copies.forget();
+  if (gui::press_area("cloth", {at.apart, height})) choose_cloth(ui, n);
   report_control(ui, n == Copies::original ? "original" : "copy" + std::to_string(n));
   const bool hovered = ImGui::IsItemHovered();
-  tooltip(ui, gui::item_id(),
-          name_of_cloth(ui.session, n) + (copies.reference == n ? ": the reference, from which distances are measured."
-                                                                : ". Click to measure distances from this one."));
+  tooltip(ui, gui::item_id(), tip_of(ui, n));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (hovered) draw.AddRectFilled(lo, {lo.x + at.apart, lo.y + height}, c.field, ui.theme.px(4));
   const ImVec2 ends[2] = {{lo.x, name_middle}, {lo.x + sample, name_middle}};

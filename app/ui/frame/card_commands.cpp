@@ -27,7 +27,16 @@ std::string no_weight(const Ui& ui) {
 }
 
 std::string no_copies(const Ui& ui) {
-  return ui.session.copies.lockstep.empty() ? "There is no copy to measure; add one first." : "";
+  return ui.session.copies.lockstep.empty() ? "There is no copy; add one first." : "";
+}
+
+void toggle_overlaid(Ui& ui) {
+  ui.session.copies.overlaid = !ui.session.copies.overlaid;
+  ui.scene.redraw = true;
+}
+
+void remove_all_copies(Ui& ui) {
+  for (std::size_t n = ui.session.copies.lockstep.size(); n-- > 0;) ui.session.request(request::RemoveCopy{n});
 }
 
 /// Opens the card that shows it, where it is measured from the present moment on.
@@ -68,6 +77,17 @@ std::vector<CommandRow> card_rows() {
        "plot card compare lockstep apart",
        show<card_name::distances>,
        no_copies},
+      {"toggle_overlaid",
+       "Copies overlaid",
+       "",
+       {},
+       "",
+       "split view side by side compare lockstep wireframe",
+       toggle_overlaid,
+       no_copies,
+       {},
+       [](const Ui& ui) { return ui.session.copies.overlaid; }},
+      {"remove_copies", "Remove all copies", "", {}, "", "delete clear compare lockstep", remove_all_copies, no_copies},
       {"show_stability", "Stability card", "", {}, "", "growth spectral radius limit dt", show<card_name::stability>},
       {"toggle_map",
        "Map of k_s and dt",

@@ -38,7 +38,7 @@ std::string copies(Ui& ui) {
   std::vector<std::string> names;
   for (int n = Copies::original; n < int(Lockstep::most); ++n) {
     const bool there = n < int(ui.session.copies.lockstep.size());
-    std::string name = there ? name_of_cloth(ui.session, n) : "copy " + std::to_string(n + 1);
+    std::string name = there ? settings_of_cloth(ui.session, n) : "copy " + std::to_string(n + 1);
     for (char& letter : name)
       if (letter == ',') letter = ';';  // it stands in a comma's file
     names.push_back(name + (energy ? " [J]" : " [m]"));

@@ -114,6 +114,12 @@ bool list_takes(Ui& ui, const KeyEvent& event) {
   return ui.close_lists = true;
 }
 
+bool copy_details_take(Ui& ui, const KeyEvent& event) {
+  if (!ui.copy_details || event.key != GLFW_KEY_ESCAPE) return false;
+  ui.copy_details.reset();
+  return true;
+}
+
 /// Escape leaves presentation mode, as F5 does, where it ends nothing else.
 bool presentation_takes(Ui& ui, const KeyEvent& event) {
   if (!ui.presenting || event.key != GLFW_KEY_ESCAPE) return false;
@@ -144,7 +150,8 @@ void command_for(Ui& ui, const KeyEvent& event) {
 void take_key(Ui& ui, const KeyEvent& event) {
   const bool taken = dialog_takes(ui, event) || palette_takes(ui, event) || help_takes(ui, event) ||
                      list_takes(ui, event) || typing_takes(ui, event) || resolution_takes(ui, event) ||
-                     slider_takes(ui, event) || tour_takes(ui, event) || presentation_takes(ui, event);
+                     slider_takes(ui, event) || tour_takes(ui, event) || copy_details_take(ui, event) ||
+                     presentation_takes(ui, event);
   if (!taken) command_for(ui, event);
 }
 

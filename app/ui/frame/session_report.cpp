@@ -136,7 +136,7 @@ Json copies(const Ui& ui) {
   const Copies& copies = ui.session.copies;
   for (int n = 0; n < int(copies.lockstep.size()); ++n) {
     const Simulation& cloth = cloth_of(ui.session, n);
-    Json copy = {{"name", name_of_cloth(ui.session, n)}, {"t", cloth.time()}, {"steps", cloth.steps()}};
+    Json copy = {{"name", settings_of_cloth(ui.session, n)}, {"t", cloth.time()}, {"steps", cloth.steps()}};
     const double apart = copies.distance.empty() ? NAN : copies.distance.column(std::size_t(n + 1)).back();
     copy["distance"] = std::isfinite(apart) ? Json(apart) : Json(nullptr);
     copy["diverged"] = cloth.divergence().has_value();

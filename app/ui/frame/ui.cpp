@@ -14,6 +14,13 @@ void Ui::run_actions() {
   for (const auto& action : std::exchange(actions, {})) action(*this);
 }
 
+void Ui::show_why_diverged(int n) {
+  if (n == Copies::original)
+    banner_whole = true;
+  else
+    copy_details = CopyDetails{.copy = std::size_t(n), .happened = {}, .why = {}};
+}
+
 void Ui::color_by(std::optional<ParticleField> field) {
   scene.colors.choose(field);
   settings.color = field ? info(*field).name : "";

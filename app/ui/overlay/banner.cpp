@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -12,7 +11,9 @@
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "app/ui/overlay/overlay.h"
 #include "app/ui/overlay/viewport_panel.h"
+#include "app/ui/state/divergence_details.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
 
@@ -52,23 +53,6 @@ const Advice& advice_for(const Preset& then, Ui& ui) {
               .slower = with_advised_dt(now),
               .undo_helps = before && !same_model(*before, then) && over_limit(*before) <= over_limit(now)};
   return advice;
-}
-
-/// What it was, and the constants that decided it: they may be others by now.
-std::string what_happened(const Divergence& d, const Preset& then, double limit) {
-  const char* unit = d.quantity == "velocity" ? "m/s" : "m";
-  char text[256];
-  std::snprintf(text, sizeof text, "At t = %s s (step %lld), %s: %s = %s %s.", time_number(d.t, then.dt).c_str(),
-                static_cast<long long>(d.step), d.where().c_str(), d.quantity.c_str(), short_number(d.value).c_str(),
-                unit);
-  const bool cloth = then.kind == Kind::cloth;
-  std::string all = std::string(text) + "\nWith " +
-                    (cloth ? "k_s = " + short_number(then.k_s) : "k = " + short_number(then.k)) +
-                    " N/m, k_d = " + short_number(then.k_d) + " N s/m, m = " + short_number(then.m) +
-                    " kg, dt = " + short_number(then.dt) + " s";
-  if (limit > 0 && std::isfinite(limit))
-    all += ", " + short_number(then.dt / limit, 2) + (cloth ? " times the worst-case limit" : " times the limit");
-  return all + ".";
 }
 
 /// A way out of a divergence: a button of the banner.
@@ -280,15 +264,6 @@ Box area_of_whole(Ui& ui, const BannerPlan& plan, Box region) {
   return region;
 }
 
-void banner_ground(Ui& ui, const Box& box) {
-  const ImVec2 lo{box.lo.x, box.lo.y}, hi{box.hi.x, box.hi.y};
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(lo, hi, ui.theme.colors.panel, ui.theme.px(8));
-  draw.AddRect(lo, hi, ui.theme.colors.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
-  cover_viewport(ui, lo, hi);
-  ui.placing.take("banner", box);
-}
-
 void draw_folded(Ui& ui, const FoldedBanner& folded, const Box& box) {
   const Tokens& c = ui.theme.colors;
   const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
@@ -350,7 +325,7 @@ void banner(Ui& ui, const Box& region) {
   const float room = area.hi.y - area.lo.y - ui.theme.px(banner_margin_at_1);
   const Box box =
       place_of_banner(ui, area, plan.whole ? glm::vec2(plan.width, std::min(plan.height, room)) : plan.folded.size);
-  banner_ground(ui, box);
+  danger_ground(ui, box, "banner");
   if (plan.whole) return draw_whole(ui, plan, box);
   draw_folded(ui, plan.folded, box);
 }

@@ -5,7 +5,9 @@
 
 #include "app/base/numbers.h"
 #include "app/base/text_lines.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 #include "app/ui/state/cloth_style.h"
 
@@ -20,6 +22,21 @@ std::string state_of(const Ui& ui, int n) {
   if (const auto& divergence = cloth_of(ui.session, n).divergence())
     return "diverged at t = " + time_number(divergence->t, cloth_of(ui.session, n).preset().dt) + " s";
   return n == ui.session.copies.reference ? "reference" : "";
+}
+
+/// No press on a name goes through to the cloth; one on the name of a cloth that has diverged tells why.
+void name_area(Ui& ui, int n, glm::vec2 lo, glm::vec2 size) {
+  if (ui.picture && !ui.picture->whole_window) return;
+  cover_viewport(ui, vec(lo), vec(lo + size));
+  if (!cloth_of(ui.session, n).divergence()) return;
+  const std::string id = n == Copies::original ? "name_of_original" : "name_of_copy" + std::to_string(n);
+  ImGui::SetCursorScreenPos(vec(lo));
+  if (gui::press_area(id.c_str(), vec(size))) ui.show_why_diverged(n);
+  report_control(ui, id);
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  ImGui::GetWindowDrawList()->AddRect(vec(lo), vec(lo + size), ui.theme.colors.danger, ui.theme.px(6));
+  tooltip(ui, gui::item_id(), "Click to see why it diverged.");
 }
 
 }  // namespace
@@ -46,6 +63,7 @@ void cloth_names(Ui& ui, ImDrawList& draw) {
     const glm::vec2 lo = glm::round(glm::vec2(origin.x + edge, foot - size.y));
     draw.AddRectFilled(vec(lo), vec(lo + size), faded(c.ground, 0.85f), ui.theme.px(6));
     ui.placing.take("name " + std::to_string(n + 1), {lo, lo + size});
+    name_area(ui, n, lo, size);
     const float middle = std::round(lo.y + pad / 2 + font.FontSize / 2);
     const ImVec2 ends[2] = {{lo.x + pad, middle}, {lo.x + pad + sample, middle}};
     CurveStyle style = cloth_style(ui.theme.colors, ui.session, n);

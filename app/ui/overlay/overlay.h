@@ -43,8 +43,14 @@ void scene_name(Ui& ui, ImDrawList& draw, const Box& row);
 glm::vec2 pause_mark_size(const Ui& ui);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
-/// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged.
+/// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged; a click on one
+/// that has tells why.
 void cloth_names(Ui& ui, ImDrawList& draw);
+/// What a copy that has diverged was asked for (Ui::copy_details), over its picture.
+void copy_details(Ui& ui, const Box& region);
+/// What is said of a divergence stands on it: a panel with a red rim that keeps presses from the cloth. `mark`: its
+/// place belongs to that.
+void danger_ground(Ui& ui, const Box& box, const char* mark);
 /// Where cloth, weight and the wind's arrow are drawn: boxes of their parts.
 std::vector<Box> drawn_parts(Ui& ui);
 /// Where a knife has just gone along its path, fading.

@@ -5,6 +5,7 @@
 
 #include "app/render/weight_model.h"
 #include "app/tools/wind_arrow.h"
+#include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 
 namespace tyglab {
@@ -74,6 +75,15 @@ std::vector<Box> drawn_parts(Ui& ui) {
     add_box(ui, 0, {arrow.base, arrow.tip}, parts);
   }
   return parts;
+}
+
+void danger_ground(Ui& ui, const Box& box, const char* mark) {
+  const ImVec2 lo = vec(box.lo), hi = vec(box.hi);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(lo, hi, ui.theme.colors.panel, ui.theme.px(8));
+  draw.AddRect(lo, hi, ui.theme.colors.danger, ui.theme.px(8), 0, std::max(1.f, ui.theme.px(1.5f)));
+  cover_viewport(ui, lo, hi);
+  ui.placing.take(mark, box);
 }
 
 void ring(Ui& ui, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float width) {

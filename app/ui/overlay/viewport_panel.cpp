@@ -145,6 +145,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     message_list(ui);
     draw.ChannelsSetCurrent(fixed);
     banner(ui, {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}});
+    copy_details(ui, ui.viewport.box);
     draw.ChannelsSetCurrent(pointer);
     knife_stroke(ui, draw);
     pointer_overlay(ui, draw);

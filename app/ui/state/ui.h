@@ -103,6 +103,13 @@ struct Advice {
   bool undo_helps = false;  ///< `before` are no nearer to what diverges
 };
 
+/// Why a copy has diverged, as it is told.
+struct CopyDetails {
+  std::size_t copy;
+  std::int64_t step = -1;  ///< of the divergence that they are about; -1: they are not worked out yet
+  std::string happened, why;
+};
+
 /// Ctrl+P: a list of all that can be done, narrowed by what is typed.
 struct CommandPalette {
   bool open = false;
@@ -177,6 +184,7 @@ struct Ui : UiContext {
   bool presenting = false;           ///< a large cloth over a few large controls, and one card, in place of the panels
   bool presented_card = true;        ///< whether that card is there
   std::optional<bool> banner_whole;  ///< as the user wants it; none: as there is room
+  std::optional<CopyDetails> copy_details;
   std::optional<std::size_t> pause_place, legend_place, notes_place;  ///< which of their places those marks took last
   bool banner_over_views = false;        ///< it needs the view buttons' place: they are not there
   bool one_note = false;                 ///< several messages would cover the cloth: they follow one another
@@ -205,6 +213,8 @@ struct Ui : UiContext {
   void command(std::string_view id);
   /// A command's keys as people call them, empty where it has none.
   const char* keys_of(std::string_view id) const;
+  /// Opens what is known of the divergence of the n-th cloth (n = Copies::original or a copy).
+  void show_why_diverged(int n);
   /// What colors the cloth from now on; none: its own look. Remembered for the next session.
   void color_by(std::optional<ParticleField> field);
   /// By strain, for a replay; the coloring of before comes back when the cloth that it led to is left.
