@@ -7,6 +7,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/base/numbers.h"
 #include "app/ui/frame/commands.h"
+#include "app/ui/overlay/overlay.h"
 #include "app/ui/state/cloth_style.h"
 #include "tests/ui/null_ui.h"
 
@@ -190,6 +191,8 @@ TEST_CASE("a copy that has diverged tells why, cannot be cut through its name, a
   CHECK(window.drew("Euler diverged"));
   CHECK(window.drew("step " + std::to_string(why.step)));
   CHECK(window.drew("times the worst-case limit"));
+  REQUIRE(window.ui.placing.find("copy details") != nullptr);
+  CHECK(window.ui.placing.find("copy details")->lo.y >= window.ui.viewport.box.hi.y);  // it covers no cloth
   CHECK(torn() == before);
   window.key(GLFW_KEY_ESCAPE);
   window.frames(3);
@@ -229,6 +232,29 @@ TEST_CASE("the palette overlays the copies, parts them, and removes them all") {
   window.find("remove all");
   window.frames(3);
   CHECK(window.session.copies.lockstep.empty());
+}
+
+TEST_CASE("the names of overlaid cloths stand above them where the picture is narrow") {
+  test::NullUi window({.preset = "hanging", .settings = [](Settings& settings) { settings.theme = "projector"; }});
+  window.pause();
+  window.click("plots.Copies");
+  window.add_copy("Euler");
+  window.add_copy("Implicit_Euler");
+  window.find("overlaid");
+  window.rest();
+  const Viewport& viewport = window.ui.viewport;
+  REQUIRE(viewport.size().x < viewport.size().y);
+  const std::vector<Box> cloth = drawn_parts(window.ui);
+  for (int n = 0; n < 3; ++n) {
+    CAPTURE(n);
+    const Box* name = window.ui.placing.find("name " + std::to_string(n));
+    REQUIRE(name != nullptr);
+    CHECK(covered(*name, cloth) == 0);
+  }
+  window.key(GLFW_KEY_F5);  // there the cloth has more beside it
+  window.rest();
+  REQUIRE(viewport.size().x > viewport.size().y);
+  CHECK(window.ui.placing.find("name 2")->hi.y > viewport.box.hi.y - viewport.size().y / 10);
 }
 
 TEST_CASE("where the original diverges its copies go on") {

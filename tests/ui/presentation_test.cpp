@@ -47,6 +47,26 @@ TEST_CASE("every card beside the cloth is whole on a projector, and the cloth ke
   CHECK_FALSE(window.drew("..."));
 }
 
+TEST_CASE("on a projector the engine's menu keeps its place at every speed") {
+  test::NullUi window(projector());
+  window.frames(3);
+  REQUIRE(window.sees("top.engine"));
+  const glm::vec2 before = window.middle("top.engine");
+  window.session.pacing.speed = 1.0 / 16;  // a quarter of a quarter: no speed that is always offered
+  window.frames(3);
+  REQUIRE(window.sees("top.engine"));
+  CHECK(window.middle("top.engine") == before);
+}
+
+TEST_CASE("what brings the panels back is said no longer once they are back") {
+  test::NullUi window(projector());
+  window.key(GLFW_KEY_F5);
+  CHECK(window.said("brings the panels back"));
+  window.key(GLFW_KEY_ESCAPE);
+  CHECK_FALSE(window.ui.presenting);
+  CHECK_FALSE(window.said("brings the panels back"));
+}
+
 TEST_CASE("on a projector the three sides of Accuracy are reached, and the search with its button") {
   test::NullUi window(projector());
   window.pause();

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* heading = card_name::copies;
 constexpr float line_at_1 = 24, buttons_at_1 = 34, under_words_at_1 = 12;  // pixels at scale 1
-constexpr float cost_at_1 = 84, apart_at_1 = 84, remove_at_1 = 26;         // columns
+constexpr float cost_at_1 = 56, apart_at_1 = 84, remove_at_1 = 26;         // columns
 constexpr float costs_from_at_1 = 262;                                     // a narrower card leaves the costs out
 constexpr float menu_at_1 = 300;                                           // its greatest height
 constexpr const char* copies_explanation =
@@ -97,7 +97,7 @@ void head(Ui& ui) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const Columns at = columns_of(ui);
   if (costs_shown(ui))
-    column_head(ui, "cost", {lo.x + at.cost - ui.theme.px(cost_at_1), lo.y}, lo.x + at.cost, "CPU time, s/s",
+    column_head(ui, "cost", {lo.x + at.cost - ui.theme.px(cost_at_1), lo.y}, lo.x + at.cost, "CPU, s/s",
                 "CPU seconds per simulated second, on the thread that makes the steps. What other programs take "
                 "meanwhile does not count, except with OpenCL.");
   column_head(

@@ -128,14 +128,15 @@ std::string time_text(const Ui& ui, double t) {
   return "t = " + time_number(t, ui.session.preset().dt) + " s";
 }
 
-/// What the simulated time takes, px.
+/// What the simulated time takes, px: for a hundred seconds, so that nothing beside it moves while it runs.
 float time_room(const Ui& ui) {
-  return after_reading(ui, text_width(*ui.fonts.mono, time_text(ui, std::max(10.0, ui.session.simulation->time()))));
+  return after_reading(ui, text_width(*ui.fonts.mono, time_text(ui, std::max(100.0, ui.session.simulation->time()))));
 }
 
-/// What all speeds beside each other take, px.
+/// What the speeds that are always offered take beside each other, px: one that the hand sets for a moment moves
+/// nothing.
 float speeds_room(const Ui& ui) {
-  return after_reading(ui, speed_control_size(ui, 1e9f).x);
+  return after_reading(ui, offered_speeds_size(ui).x);
 }
 
 /// All of them, or the list where they have no room; left out where that has none either, as readings are.

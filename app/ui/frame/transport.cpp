@@ -97,6 +97,12 @@ ImVec2 speed_control_size(const Ui& ui, float width) {
   return segments_size(ui, all.labels.data(), int(all.labels.size()), beside_label_at_1, width);
 }
 
+ImVec2 offered_speeds_size(const Ui& ui) {
+  std::vector<const char*> labels;
+  for (const Speed& speed : offered_speeds) labels.push_back(speed.label);
+  return segments_size(ui, labels.data(), int(labels.size()), beside_label_at_1);
+}
+
 void speed_control(Ui& ui, ImVec2 at, float width) {
   const SpeedLabels all = speed_labels(ui);
   ImGui::SetCursorScreenPos(at);

@@ -17,6 +17,8 @@ ImVec2 transport_size(const Ui& ui, float side = 32);
 /// The speeds to choose from, in one row or, where that is wider than `width` (px), in more.
 void speed_control(Ui& ui, ImVec2 at, float width);
 ImVec2 speed_control_size(const Ui& ui, float width);
+/// What those that are always offered take in one row, px.
+ImVec2 offered_speeds_size(const Ui& ui);
 /// The same choice as a list that shows the present speed, where the speeds have no room beside each other.
 void speed_list(Ui& ui, ImVec2 at);
 ImVec2 speed_list_size(const Ui& ui);

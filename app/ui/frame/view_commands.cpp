@@ -53,7 +53,8 @@ void next_theme(Ui& ui) {
 void present(Ui& ui) {
   ui.presenting = !ui.presenting;
   ui.panels = ui.scale_changed = ui.scene.redraw = true;
-  if (ui.presenting) ui.messages.note("F5 or Esc brings the panels back; Ctrl+T changes the theme.");
+  constexpr const char* way_back = "F5 or Esc brings the panels back; Ctrl+T changes the theme.";
+  ui.presenting ? ui.messages.note(way_back) : ui.messages.take_back(way_back);
   if (ui.presenting && ui.session.labs.run) show_for_lab(ui, ui.session.labs.run->shown());
 }
 

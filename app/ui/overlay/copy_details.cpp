@@ -1,6 +1,8 @@
-// Why a copy has diverged, over its picture, until it is closed.
+// Why a copy has diverged, below the pictures, until it is closed.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "app/base/text_lines.h"
@@ -14,7 +16,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float details_at_1 = 460, details_padding_at_1 = 16, details_gap_at_1 = 6,
+constexpr float details_at_1 = 560, details_margin_at_1 = 8, details_padding_at_1 = 16, details_gap_at_1 = 6,
                 details_close_at_1 = 34;  // pixels at scale 1
 
 /// The same sentences as of the original; worked out once, since linear theory takes milliseconds.
@@ -36,48 +38,64 @@ struct Piece {
   float height() const { return font.CalcTextSizeA(font.FontSize, 1e9f, 0, lines.c_str()).y; }
 };
 
-/// In the middle of the copy's picture, or of all where the cloths are overlaid, but whole.
-Box place_of(const Ui& ui, const Box& region, std::size_t copy, glm::vec2 size) {
-  const bool tiles = !ui.session.copies.overlaid;
-  const glm::vec2 lo = tiles ? ui.viewport.origin(int(copy) + 1) : ui.viewport.box.lo,
-                  middle = lo + (tiles ? ui.viewport.size() : ui.viewport.box.hi - lo) / 2.f,
-                  most = glm::max(region.hi - size, region.lo);
-  const glm::vec2 at = glm::round(glm::clamp(middle - size / 2.f, region.lo, most));
-  return {at, at + size};
+/// What is said, in the lines of its width, and the size that all of it takes.
+struct DetailsPlan {
+  std::array<Piece, 4> pieces;
+  glm::vec2 size{0};   ///< px
+  bool strip = false;  ///< it has one of its own below the pictures
+};
+
+/// Nothing is planned where nothing was asked for, or what was asked for is gone.
+std::optional<DetailsPlan> plan_details(Ui& ui, glm::vec2 region) {
+  constexpr float most_of_it = 0.5f;  // of the region's height
+  if (!ui.copy_details) return std::nullopt;
+  CopyDetails& details = *ui.copy_details;
+  const int copy = int(details.copy);
+  if (details.copy >= ui.session.copies.lockstep.size() || !cloth_of(ui.session, copy).divergence()) {
+    ui.copy_details.reset();
+    return std::nullopt;
+  }
+  fill_in(details, cloth_of(ui.session, copy));
+  const Tokens& c = ui.theme.colors;
+  const float padding = ui.theme.px(details_padding_at_1), gap = ui.theme.px(details_gap_at_1),
+              width = std::min(ui.theme.px(details_at_1), region.x - 2 * padding), inner = width - 2 * padding;
+  const ImFont &title = *ui.fonts.title, &text = *ui.fonts.text;
+  const auto piece = [](const ImFont& font, ImU32 color, const std::string& words, float room) {
+    return Piece{font, color, in_lines(font, with_whole_terms(words), room)};
+  };
+  DetailsPlan plan{.pieces = {piece(title, c.text, capitalised(name_of_cloth(ui.session, copy)) + " diverged",
+                                    inner - ui.theme.px(details_close_at_1)),
+                              piece(text, c.text, details.happened, inner), piece(text, c.quiet, details.why, inner),
+                              piece(text, c.quiet, "The others go on; R restarts all of them.", inner)}};
+  plan.size = {width, 2 * padding - gap};
+  for (const Piece& part : plan.pieces) plan.size.y += part.height() + gap;
+  plan.strip = plan.size.y + 2 * ui.theme.px(details_margin_at_1) <= most_of_it * region.y;
+  return plan;
 }
 
 }  // namespace
 
+float copy_details_strip(Ui& ui, glm::vec2 region) {
+  const auto plan = plan_details(ui, region);
+  return plan && plan->strip ? plan->size.y + 2 * ui.theme.px(details_margin_at_1) : 0;
+}
+
 void copy_details(Ui& ui, const Box& region) {
-  if (!ui.copy_details) return;
-  CopyDetails& details = *ui.copy_details;
-  const Copies& copies = ui.session.copies;
-  const bool there = details.copy < copies.lockstep.size();
-  if (!there || !cloth_of(ui.session, int(details.copy)).divergence()) return ui.copy_details.reset();
-  fill_in(details, cloth_of(ui.session, int(details.copy)));
-  const Tokens& c = ui.theme.colors;
+  const auto plan = plan_details(ui, region.hi - region.lo);
+  if (!plan) return;
   const float padding = ui.theme.px(details_padding_at_1), gap = ui.theme.px(details_gap_at_1),
-              close = ui.theme.px(details_close_at_1);
-  const float width = std::min(ui.theme.px(details_at_1), region.hi.x - region.lo.x - 2 * padding);
-  const float inner = width - 2 * padding;
-  const ImFont &title = *ui.fonts.title, &text = *ui.fonts.text;
-  const std::string name = capitalised(name_of_cloth(ui.session, int(details.copy))) + " diverged";
-  const Piece pieces[] = {{title, c.text, in_lines(title, with_whole_terms(name), inner - close)},
-                          {text, c.text, in_lines(text, with_whole_terms(details.happened), inner)},
-                          {text, c.quiet, in_lines(text, with_whole_terms(details.why), inner)},
-                          {text, c.quiet, in_lines(text, "The others go on; R restarts all of them.", inner)}};
-  float height = 2 * padding - gap;
-  for (const Piece& piece : pieces) height += piece.height() + gap;
-  const Box box = place_of(ui, region, details.copy, {width, std::min(height, region.hi.y - region.lo.y)});
+              margin = ui.theme.px(details_margin_at_1), inset = ui.theme.px(2);
+  // What is higher than the region scrolls.
+  const float height = std::min(plan->size.y, region.hi.y - region.lo.y - 2 * margin), width = plan->size.x;
+  const glm::vec2 lo(std::round((region.lo.x + region.hi.x - width) / 2), std::round(region.hi.y - margin - height));
+  const Box box{lo, lo + glm::vec2(width, height)};
   danger_ground(ui, box, "copy details");
-  // What is higher than the cloth's place scrolls.
-  const float inset = ui.theme.px(2);
   ImGui::SetCursorScreenPos({box.lo.x, box.lo.y + inset});
-  gui::begin_child("copy_details", {width, box.hi.y - box.lo.y - 2 * inset});
+  gui::begin_child("copy_details", {width, height - 2 * inset});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   ImVec2 at = ImGui::GetCursorScreenPos();
   at = {at.x + padding, at.y - inset + padding};
-  for (const Piece& piece : pieces) {
+  for (const Piece& piece : plan->pieces) {
     draw_text(draw, piece.font, at, piece.color, piece.lines);
     at.y += piece.height() + gap;
   }

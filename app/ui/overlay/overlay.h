@@ -43,10 +43,15 @@ void scene_name(Ui& ui, ImDrawList& draw, const Box& row);
 glm::vec2 pause_mark_size(const Ui& ui);
 /// PAUSED, where it covers no cloth if there is such a place. `row`: of the view buttons.
 void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
-/// Under each picture, or overlaid one above the other: which cloth it is, and whether it has diverged; a click on one
-/// that has tells why.
+/// At the foot of each picture, or overlaid one above the other: which cloth it is, and whether it has diverged; a
+/// click on one that has tells why.
 void cloth_names(Ui& ui, ImDrawList& draw);
-/// What a copy that has diverged was asked for (Ui::copy_details), over its picture.
+/// Height that they take above overlaid cloths, px; 0 where they stand at the foot.
+float names_above_height(const Ui& ui);
+/// Height of the strip below the pictures that a copy's details have in a region, px; 0 where there are none, or where
+/// they would leave the pictures too little and stand over them.
+float copy_details_strip(Ui& ui, glm::vec2 region);
+/// Why a copy has diverged, where that was asked for (Ui::copy_details): at the foot of a region.
 void copy_details(Ui& ui, const Box& region);
 /// What is said of a divergence stands on it: a panel with a red rim that keeps presses from the cloth. `mark`: its
 /// place belongs to that.

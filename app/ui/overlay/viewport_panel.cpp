@@ -144,8 +144,9 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     draw.ChannelsSetCurrent(notes);
     message_list(ui);
     draw.ChannelsSetCurrent(fixed);
-    banner(ui, {{region.at.x, region.at.y}, {region.at.x + region.size.x, region.at.y + region.size.y}});
-    copy_details(ui, ui.viewport.box);
+    const glm::vec2 lo(region.at.x, region.at.y), hi = lo + glm::vec2(region.size.x, region.size.y);
+    banner(ui, {lo, hi});
+    copy_details(ui, {lo, {hi.x, hi.y - banner_strip(ui, hi - lo)}});
     draw.ChannelsSetCurrent(pointer);
     knife_stroke(ui, draw);
     pointer_overlay(ui, draw);
@@ -159,8 +160,9 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
 }  // namespace
 
 void viewport_panel(Ui& ui, const Region& region) {
-  const float strip = banner_strip(ui, {region.size.x, region.size.y});
-  const float foot = std::max(region.at.y + region.size.y - strip, region.at.y + 1);
+  const glm::vec2 size(region.size.x, region.size.y);
+  const float banner = banner_strip(ui, size), details = copy_details_strip(ui, {size.x, size.y - banner}),
+              foot = std::max(region.at.y + size.y - banner - details, region.at.y + 1);
   ui.viewport.box = {{region.at.x, region.at.y}, {region.at.x + region.size.x, foot}};
   // Buttons stand over a picture, but above several, whose tops they would cover, and above a low one, which they would
   // cover too much of, unless it would become too small.
@@ -172,7 +174,7 @@ void viewport_panel(Ui& ui, const Region& region) {
   ui.viewport.divide(ui.session.copies.tiles());
   ui.viewport.buttons = above || !buttons ? 0 : ui.theme.px(buttons_above);
   if ((buttons || ui.presenting) && ui.session.copies.tiles() == 1)
-    ui.viewport.buttons += marks_height(ui, ui.viewport.size().x, !above);
+    ui.viewport.buttons += marks_height(ui, ui.viewport.size().x, !above) + names_above_height(ui);
   ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.covers.clear();
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
