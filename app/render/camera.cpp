@@ -105,15 +105,20 @@ void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 pa
 }
 
 void Camera::make_room(std::span<const glm::vec3> points, float aspect, float part, float covered) {
-  const float tan_y = part * std::tan(fov_y / 2), tan_x = tan_y * aspect;
-  const float half = tan_y * (1 - covered), lean = covered * std::tan(fov_y / 2);
+  const float tan_y = std::tan(fov_y / 2), lean = -covered * tan_y;
+  const glm::vec2 slope = part * tan_y * glm::vec2(aspect, 1 - covered);
+  float back = 0;
   for (const glm::vec3& p : points) {
     const glm::vec3 offset = p - target;
-    const float height = glm::dot(offset, up());
-    const float side = std::max(std::abs(glm::dot(offset, right())) / tan_x,
-                                height > 0 ? height / (half - lean) : -height / (half + lean));
-    distance = std::min(std::max(distance, side - glm::dot(offset, forward())), 1e6f);
+    const float depth = distance + glm::dot(offset, forward());  // before the eye
+    // Moved back, what is in the middle of what is free stays there.
+    const glm::vec2 apart = glm::abs(glm::vec2(glm::dot(offset, right()), glm::dot(offset, up()) - lean * depth));
+    back = std::max(back, std::max(apart.x / slope.x, apart.y / slope.y) - depth);
   }
+  back = std::min(back, 1e6f - distance);
+  if (!(back > 0)) return;
+  distance += back;
+  target -= lean * back * up();
 }
 
 void Camera::frame(glm::vec3 lo, glm::vec3 hi, float aspect) {

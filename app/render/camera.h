@@ -35,9 +35,9 @@ struct Camera {
   void zoom(float wheel_steps);
   /// Comes as near as it can while the points keep within that part of the picture's width and height; keeps the
   /// direction. The points then stand in the middle of the picture. Something covers that much of its height along the
-  /// upper edge (`covered`, 0 to 0.3): only what is left counts as the picture.
+  /// upper edge (`covered`, 0 to 0.5): only what is left counts as the picture.
   void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered = 0);
-  /// Goes back along its direction until the points keep within that part of the picture.
+  /// Goes back along its direction, no further than it must, until the points keep within that part of the picture.
   void make_room(std::span<const glm::vec3> points, float aspect, float part, float covered = 0);
   /// Puts the box (corners lo, hi) into view; keeps the direction.
   void frame(glm::vec3 lo, glm::vec3 hi, float aspect);

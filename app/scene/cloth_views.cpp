@@ -9,10 +9,10 @@
 namespace tyglab {
 namespace {
 
-constexpr double calm_stretch = 5;    // rest lengths; what is longer is not drawn of a diverged cloth
-constexpr float most_covered = 0.3f;  // of a picture's height by buttons, as far as framing makes room for them
-constexpr int outlines = 4;           // the view that ghosts are drawn in
-constexpr int ghost_lines = 10;       // along a side: a coarse net lets the cloth be seen through it
+constexpr double calm_stretch = 5;     // rest lengths; what is longer is not drawn of a diverged cloth
+constexpr float most_covered = 0.46f;  // of a picture's height by buttons, as far as framing makes room for them
+constexpr int outlines = 4;            // the view that ghosts are drawn in
+constexpr int ghost_lines = 10;        // along a side: a coarse net lets the cloth be seen through it
 
 /// How a cloth of the window is drawn.
 ViewOptions view_of(const Scene& scene, const Simulation& cloth, glm::ivec2 size) {

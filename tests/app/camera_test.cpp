@@ -51,26 +51,32 @@ TEST_CASE("frame brings a box into view, whatever its shape") {
 }
 
 TEST_CASE("framing leaves free what is covered along the upper edge, and centers in what is left") {
-  constexpr float covered = 0.2f, part = 0.9f, half = (1 - covered) * size.y / 2, middle = covered * size.y + half;
-  const std::vector<glm::vec3> points{{-0.2f, 0, 0.3f}, {0.2f, 0, -0.3f}, {0, 1, 0.1f}, {0.1f, 0.9f, -0.2f}};
-  const auto reach = [&](const Camera& camera) {
-    glm::vec2 ends(1e9f, -1e9f);
-    for (const glm::vec3& point : points) {
-      const auto pixel = camera.project(glm::dvec3(point), size);
-      REQUIRE(pixel.has_value());
-      ends = {std::min(ends.x, pixel->y), std::max(ends.y, pixel->y)};
-    }
-    return ends;
-  };
-  Camera camera;
-  camera.frame(points, size.x / size.y, glm::vec2(part), covered);
-  const glm::vec2 framed = reach(camera);
-  CHECK(framed.x == doctest::Approx(middle - part * half).epsilon(0.01));
-  CHECK(framed.y == doctest::Approx(middle + part * half).epsilon(0.01));
-  camera.make_room(points, size.x / size.y, 0.7f, covered);
-  const glm::vec2 roomy = reach(camera);
-  CHECK(roomy.x >= middle - 0.7f * half - 1);
-  CHECK(roomy.y <= middle + 0.7f * half + 1);
+  for (const float covered : {0.2f, 0.46f}) {
+    CAPTURE(covered);
+    constexpr float part = 0.9f, roomy_part = 0.7f;
+    const float half = (1 - covered) * size.y / 2, middle = covered * size.y + half;
+    const std::vector<glm::vec3> points{{-0.2f, 0, 0.3f}, {0.2f, 0, -0.3f}, {0, 1, 0.1f}, {0.1f, 0.9f, -0.2f}};
+    const auto reach = [&](const Camera& camera) {
+      glm::vec2 ends(1e9f, -1e9f);
+      for (const glm::vec3& point : points) {
+        const auto pixel = camera.project(glm::dvec3(point), size);
+        REQUIRE(pixel.has_value());
+        ends = {std::min(ends.x, pixel->y), std::max(ends.y, pixel->y)};
+      }
+      return ends;
+    };
+    Camera camera;
+    camera.frame(points, size.x / size.y, glm::vec2(part), covered);
+    const glm::vec2 framed = reach(camera);
+    CHECK(framed.x == doctest::Approx(middle - part * half).epsilon(0.01));
+    CHECK(framed.y == doctest::Approx(middle + part * half).epsilon(0.01));
+    camera.make_room(points, size.x / size.y, roomy_part, covered);
+    const glm::vec2 roomy = reach(camera);
+    CHECK(roomy.x >= middle - roomy_part * half - 1);
+    CHECK(roomy.y <= middle + roomy_part * half + 1);
+    // No further back than it must.
+    CHECK(std::max(middle - roomy.x, roomy.y - middle) == doctest::Approx(roomy_part * half).epsilon(0.01));
+  }
 }
 
 TEST_CASE("panning keeps the point under the pointer there") {

@@ -34,6 +34,17 @@ void draw_bar(Ui& ui, ImVec2 lo, ImVec2 hi, double part, ImU32 color) {
   draw.AddLine({middle, lo.y - 2}, {middle, hi.y + 2}, ui.theme.colors.line);
 }
 
+/// Where the bars are, px from the left.
+struct BarColumn {
+  float left, right;
+  bool any;  ///< there is room for them
+};
+
+BarColumn bar_column(const Ui& ui, float width) {
+  const float left = ui.theme.px(128), right = width - ui.theme.px(96);
+  return {left, right, left + ui.theme.px(24) < right};
+}
+
 void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, double full, float width) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
@@ -54,9 +65,10 @@ void energy_line(Ui& ui, const EnergyRow& row, const LedgerReading& reading, dou
                                                     : c.text;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_on_baseline(draw, *ui.fonts.small, {lo.x, baseline}, unexplained ? color : ink, row.name);
-  const float value = ui.theme.px(96), bar = ui.theme.px(4), left = lo.x + ui.theme.px(128);
-  if (from_zero(row) && left + ui.theme.px(24) < lo.x + width - value)
-    draw_bar(ui, {left, middle - bar}, {lo.x + width - value, middle + bar}, row.joule / full, faded(color, 0.8f));
+  const float bar = ui.theme.px(4);
+  if (const BarColumn bars = bar_column(ui, width); from_zero(row) && bars.any)
+    draw_bar(ui, {lo.x + bars.left, middle - bar}, {lo.x + bars.right, middle + bar}, row.joule / full,
+             faded(color, 0.8f));
   const std::string text = unknown ? "–" : short_number(row.joule, 3) + " J";
   const ImFont& mono = *ui.fonts.mono;
   draw_on_baseline(draw, mono, {lo.x + width - text_width(mono, text), baseline}, unexplained ? color : ink, text);
@@ -70,8 +82,21 @@ double full_bar(double largest) {
   return power * (lead <= 1 + rounding ? 1 : lead <= 2 + rounding ? 2 : lead <= 5 + rounding ? 5 : 10);
 }
 
+/// What a full bar stands for, above its end: half a bar is what is gained, half what is lost.
+void bar_scale(Ui& ui, double full, float width) {
+  const BarColumn bars = bar_column(ui, width);
+  if (!bars.any) return;
+  const ImVec2 lo = ImGui::GetCursorScreenPos();
+  const std::string words = "full bar " + short_number(full, 3) + " J";
+  const ImFont& small = *ui.fonts.small;
+  const float left = std::max(lo.x, lo.x + bars.right - text_width(small, words));
+  draw_on_baseline(*ImGui::GetWindowDrawList(), small,
+                   {left, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)}, ui.theme.colors.quiet, words);
+  ImGui::Dummy({width, ui.theme.px(card::line)});
+}
+
 /// Since when all this has been counted: the ledger is kept only while somebody wants it.
-void since_line(Ui& ui, const LedgerReading& reading, double full) {
+void since_line(Ui& ui, const LedgerReading& reading) {
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool late = reading.began > 0;
   const std::string text = late ? "counted since t = " + time_number(reading.began, ui.session.preset().dt) + " s"
@@ -79,12 +104,6 @@ void since_line(Ui& ui, const LedgerReading& reading, double full) {
   draw_on_baseline(*ImGui::GetWindowDrawList(), *ui.fonts.small,
                    {lo.x, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)},
                    late ? ui.theme.colors.warning : ui.theme.colors.quiet, text);
-  const ImFont& small = *ui.fonts.small;
-  const std::string scale = "full bar: " + short_number(full, 3) + " J";
-  const float right = lo.x + card_width(ui) - text_width(small, scale);
-  if (right > lo.x + text_width(small, text) + ui.theme.px(12))
-    draw_on_baseline(*ImGui::GetWindowDrawList(), small,
-                     {right, baseline_at(ui.fonts, lo.y + ui.theme.px(card::line) / 2)}, ui.theme.colors.quiet, scale);
   if (!late) return;
   ImGui::SetCursorScreenPos({lo.x, lo.y + ui.theme.px(card::line + 4)});
   if (text_button(ui, "Restart and count")) ui.command("restart");
@@ -120,10 +139,11 @@ std::string share_text(const LedgerReading& reading) {
          " J";
 }
 
-float energy_card_height(const Ui& ui, float) {
+float energy_card_height(const Ui& ui, float width) {
   const auto ledger = ui.session.simulation->ledger();
   const float button = ledger && ledger->began > 0 ? restart_at_1 : 0;
-  return card_height(ui, energy_heading, float(energy_rows({}).size() + 1) * card::line + 3 * gap_at_1 + button);
+  const std::size_t lines = energy_rows({}).size() + (bar_column(ui, card_width(ui, width)).any ? 2 : 1);
+  return card_height(ui, energy_heading, float(lines) * card::line + 3 * gap_at_1 + button);
 }
 
 void energy_card(Ui& ui, float height) {
@@ -136,13 +156,14 @@ void energy_card(Ui& ui, float height) {
     for (const EnergyRow& row : rows)
       if (from_zero(row)) largest = std::max(largest, std::abs(row.joule));
     const double full = full_bar(largest);
+    bar_scale(ui, full, width);
     for (const EnergyRow& row : rows) {
       if (row.kind != last) ImGui::Dummy({width, ui.theme.px(gap_at_1)});
       last = row.kind;
       energy_line(ui, row, *reading, full, width);
     }
     ImGui::Dummy({width, ui.theme.px(gap_at_1)});
-    since_line(ui, *reading, full);
+    since_line(ui, *reading);
   }
   end_card(ui);
 }

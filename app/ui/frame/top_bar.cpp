@@ -209,16 +209,49 @@ void window_buttons(Ui& ui, float x, int count) {
   if (icon_button(ui, {"help", icon::help, "Help", "Mouse and keys", "F1", ui.help})) ui.command("toggle_help");
 }
 
+constexpr float engine_at_1 = 124, beside_at_1 = 12;         // the engine's menu and what is left of it
+constexpr float least_name_at_1 = 72, most_name_at_1 = 240;  // what the preset's name is given
+constexpr float least_shortened_at_1 = 100;                  // a long name is not cut to a few letters
+
+/// Where things stand, px: it depends on the window, not on what is shown, so that nothing moves when that changes.
+struct BarPlan {
+  float name = 0;  ///< what the preset's name has, 0 or more
+  float transport = 0, engine = 0;
+  bool with_engine = false;
+};
+
+/// Between the menu's end and the buttons at the right, where the name may have `room`.
+BarPlan plan_bar(const Ui& ui, float from, float right, float room, float window) {
+  const float before = ui.theme.px(16), least = ui.theme.px(least_shortened_at_1),
+              controls = transport_size(ui).x + time_room(ui) + speeds_room(ui);
+  const float most =
+                  std::min({ui.theme.px(most_name_at_1), std::max(0.2f * window, ui.theme.px(least_name_at_1)), room}),
+              name = room > ui.theme.px(least_name_at_1) ? most : 0;
+  BarPlan plan;
+  plan.engine = right - before - ui.theme.px(engine_at_1);
+  // Over the viewport's left edge where there is room, as if it belonged to it. All speeds come before that, and before
+  // the engine, which the menu has too.
+  const float latest = plan.engine - ui.theme.px(beside_at_1) - controls,
+              left = ui.settings.layout.left && ui.panels ? ui.viewport_left + ui.theme.px(12) : 0,
+              beside_engine = latest - from - before, beside_buttons = right - controls - from - before;
+  if (left - from - before >= least && left < 0.4f * window && left <= latest)
+    return {std::min(name, left - from - before), left, plan.engine, true};
+  plan.with_engine = beside_engine >= least;
+  plan.name = std::min(name, std::max(plan.with_engine ? beside_engine : beside_buttons, least));
+  plan.transport = from + plan.name + before;
+  return plan;
+}
+
 }  // namespace
 
 void top_bar(Ui& ui, const Region& region) {
   const Tokens& c = ui.theme.colors;
   if (!begin_region("top", region, c.panel, {0, 0})) return end_region();
-  const float margin = ui.theme.px(16), combo = ui.theme.px(124), gap_at_right = ui.theme.px(12);
+  const float margin = ui.theme.px(16);
   // In a narrow window, or with large text, transport and menu keep their places to the last. Full screen and help,
   // which have keys and are in the menu, make room for the speeds.
   float room = region.size.x - 2 * margin - transport_size(ui).x - 2 * ui.theme.px(18) - menu_width(ui);
-  const float least_name = ui.theme.px(72), speeds = speed_list_size(ui).x + ui.theme.px(16);
+  const float speeds = speed_list_size(ui).x + ui.theme.px(16);
   const int count = room > buttons_width(ui, 4) + speeds ? 4 : room > buttons_width(ui, 2) ? 2 : 0;
   const bool with_buttons = count > 0;
   const float buttons = with_buttons ? buttons_width(ui, count) : 0;
@@ -227,25 +260,14 @@ void top_bar(Ui& ui, const Region& region) {
   float x = margin;
   if (room > title) x = brand(ui, x) + ui.theme.px(2), room -= title;
   x = menu_button(ui, x);
-  const float name_width = std::min({ui.theme.px(240), std::max(region.size.x * 0.2f, least_name), room});
-  // A long name may be shortened, but not to a few letters.
-  if (room > least_name && name_width >= std::min(document_width(ui), ui.theme.px(160)))
-    x = document_name(ui, x, name_width);
-  x += ui.theme.px(16);
   const float right = region.size.x - margin - buttons;
-  const float engine = right - ui.theme.px(16) - combo;
-  const float controls = transport_size(ui).x + ui.theme.px(18) + time_room(ui) + speeds_room(ui) - ui.theme.px(18);
-  // Over the viewport's left edge where there is room, as if it belonged to it. All speeds come before that, and before
-  // the engine, which the menu has too.
-  const float left = ui.settings.layout.left && ui.panels ? ui.viewport_left + ui.theme.px(12) : x;
-  const bool aligned = left > x && left < region.size.x * 0.4f && left + controls <= engine - gap_at_right;
-  x = transport(ui, aligned ? left : x) + ui.theme.px(18);
-  const float needed = x + time_room(ui) + speeds_room(ui) - ui.theme.px(18);
-  const bool room_for_engine = engine > x + ui.theme.px(120) && needed <= engine - gap_at_right;
-  readings(ui, x, (room_for_engine ? engine : right) - gap_at_right);
-  if (room_for_engine) {
-    ImGui::SetCursorScreenPos({engine, bar_middle(ui, ui.theme.px(26))});
-    engine_menu(ui, combo);
+  const BarPlan plan = plan_bar(ui, x, right, room, region.size.x);
+  if (plan.name >= std::min(document_width(ui), ui.theme.px(least_shortened_at_1))) document_name(ui, x, plan.name);
+  x = transport(ui, plan.transport) + ui.theme.px(18);
+  readings(ui, x, (plan.with_engine ? plan.engine : right) - ui.theme.px(beside_at_1));
+  if (plan.with_engine) {
+    ImGui::SetCursorScreenPos({plan.engine, bar_middle(ui, ui.theme.px(26))});
+    engine_menu(ui, ui.theme.px(engine_at_1));
   }
   if (with_buttons) window_buttons(ui, right, count);
   end_region();

@@ -70,6 +70,7 @@ void Ui::follow() {
   }
   const bool lab_begins = counts.labs_begun != seen_.labs_begun;
   if (!session.labs.run || lab_begins) close_lab_cards(*this);
+  if (lab_begins) side_plots = false;  // in whose place the lab's text may stand
   if (counts.lab_steps != seen_.lab_steps && session.labs.run) {
     // Begun at a later step, it lacks the card that one before has opened.
     show_for_lab(*this, lab_begins ? session.labs.run->shown() : session.labs.run->now().show);

@@ -155,6 +155,7 @@ void way_buttons(Ui& ui, const std::vector<Way>& ways, const std::vector<ImVec2>
   }
 }
 
+constexpr float folded_padding_at_1 = 8;
 constexpr float high_for_banner = 320;  // px at scale 1, of the cloth's place: room for a second line
 
 /// The banner on a line or a few: what is said and offered wherever the whole would leave the cloth too little room.
@@ -177,7 +178,8 @@ float buttons_width(const Ui& ui, const std::vector<Way>& ways) {
 /// room for two lines rather than for fewer words; otherwise the first way out, where it would take a second line, is
 /// left to the details.
 FoldedBanner folded_banner(const Ui& ui, const std::vector<Way>& ways, double over_limit, float most, bool high) {
-  const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
+  const float padding = ui.theme.px(folded_padding_at_1), gap = ui.theme.px(8), icon = ui.theme.px(26),
+              line = ui.theme.px(30);
   std::vector<Way> shown{ways.front()};
   for (std::size_t k = 1; k < ways.size(); ++k)
     if (ways[k].label == replay_label) shown.push_back(ways[k]);
@@ -228,7 +230,7 @@ BannerPlan plan_banner(Ui& ui, const Divergence& divergence, glm::vec2 region) {
   const Preset& then = ui.session.simulation->diverged_preset();
   const Advice& advice = advice_for(then, ui);
   plan.ways = ways_out(ui, advice);
-  const float most = region.x - ui.theme.px(32), padding = ui.theme.px(16), gap = ui.theme.px(6);
+  const float most = region.x - ui.theme.px(24), padding = ui.theme.px(16), gap = ui.theme.px(6);
   plan.folded = folded_banner(ui, plan.ways, advice.largest_dt > 0 ? then.dt / advice.largest_dt : 0, most,
                               region.y > ui.theme.px(high_for_banner));
   plan.width = std::min(ui.theme.px(600), most);
@@ -266,7 +268,8 @@ Box area_of_whole(Ui& ui, const BannerPlan& plan, Box region) {
 
 void draw_folded(Ui& ui, const FoldedBanner& folded, const Box& box) {
   const Tokens& c = ui.theme.colors;
-  const float padding = ui.theme.px(12), gap = ui.theme.px(8), icon = ui.theme.px(26), line = ui.theme.px(30);
+  const float padding = ui.theme.px(folded_padding_at_1), gap = ui.theme.px(8), icon = ui.theme.px(26),
+              line = ui.theme.px(30);
   const ImFont& font = *ui.fonts.title;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float baseline = baseline_at(ui.fonts, box.lo.y + gap + line / 2), x = box.lo.x + padding;
