@@ -29,8 +29,8 @@ CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::stri
   return command.add_flag("--quick", options.quick, does + "; under a minute");
 }
 
-void add_threads(CLI::App& command, BenchOptions& options, const std::string& does) {
-  command.add_option("--threads", options.threads, does + "; default: one per CPU")
+void add_threads(CLI::App& command, BenchOptions& options, const std::string& does, const std::string& by_default) {
+  command.add_option("--threads", options.threads, does + "; default: " + by_default)
       ->type_name("N")
       ->transform(whole_number_between(1, 256));
 }

@@ -22,7 +22,8 @@ struct BenchOptions {
 
 /// --quick, --threads, --json and --png, each with what it does in this command.
 CLI::Option* add_quick(CLI::App& command, BenchOptions& options, const std::string& does);
-void add_threads(CLI::App& command, BenchOptions& options, const std::string& does);
+void add_threads(CLI::App& command, BenchOptions& options, const std::string& does,
+                 const std::string& by_default = "one per CPU");
 void add_json(CLI::App& command, BenchOptions& options, const std::string& does = "Write the figures for programs");
 CLI::Option* add_png(CLI::App& command, BenchOptions& options, const std::string& does);
 

@@ -81,8 +81,8 @@ void add_bench_implicit(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
       "implicit", "Time, iterations and residual of an implicit step, for sizes, stiffnesses and time steps");
   const auto options = std::make_shared<BenchOptions>();
-  add_quick(*command, *options, "Fewer sizes and time steps: under a minute");
-  add_threads(*command, *options, "Number of threads (default: one)");
+  add_quick(*command, *options, "Fewer sizes and time steps");
+  add_threads(*command, *options, "Number of threads", "one");
   add_json(*command, *options);
   command->footer("Example: tyglab bench implicit --quick --json implicit.json");
   command->callback([&action, options] { action = [options] { return implicit_steps(*options); }; });
