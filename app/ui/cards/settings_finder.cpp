@@ -120,8 +120,9 @@ void finder_head(Ui& ui, const char* to) {
   const ImU32 color = ui.theme.colors.quiet;
   finder_number(ui, *ui.fonts.small, lo.x + at.dt, middle, color, "dt, s");
   finder_number(ui, *ui.fonts.small, lo.x + at.error, middle, color, "error, m");
-  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color,
-                std::string(methods_above(ui, at.whole) ? "" : "CPU, ") + (to ? std::string("× ") + to : "s/s"));
+  const std::string brief = to != nullptr ? std::string("× ") + to : "s/s", whole = "CPU, " + brief;
+  const bool fits = text_width(*ui.fonts.small, whole) <= at.cost - at.error - ui.theme.px(finder_gap_at_1);
+  finder_number(ui, *ui.fonts.small, lo.x + at.cost, middle, color, fits ? whole : brief);
   ImGui::Dummy({at.whole, ui.theme.px(card::line)});
 }
 

@@ -112,7 +112,9 @@ void speed_control(Ui& ui, ImVec2 at, float width) {
 }
 
 ImVec2 speed_list_size(const Ui& ui) {
-  return {text_width(*ui.fonts.text, "1/100 ×") + ui.theme.px(34), ui.theme.px(26)};
+  const SpeedLabels all = speed_labels(ui);  // a replay's is longer than those that are offered
+  const float now = text_width(*ui.fonts.text, all.texts[std::size_t(all.chosen)] + " ×");
+  return {std::max(text_width(*ui.fonts.text, "1/100 ×"), now) + ui.theme.px(34), ui.theme.px(26)};
 }
 
 void speed_list(Ui& ui, ImVec2 at) {
