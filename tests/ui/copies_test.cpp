@@ -234,6 +234,27 @@ TEST_CASE("the palette overlays the copies, parts them, and removes them all") {
   CHECK(window.session.copies.lockstep.empty());
 }
 
+TEST_CASE("in a low window the details of a copy have the view buttons' place whole, not in part") {
+  test::NullUi window({.size = {900, 600}, .settings = [](Settings& settings) { settings.ui_scale = 1.5f; }});
+  window.find("copies card");
+  window.add_copy("Euler");
+  window.until([&] { return cloth_of(window.session, 0).divergence().has_value(); }, "Euler to diverge");
+  window.pause();
+  window.frames(3);
+  CHECK(window.sees("viewport.views.1"));
+  window.click("plots.copy0");
+  window.frames(4);
+  REQUIRE(window.ui.placing.find("copy details") != nullptr);
+  const Box details = *window.ui.placing.find("copy details");
+  for (const auto& [name, box] : window.controls()) {
+    CAPTURE(name);
+    if (name.starts_with("viewport.views")) CHECK_FALSE(overlap(box, details));
+  }
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(4);
+  CHECK(window.sees("viewport.views.1"));
+}
+
 TEST_CASE("the names of overlaid cloths stand above them where the picture is narrow") {
   test::NullUi window({.preset = "hanging", .settings = [](Settings& settings) { settings.theme = "projector"; }});
   window.pause();

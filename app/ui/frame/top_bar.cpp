@@ -251,7 +251,7 @@ void top_bar(Ui& ui, const Region& region) {
   // In a narrow window, or with large text, transport and menu keep their places to the last. Full screen and help,
   // which have keys and are in the menu, make room for the speeds.
   float room = region.size.x - 2 * margin - transport_size(ui).x - 2 * ui.theme.px(18) - menu_width(ui);
-  const float speeds = speed_list_size(ui).x + ui.theme.px(16);
+  const float speeds = speed_list_size(ui, true).x + ui.theme.px(16);
   const int count = room > buttons_width(ui, 4) + speeds ? 4 : room > buttons_width(ui, 2) ? 2 : 0;
   const bool with_buttons = count > 0;
   const float buttons = with_buttons ? buttons_width(ui, count) : 0;

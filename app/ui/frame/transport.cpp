@@ -111,10 +111,11 @@ void speed_control(Ui& ui, ImVec2 at, float width) {
   choose_speed(ui.session.pacing, k);
 }
 
-ImVec2 speed_list_size(const Ui& ui) {
-  const SpeedLabels all = speed_labels(ui);  // a replay's is longer than those that are offered
-  const float now = text_width(*ui.fonts.text, all.texts[std::size_t(all.chosen)] + " ×");
-  return {std::max(text_width(*ui.fonts.text, "1/100 ×"), now) + ui.theme.px(34), ui.theme.px(26)};
+ImVec2 speed_list_size(const Ui& ui, bool offered) {
+  const SpeedLabels all = speed_labels(ui);
+  const float widest = text_width(*ui.fonts.text, "1/100 ×"),
+              now = text_width(*ui.fonts.text, all.texts[std::size_t(all.chosen)] + " ×");
+  return {(offered ? widest : std::max(widest, now)) + ui.theme.px(34), ui.theme.px(26)};
 }
 
 void speed_list(Ui& ui, ImVec2 at) {

@@ -21,7 +21,8 @@ ImVec2 speed_control_size(const Ui& ui, float width);
 ImVec2 offered_speeds_size(const Ui& ui);
 /// The same choice as a list that shows the present speed, where the speeds have no room beside each other.
 void speed_list(Ui& ui, ImVec2 at);
-ImVec2 speed_list_size(const Ui& ui);
+/// Its size, px; `offered`: with one of the speeds that are always offered, whatever the present one is.
+ImVec2 speed_list_size(const Ui& ui, bool offered = false);
 
 /// Simulated time to real time, over the last half second, "98 %", and the color to say it in.
 struct RealTime {

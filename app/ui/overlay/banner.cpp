@@ -20,7 +20,7 @@
 namespace tyglab {
 namespace {
 
-constexpr float least_banner = 380, under_views = 44;  // pixels at scale 1: of the width; below the view buttons
+constexpr float least_banner = 380;  // pixels at scale 1, of the width
 constexpr const char* replay_label = "Replay slowly";
 
 float height_of(const ImFont& font, const std::string& lines) {
@@ -259,7 +259,7 @@ Box place_of_banner(const Ui& ui, const Box& region, glm::vec2 size) {
 
 /// Below the view buttons where it has room there; otherwise those step aside, rather than being covered in part.
 Box area_of_whole(Ui& ui, const BannerPlan& plan, Box region) {
-  const float foot = region.hi.y - ui.theme.px(banner_margin_at_1), under = region.lo.y + ui.theme.px(under_views);
+  const float foot = region.hi.y - ui.theme.px(banner_margin_at_1), under = region.lo.y + ui.theme.px(under_views_at_1);
   const bool over = foot - under < plan.height;
   if (over != ui.banner_over_views) ui.banner_over_views = over, ui.draw_by = ui.now;
   if (!over) region.lo.y = under;

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/base/text_lines.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
+#include "app/ui/overlay/viewport_panel.h"
 #include "app/ui/state/divergence_details.h"
 #include "core/theory/advice.h"
 
@@ -89,6 +91,9 @@ void copy_details(Ui& ui, const Box& region) {
   const float height = std::min(plan->size.y, region.hi.y - region.lo.y - 2 * margin), width = plan->size.x;
   const glm::vec2 lo(std::round((region.lo.x + region.hi.x - width) / 2), std::round(region.hi.y - margin - height));
   const Box box{lo, lo + glm::vec2(width, height)};
+  // The view buttons step aside rather than being covered in part.
+  const bool over = box.lo.y < region.lo.y + ui.theme.px(under_views_at_1);
+  if (std::exchange(ui.copy_details->over_views, over) != over) ui.draw_by = ui.now;
   danger_ground(ui, box, "copy details");
   ImGui::SetCursorScreenPos({box.lo.x, box.lo.y + inset});
   gui::begin_child("copy_details", {width, height - 2 * inset});

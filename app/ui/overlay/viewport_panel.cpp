@@ -132,7 +132,8 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
   bare ? ui.placing.back_to("legend") : ui.placing.begin(ui.theme.px(6));
   draw.ChannelsSplit(count);
   draw.ChannelsSetCurrent(fixed);
-  if (!bare && has_buttons(ui, region) && !ui.banner_over_views) view_buttons(ui, region);
+  const bool covered = ui.banner_over_views || (ui.copy_details && ui.copy_details->over_views);
+  if (!bare && has_buttons(ui, region) && !covered) view_buttons(ui, region);
   if (!bare && ui.presenting && ui.panels) scene_name(ui, draw, row);
   cloth_names(ui, draw);
   if (!bare) {

@@ -12,6 +12,9 @@ namespace tyglab {
 inline constexpr std::array<const char*, 5> view_names{"1 Triangles", "2 Connections", "3 Both", "4 Outlines",
                                                        "5 Points"};
 
+/// How far below the upper edge what stands under the view buttons begins, pixels at scale 1.
+inline constexpr float under_views_at_1 = 44;
+
 void viewport_panel(Ui& ui, const Region& region);
 /// The list of what can color the cloth, at the cursor, and the legend of what does.
 void color_menu(Ui& ui, float width);

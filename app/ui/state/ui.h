@@ -106,7 +106,8 @@ struct Advice {
 /// Why a copy has diverged, as it is told.
 struct CopyDetails {
   std::size_t copy;
-  std::int64_t step = -1;  ///< of the divergence that they are about; -1: they are not worked out yet
+  std::int64_t step = -1;   ///< of the divergence that they are about; -1: they are not worked out yet
+  bool over_views = false;  ///< they need the view buttons' place: those are not there
   std::string happened, why;
 };
 
