@@ -59,6 +59,8 @@ struct LabRun {
   std::string_view shown() const;
   StepRecord& record() { return records[step]; }
   const StepRecord& record() const { return records[step]; }
+  /// Whether the present step waits for a prediction, which comes before all that it asks.
+  bool to_be_predicted() const { return now().prediction && !record().predicted && !record().done; }
 };
 
 /// The user's own experiment, as it stood when a lab took its place with changes that no file has.

@@ -39,10 +39,11 @@ TEST_CASE("the same run twice is bit-identical, and so is one step at a time") {
       CAPTURE(std::string(integrator));
       const Preset preset = busy(integrator, precision);
       Simulation first(preset), second(preset), single(preset), pieces(preset);
-      first.advance(200);
-      second.advance(200);
-      for (int n = 0; n < 200; ++n) single.advance(1);
-      for (const int n : {7, 64, 1, 128}) pieces.advance(n);
+      const int steps = test::fewer(200, 40);
+      first.advance(steps);
+      second.advance(steps);
+      for (int n = 0; n < steps; ++n) single.advance(1);
+      for (const int n : {7, steps / 3, 1, steps - 8 - steps / 3}) pieces.advance(n);
       for (Simulation* other : {&second, &single, &pieces}) {
         CHECK(test::identical(first.read(), other->read()));
         CHECK(test::identical(first.read_raw(), other->read_raw()));
@@ -60,8 +61,9 @@ TEST_CASE("reading, and edits that change nothing, do not disturb a run") {
       CAPTURE(std::string(integrator));
       const Preset preset = busy(integrator, precision);
       Simulation quiet(preset), watched(preset);
-      quiet.advance(100);
-      for (int n = 0; n < 100; ++n) {
+      const int steps = test::fewer(100, 25);
+      quiet.advance(steps);
+      for (int n = 0; n < steps; ++n) {
         watched.advance(1);
         watched.read();
         watched.particle(3, 4);

@@ -51,6 +51,19 @@ TEST_CASE("a prediction that is refused keeps the keyboard, all of it selected, 
   CHECK_FALSE(window.typing());
 }
 
+TEST_CASE("Next says what it waits for: the prediction first, then the checks") {
+  test::NullUi window;
+  begin(window, "03_stiffness");
+  window.move(window.middle("lab.Next"));
+  window.frames(60);
+  CHECK(window.drew("Once the prediction is made and the checks hold; Skip goes on without that"));
+  window.click("lab.prediction");
+  type_prediction(window, "5");
+  window.move(window.middle("lab.Next"));
+  window.frames(60);
+  CHECK(window.drew("Once the checks hold; Skip goes on without that"));
+}
+
 TEST_CASE("what cannot be negative is not predicted so") {
   test::NullUi window;
   begin(window, "03_stiffness");

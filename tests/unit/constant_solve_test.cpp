@@ -161,6 +161,7 @@ TEST_CASE("a heavily damped sheet comes to rest at nearly twice 1/ω, where Verl
           doctest::test_suite("slow")) {
   for (const Precision precision : {Precision::float_, Precision::double_})
     for (const double zeta : {0.5, 20.0, 1e6}) {
+      if (test::sanitized && zeta != 20) continue;
       CAPTURE(zeta);
       Preset p = taut(zeta, 0.99, precision);
       Simulation calm(p);

@@ -12,6 +12,7 @@
 #include "core/forces/contact.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::motion_limit_test {
@@ -80,11 +81,12 @@ TEST_CASE("stretched, thrown, falling and blown cloths are within the bound by e
       Preset preset = tearing(7, 6, name);
       scenes[n](preset);
       Simulation simulation(preset);
-      check_bound(simulation, 600);
+      check_bound(simulation, test::fewer(600, 100));
     }
 }
 
-TEST_CASE("where springs cannot tear, energy from errors of the method is no divergence, but it is told") {
+TEST_CASE("where springs cannot tear, energy from errors of the method is no divergence, but it is told" *
+          doctest::skip(test::sanitized)) {
   Preset preset = test::cloth(10, 10, "implicit_midpoint");
   preset.pins.mode = Pins::Mode::none, preset.k_d = 0, preset.k_s = 1e4, preset.dt = 0.01;
   Simulation coarse(preset);

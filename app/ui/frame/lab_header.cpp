@@ -39,8 +39,9 @@ void forward_button(Ui& ui, LabRun& run, bool can) {
   const bool go = text_button(ui, last ? "Finish" : "Next", done, can, wider(ui, "Next", "Finish")) && !second_click();
   if (!can)
     tooltip(ui, gui::item_id(),
-            last ? "Once the checks hold; × leaves the lab before that, and keeps your progress"
-                 : "Once the checks hold; Skip goes on without them");
+            std::string(run.to_be_predicted() ? "Once the prediction is made and the checks hold; "
+                                              : "Once the checks hold; ") +
+                (last ? "× leaves the lab before that, and keeps your progress" : "Skip goes on without that"));
   if (go) last ? ui.command("leave_lab") : enter_step(ui.session, run.step + 1);
 }
 

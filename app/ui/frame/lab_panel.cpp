@@ -134,10 +134,6 @@ void choice_foot(Ui& ui, const StepRecord& record, ImVec2 at) {
   if (text_button(ui, "Predict", true, record.chosen >= 0)) predict(ui.session);
 }
 
-bool to_be_predicted(const LabStep& step, const StepRecord& record) {
-  return step.prediction && !record.predicted && !record.done;
-}
-
 /// " (4.2e-6 m after 1.7e-5 m)": what a check that is done has compared with the step before; nothing of others.
 std::string compared(const LabRun& run, const Condition& check) {
   if (!check.right.before || check.right.factor == 1 || run.step == 0) return {};
@@ -227,10 +223,12 @@ void checks_part(Ui& ui, const LabStep& step, const StepRecord& record) {
 }
 
 /// The task, and what is checked; a task that is done stands last.
-void doing_part(Ui& ui, const LabStep& step, const StepRecord& record) {
+void doing_part(Ui& ui, const LabRun& run) {
+  const LabStep& step = run.now();
+  const StepRecord& record = run.record();
   const Tokens& c = ui.theme.colors;
   if (lab_waits(ui.session)) return waiting_part(ui);
-  const bool first = to_be_predicted(step, record);
+  const bool first = run.to_be_predicted();
   if (cannot_be_done(ui.session))
     return marked_line(ui, icon::warning, "!", c.warning,
                        first
@@ -324,7 +322,7 @@ void lab_panel(Ui& ui, const Region& region) {
   if (two) step_buttons(ui, run, {left, top + height - foot + ui.theme.px(2)});
   const std::string id = run.lab.label + std::to_string(run.step);  // each step begins at its top
   // Until the prediction is made it takes the place of what is to be done, so that all choices are seen.
-  const bool asks = to_be_predicted(run.now(), run.record()), beside = two && asks;
+  const bool asks = run.to_be_predicted(), beside = two && asks;
   const float choice = asks && !run.now().prediction->choices.empty() ? ui.theme.px(foot_at_1) : 0;
   begin_lab_column(ui, ("read" + id).c_str(), left, top, {column, height - (two ? foot : choice)});
   if (!titled) title_part(ui, run);
@@ -340,7 +338,7 @@ void lab_panel(Ui& ui, const Region& region) {
   // Once a step is done, why comes first: it is what is left to be read.
   const bool waits = lab_waits(ui.session);
   if (!waits) explanation_part(ui, run);
-  doing_part(ui, run.now(), run.record());
+  doing_part(ui, run);
   if (waits) explanation_part(ui, run);
   end_part(ui, run);
   fit_height(ui, region, std::max(contents, end_lab_column(ui) + choice));

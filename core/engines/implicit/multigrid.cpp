@@ -229,7 +229,7 @@ void Multigrid<R>::multiply(std::size_t level, Part& part, int i, bool first) co
 }
 
 template <class R>
-SmoothTask<R> Multigrid<R>::task_of(Level& at, Part& part, int i, Weights weights) const {
+SmoothTask<R> Multigrid<R>::task_of(Level& at, Part& part, int i, const Weights& weights) const {
   const bool own = i >= part.own.begin && i < part.own.end;
   return {part.of(part.q, i),
           at.inverse_row(i),
@@ -334,7 +334,7 @@ void Multigrid<R>::cycle(std::size_t level, const Field& given, int number) {
   const RowRange wide = around(halo), near = around(halo / 2);
   const RowRange smoothed{wide.begin, near.end}, left{near.begin, own.end};
   const auto take = [&](const Field& from, int i) { std::copy_n(from.row(i), from.pitch(), part.of(part.r, i)); };
-  const auto smooth = [&](RowRange rows, int from, Weights weights, int i) {
+  const auto smooth = [&](RowRange rows, int from, const Weights& weights, int i) {
     multiply(level, part, i, i == rows.begin);
     if (i >= from) smooth_row(task_of(at, part, i, weights));
   };

@@ -95,7 +95,7 @@ class Multigrid {
   void share_level(Level& level, int size) const;
   void cycle(std::size_t level, const Field& given, int number);
   void multiply(std::size_t level, Part& part, int i, bool first) const;
-  SmoothTask<R> task_of(Level& at, Part& part, int i, Weights weights) const;
+  SmoothTask<R> task_of(Level& at, Part& part, int i, const Weights& weights) const;
   void restrict_residual(std::size_t level, int number);
   void prolong_correction(std::size_t level, int number, int i);
   template <class... Passes>
