@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "app/cli/bench_output.h"
 #include "app/cli/commands/bench.h"
@@ -21,7 +23,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json implicit_json(const ImplicitRow& row) {
+/// What four times the particles cost: a step's time over that of the same scene with half the rows and columns;
+/// nothing if that was not measured.
+std::optional<double> growth(const std::vector<ImplicitRow>& rows, const ImplicitRow& row) {
+  const auto coarser = std::find_if(rows.begin(), rows.end(), [&](const ImplicitRow& other) {
+    const Preset &a = other.preset, &b = row.preset;
+    return 2 * a.rows == b.rows && 2 * a.columns == b.columns && a.k_s == b.k_s && a.dt == b.dt;
+  });
+  if (coarser == rows.end()) return {};
+  return row.ms_per_step / coarser->ms_per_step;
+}
+
+Json implicit_json(const ImplicitRow& row, std::optional<double> growth) {
   const Preset& p = row.preset;
   return {{"integrator", p.integrator},
           {"precision", name_of(p.precision)},
@@ -32,6 +45,7 @@ Json implicit_json(const ImplicitRow& row) {
           {"dt", p.dt},
           {"steps", row.steps},
           {"ms_per_step", row.ms_per_step},
+          {"growth", growth ? Json(*growth) : Json()},
           {"newton_per_step", row.newton_per_step},
           {"linear_per_step", row.linear_per_step},
           {"residual", row.residual},
@@ -40,11 +54,14 @@ Json implicit_json(const ImplicitRow& row) {
           {"converged", row.converged}};
 }
 
-void print_implicit(std::ostream& out, const ImplicitRow& row) {
+void print_implicit(std::ostream& out, const ImplicitRow& row, std::optional<double> growth) {
   const Preset& p = row.preset;
+  std::array<char, 16> times = {"-"};
+  if (growth) std::snprintf(times.data(), times.size(), "%.1f", *growth);
   std::array<char, 256> line;
-  std::snprintf(line.data(), line.size(), "%4d x %-4d  %8.0f  %8.5f  %9.2f  %7.1f  %8.1f  %9.1e  %9.1e  %6.0f  %s\n",
-                p.rows, p.columns, p.k_s, p.dt, row.ms_per_step, row.newton_per_step, row.linear_per_step, row.residual,
+  std::snprintf(line.data(), line.size(),
+                "%4d x %-4d  %8.0f  %8.5f  %9.2f  %6s  %7.1f  %8.1f  %9.1e  %9.1e  %6.0f  %s\n", p.rows, p.columns,
+                p.k_s, p.dt, row.ms_per_step, times.data(), row.newton_per_step, row.linear_per_step, row.residual,
                 row.strain_error, row.bytes_per_particle, row.converged ? "yes" : "no");
   out << line.data() << std::flush;
   flush_standard_output();
@@ -54,10 +71,12 @@ int implicit_steps(const BenchOptions& options) {
   check_outputs(options.outputs());
   std::ostream& out = people(options.outputs());
   out << machine_line()
-      << "\nsteps of implicit_euler in double, the hanging cloth: median time, iterations and linear iterations of a "
-         "step,\nthe largest residual in parts of the largest force, and the error of the largest strain\n\n"
-         "      cloth  k_s, N/m     dt, s   ms/step   newton    linear   residual  strain e.   bytes  converged\n";
+      << "\nsteps of implicit_euler in double, the hanging cloth: median time, what four times the particles cost, "
+         "iterations\nand linear iterations of a step, the largest residual in parts of the largest force, and the "
+         "largest strain's error\n\n      cloth  k_s, N/m     dt, s   ms/step  growth   newton    linear   residual"
+         "  strain e.   bytes  converged\n";
   const auto cases = implicit_cases(options.quick);
+  std::vector<ImplicitRow> rows;
   Json json = Json::array();
   InterruptGuard guard;
   Progress progress("bench implicit");
@@ -66,8 +85,9 @@ int implicit_steps(const BenchOptions& options) {
     if (InterruptGuard::interrupted()) break;
     const ImplicitRow row = measure_implicit(which, options.threads > 0 ? options.threads : 1);
     progress.clear();
-    print_implicit(out, row);
-    json.push_back(implicit_json(row));
+    print_implicit(out, row, growth(rows, row));
+    json.push_back(implicit_json(row, growth(rows, row)));
+    rows.push_back(row);
     progress.update(double(json.size()) / double(cases.size()));
   }
   progress.clear();
