@@ -3,6 +3,9 @@
 Verlet in float, 128 x 128: the desktop's program with its best vectors, with AVX2 and with 128 bits, the page's programs under
 Node, and the program for Windows under Wine. Processor time of one thread, and for the page with two threads real time.
 
+Also what a browser loads before the page's first frame, compressed, and how long after the last byte Chromium shows it, on this
+processor, which also draws: the median of as many starts, each with nothing kept.
+
 Each time is that of a long run less that of a short one, so that starting counts nowhere; the runs of all programs take
 turns, and the least time of each is kept, since other work on the machine only ever adds.
 """
@@ -12,9 +15,13 @@ import json
 import os
 import pathlib
 import resource
+import statistics
 import subprocess
 import tempfile
 import time
+
+from browser import Browser
+from test_page import downloaded, served
 
 SIDE, SHORT, LONG = 128, 1500, 7500
 # Loaded first: Highway, the library of vectors, then passes over what is disabled. Names are its targets of x86-64.
@@ -29,6 +36,21 @@ def times_of(command, environment):
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.monotonic()
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, **environment})
     return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before, time.monotonic() - start
+
+
+def start_times(page, threads, rounds):
+    """From the last byte to the first frame, s."""
+    times = []
+    for _ in range(rounds):
+        with served(page, threads) as address, Browser() as browser:
+            shown = browser.page(f"{address}/#hanging")
+            shown.started()
+            times.append(shown.ask("""(() => {
+                const needed = performance.getEntriesByType('resource').filter((file) => /tyglab(-threads)?\\.(js|wasm)$|data\\.bin$/.test(file.name));
+                const loaded = Math.max(...needed.map((file) => file.responseEnd));
+                return performance.getEntriesByName('tyglab first frame')[0].startTime - loaded;
+              })()""") / 1000)
+    return times
 
 
 def main():
@@ -70,10 +92,17 @@ def main():
     times = {name: (least[name, LONG] - least[name, SHORT]) / ((LONG - SHORT) * SIDE * SIDE) * 1e9 for name in programs}
     for name, taken in times.items():
         print(f"{name:34} {taken:6.2f} ns  {taken / times['AVX2']:5.2f} of AVX2")
+    starts = []
+    for program, threads in [("tyglab", False), ("tyglab-threads", True)]:
+        size = downloaded(pathlib.Path(args.page), program)
+        start = statistics.median(start_times(args.page, threads, args.rounds))
+        starts.append({"program": "page with threads" if threads else "page", "bytes": size, "first_frame_s": start})
+        print(f"{starts[-1]['program']:34} {size / 1e6:6.2f} MB before the first frame, {start:.2f} s after the last byte")
     if args.json:
         node = subprocess.run(["node", "--version"], check=True, capture_output=True, text=True).stdout.strip()
         runs = [{"program": name, "ns_per_particle_step": taken, "over_avx2": taken / times["AVX2"]} for name, taken in times.items()]
-        args.json.write_text(json.dumps({"side": SIDE, "date": str(datetime.date.today()), "node": node, "runs": runs}))
+        args.json.write_text(json.dumps({"side": SIDE, "date": str(datetime.date.today()), "node": node, "runs": runs,
+                                         "starts": starts}))
 
 
 main()

@@ -4,6 +4,7 @@ server; with --threads from one whose pages may have threads, what they change."
 import argparse
 import contextlib
 import functools
+import gzip
 import http.server
 import json
 import pathlib
@@ -39,6 +40,15 @@ def served(folder, threads=False):
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://localhost:{server.server_address[1]}"
     server.shutdown()
+
+
+MOST_DOWNLOADED = 1_800_000  # bytes up to the first frame
+
+
+def downloaded(folder, program="tyglab"):
+    """Bytes that come before the first frame, as a server sends them that compresses."""
+    names = ["index.html", "page.css", "page.js", "tyglab.svg", f"{program}.js", f"{program}.wasm", "data.bin"]
+    return sum(len(gzip.compress((folder / name).read_bytes(), 9)) for name in names)
 
 
 def report(page):
@@ -104,8 +114,8 @@ def press(page, name, width=1280):
 
 
 class Tests:
-    def __init__(self, browser, home, shots):
-        self.browser, self.home, self.shots = browser, home, shots
+    def __init__(self, browser, home, folder, shots):
+        self.browser, self.home, self.folder, self.shots = browser, home, folder, shots
         self.pages = []
 
     def open(self, rest="", **size):
@@ -132,6 +142,10 @@ class Tests:
         assert abs(held["at"][0] - at[0] - 120) < 60, held
         wait_for(page, "it is let go", lambda now: not now["held"])
         self.page = page
+
+    def test_is_small(self):
+        sizes = {program: downloaded(self.folder, program) for program in ("tyglab", "tyglab-threads")}
+        assert max(sizes.values()) <= MOST_DOWNLOADED, sizes
 
     def test_cuts(self):
         before = report(self.page)["torn_springs"]
@@ -396,7 +410,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(args.page, pathlib.Path(folder) / "course" / "tyglab")
         with served(folder, args.threads) as address, Browser() as browser:
-            tests = Tests(browser, f"{address}/course/tyglab", args.shots)
+            tests = Tests(browser, f"{address}/course/tyglab", args.page, args.shots)
             for name in names:
                 start = time.monotonic()
                 try:
