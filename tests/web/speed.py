@@ -4,7 +4,8 @@ Verlet in float, 128 x 128: the desktop's program with its best vectors, with AV
 Node, and the program for Windows under Wine. Processor time of one thread, and for the page with two threads real time.
 
 Also what a browser loads before the page's first frame, compressed, and how long after the last byte Chromium shows it, on this
-processor, which also draws: the median of as many starts, each with nothing kept.
+processor, which also draws: the median of as many starts, each with nothing kept. Needs the packages of [page] in
+cmake/packages.txt, which tests/web/run installs.
 
 Each time is that of a long run less that of a short one, so that starting counts nowhere; the runs of all programs take
 turns, and the least time of each is kept, since other work on the machine only ever adds.
@@ -17,18 +18,16 @@ import pathlib
 import resource
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from browser import Browser
+from instruction_sets import WIDER, limited_to
 from test_page import downloaded, served
 
 SIDE, SHORT, LONG = 128, 1500, 7500
-# Loaded first: Highway, the library of vectors, then passes over what is disabled. Names are its targets of x86-64.
-LIMIT = """#include <hwy/targets.h>
-__attribute__((constructor)) static void limit() { hwy::DisableTargets(%s); }
-"""
-WIDER = {"AVX2": "HWY_AVX3 | HWY_AVX3_DL", "128 bits": "HWY_AVX3 | HWY_AVX3_DL | HWY_AVX2"}
 
 
 def times_of(command, environment):
@@ -45,11 +44,10 @@ def start_times(page, threads, rounds):
         with served(page, threads) as address, Browser() as browser:
             shown = browser.page(f"{address}/#hanging")
             shown.started()
-            times.append(shown.ask("""(() => {
-                const needed = performance.getEntriesByType('resource').filter((file) => /tyglab(-threads)?\\.(js|wasm)$|data\\.bin$/.test(file.name));
-                const loaded = Math.max(...needed.map((file) => file.responseEnd));
-                return performance.getEntriesByName('tyglab first frame')[0].startTime - loaded;
-              })()""") / 1000)
+            loaded = shown.ask("""Math.max(...performance.getEntriesByType('resource')
+                .filter((file) => /tyglab(-threads)?\\.(js|wasm)$|data\\.bin$/.test(file.name)).map((file) => file.responseEnd))""")
+            drawn = shown.ask("performance.getEntriesByName('tyglab first frame')[0].startTime")
+            times.append((drawn - loaded) / 1000)
     return times
 
 
@@ -66,11 +64,8 @@ def main():
                "--integrator", "verlet", "--dt", "0.0001"]
         script = pathlib.Path(__file__).resolve().parent / "program.js"
         programs = {"best vectors": ([args.tyglab], {}, 1)}
-        for name, disabled in WIDER.items():
-            library = pathlib.Path(folder) / f"{name.replace(' ', '_')}.so"  # a space ends a name there
-            subprocess.run(["g++", "-shared", "-fPIC", "-x", "c++", "-", "-o", library, "-lhwy"], input=LIMIT % disabled,
-                           text=True, check=True)
-            programs[name] = ([args.tyglab], {"LD_PRELOAD": str(library)}, 1)
+        for name in WIDER:
+            programs[name] = ([args.tyglab], limited_to(name, folder), 1)
         node = ["node", script, args.page, folder]
         programs["page, Node"] = (node, {}, 1)
         for threads, used in [(1, "one used"), (2, "two used, real time")]:
