@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <stdexcept>
 
 #include "app/base/data_files.h"
 #include "app/render/drawn_cloth.h"
@@ -12,10 +13,15 @@
 namespace tyglab {
 
 Film::Film(const Preset& preset, int view, PictureSize size, std::optional<ParticleField> color)
-    : size_(size), camera_(scene_camera(preset, float(size.width) / float(size.height))) {
+    : texture_(std::async(std::launch::async, read_picture, texture_file(preset.texture))),
+      size_(size),
+      camera_(scene_camera(preset, float(size.width) / float(size.height))) {
   options_.mode = view == 0 ? preset.mode : view;
-  if (const auto problem = renderer_.set_texture(texture_file(preset.texture)))
-    std::cerr << "tyglab: " << *problem << '\n';
+  try {
+    if (const auto problem = renderer_.set_texture(texture_.get())) std::cerr << "tyglab: " << *problem << '\n';
+  } catch (const std::runtime_error& error) {
+    std::cerr << "tyglab: " << error.what() << '\n';
+  }
   if (!color || preset.kind != Kind::cloth) return;
   colors_.emplace(FieldColors{*color});
   renderer_.set_color_map(map_colors(colors_->map(false), map_size));

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <future>
 
 #include "app/platform/headless_context.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_renderer.h"
+#include "app/render/cloth_texture.h"
 #include "app/render/field_colors.h"
 #include "core/simulation.h"
 
@@ -25,7 +27,8 @@ class Film {
   std::filesystem::path shoot(Simulation& simulation, const std::filesystem::path& file, Reach reach = Reach::whole);
 
  private:
-  HeadlessContext context_;  // before what lives in it
+  std::future<ClothPicture> texture_;  // read while the context is made
+  HeadlessContext context_;            // before what lives in it
   ClothRenderer renderer_;
   ViewOptions options_;
   Image with_legend() const;

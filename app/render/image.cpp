@@ -7,10 +7,10 @@
 #include <fstream>
 #include <glm/common.hpp>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 #include "app/render/jpeg.h"
 #include "core/io/destination.h"
@@ -33,20 +33,23 @@ void* more_decoder_memory(void* block, std::size_t bytes) {
   return bytes <= largest_block ? std::realloc(block, bytes) : nullptr;
 }
 
-/// What the encoder of PNG takes, which never looks whether it was given it: std::bad_alloc is thrown past it, and all
-/// is given back then too.
+/// What the encoder of PNG takes, tens of thousands of blocks, which never looks whether it was given them:
+/// std::bad_alloc is thrown past it, and all is given back then too.
 class EncoderMemory {
  public:
   EncoderMemory() { present_ = this; }
-  ~EncoderMemory() { present_ = nullptr; }
+  ~EncoderMemory() {
+    while (first_ != nullptr) give_back(first_ + 1);
+    present_ = nullptr;
+  }
   EncoderMemory(const EncoderMemory&) = delete;
   EncoderMemory& operator=(const EncoderMemory&) = delete;
 
   static void* take(std::size_t bytes) {
-    auto block = std::make_unique<std::byte[]>(bytes);
-    void* const at = block.get();
-    present_->blocks_.emplace(at, std::move(block));
-    return at;
+    Block*& first = present_->first_;
+    auto* const block = new (::operator new(sizeof(Block) + bytes)) Block{first, nullptr};
+    if (first != nullptr) first->before = block;
+    return (first = block) + 1;
   }
   static void* more(void* block, std::size_t old_bytes, std::size_t bytes) {
     void* const larger = take(bytes);
@@ -54,11 +57,21 @@ class EncoderMemory {
     give_back(block);
     return larger;
   }
-  static void give_back(void* block) { present_->blocks_.erase(block); }
+  static void give_back(void* memory) {
+    if (memory == nullptr) return;
+    Block* const block = static_cast<Block*>(memory) - 1;
+    if (block->after != nullptr) block->after->before = block->before;
+    (block->before != nullptr ? block->before->after : present_->first_) = block->after;
+    ::operator delete(block);
+  }
 
  private:
+  /// Stands before what is taken.
+  struct alignas(std::max_align_t) Block {
+    Block *after, *before;
+  };
   static thread_local EncoderMemory* present_;
-  std::unordered_map<void*, std::unique_ptr<std::byte[]>> blocks_;  ///< tens of thousands in a large picture
+  Block* first_ = nullptr;
 };
 thread_local EncoderMemory* EncoderMemory::present_ = nullptr;
 
@@ -171,6 +184,7 @@ std::filesystem::path write_png(const std::filesystem::path& file, const Image& 
     static_cast<std::string*>(to)->append(static_cast<const char*>(data), std::size_t(size));
   };
   const EncoderMemory memory;
+  stbi_write_force_png_filter = 1;  // the best of five for each row takes twice as long, and makes no smaller a file
   if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 3, image.rgb.data(), image.width * 3) == 0) {
     throw OutputError("The image " + file.string() + " could not be encoded. Is there enough memory?");
   }
