@@ -1,4 +1,4 @@
-"""Keeps programs to narrower vectors than the machine has (x86-64)."""
+"""What is loaded before a program: so that it has narrower vectors than the machine (x86-64), or that valgrind can run it."""
 import pathlib
 import subprocess
 
@@ -14,4 +14,11 @@ def limited_to(name, folder):
     library = pathlib.Path(folder) / f"{name.replace(' ', '_')}.so"  # a space ends a name there
     subprocess.run(["g++", "-shared", "-fPIC", "-x", "c++", "-", "-o", library, "-lhwy"], input=LIMIT % WIDER[name], text=True,
                    check=True)
+    return {"LD_PRELOAD": str(library)}
+
+
+def for_valgrind(folder):
+    """The environment in which valgrind can run programs that load Highway."""
+    library = pathlib.Path(folder) / "resolution.so"
+    subprocess.run(["g++", "-shared", "-fPIC", pathlib.Path(__file__).with_name("for_valgrind.cpp"), "-o", library], check=True)
     return {"LD_PRELOAD": str(library)}

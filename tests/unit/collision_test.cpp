@@ -126,7 +126,7 @@ TEST_CASE("a sphere's normal is that of the old position") {
   }
 }
 
-TEST_CASE("no free particle is left inside by more than 8 ulp, whatever falls on what") {
+TEST_CASE("no free particle is left inside by more than 8 ulp, whatever falls on what" * doctest::test_suite("slow")) {
   for (const char* integrator : methods) {
     for (const Precision precision : {Precision::double_, Precision::float_}) {
       for (const double e : {0.0, 0.4}) {
@@ -179,7 +179,8 @@ TEST_CASE("a particle at rest on a plane stays at rest, and keeps friction") {
   }
 }
 
-TEST_CASE("a ball that is dropped rests when its bounces would have ended, and bounces on where nothing is lost") {
+TEST_CASE("a ball that is dropped rests when its bounces would have ended, and bounces on where nothing is lost" *
+          doctest::test_suite("slow")) {
   constexpr double height = 0.3, g = 9.82;
   const auto dropped = [](const char* integrator, double e) {
     Preset preset = shot(integrator, {0, height, 0}, {0, 0, 0});

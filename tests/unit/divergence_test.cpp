@@ -145,7 +145,8 @@ Preset torn_at_once(const std::string& integrator, Precision precision) {
   return preset;
 }
 
-TEST_CASE("an explosion that leaves no spring whole is a divergence too, with pins, without, and for any threads") {
+TEST_CASE("an explosion that leaves no spring whole is a divergence too, with pins, without, and for any threads" *
+          doctest::test_suite("slow")) {
   for (const char* integrator : {"verlet", "semi_implicit_euler", "velocity_verlet", "euler", "rk4"})
     for (const Precision precision : {Precision::float_, Precision::double_})
       for (const Pins::Mode pins : {Pins::Mode::none, Pins::Mode::top_corners}) {

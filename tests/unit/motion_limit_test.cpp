@@ -85,7 +85,8 @@ TEST_CASE("stretched, thrown, falling and blown cloths are within the bound by e
     }
 }
 
-TEST_CASE("where springs cannot tear, energy from errors of the method is no divergence, but it is told") {
+TEST_CASE("where springs cannot tear, energy from errors of the method is no divergence, but it is told" *
+          doctest::test_suite("slow")) {
   Preset preset = test::cloth(10, 10, "implicit_midpoint");
   preset.pins.mode = Pins::Mode::none, preset.k_d = 0, preset.k_s = 1e4, preset.dt = 0.01;
   Simulation coarse(preset);
