@@ -78,7 +78,7 @@ std::string FrameCosts::json(int width, int height, const std::string& engine, c
   }
   start["in_all"] = 1e3 * before;
   report["start_ms"] = start;
-  return report.dump(2) + "\n";
+  return report.dump(2, ' ', false, decltype(report)::error_handler_t::replace) + "\n";  // names as they are on disk
 }
 
 }  // namespace tyglab

@@ -9,6 +9,7 @@
 #include "app/render/image.h"
 #include "app/ui/kit/color_legend.h"
 #include "app/ui/kit/picture_gui.h"
+#include "core/io/terminal.h"
 
 namespace tyglab {
 
@@ -17,10 +18,13 @@ Film::Film(const Preset& preset, int view, PictureSize size, std::optional<Parti
       size_(size),
       camera_(scene_camera(preset, float(size.width) / float(size.height))) {
   options_.mode = view == 0 ? preset.mode : view;
+  const auto warn = [](const std::string& problem) {
+    std::cerr << "tyglab: view.texture: the cloth is drawn without its image: " << in_one_line(problem) << '\n';
+  };
   try {
-    if (const auto problem = renderer_.set_texture(texture_.get())) std::cerr << "tyglab: " << *problem << '\n';
+    if (const auto problem = renderer_.set_texture(texture_.get())) warn(*problem);
   } catch (const std::runtime_error& error) {
-    std::cerr << "tyglab: " << error.what() << '\n';
+    warn(error.what());
   }
   if (!color || preset.kind != Kind::cloth) return;
   colors_.emplace(FieldColors{*color});

@@ -1,6 +1,7 @@
 #include "app/cli/outputs.h"
 
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "app/cli/command_line.h"
 #include "core/io/destination.h"
@@ -52,6 +53,10 @@ std::ostream& people(const std::vector<Output>& outputs) {
   for (const Output& output : outputs)
     if (is_standard_output(output.file)) return std::cerr;
   return std::cout;
+}
+
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void make_output_folder(const std::string& option, const std::string& folder) {

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iosfwd>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ void check_outputs(const std::vector<Output>& outputs, const std::filesystem::pa
 
 /// Where sentences for people go: to standard output, or to stderr if an output goes to the former.
 std::ostream& people(const std::vector<Output>& outputs);
+
+/// What a file of figures for programs holds: in UTF-8 whatever files are called, with a line's end.
+std::string json_text(const nlohmann::ordered_json& json);
 
 /// Throws UsageError if a folder of files is to go to standard output, OutputError if the folder cannot be made.
 void make_output_folder(const std::string& option, const std::string& folder);

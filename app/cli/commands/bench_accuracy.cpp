@@ -143,8 +143,7 @@ int accuracy(const AccuracyOptions& options) {
       statistics = measure_statistics(scene, options.quick, processors(), InterruptGuard::interrupted);
   progress.clear();
   print_statistics(out, statistics);
-  if (!options.json.empty())
-    write_output(options.json, accuracy_json(results, statistics).dump(2) + "\n", bench_reach());
+  if (!options.json.empty()) write_output(options.json, json_text(accuracy_json(results, statistics)), bench_reach());
   if (!options.png.empty())
     write_charts(options.png, accuracy_charts(results), bench_reach(), 2, 1.5f, accuracy_chart_height);
   return bench_exit(options.outputs());

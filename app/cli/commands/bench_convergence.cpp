@@ -105,7 +105,7 @@ int convergence(const ConvergenceOptions& options) {
   progress.clear();
   if (study.done) print_study(out, scene.source.label, study);
   if (!options.bench.json.empty())
-    write_output(options.bench.json, convergence_json(scene.source.label, study).dump(2) + "\n", bench_reach());
+    write_output(options.bench.json, json_text(convergence_json(scene.source.label, study)), bench_reach());
   if (!options.csv.empty()) write_output(options.csv, convergence_csv(study), bench_reach());
   if (!options.bench.png.empty()) {
     Chart chart = convergence_chart(dark_tokens(), study);

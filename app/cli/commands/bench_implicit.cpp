@@ -91,7 +91,7 @@ int implicit_steps(const BenchOptions& options) {
     progress.update(double(json.size()) / double(cases.size()));
   }
   progress.clear();
-  if (!options.json.empty()) write_output(options.json, bench_json("implicit", json).dump(2) + "\n", bench_reach());
+  if (!options.json.empty()) write_output(options.json, json_text(bench_json("implicit", json)), bench_reach());
   return bench_exit(options.outputs());
 }
 

@@ -117,7 +117,7 @@ int one_weight(const WeightOptions& options) {
     json.push_back(row_json(run));
     runs.push_back(std::move(run));
   }
-  if (!options.json.empty()) write_output(options.json, bench_json("one-weight", json).dump(2) + "\n", bench_reach());
+  if (!options.json.empty()) write_output(options.json, json_text(bench_json("one-weight", json)), bench_reach());
   if (!options.png.empty()) write_charts(options.png, {weight_chart(runs)}, bench_reach());
   return bench_exit(options.outputs());
 }

@@ -140,7 +140,7 @@ int skip(const SkipOptions& options) {
   if (!options.json.empty()) {
     Json all = bench_json("skip", json);
     all["instructions_counted_with"] = counted_with.empty() ? Json(nullptr) : Json(counted_with);
-    write_output(options.json, all.dump(2) + "\n", bench_reach());
+    write_output(options.json, json_text(all), bench_reach());
   }
   if (!options.png.empty()) write_charts(options.png, {skip_chart(rows, options.side)}, bench_reach());
   return bench_exit(options.outputs());
@@ -177,7 +177,7 @@ int only(const SkipOptions& options) {
     const Json row = {{"feature", feature.name},   {"state", name_of(state)}, {"rows", options.side},
                       {"columns", options.side},   {"steps", options.steps},  {"precision", name_of(options.precision)},
                       {"ns_per_particle_step", ns}};
-    write_output(options.json, bench_json("skip", Json::array({row})).dump(2) + "\n");
+    write_output(options.json, json_text(bench_json("skip", Json::array({row}))));
   }
   return exit_done;
 }

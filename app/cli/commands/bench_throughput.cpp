@@ -141,7 +141,7 @@ int throughput(const ThroughputOptions& options) {
     progress.update(double(rows.size()) / double(cases.size()));
   }
   progress.clear();
-  if (!options.json.empty()) write_output(options.json, bench_json("throughput", json).dump(2) + "\n", bench_reach());
+  if (!options.json.empty()) write_output(options.json, json_text(bench_json("throughput", json)), bench_reach());
   if (!options.png.empty()) write_charts(options.png, {throughput_chart(rows, options.repeats)}, bench_reach());
   return bench_exit(options.outputs());
 }
@@ -178,7 +178,7 @@ int throughput_beside_load(const ThroughputOptions& options) {
     progress.update(double(json.size()) / 2 / double(cases.size()));
   }
   progress.clear();
-  if (!options.json.empty()) write_output(options.json, bench_json("throughput", json).dump(2) + "\n", bench_reach());
+  if (!options.json.empty()) write_output(options.json, json_text(bench_json("throughput", json)), bench_reach());
   return bench_exit(options.outputs());
 }
 

@@ -48,6 +48,9 @@ bool wants_sequence(const RenderOptions& options) {
 int render(const RenderOptions& options) {
   const ResolvedPreset scene = options.preset.resolve({}, {}, options.length.seconds);
   const std::string& label = scene.source.label;
+  if (!options.color.empty() && scene.preset.kind != Kind::cloth)
+    throw UsageError("--color: " + in_one_line(label) +
+                     " is a mass on a spring, without a cloth to color; leave the option out");
   const std::int64_t steps = options.length.in_steps(scene.preset.dt, 4);
   options.length.warn_if_too_short(scene.preset.dt);
   const PictureSize size = parse_size(options.size, smallest_picture);

@@ -317,7 +317,7 @@ void check_step_limit(const Preset& preset) {
   if (can_end_early(method)) return;
   throw UsageError("--step-limit: " +
                    (is_implicit(method) ? "what a step of " + preset.integrator + " leaves unsolved, it enlarges"
-                                        : "a step of " + preset.integrator + " solves nothing") +
+                                        : "a step of " + preset.integrator + " always takes the same work") +
                    "; use implicit_euler, projective_dynamics or vbd, or leave the option out");
 }
 
@@ -359,7 +359,7 @@ int run(const RunOptions& options) {
   std::string summary_name;
   if (!options.json.empty())
     summary_name = output_name(
-        write_output(options.json, report.dump(2) + "\n", stepper.interrupted() ? Reach::stopped : Reach::whole));
+        write_output(options.json, json_text(report), stepper.interrupted() ? Reach::stopped : Reach::whole));
 
   people(options.outputs()) << closing(report, summary_name) << std::endl;
   if (diverged)

@@ -173,7 +173,7 @@ int boundary(const BenchOptions& options) {
   if (!options.json.empty()) {
     Json all = bench_json("stability boundary", lists[0]);
     all["k_s_runs"] = lists[1], all["growth_runs"] = lists[2], all["slack_runs"] = lists[3];
-    write_output(options.json, all.dump(2) + "\n", bench_reach());
+    write_output(options.json, json_text(all), bench_reach());
   }
   if (!options.png.empty())
     write_charts(options.png, {boundary_chart(dt_rows, false), boundary_chart(dt_rows, true)}, bench_reach());

@@ -122,7 +122,7 @@ int drift(const BenchOptions& options) {
   if (!options.json.empty()) {
     Json json = Json::array();
     for (const DriftRow& row : rows) json.push_back(row_json(row));
-    write_output(options.json, bench_json("stability drift", json).dump(2) + "\n", bench_reach());
+    write_output(options.json, json_text(bench_json("stability drift", json)), bench_reach());
   }
   if (!options.png.empty())
     write_charts(options.png,

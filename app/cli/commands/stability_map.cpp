@@ -69,10 +69,12 @@ void print_map(std::ostream& out, const Preset& preset, const MapGrid& grid, con
   std::array<char, 200> line;
   for (auto cell = cells.begin(); cell != cells.end();) {
     const int row = cell->row;
+    int column = 0;  // an interrupted map has gaps
     bool stable = true;
     std::snprintf(line.data(), line.size(), "dt %9.3g s  ", cell->dt);
     out << line.data();
-    for (; cell != cells.end() && cell->row == row; ++cell) {
+    for (; cell != cells.end() && cell->row == row; ++cell, ++column) {
+      for (; column < cell->column; ++column) out << "  ";
       const bool passed = cell->dt_theory > 0 && cell->dt > cell->dt_theory;
       out << (stable && passed ? '|' : ' ') << (cell->diverged ? "×" : "·");
       stable = !passed;
@@ -111,7 +113,7 @@ int map(const MapOptions& options) {
             [](const MapCell& a, const MapCell& b) { return a.row != b.row ? a.row > b.row : a.column < b.column; });
   print_map(out, scene.preset, grid, cells);
   if (!options.bench.json.empty())
-    write_output(options.bench.json, map_json(scene.preset, scene.source.label, cells).dump(2) + "\n", bench_reach());
+    write_output(options.bench.json, json_text(map_json(scene.preset, scene.source.label, cells)), bench_reach());
   if (!options.csv.empty()) write_output(options.csv, map_csv(scene.preset, cells), bench_reach());
   if (!options.bench.png.empty()) {
     const Chart page = map_page(dark_tokens(), scene.preset, scene.source.label, machine_line(), grid,

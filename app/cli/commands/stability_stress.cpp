@@ -146,7 +146,7 @@ int stress(const StressOptions& options) {
   if (!options.json.empty()) {
     Json all = bench_json("stability stress", rows);
     all["seed"] = seed, all["from"] = options.from, all["cases"] = rows.size(), all["failed"] = failed;
-    write_output(options.json, all.dump(2) + "\n", bench_reach());
+    write_output(options.json, json_text(all), bench_reach());
   }
   if (InterruptGuard::interrupted())
     std::cerr << "tyglab: Continue with " << options.repeated() << " --from "
@@ -166,8 +166,7 @@ int only(const StressOptions& options) {
   const StressResult result = run_stress(seed, number, options.integrator);
   const Json row = case_json(options.only, result);
   out << row.dump(2) << '\n' << std::flush;
-  if (!options.json.empty())
-    write_output(options.json, bench_json("stability stress", Json::array({row})).dump(2) + "\n");
+  if (!options.json.empty()) write_output(options.json, json_text(bench_json("stability stress", Json::array({row}))));
   return result.status == StressStatus::failed ? exit_violation : exit_done;
 }
 
