@@ -119,13 +119,13 @@ TEST_CASE("steps of implicit methods that do not converge are told once, in text
   }
 }
 
-TEST_CASE("a file whose name is no UTF-8 is named in JSON as far as it can be") {
+TEST_CASE("a file whose name is not UTF-8 is named in JSON as far as it can be") {
   const test::TemporaryFolder folder;
   check(folder, {"run", "hanging", "--steps", "1", "--state", "\xff.csv", "--json", "a.json"}, 0, "Wrote");
   CHECK(test::read_file(folder / "a.json").find("\xEF\xBF\xBD.csv") != std::string::npos);
 }
 
-TEST_CASE("a mass on a spring has no cloth to color, and a texture that is missing is told of with its key") {
+TEST_CASE("a mass on a spring has no cloth to color, and a missing texture is reported with its key") {
   const test::TemporaryFolder folder;
   check(folder, {"render", "one_weight", "--color", "strain", "--png", "a.png"}, 2, "without a cloth to color");
   const Words missing{"render", "hanging", "--seconds", "0.01", "--set", "texture=nope.png", "--png", "a.png"};
@@ -146,8 +146,7 @@ TEST_CASE("a step's time can be limited where it can end early, and is told with
   CHECK(outcome.err.find("The time limit ended them.") != std::string::npos);
   CHECK(test::read_file(folder / "a.json").find("\"ended_early\": 3") != std::string::npos);
   check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2, "what a step of tr_bdf2 leaves unsolved");
-  check(folder, with({"--integrator", "verlet", "--step-limit", "1"}), 2,
-        "a step of verlet always takes the same work");
+  check(folder, with({"--integrator", "verlet", "--step-limit", "1"}), 2, "a step of verlet always does the same work");
   check(folder, with({"--step-limit", "0"}), 2, "--step-limit");
   check(folder, {"run", "one_weight", "--steps", "3", "--integrator", "implicit_euler", "--step-limit", "1"}, 2,
         "a mass on a spring is solved at once");

@@ -19,7 +19,6 @@
 #include <thread>
 
 #include "tests/support/failing_driver.h"
-#include "tests/support/sanitized.h"
 
 namespace tyglab::test {
 namespace {
@@ -179,9 +178,6 @@ void inject(const Campaign& campaign, const Make& make) {
   constexpr std::int64_t last = 20;  // where what has been made takes the place of what was there
   const std::int64_t all = counted.calls, dense = std::min(all, campaign.dense);
   const std::int64_t stride = std::max<std::int64_t>((all - dense) / std::max<std::int64_t>(campaign.dense, 1), 1);
-  // Under the sanitizers every third, odd and even ones in turn: what lies between is a block more or less of the same
-  // path.
-  constexpr std::int64_t every = sanitized ? 3 : 1;
   std::int64_t tried = 0, survived = 0;
   const auto inject_at = [&](std::int64_t n, bool lasting) {
     const FaultAt at{campaign.kind, n, lasting};
@@ -203,7 +199,7 @@ void inject(const Campaign& campaign, const Make& make) {
     CHECK_MESSAGE(wrong.empty(), which << wrong);
   };
   const bool lasts = campaign.kind == Fault::write || campaign.kind == Fault::driver;
-  for (std::int64_t n = 1; n <= all; n += every * (n < dense || n + last >= all ? 1 : stride)) {
+  for (std::int64_t n = 1; n <= all; n += n < dense || n + last >= all ? 1 : stride) {
     inject_at(n, lasts);
     if (campaign.lasts) inject_at(n, true);
   }

@@ -317,7 +317,7 @@ void check_step_limit(const Preset& preset) {
   if (can_end_early(method)) return;
   throw UsageError("--step-limit: " +
                    (is_implicit(method) ? "what a step of " + preset.integrator + " leaves unsolved, it enlarges"
-                                        : "a step of " + preset.integrator + " always takes the same work") +
+                                        : "a step of " + preset.integrator + " always does the same work") +
                    "; use implicit_euler, projective_dynamics or vbd, or leave the option out");
 }
 
