@@ -64,22 +64,24 @@ bool is_shipped_preset(const std::string& name) {
   return std::binary_search(names.begin(), names.end(), name);
 }
 
-/// The preset that a frame in a course's page names, as in ?embed&preset=flag&panels=0; empty if it names none.
-std::string framed_preset(std::string_view link) {
+/// The preset that an address names before its #, as in ?embed&preset=flag&panels=0; empty if it names none. Where no #
+/// follows (`alone`), nothing else may stand there that means an experiment.
+std::string framed_preset(std::string_view address, std::string_view link, bool alone) {
   std::string name;
-  std::string_view rest = link.substr(std::min(link.find('?'), link.size() - 1) + 1);
+  std::string_view rest = address.substr(std::min(address.find('?'), address.size() - 1) + 1);
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find('&'), rest.size());
     const std::string part = decoded(rest.substr(0, end), link), key = part.substr(0, part.find('='));
     const std::string value = part.substr(std::min(key.size() + 1, part.size()));
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (key == "lab")
+    if (key == "preset") {
+      name = value;
+    } else if (alone && key == "lab") {
       throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
                         in_one_line(value) + ".");
-    if (key == "preset")
-      name = value;
-    else if (key != "embed" && key != "panels")
+    } else if (alone && key != "embed" && key != "panels") {
       fail(link, "has no # before its constants, such as '" + in_one_line(part) + "'.");
+    }
   }
   if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: '" + in_one_line(name) + "'.");
   return name;
@@ -96,15 +98,14 @@ bool is_link(std::string_view text) {
 }
 
 LinkedPreset read_link(std::string_view text) {
-  LinkedPreset linked{default_preset, {}};
-  const std::size_t hash = text.find('#');
-  if (hash == std::string_view::npos) {
-    if (const std::string name = framed_preset(text); !name.empty()) return {name, {}};
-    // The page's own address is that of its first experiment; what else it says was meant for another place.
-    if (text.find_first_of("&=%") != std::string_view::npos) fail(text, "has no #, after which the experiment stands.");
-    return linked;
-  }
-  std::string_view rest = text.substr(hash + 1);
+  const std::size_t hash = std::min(text.find('#'), text.size());
+  const bool alone = hash == text.size();
+  const std::string framed = hash > 0 ? framed_preset(text.substr(0, hash), text, alone) : std::string();
+  // The page's own address is that of its first experiment; what else it says was meant for another place.
+  if (alone && framed.empty() && text.find_first_of("&=%") != std::string_view::npos)
+    fail(text, "has no #, after which the experiment stands.");
+  LinkedPreset linked{framed.empty() ? default_preset : framed, {}};
+  std::string_view rest = text.substr(std::min(hash + 1, text.size()));
   for (bool first = true; !rest.empty(); first = false) {
     const std::size_t end = std::min(rest.find('&'), rest.size());
     const std::string part = decoded(rest.substr(0, end), text);

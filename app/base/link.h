@@ -19,8 +19,9 @@ struct LinkedPreset {
   std::string name;                   ///< of a shipped preset
   std::vector<std::string> settings;  ///< "k_s=300"
 };
-/// Reads a link, or an address with one in it. Without a link it is the default preset. Throws PresetError: the link
-/// names no shipped preset, or something in it is no setting.
+/// Reads a link, or an address with one in it. Its constants are those of the preset that it names; else of the one
+/// that the address names before the #, as in ?embed&preset=flag#k_s=300; else of the default preset. Throws
+/// PresetError: the link names no shipped preset, or something in it is no setting.
 LinkedPreset read_link(std::string_view text);
 
 /// The preset itself. Throws PresetError: a setting is wrong.

@@ -96,6 +96,13 @@ std::string in_plain_words(const CLI::ParseError& error) {
   return {};
 }
 
+/// What went wrong, and in a sentence of its own what limit of memory there is.
+std::string with_memory_limit(std::string what) {
+  const std::string limit = memory_limit_words();
+  if (!limit.empty() && !what.ends_with('.')) what += '.';
+  return what + limit;
+}
+
 }  // namespace
 
 std::vector<std::string> command_names(const CLI::App& command) {
@@ -144,9 +151,9 @@ int run_action(const Action& action) {
   } catch (const DataFileError& error) {
     return say(error.what(), exit_input);
   } catch (const EngineError& error) {
-    return say(error.what() + memory_limit_words(), exit_engine);
+    return say(with_memory_limit(error.what()), exit_engine);
   } catch (const GraphicsError& error) {
-    return say(error.what() + memory_limit_words(), exit_engine);
+    return say(with_memory_limit(error.what()), exit_engine);
   } catch (const OutputError& error) {
     return say(error.what(), InterruptGuard::interrupted() ? exit_interrupted : exit_output);
   } catch (const std::bad_alloc&) {

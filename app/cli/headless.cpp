@@ -39,7 +39,7 @@ int run_headless(const SandboxOptions& options, std::ostream& out) {
   const double seconds = options.frames > 0 ? options.frames / frames_a_second : usual_seconds;
   const std::int64_t steps = Length{seconds, {}}.in_steps(options.preset.dt, seconds);
   const PictureSize size = options.width > 0 ? PictureSize{options.width, options.height} : PictureSize();
-  Film film(options.preset, 0, size);
+  Film film(options.preset, 0, size, options.color);
   Simulation simulation(options.preset, options.threads);
   const fs::path folder = new_folder();
   std::cerr << "There is no display here, so Tyglab runs without a window: it simulates and draws '"

@@ -2,12 +2,15 @@
 
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/cli/command_line.h"
 #include "core/io/destination.h"
 #include "core/io/files.h"
 #include "core/io/output_file.h"
 #include "core/io/system_files.h"
+#include "core/io/terminal.h"
+#include "core/output/obj.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
@@ -26,7 +29,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return is_plain(a) && is_plain(b) && output_place(a) == output_place(b);
 }
 
-void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
+void check_outputs(const std::vector<Output>& outputs, const std::vector<Input>& inputs) {
   const std::string incomplete = ".incomplete";
   for (auto a = outputs.begin(); a != outputs.end(); ++a) {
     if (a->file.empty()) continue;
@@ -43,8 +46,10 @@ void check_outputs(const std::vector<Output>& outputs, const fs::path& input) {
         throw UsageError(b->option + " and " + a->option +
                          ": one of them is written under the name of the other until " +
                          "it is whole; use a name that does not end in " + incomplete);
-    if (!input.empty() && same_file(a->file, input))
-      throw UsageError(a->option + " " + a->file + ": would overwrite the preset that is read; use another file");
+    for (const Input& input : inputs)
+      if (!input.file.empty() && same_file(a->file, input.file))
+        throw UsageError(a->option + " " + a->file + ": would overwrite " + input.what +
+                         " that is read; use another file");
     check_output(a->file);
   }
 }
@@ -70,8 +75,31 @@ void make_output_folder(const std::string& option, const std::string& folder) {
   if (!os::may_write_into(folder)) throw OutputError(folder + ": is not writable; choose another folder");
 }
 
+void warn_of_older_frames(const Sequence& sequence) {
+  std::set<std::string> own;
+  for (std::int64_t n = 0; n < sequence.written; ++n)
+    own.insert(frame_name(sequence.prefix, n, sequence.count, sequence.extension));
+  std::int64_t older = 0;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(sequence.folder, error)) {
+    const std::string name = entry.path().filename().string();
+    older += is_frame_name(name, sequence.prefix, sequence.extension) && !own.contains(name);
+  }
+  if (older == 0) return;
+  std::cerr << "tyglab: " << in_one_line(sequence.folder) << " also holds " << counted(older, "frame")
+            << " of an earlier sequence of " << in_one_line(sequence.prefix) << "; remove "
+            << (older == 1 ? "it" : "them") << ", or use an empty folder.\n";
+}
+
 CLI::Option* add_output(CLI::App& command, const std::string& option, std::string& file, const std::string& what) {
-  return command.add_option(option, file, what)->check(not_empty());
+  return command.add_option(option, file, what)
+      ->check(not_empty())
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            return text.starts_with("--") ? text + " looks like an option; name a file, or ./" + text + " if it is one"
+                                          : std::string();
+          },
+          ""));
 }
 
 }  // namespace tyglab

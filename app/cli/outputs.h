@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
 #include <nlohmann/json_fwd.hpp>
@@ -17,11 +18,17 @@ struct Output {
   bool binary = false;  ///< bytes that a terminal cannot show
 };
 
+/// A file that a command reads: "the preset", and where it is.
+struct Input {
+  std::string what;
+  std::filesystem::path file;
+};
+
 /// Whether both would be one file, by whatever names and links.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
-/// Throws UsageError where two outputs would be one file, where one would replace the preset that is read (`input`), or
-/// where bytes would go to a terminal; OutputError unless each file can be made.
-void check_outputs(const std::vector<Output>& outputs, const std::filesystem::path& input = {});
+/// Throws UsageError where two outputs would be one file, where one would replace what is read, or where bytes would go
+/// to a terminal; OutputError unless each file can be made.
+void check_outputs(const std::vector<Output>& outputs, const std::vector<Input>& inputs = {});
 
 /// Where sentences for people go: to standard output, or to stderr if an output goes to the former.
 std::ostream& people(const std::vector<Output>& outputs);
@@ -31,6 +38,15 @@ std::string json_text(const nlohmann::ordered_json& json);
 
 /// Throws UsageError if a folder of files is to go to standard output, OutputError if the folder cannot be made.
 void make_output_folder(const std::string& option, const std::string& folder);
+
+/// The files of a sequence, named by frame_name().
+struct Sequence {
+  std::string folder, prefix, extension;
+  std::int64_t count = 0;    ///< of frames planned
+  std::int64_t written = 0;  ///< of them, the first
+};
+/// Says in a line on stderr if there are other files of such names, which a longer sequence has left there.
+void warn_of_older_frames(const Sequence& sequence);
 
 /// Adds an option that names a file or a folder; an empty name is refused.
 CLI::Option* add_output(CLI::App& command, const std::string& option, std::string& file, const std::string& what);

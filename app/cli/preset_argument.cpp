@@ -252,6 +252,11 @@ void PresetArgument::choose_by_tolerance(ResolvedPreset& resolved, std::optional
   std::cerr << "tyglab: --tolerance chose " << resolved.choice->words(*tolerance) << '\n';
 }
 
+std::vector<Input> ResolvedPreset::inputs() const {
+  return {{"the preset", source.file},
+          {"the texture", preset.texture.empty() ? fs::path() : texture_file(preset.texture)}};
+}
+
 ResolvedPreset PresetArgument::resolve(const std::string& fallback, const std::vector<std::string>& commands,
                                        std::optional<double> seconds) const {
   check_engine();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/base/preset_files.h"
+#include "app/cli/outputs.h"
 #include "core/io/preset_io.h"
 #include "core/model/preset.h"
 
@@ -28,6 +29,9 @@ struct ResolvedPreset {
   bool auto_dt = false;  ///< --dt auto: dt is the one that AutoStep chose, and is to be watched
   std::shared_ptr<const ToleranceChoice> choice = {};      ///< --tolerance: what was chosen, and why; null: not asked
   std::shared_ptr<const EngineChoice> engine_choice = {};  ///< --engine auto, likewise
+
+  /// What no output may replace.
+  std::vector<Input> inputs() const;
 };
 
 /// Says in a line on stderr if the picture that the preset names is not there or cannot be read: who does not draw it

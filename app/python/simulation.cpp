@@ -182,7 +182,8 @@ py::object solves(const Motion& motion) {
   py::dict dict;
   dict["newton_steps"] = counts.newton, dict["linear_steps"] = counts.linear;
   dict["force_evaluations"] = counts.force_evaluations, dict["unconverged"] = counts.unconverged;
-  dict["ended_early"] = counts.ended_early, dict["worst_residual"] = counts.worst_residual;
+  dict["ended_early"] = counts.ended_early, dict["longest_limited"] = counts.longest_limited;
+  dict["worst_residual"] = counts.worst_residual;
   return dict;
 }
 
@@ -324,7 +325,8 @@ void add_simulation(py::module_& module) {
           "solves", &solves,
           "What solving took since the start, or None for methods that solve nothing: newton_steps (of Newton's method "
           "or the interior-point method; passes of methods that make a fixed number of them), linear_steps, "
-          "force_evaluations, unconverged (steps), ended_early (those of them that limit_steps ended) and "
+          "force_evaluations, unconverged (steps), ended_early (those of them that limit_steps ended), "
+          "longest_limited (the longest step with such a limit, s of real time) and "
           "worst_residual, in parts of the largest force.")
       .def("limit_steps", &limit_steps, py::arg("seconds"),
            "From now on a step of implicit_euler, projective_dynamics or vbd ends with what it has found once it has "

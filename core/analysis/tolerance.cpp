@@ -49,7 +49,9 @@ std::string why_refused(const SettingsSearch& search, double tolerance) {
 std::string ToleranceChoice::words(double tolerance) const {
   ErrorPoint used = chosen;
   if (used.tolerance == 0) used.dt = preset.dt;
-  std::string text = settings_of(used) + ": error " + (chosen.resolved ? "" : "below ") +
+  const std::string within =
+      used.tolerance > 0 ? " (in steps of its own within dt = " + number(preset.dt) + " s)" : std::string();
+  std::string text = settings_of(used) + within + ": error " + (chosen.resolved ? "" : "below ") +
                      number(chosen.resolved ? chosen.error_rms_m : std::max(chosen.error_rms_m, 10 * agreement_rms_m)) +
                      " m (rms) over the first " + number(seconds) + " s, where " + number(tolerance) +
                      " m was requested; it takes " + number(chosen.cost) + " s of CPU time per simulated second.";

@@ -182,8 +182,9 @@ class Engine {
   virtual void stop_when(Stop stop) { stop_ = std::move(stop); }
   /// From now on a method that can end early (scheme.h) ends a step with what it has found once that step has taken so
   /// long, s: 0 lets it go on to the solution. Such a step counts as SolveCounts::ended_early, depends on the machine,
-  /// and is made once only: repeated it would not give the same bits. What a step does before and after it solves takes
-  /// its time all the same. The CPU engine alone can do that; others go on to the solution.
+  /// and is made once only: repeated it would not give the same bits. What a step does before and after it solves, and
+  /// a first iteration or pass, takes its time all the same: SolveCounts::longest_limited says how long. The CPU engine
+  /// alone can do that; others go on to the solution.
   void limit_steps(double seconds) { step_limit_ = seconds; }
   double step_limit() const { return step_limit_; }
   /// The part of the present step that is done, 0 to 1, as far as the method can tell: 0 for a method whose steps are
@@ -196,11 +197,12 @@ class Engine {
   void set_step_progress(double part) { step_progress_ = part; }
   /// A step begins, whose time is limited.
   void begin_limit() { step_begun_ = std::chrono::steady_clock::now(); }
-  /// Whether this part of its time is over.
-  bool out_of_time(double part) const {
-    return step_limit_ > 0 &&
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - step_begun_).count() >= part * step_limit_;
+  /// Real time since then, s.
+  double step_seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - step_begun_).count();
   }
+  /// Whether this part of its time is over.
+  bool out_of_time(double part) const { return step_limit_ > 0 && step_seconds() >= part * step_limit_; }
 
  private:
   Stop stop_;

@@ -70,6 +70,7 @@ StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault&
     if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, StepsEnd::fault};
     if (fast && engine.find_runaway(limit_, fault)) return {n, StepsEnd::fault};
     unconverged_steps_ += !step.converged, worst_residual_ = std::max(worst_residual_, step.residual);
+    longest_limited_ = std::max(longest_limited_, step.limited_seconds);
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
     if (release) return {n + 1, StepsEnd::released};
   }

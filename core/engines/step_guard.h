@@ -42,6 +42,7 @@ struct StepOutcome {
   std::optional<double> tear_budget;     ///< as of tear_overloaded(), if the step itself has broken springs
   double residual = 0;                   ///< of equations that the step has solved, as Balance has it
   bool converged = true;                 ///< whether that counts as solved
+  double limited_seconds = 0;            ///< real time it took, where that has a limit
 };
 
 /// What the guard asks of an engine.
@@ -130,6 +131,7 @@ class StepGuard {
   /// Adds what is known of whole steps alone.
   SolveCounts with_steps(SolveCounts solves) const {
     solves.unconverged = unconverged_steps_, solves.worst_residual = worst_residual_;
+    solves.longest_limited = longest_limited_;
     return solves;
   }
 
@@ -163,6 +165,7 @@ class StepGuard {
   int left_inside_ = 0;
   std::int64_t unconverged_steps_ = 0;
   double worst_residual_ = 0;
+  double longest_limited_ = 0;  ///< s
   glm::dvec3 hand_force_{0};
 };
 

@@ -107,4 +107,11 @@ std::string frame_name(std::string_view prefix, std::int64_t frame, std::int64_t
   return std::string(prefix) + '_' + number + '.' + std::string(extension);
 }
 
+bool is_frame_name(std::string_view name, std::string_view prefix, std::string_view extension) {
+  const std::string begin = std::string(prefix) + '_', end = '.' + std::string(extension);
+  if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end)) return false;
+  name = name.substr(begin.size(), name.size() - begin.size() - end.size());
+  return name.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 }  // namespace tyglab

@@ -37,5 +37,7 @@ void write_obj(const std::filesystem::path& file, const Tears& tears, const Vect
 /// "PREFIX_0042.EXTENSION": the name of one file of a sequence of `count` frames, padded with zeros to the width of
 /// the last number and to at least four digits, so that names sort as frames do.
 std::string frame_name(std::string_view prefix, std::int64_t frame, std::int64_t count, std::string_view extension);
+/// Whether a frame of such a sequence can be called that, however many it has.
+bool is_frame_name(std::string_view name, std::string_view prefix, std::string_view extension);
 
 }  // namespace tyglab

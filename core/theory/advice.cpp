@@ -80,7 +80,8 @@ std::string solves_missed(const SolveCounts& solves, const Preset& p) {
            (solves.ended_early < solves.unconverged ? std::to_string(solves.ended_early) + " of them"
             : one                                   ? "it"
                                                     : "them") +
-           ". Allow more time per step, or use a smaller dt.";
+           " (the longest took " + short_number(1000 * solves.longest_limited, 2) +
+           " ms). Allow more time per step, or use a smaller dt.";
   const bool more = p.iterations < int(find_row("iterations")->max);
   return said + passes + (more ? "Use a smaller dt or more iterations." : "Use a smaller dt.");
 }

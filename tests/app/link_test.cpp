@@ -61,6 +61,12 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK(read_link("https://example.org/").name == "hanging");
   CHECK(read_link("HTTPS://example.org/?embed&preset=flag&panels=0").name == "flag");
   CHECK(read_link("https://example.org/?preset=sphere").name == "sphere");
+  // What stands before the # counts where the link names no preset of its own.
+  CHECK(read_link("https://example.org/?embed&preset=flag#k_s=80").name == "flag");
+  CHECK(read_link("https://example.org/?embed&preset=flag#k_s=80").settings == std::vector<std::string>{"k_s=80"});
+  CHECK(read_link("https://example.org/?embed&preset=flag#").name == "flag");
+  CHECK(read_link("https://example.org/?preset=flag&report#sphere&k_s=80").name == "sphere");
+  CHECK(read_link("https://example.org/?lab=03_stiffness&report#k_s=80").name == "hanging");
   for (const char* link : {"https://example.org/hanging&k_s=300", "https://example.org/%23flag",
                            "https://example.org/?embed&preset=flag&k_s=300"})
     CHECK_THROWS_WITH_AS(read_link(link), doctest::Contains("has no #"), PresetError);
@@ -77,6 +83,8 @@ TEST_CASE("what is wrong with a link is named") {
   CHECK(problem_of("https://a.b/?embed&lab=03_stiffness").find("tyglab --lab 03_stiffness") != std::string::npos);
   CHECK(problem_of("#flag&=3").find("not KEY=VALUE: '=3'") != std::string::npos);
   CHECK(problem_of("https://a.b/?preset=nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
+  CHECK(problem_of("https://a.b/?preset=nothing#k_s=3").find("names no shipped preset: 'nothing'") !=
+        std::string::npos);
   CHECK(problem_of("#flag&k_s=%4").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=%zz").find("hexadecimal") != std::string::npos);
   CHECK(problem_of("#flag&k_s=-1").find("k_s=-1") != std::string::npos);

@@ -125,6 +125,37 @@ TEST_CASE("a file whose name is not UTF-8 is named in JSON as far as it can be")
   CHECK(test::read_file(folder / "a.json").find("\xEF\xBF\xBD.csv") != std::string::npos);
 }
 
+TEST_CASE("a preset may be a link wherever it is read") {
+  const test::TemporaryFolder folder;
+  check(folder, {"presets", "show", "#flag&k_s=77"}, 0, "\"k_s\": 77");
+  check(folder, {"presets", "check", "https://example.org/?embed&preset=flag#k_s=77"}, 0, "is a valid preset: Flag");
+  check(folder, {"presets", "check", "#flag&k_s=-1"}, 3, "k_s=-1");
+}
+
+TEST_CASE("an output does not replace the texture that is read, nor take an option for its name") {
+  const test::TemporaryFolder folder;
+  std::filesystem::copy_file(TYGLAB_SOURCE_DIR "/textures/linen.png", folder / "a.png");
+  const std::string image = test::read_file(folder / "a.png");
+  check(folder, {"render", "hanging", "--seconds", "0.01", "--set", "texture=a.png", "--png", "a.png"}, 2,
+        "--png a.png: would overwrite the texture that is read");
+  CHECK(test::read_file(folder / "a.png") == image);
+  check(folder, {"run", "hanging", "--steps", "1", "--state", "--json"}, 2, "--json looks like an option");
+  CHECK_FALSE(std::filesystem::exists(folder / "--json"));
+  check(folder, {"run", "hanging", "--steps", "1", "--state", "./--json"}, 0, "Wrote ./--json");
+}
+
+TEST_CASE("a picture goes into a device as one file") {
+  const test::TemporaryFolder folder;
+  const Words words{"render", "hanging", "--seconds", "0.01", "--size", "64x48", "--png"};
+  const auto into = [&](const char* device) {
+    Words all = words;
+    all.emplace_back(device);
+    return all;
+  };
+  check(folder, into("/dev/null"), 0, "Wrote /dev/null");
+  check(folder, into("/dev/full"), 6, "/dev/full: cannot be written: No space left on device");
+}
+
 TEST_CASE("a mass on a spring has no cloth to color, and a missing texture is reported with its key") {
   const test::TemporaryFolder folder;
   check(folder, {"render", "one_weight", "--color", "strain", "--png", "a.png"}, 2, "without a cloth to color");
@@ -143,7 +174,7 @@ TEST_CASE("a step's time can be limited where it can end early, and is told with
   };
   const auto outcome = check(folder, with({"--integrator", "implicit_euler", "--step-limit", "0.01"}), 0, "3 steps to");
   CHECK(outcome.err.find("3 steps did not converge (up to ") != std::string::npos);
-  CHECK(outcome.err.find("The time limit ended them.") != std::string::npos);
+  CHECK(outcome.err.find("The time limit ended them (the longest took ") != std::string::npos);
   CHECK(test::read_file(folder / "a.json").find("\"ended_early\": 3") != std::string::npos);
   check(folder, with({"--integrator", "tr_bdf2", "--step-limit", "1"}), 2, "what a step of tr_bdf2 leaves unsolved");
   check(folder, with({"--integrator", "verlet", "--step-limit", "1"}), 2, "a step of verlet always does the same work");

@@ -107,6 +107,9 @@ TEST_CASE("--obj and --pc2 write a frame for each 1/fps, of the same positions")
     frames += entry.path().extension() == ".obj" ? 1 : 0;
   }
   CHECK(frames == 5);
+  const auto shorter = good(folder.path(), {"run", "hanging", "--seconds", "0.2", "--fps", "10", "--obj", "frames"});
+  CHECK(shorter.err.find("frames also holds 2 frames of an earlier sequence of hanging; remove them") !=
+        std::string::npos);
   const std::string cache = test::read_file(folder / "c.pc2");
   const Preset preset = load_preset(TYGLAB_SOURCE_DIR "/app/presets/hanging.json");
   const std::size_t count = std::size_t(preset.rows) * preset.columns;
@@ -245,6 +248,9 @@ TEST_CASE("render writes a sequence") {
   }
   CHECK(count == 3);
   CHECK(fs::exists(folder / "film" / "flag_0002.png"));
+  const auto shorter =
+      good(folder.path(), {"render", "flag", "--seconds", "0.1", "--fps", "10", "--size", "64x48", "--png", "film"});
+  CHECK(shorter.err.find("film also holds 1 frame of an earlier sequence of flag; remove it") != std::string::npos);
 }
 
 TEST_CASE("--ledger writes where the energy goes, on the rows of --series, and --json what it says at the end") {

@@ -1,6 +1,8 @@
 // `tyglab stability` as a process: what it writes, and what it says to a wrong command line.
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -76,6 +78,39 @@ TEST_CASE("drift tells every method on both scenes; which of them loses, keeps a
     CHECK((row["status"] == "diverged") == row["diverged_at_step"].is_number());
     CHECK(row["t_s"].size() == row["energy_less_start_J"].size());
   }
+}
+
+TEST_CASE("an interrupted map prints the cells that it has where they belong") {
+  const test::TemporaryFolder folder;
+  const auto outcome = test::tyglab_interrupted(folder.path(), {"stability", "map", "hanging", "--csv", "m.csv"}, 1.5);
+  REQUIRE(outcome.code == 130);
+  double first = 0, last = 0;
+  std::vector<std::string> drawn;
+  for (const std::string& line : test::lines(outcome.out)) {
+    if (line.starts_with("dt ")) drawn.push_back(line.substr(std::string("dt 123456789 s  ").size()));
+    if (line.starts_with("k_s from ")) REQUIRE(std::sscanf(line.c_str(), "k_s from %lf to %lf", &first, &last) == 2);
+  }
+  REQUIRE(first > 0);
+  constexpr int columns = 36;
+  std::size_t row = 0, cells = 0;
+  std::string dt;
+  int at = 0;              // where in the row the next cell can stand
+  std::size_t letter = 0;  // and where in its text
+  for (const std::string& line : test::lines(test::read_file(folder / "m.csv.incomplete"))) {
+    if (line.starts_with('#') || line.starts_with("k_s")) continue;
+    const std::size_t comma = line.find(','), second = line.find(',', comma + 1);
+    const std::string this_dt = line.substr(comma + 1, second - comma - 1);
+    if (this_dt != dt) row += !dt.empty(), dt = this_dt, at = 0, letter = 0;
+    const int column = int(std::lround((columns - 1) * std::log(std::stod(line) / first) / std::log(last / first)));
+    REQUIRE(row < drawn.size());
+    for (; at < column; ++at, letter += 2) REQUIRE(drawn[row].substr(letter, 2) == "  ");
+    const std::string mark = line.find("diverged") != std::string::npos ? "×" : "·";
+    CHECK(drawn[row].substr(letter + 1, mark.size()) == mark);
+    letter += 1 + mark.size(), ++at, ++cells;
+  }
+  CHECK(row + 1 == drawn.size());
+  CHECK(cells > 10);
+  CHECK(cells < columns * 26);
 }
 
 TEST_CASE("a wrong command line is refused with what is allowed") {

@@ -216,6 +216,8 @@ TEST_CASE("where a step's time is up, it ends with what it has found, and counts
       CHECK(some.unconverged == 5);
       CHECK(some.newton < all.newton);
       CHECK(all.ended_early == 0);
+      CHECK(some.longest_limited > 1e-12);  // no step ends before it has tried once
+      CHECK(all.longest_limited == 0);
       CHECK(some.worst_residual > all.worst_residual);
       const double moved = distance(hurried.read(), start), asked = distance(whole.read(), start);
       CHECK(moved > 0.005 * asked);  // little as a single pass is, it moves

@@ -193,6 +193,10 @@ TEST_CASE("the files of a sequence sort as its frames do") {
   CHECK(frame_name("denim", 42, 100, "obj") == "denim_0042.obj");
   CHECK(frame_name("denim", 0, 1, "png") == "denim_0000.png");
   CHECK(frame_name("denim", 42, 123456, "obj") == "denim_000042.obj");
+  CHECK(is_frame_name(frame_name("denim", 42, 100, "obj"), "denim", "obj"));
+  for (const char* other :
+       {"denim_.obj", "denim_00a2.obj", "denim_0042.png", "denim_0042.obj.incomplete", "flag_0042.obj"})
+    CHECK_FALSE(is_frame_name(other, "denim", "obj"));
   CHECK(frame_name("denim", 9, 10001, "obj") < frame_name("denim", 10000, 10001, "obj"));
 }
 

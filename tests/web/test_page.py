@@ -346,6 +346,13 @@ class Tests:
         assert not [key for key in report(page)["controls"] if key.startswith("constants.")]
         self.shot(page, "embed")
         page.call("Page.close")
+        page = self.open("?embed&preset=flag&report#k_s=77")
+        wait_for(page, "what is before the # counts", lambda now: now["label"] == "flag")
+        assert report(page)["preset"]["forces"]["k_s"] == 77
+        page.ask("location.hash = '#k_s=78'")
+        wait_for(page, "it still counts", lambda now: now["preset"]["forces"]["k_s"] == 78)
+        assert report(page)["label"] == "flag", report(page)["label"]
+        page.call("Page.close")
         page = self.open("?embed&lab=03_stiffness&report")
         wait_for(page, "the lab", lambda now: now["lab"] and now["lab"]["label"] == "03_stiffness")
         self.shot(page, "embed_lab")

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "app/base/link.h"
 #include "app/cli/preset_argument.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
@@ -28,15 +29,16 @@ int list() {
   return exit_done;
 }
 
-int show(const std::string& name) {
-  write_output("-", preset_to_json(load_preset(find_preset(name).file)));
+int show(const std::string& word) {
+  write_output("-",
+               preset_to_json(is_link(word) ? linked_preset(read_link(word)) : load_preset(find_preset(word).file)));
   return exit_done;
 }
 
-int check(const std::string& name_or_file) {
-  const Preset preset = read_preset(find_preset(name_or_file).file);
+int check(const std::string& word) {
+  const Preset preset = is_link(word) ? linked_preset(read_link(word)) : read_preset(find_preset(word).file);
   warn_of_texture(preset);
-  std::cout << in_one_line(name_or_file) << " is a valid preset: " << printable(preset.name) << ", "
+  std::cout << in_one_line(word) << " is a valid preset: " << printable(preset.name) << ", "
             << (preset.kind == Kind::one_weight
                     ? std::string("mass on a spring")
                     : std::to_string(preset.rows) + " x " + std::to_string(preset.columns) + " particles")
@@ -61,7 +63,7 @@ void add_presets_command(CLI::App& program, Action& action) {
   });
 
   CLI::App* show_one = command->add_subcommand("show", "Print a preset as JSON, every key with its value");
-  show_one->add_option("NAME", *word, "A shipped preset's name or a preset file")->required();
+  show_one->add_option("NAME", *word, "A shipped preset's name, a preset file or a link")->required();
   show_one->footer("Example: tyglab presets show denim > my_denim.json");
   show_one->callback([word, &action] { action = [word] { return show(*word); }; });
 
@@ -75,7 +77,7 @@ void add_presets_command(CLI::App& program, Action& action) {
   });
 
   CLI::App* check_one = command->add_subcommand("check", "Check a preset file: every key, type and range");
-  check_one->add_option("FILE", *word, "A preset file, or a shipped preset's name")->required();
+  check_one->add_option("FILE", *word, "A preset file, a shipped preset's name or a link")->required();
   check_one->footer("Example: tyglab presets check my_denim.json");
   check_one->callback([word, &action] { action = [word] { return check(*word); }; });
 }

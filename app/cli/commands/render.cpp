@@ -12,6 +12,7 @@
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
 #include "core/io/destination.h"
+#include "core/io/system_files.h"
 #include "core/output/obj.h"
 
 namespace tyglab {
@@ -34,7 +35,7 @@ struct RenderOptions {
 
 /// Whether --png names a folder for a sequence, rather than one picture.
 bool wants_sequence(const RenderOptions& options) {
-  if (is_standard_output(options.png) && !options.fps) return false;
+  if ((is_standard_output(options.png) || os::is_stream(options.png)) && !options.fps) return false;
   const fs::path path(options.png);
   std::error_code error;
   const bool picture = path.extension() == ".png" && !fs::is_directory(path, error);
@@ -59,7 +60,7 @@ int render(const RenderOptions& options) {
   if (sequence) {
     make_output_folder("--png", options.png);
   } else {
-    check_outputs(options.outputs(), scene.source.file);
+    check_outputs(options.outputs(), scene.inputs());
   }
 
   Film film(scene.preset, options.view, size, field_called(options.color));
@@ -90,6 +91,7 @@ int render(const RenderOptions& options) {
   out << in_one_line(label) << ": t = " << simulation.time() << " s. Wrote " << output_name(written);
   if (sequence) out << " (" << counted(frame, "image") << ", " << plan.fps() << " per second)";
   out << '.' << std::endl;
+  if (sequence && !stepper.interrupted()) warn_of_older_frames({options.png, label, "png", plan.count(), frame});
   if (simulation.divergence()) {
     std::cerr << "tyglab: " << in_one_line(label) << ' ' << simulation.divergence()->in_words() << '\n';
     return exit_diverged;

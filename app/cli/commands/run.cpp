@@ -68,7 +68,7 @@ class Outputs {
     for (const Output& output : options.outputs())
       if (!options.obj.empty() && is_frame(output.file))
         throw UsageError(output.option + ": --obj writes frames in that folder under such names; use another name");
-    check_outputs(options.outputs(), scene.source.file);
+    check_outputs(options.outputs(), scene.inputs());
     for (const Output& output : options.outputs())
       if (!options.obj.empty() && !output.file.empty() && same_file(output.file, options.obj))
         throw UsageError(output.option + " and --obj: both go to " + output_name(output.file) +
@@ -131,7 +131,10 @@ class Outputs {
     if (series_) series_->end(history), add("series", series_->path())["rows"] = row_;
     if (ledger_) ledger_->end(history), add("ledger", ledger_->path())["rows"] = row_;
     if (cache_) cache_->end(history), add("pc2", cache_->path())["frames"] = frame_;
-    if (!options_.obj.empty()) add("obj", options_.obj)["frames"] = frame_;
+    if (!options_.obj.empty()) {
+      add("obj", options_.obj)["frames"] = frame_;
+      if (!interrupted) warn_of_older_frames({options_.obj, scene_.source.label, "obj", plan_.count(), frame_});
+    }
     const Reach moment = interrupted ? Reach::stopped : Reach::whole;
     if (!options_.state.empty()) add("state", write_output(options_.state, state_csv(simulation), moment));
     if (!options_.values.empty()) add("values", write_output(options_.values, values_csv(simulation, nullptr), moment));
@@ -142,14 +145,10 @@ class Outputs {
   /// Whether an output has the name that a frame of --obj may get.
   bool is_frame(const std::string& output) const {
     const fs::path file(output);
-    const std::string name = file.filename().string(), label = scene_.source.label + "_", ending = ".obj";
     std::error_code ignored;
     const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
     if (fs::weakly_canonical(folder, ignored) != fs::weakly_canonical(options_.obj, ignored)) return false;
-    if (name.size() <= label.size() + ending.size() || !name.starts_with(label) || !name.ends_with(ending))
-      return false;
-    return std::all_of(name.begin() + std::ptrdiff_t(label.size()), name.end() - std::ptrdiff_t(ending.size()),
-                       [](char letter) { return letter >= '0' && letter <= '9'; });
+    return is_frame_name(file.filename().string(), scene_.source.label, "obj");
   }
 
   std::int64_t next_row() const { return options_.series_every ? row_ * *options_.series_every : plan_.step_of(row_); }
@@ -192,6 +191,7 @@ Json solves_json(const Engine& engine) {
           {"force_evaluations", counts.force_evaluations},
           {"unconverged", counts.unconverged},
           {"ended_early", counts.ended_early},
+          {"longest_limited_s", counts.longest_limited},
           {"worst_residual", finite_json(counts.worst_residual)}};
 }
 

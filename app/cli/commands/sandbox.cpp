@@ -41,7 +41,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   if (!options.lab.empty()) load_lab(find_lab_file(options.lab));
   const ResolvedPreset scene = options.preset.resolve(default_preset, commands);
   const std::vector<Output> outputs = options.outputs();
-  check_outputs(outputs, scene.source.file);
+  check_outputs(outputs, scene.inputs());
   SandboxOptions sandbox;
   sandbox.preset = scene.preset;
   sandbox.preset_label = scene.source.label;
@@ -62,6 +62,7 @@ int open_sandbox(const Options& options, const std::vector<std::string>& command
   sandbox.lab = options.lab, sandbox.panels = !options.no_panels;
   if (display_there()) return run_sandbox(sandbox);
   if (!options.session_report.empty()) std::cerr << "--session-report describes a window, so it is not written.\n";
+  if (!options.lab.empty()) std::cerr << "--lab begins a lab in a window, so it is not begun.\n";
   return run_headless(sandbox, people(outputs));
 }
 

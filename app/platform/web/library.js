@@ -201,7 +201,7 @@ addToLibrary({
       if (location.hash === tyglabPage.shown) return;
       tyglabPage.shown = location.hash;
       tyglabPage.visited = true;
-      tyglabPage.withText(location.hash || '#', _tyglab_on_drop);
+      tyglabPage.withText(location.href.split('#')[0] + (location.hash || '#'), _tyglab_on_drop);
     });
   },
 

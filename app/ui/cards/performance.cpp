@@ -211,7 +211,10 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
     facts.push_back({"Newton, CG per step",
                      text("%.1f, ", double(solves.newton) / steps) + text("%.0f", double(solves.linear) / steps)});
     facts.push_back({"steps unconverged", std::to_string(solves.unconverged)});
-    if (solves.ended_early > 0) facts.push_back({"ended by the time limit", std::to_string(solves.ended_early)});
+    if (solves.ended_early > 0) {
+      facts.push_back({"ended by the time limit", std::to_string(solves.ended_early)});
+      facts.push_back({"longest limited step", text("%.3g ms", 1000 * solves.longest_limited)});
+    }
   }
   if (const InnerSteps inner = engine.inner_steps(); inner.accepted > 0) {
     const auto steps = double(std::max<std::int64_t>(1, ui.session.simulation->steps()));

@@ -80,6 +80,7 @@ StepOutcome CpuEngine<R, Present>::outcome(int step) {
   }
   if (hand && projected) result.hand_force = hand_force_;
   result.elongation = max_elongation(largest), result.dt = cloth_.dt;
+  if (step_limit() > 0 && can_end_early(*scheme_)) result.limited_seconds = step_seconds();
   if (solves_damping(*scheme_)) {
     result.residual = constant_.missed(), result.converged = result.residual == 0;
   } else {

@@ -86,7 +86,7 @@ function restore(tyglab) {
 /// The command line that the page's address stands for.
 function arguments_of_address() {
   const words = [];
-  if (location.hash.length > 1) words.push(location.hash);
+  if (location.hash.length > 1) words.push(location.href);
   else if (asked.get('preset')) words.push(asked.get('preset'));
   if (asked.get('lab')) words.push('--lab', asked.get('lab'));
   if (asked.get('panels') === '0') words.push('--no-panels');
