@@ -15,10 +15,13 @@ namespace {
 
 constexpr auto default_preset = "hanging";
 
+/// A part of a link in a sentence, of which a link may have megabytes.
+std::string excerpt(std::string_view text, std::size_t most = 60) {
+  return "'" + in_one_line(std::string(text.substr(0, most))) + (text.size() > most ? "…" : "") + "'";
+}
+
 [[noreturn]] void fail(std::string_view link, const std::string& why) {
-  constexpr std::size_t most = 200;
-  const std::string shown(link.substr(0, most));
-  throw PresetError("The link '" + in_one_line(shown) + (link.size() > most ? "…" : "") + "' " + why +
+  throw PresetError("The link " + excerpt(link, 200) + " " + why +
                     " Copy it again, whole; links look like #hanging&k_s=300.");
 }
 
@@ -80,10 +83,10 @@ std::string framed_preset(std::string_view address, std::string_view link, bool 
       throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
                         in_one_line(value) + ".");
     } else if (alone && key != "embed" && key != "panels") {
-      fail(link, "has no # before its constants, such as '" + in_one_line(part) + "'.");
+      fail(link, "has no # before its constants, such as " + excerpt(part) + ".");
     }
   }
-  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: '" + in_one_line(name) + "'.");
+  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: " + excerpt(name) + ".");
   return name;
 }
 
@@ -111,10 +114,10 @@ LinkedPreset read_link(std::string_view text) {
     const std::string part = decoded(rest.substr(0, end), text);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (first && part.find('=') == std::string::npos) {
-      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: '" + in_one_line(part) + "'.");
+      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: " + excerpt(part) + ".");
       linked.name = part;
     } else if (part.find('=') == std::string::npos || part.starts_with('=')) {
-      fail(text, "has a part that is not KEY=VALUE: '" + in_one_line(part) + "'.");
+      fail(text, "has a part that is not KEY=VALUE: " + excerpt(part) + ".");
     } else {
       linked.settings.push_back(part);
     }

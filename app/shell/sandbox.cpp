@@ -102,8 +102,10 @@ class Sandbox : public Turns {
   double last_time_ = 0;
   std::optional<Preset> linked_;  ///< whose link the page's address shows
   std::uint64_t linked_document_ = 0;
-  std::string told_;      ///< in words
-  double next_link_ = 0;  ///< s, not before which it is looked at again
+  std::string linked_lab_;     ///< and the lab that it shows
+  bool address_left_ = false;  ///< the browser has gone to another link
+  std::string told_;           ///< in words
+  double next_link_ = 0;       ///< s, not before which it is looked at again
   Image last_picture_;
   const InterruptGuard guard_;  ///< from the first turn on, Ctrl-C ends it in good order
 };
@@ -222,10 +224,14 @@ void Sandbox::show_link() {
   next_link_ = window_time() + 0.5;
   if (std::string state = state_in_words(session_); state != told_) window_.tell(told_ = std::move(state));
   const Preset preset = session_.requested_preset();
+  const std::string lab = session_.labs.run ? session_.labs.run->lab.label : "";
   const bool opened = std::exchange(linked_document_, session_.counts.documents) != session_.counts.documents;
-  if (linked_ && *linked_ == preset && !opened) return;
-  show_in_address(link_to(preset, session_.document.label), opened && linked_.has_value());
-  linked_ = preset;
+  const bool same = linked_ && *linked_ == preset && linked_lab_ == lab && !opened;
+  // Where the browser went, but the program did not follow.
+  const bool left = address_left_ && ui_.dialog.kind == Dialog::Kind::none;
+  if (same && !left) return;
+  show_in_address(link_to(preset, session_.document.label), lab, opened && linked_.has_value());
+  linked_ = preset, linked_lab_ = lab, address_left_ = false;
 }
 
 /// When a frame is wanted again though nothing moves; the panels have said what they want of it.
@@ -240,6 +246,7 @@ void Sandbox::take_dropped_files() {
   for (const std::string& name : input_.dropped) {
     if (is_link(name)) {
       open_link(session_, name);
+      address_left_ = true;
       continue;
     }
     const std::filesystem::path file(name);

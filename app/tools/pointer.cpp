@@ -106,9 +106,10 @@ void start(Tools& tools, const PointerEvent& event) {
     take_wind(tools);
   } else if (event.button == GLFW_MOUSE_BUTTON_MIDDLE || (event.button == GLFW_MOUSE_BUTTON_LEFT && control)) {
     tool.kind = shift ? ToolKind::pan : ToolKind::orbit;
-  } else if (event.button == GLFW_MOUSE_BUTTON_LEFT) {
+  } else if (event.button == GLFW_MOUSE_BUTTON_LEFT && !shift) {
     start_left(tools, at);
-  } else if (event.button == GLFW_MOUSE_BUTTON_RIGHT) {
+  } else if (event.button == GLFW_MOUSE_BUTTON_RIGHT || event.button == GLFW_MOUSE_BUTTON_LEFT) {
+    // With Shift the left button is the right one, which cannot be dragged on many touchpads.
     tool.kind = ToolKind::right;
     tool.second_press = follows_click(tools, event, at);
     // A swinging cloth has carried the particle away by now: the one that was clicked first is meant.

@@ -86,8 +86,14 @@ std::string setting_text(const Row<T>& row, const T& object) {
   return word != nullptr ? setting_text(object.**word) : field_text(row, object);
 }
 
-std::string one_line(std::string text) {
-  std::erase(text, '\n');
+/// JSON without what stands between its parts.
+std::string compact(const std::string& json) {
+  std::string text;
+  bool quoted = false;
+  for (const char letter : json) {
+    if (letter == '"' && !text.ends_with('\\')) quoted = !quoted;
+    if (quoted || (letter != ' ' && letter != '\n')) text += letter;
+  }
   return text;
 }
 
@@ -101,10 +107,10 @@ std::vector<std::string> settings_between(const Preset& from, const Preset& to) 
   add("kind", std::string(name_of(from.kind)), std::string(name_of(to.kind)));
   add("name", setting_text(from.name), setting_text(to.name));
   for (const PresetRow& row : notation()) add(row.key, setting_text(row, from), setting_text(row, to));
-  add("pins", one_line(pins_text(from.pins)), one_line(pins_text(to.pins)));
+  add("pins", compact(pins_text(from.pins)), compact(pins_text(to.pins)));
   add("engine", std::string(name_of(from.engine)), std::string(name_of(to.engine)));
   add("precision", std::string(name_of(from.precision)), std::string(name_of(to.precision)));
-  add("bodies", one_line(bodies_text(from.bodies)), one_line(bodies_text(to.bodies)));
+  add("bodies", compact(bodies_text(from.bodies)), compact(bodies_text(to.bodies)));
   return settings;
 }
 

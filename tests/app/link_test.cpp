@@ -77,6 +77,15 @@ TEST_CASE("a whole address, its end and no link at all are read") {
   CHECK_FALSE(is_link("my#file.json"));
 }
 
+TEST_CASE("a body's JSON stands in a link without spaces, and of a long link the beginning is quoted") {
+  Preset preset = read_preset(find_preset("hanging").file);
+  preset.bodies.push_back({.shape = Body::Shape::plane, .y = -0.25});
+  const std::string link = link_to(preset, "hanging");
+  CHECK(link.find("%20") == std::string::npos);
+  CHECK(link.find("bodies=[%7B%22shape%22:%22plane%22") != std::string::npos);
+  CHECK(problem_of("#" + std::string(5000, 'x')).size() < 600);
+}
+
 TEST_CASE("what is wrong with a link is named") {
   CHECK(problem_of("#nothing").find("names no shipped preset: 'nothing'") != std::string::npos);
   CHECK(problem_of("#flag&k_s").find("not KEY=VALUE: 'k_s'") != std::string::npos);

@@ -160,6 +160,25 @@ TEST_CASE("a press on a button over the cloth is the button's: nothing is cut") 
   CHECK(window.torn() == 0);
 }
 
+TEST_CASE("with Shift the left button grabs, as touchpads without a right drag need it") {
+  test::NullUi window;
+  fall(window, 0.5);
+  window.pause();
+  const Pins::Site site = corner(window);
+  const glm::vec2 from = window.pixel_of(site.i, site.j);
+  window.move(from);
+  window.input.mods = GLFW_MOD_SHIFT;
+  window.press();
+  window.input.mods = 0;
+  window.move(from + glm::vec2(12, -8));
+  window.frames(2);
+  CHECK(window.cloth().held() == site);
+  window.release();
+  window.frames(2);
+  CHECK_FALSE(window.cloth().held().has_value());
+  CHECK(window.torn() == 0);
+}
+
 TEST_CASE("a right click picks a particle, a right double-click pins it and another frees it") {
   test::NullUi window;
   window.pause();

@@ -185,6 +185,12 @@ TEST_CASE("where the text leaves no room beside the cloth, constants, plots and 
   CHECK(window.sees("plots.source.1"));
   window.click("side.columns.3");
   CHECK(window.ui.viewport.whole().x == 900);
+  // What is plotted of the past goes on meanwhile.
+  CHECK(window.session.wants.forces);
+  const std::size_t before = window.session.recorded.forces.size(), gaps = window.session.recorded.forces.gaps().size();
+  window.frames(20);
+  CHECK(window.session.recorded.forces.size() > before);
+  CHECK(window.session.recorded.forces.gaps().size() == gaps);
 }
 
 TEST_CASE("where a lab's strip would leave the plots too low, they take its place; it is seen with the constants") {

@@ -195,6 +195,28 @@ class Tests:
         go(1, "curtain")
         page.call("Page.close")
 
+    def test_back_and_cancel(self):
+        """The address is that of what is shown again, or a reload would lose it."""
+        page = self.open("?report#hanging&k_s=80")
+        command(page, "flag")
+        wait_for(page, "a preset opens", lambda now: now["label"] == "flag")
+        page.wait("location.hash.startsWith('#flag')")
+        command(page, "velocity verlet")
+        page.wait("location.hash.includes('integrator=velocity_verlet')")
+        page.call("Runtime.evaluate", expression="history.back()")
+        wait_for(page, "the question", lambda now: now["dialog"] == "unsaved")
+        press(page, "dialog.Cancel")
+        page.wait("location.hash.startsWith('#flag') && location.hash.includes('integrator=velocity_verlet')")
+        assert report(page)["label"] == "flag"
+        page.call("Page.close")
+
+    def test_lab_in_address(self):
+        page = self.open("?report&lab=03_stiffness#hanging")
+        wait_for(page, "the lab", lambda now: now["lab"] and now["lab"]["label"] == "03_stiffness")
+        press(page, "lab.leave")
+        page.wait("location.search == '?report'")
+        page.call("Page.close")
+
     def test_lab_to_its_end(self):
         page = self.open("?report&lab=06_float")
 

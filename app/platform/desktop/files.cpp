@@ -16,6 +16,6 @@ std::string page_address() {
   return {};
 }
 
-void show_in_address(const std::string&, bool) {}
+void show_in_address(const std::string&, const std::string&, bool) {}
 
 }  // namespace tyglab

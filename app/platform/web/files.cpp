@@ -8,7 +8,7 @@ void tyglab_hand_out(const char* file);
 void tyglab_ask_for_file(const char* endings);
 void tyglab_keep_files(const char* folder);
 int tyglab_page_address(char* text, int bytes);
-void tyglab_show_in_address(const char* link, int further);
+void tyglab_show_in_address(const char* link, const char* lab, int further);
 }
 
 namespace tyglab {
@@ -36,8 +36,8 @@ std::string page_address() {
   return text;
 }
 
-void show_in_address(const std::string& link, bool further) {
-  tyglab_show_in_address(link.c_str(), further ? 1 : 0);
+void show_in_address(const std::string& link, const std::string& lab, bool further) {
+  tyglab_show_in_address(link.c_str(), lab.c_str(), further ? 1 : 0);
 }
 
 }  // namespace tyglab

@@ -292,15 +292,22 @@ addToLibrary({
 
   tyglab_page_address: (text, bytes) => {
     if (typeof location === 'undefined') return 0;
-    return stringToUTF8(location.href.split('#')[0], text, bytes);
+    return stringToUTF8(location.href.split(/[?#]/)[0], text, bytes);
   },
   tyglab_show_in_address__deps: ['$tyglabPage'],
-  tyglab_show_in_address: (link, further) => {
-    const shown = UTF8ToString(link), visited = further && tyglabPage.visited;
-    if (further) tyglabPage.visited = false;
-    if (typeof history === 'undefined' || shown === tyglabPage.shown) return;
+  tyglab_show_in_address: (link, lab, further) => {
+    const shown = UTF8ToString(link), played = UTF8ToString(lab), add = further && !tyglabPage.visited;
+    tyglabPage.visited = false;
+    if (typeof history === 'undefined') return;
+    const asked = new URLSearchParams(location.search);
+    let search = location.search;
+    if ((asked.get('lab') || '') !== played) {
+      if (played) asked.set('lab', played);
+      else asked.delete('lab');
+      search = asked.size ? '?' + asked.toString().replace(/=(?=&|$)/g, '') : '';
+    }
+    if (shown === tyglabPage.shown && search === location.search) return;
     tyglabPage.shown = shown;
-    const add = further && !visited;
-    history[add ? 'pushState' : 'replaceState'](null, '', location.pathname + location.search + shown);
+    history[add ? 'pushState' : 'replaceState'](null, '', location.pathname + search + shown);
   },
 });

@@ -274,19 +274,25 @@ void plots_panel(Ui& ui, const Region& region) {
   end_region();
 }
 
-Wants plots_want(const Ui& ui, ImVec2 size) {
+Wants plots_want(const Ui& ui, ImVec2 size, bool take_turns) {
   Wants wants;
   // Who asked for a search may look at something else meanwhile: it ends with its card.
   wants.settings_kept = ui.settings.layout.folded.count(card_name::accuracy) == 0;
-  if (size.x <= 0) return wants;
-  const ColumnPlan plan = plan_column(ui, column_size(ui, size));
   const auto add = [&](const Card& card) {
     if (card.wants != nullptr) wants.*card.wants = true;
   };
+  const auto open = [&](const Card& card) { return ui.settings.layout.folded.count(card.name) == 0; };
+  if (size.x <= 0) {
+    // Who pulls the cloth looks at its forces afterwards, in the same place.
+    for (const Card& card : plot_cards(ui))
+      if (take_turns && open(card)) add(card);
+    return wants;
+  }
+  const ColumnPlan plan = plan_column(ui, column_size(ui, size));
   for (std::size_t k = 0; k < plan.plots.size(); ++k)
     if (!plan.tabs || k == plan.chosen) add(plan.plots[k]);
   for (const Card& card : plan.tools)
-    if (ui.settings.layout.folded.count(card.name) == 0) add(card);
+    if (open(card)) add(card);
   return wants;
 }
 

@@ -70,17 +70,7 @@ std::vector<CommandRow> edit_rows() {
            {{GLFW_KEY_R, ctrl_shift}},
            "everything back to the preset",
            "",
-           reset_all},
-          {"finger_cuts",
-           "Cut with one finger",
-           "",
-           {},
-           "",
-           "touch screen tablet pen knife",
-           [](Ui& ui) { ui.tools.finger_cuts = !ui.tools.finger_cuts; },
-           nullptr,
-           {},
-           [](const Ui& ui) { return ui.tools.finger_cuts; }}};
+           reset_all}};
 }
 
 }  // namespace tyglab

@@ -21,7 +21,7 @@ struct Entry {
 };
 
 constexpr Entry mouse_entries[] = {
-    {"Right drag", "grabs a particle and pulls it"},
+    {"Right or Shift+left drag", "grabs a particle and pulls it"},
     {"Right click", "picks a particle: its forces are shown"},
     {"Right double-click", "pins or unpins a particle"},
     {"Left drag", "cuts the springs above, or what it crosses (C)"},
@@ -30,6 +30,13 @@ constexpr Entry mouse_entries[] = {
     {"Middle or Ctrl+left drag", "orbits; with Shift pans"},
     {"Wheel, two fingers", "zooms; with Shift pans"},
     {"Drop a file", "opens a preset, or uses an image as texture"},
+};
+constexpr Entry finger_entries[] = {
+    {"One finger", "grabs the cloth and pulls it, moves a sphere"},
+    {"One finger, cutting", "cuts: Menu, Cloth, Cut with one finger"},
+    {"Long press", "picks a particle: its forces are shown"},
+    {"Two fingers", "orbit; apart or together zooms"},
+    {"Two taps on a number", "types a value"},
 };
 constexpr Entry sliders[] = {
     {"Drag · Shift drag", "changes · ten times finer"},
@@ -72,10 +79,12 @@ struct Table {
   std::vector<Entry> entries;
 };
 
-/// What the mouse does, and every command that has keys, topic by topic; the views have theirs.
-std::vector<Table> all_tables() {
-  std::vector<Table> all{{"In the viewport", {std::begin(mouse_entries), std::end(mouse_entries)}},
-                         {"On sliders", {std::begin(sliders), std::end(sliders)}}};
+/// What fingers and the mouse do, and every command that has keys, topic by topic; the views have theirs.
+std::vector<Table> all_tables(bool by_touch) {
+  std::vector<Table> all;
+  if (by_touch) all.push_back({"With fingers", {std::begin(finger_entries), std::end(finger_entries)}});
+  all.push_back({"In the viewport", {std::begin(mouse_entries), std::end(mouse_entries)}});
+  all.push_back({"On sliders", {std::begin(sliders), std::end(sliders)}});
   for (const CommandTopic& topic : command_topics()) {
     Table table{topic.name, {}};
     for (const CommandRow& row : topic.rows)
@@ -92,7 +101,7 @@ void tables(Ui& ui, float width) {
   const bool two = width > ui.theme.px(640);
   const float column = two ? (width - gap) / 2 : width, key_width = std::min(ui.theme.px(180), 0.42f * column);
   const Column left{start.x, column, key_width}, right{two ? start.x + column + gap : start.x, column, key_width};
-  const std::vector<Table> all = all_tables();
+  const std::vector<Table> all = all_tables(ui.input.by_touch);
   const auto lines = [](int sum, const Table& table) { return sum + int(table.entries.size()) + 2; };  // its heading
   const int total = std::accumulate(all.begin(), all.end(), 0, lines);
   const Column* now = &left;

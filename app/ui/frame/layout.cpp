@@ -176,7 +176,7 @@ void draw_layout(Ui& ui, ImVec2 window) {
 Wants layout_wants(const Ui& ui, ImVec2 window) {
   const LayoutPlan plan = plan_layout(ui, window);
   Wants wants;
-  wants = plots_want(ui, plan.plots.size);
+  wants = plots_want(ui, plan.plots.size, plan.tabs.size.y > 0);
   if (plan.constants.size.x > 0 || plan.podium.size.y > 0)
     wants.stability = true;  // the gauge under dt, the zones under sliders
   return wants;

@@ -26,7 +26,7 @@ std::vector<Hint> hints_of(const Ui& ui) {
   if (!cloth) return {{"Middle drag", "orbits"}, {"Wheel", "zooms"}, {"F", "frames"}, {"F1", "help"}};
   return {{"Right drag", "grabs"},
           {"Left drag", ui.settings.handling.cut_along_path ? "cuts what it crosses" : "cuts"},
-          {"Middle drag", "orbits"},
+          {"Middle or Ctrl+left drag", "orbits"},
           {"Right click", "picks"},
           {"Right double-click", "pins"},
           {"Wheel", "zooms"},
