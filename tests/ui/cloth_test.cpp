@@ -48,13 +48,19 @@ std::optional<std::string> color(test::NullUi& window) {
   return shown != nullptr ? std::optional<std::string>(info(shown->field).name) : std::nullopt;
 }
 
-TEST_CASE("a particle grabbed with the right button follows the pointer, and is let go with it") {
-  test::NullUi window;
+/// Lets the cloth fall a little and stops it, with the pointer over a corner: which, and where in the window.
+std::pair<Pins::Site, glm::vec2> point_at_corner(test::NullUi& window) {
   fall(window, 0.5);
   window.pause();
   const Pins::Site site = corner(window);
   const glm::vec2 from = window.pixel_of(site.i, site.j);
   window.move(from);
+  return {site, from};
+}
+
+TEST_CASE("a particle grabbed with the right button follows the pointer, and is let go with it") {
+  test::NullUi window;
+  const auto [site, from] = point_at_corner(window);
   window.press(right);
   window.move(from + glm::vec2(12, -8));
   window.frames(2);
@@ -162,11 +168,7 @@ TEST_CASE("a press on a button over the cloth is the button's: nothing is cut") 
 
 TEST_CASE("with Shift the left button grabs, as touchpads without a right drag need it") {
   test::NullUi window;
-  fall(window, 0.5);
-  window.pause();
-  const Pins::Site site = corner(window);
-  const glm::vec2 from = window.pixel_of(site.i, site.j);
-  window.move(from);
+  const auto [site, from] = point_at_corner(window);
   window.input.mods = GLFW_MOD_SHIFT;
   window.press();
   window.input.mods = 0;
