@@ -345,19 +345,20 @@ TEST_CASE("130: a single step that would take minutes is interrupted, and what w
   for (const char* integrator : {"dopri5", "implicit_euler"}) {
     CAPTURE(std::string(integrator));
     const test::TemporaryFolder folder;
-    const auto outcome = test::tyglab_interrupted(folder.path(), {"run",     "hanging",
-                                                                  "--set",   std::string("integrator=") + integrator,
-                                                                  "--set",   "rows=300",
-                                                                  "--set",   "columns=300",
-                                                                  "--set",   "k_s=1e6",
-                                                                  "--set",   "dt=0.03",
-                                                                  "--set",   "iterations=1000",
-                                                                  "--set",   "tolerance=1e-11",
-                                                                  "--set",   "precision=double",
-                                                                  "--steps", "100",
-                                                                  "--state", "s.csv",
-                                                                  "--json",  "j.json"},
-                                                  1.5);
+    const auto outcome = test::tyglab_interrupted(folder.path(), {"run",      "hanging",
+                                                                  "--set",    std::string("integrator=") + integrator,
+                                                                  "--set",    "rows=300",
+                                                                  "--set",    "columns=300",
+                                                                  "--set",    "k_s=1e6",
+                                                                  "--set",    "dt=0.03",
+                                                                  "--set",    "iterations=1000",
+                                                                  "--set",    "tolerance=1e-11",
+                                                                  "--set",    "precision=double",
+                                                                  "--steps",  "100",
+                                                                  "--state",  "s.csv",
+                                                                  "--json",   "j.json",
+                                                                  "--series", "t.csv"},
+                                                  1.5, SIGINT, folder / "t.csv.incomplete");
     CHECK(outcome.code == 130);
     CHECK_MESSAGE(
         outcome.err.find("Interrupted; what was written so far is complete, and no older file was replaced") !=
@@ -366,7 +367,7 @@ TEST_CASE("130: a single step that would take minutes is interrupted, and what w
     const std::string state = test::read_file(folder / "s.csv");
     CHECK(test::lines(state).size() > 90'000);
     CHECK(test::read_file(folder / "j.json").find("\"interrupted\"") != std::string::npos);
-    CHECK_MESSAGE(outcome.out.find("Wrote s.csv, j.json.") != std::string::npos, outcome.out);
+    CHECK_MESSAGE(outcome.out.find("Wrote t.csv.incomplete, s.csv, j.json.") != std::string::npos, outcome.out);
   }
 }
 

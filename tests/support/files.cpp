@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <thread>
 
@@ -62,8 +63,8 @@ namespace {
 [[noreturn]] void become(const fs::path& folder, const std::vector<std::string>& command, const fs::path& out,
                          const fs::path& err) {
   const int null = open("/dev/null", O_RDONLY);
-  const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  const int err_file = open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int out_file = open(out.c_str(), O_WRONLY);
+  const int err_file = open(err.c_str(), O_WRONLY);
   if (null < 0 || out_file < 0 || err_file < 0 || chdir(folder.c_str()) != 0) _exit(126);
   dup2(null, 0);
   dup2(out_file, 1);
@@ -77,17 +78,31 @@ namespace {
   _exit(127);
 }
 
+/// Whether the process has a function of its own for that signal.
+bool catches(pid_t process, int signal) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) != 0;
+  return false;
+}
+
+/// Waits, at most a minute, until that is so.
+void wait_until(const std::function<bool()>& so) {
+  constexpr auto look = std::chrono::milliseconds(10);
+  for (int n = 0; n < 6000 && !so(); ++n) std::this_thread::sleep_for(look);
+}
+
 Outcome run_and_signal(const fs::path& folder, const std::vector<std::string>& command, double interrupt_after,
                        int signal, const fs::path& file) {
   const TemporaryFolder capture;
   const fs::path out = capture / "out", err = capture / "err";
+  for (const fs::path& to : {out, err}) write_file(to, "");
   const pid_t child = fork();
   REQUIRE(child >= 0);
   if (child == 0) become(folder, command, out, err);
   if (interrupt_after > 0) {
-    constexpr int most_looks = 6000;  // a minute
-    for (int n = 0; n < most_looks && !file.empty() && !fs::exists(file); ++n)
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (signal != SIGKILL) wait_until([&] { return catches(child, signal); });
+    if (!file.empty()) wait_until([&] { return fs::exists(file); });
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
     kill(child, signal);
   }

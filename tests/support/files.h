@@ -38,7 +38,8 @@ struct Outcome {
 Outcome run(const std::filesystem::path& folder, const std::vector<std::string>& command);
 /// Runs the built `tyglab` with these arguments.
 Outcome tyglab(const std::filesystem::path& folder, std::vector<std::string> arguments);
-/// Starts `tyglab`, waits for that file if one is named, sends it a signal after that time, and waits for its end.
+/// Starts `tyglab`, waits until it catches the signal and, if one is named, until that file is there, sends the signal
+/// after that time, and waits for the end.
 Outcome tyglab_interrupted(const std::filesystem::path& folder, std::vector<std::string> arguments,
                            double after_seconds, int signal = SIGINT, const std::filesystem::path& file = {});
 
