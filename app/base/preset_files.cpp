@@ -11,6 +11,7 @@
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
@@ -84,8 +85,9 @@ PresetSource find_preset(const std::string& name_or_file, const std::vector<std:
       "'" + name_or_file + "' is neither " + (commands.empty() ? "" : "a command, ") + "a shipped preset nor a file.";
   std::vector<std::string_view> known(names.begin(), names.end());
   known.insert(known.end(), commands.begin(), commands.end());
-  if (const auto near = nearest(name_or_file, known)) problem += " Did you mean '" + std::string(*near) + "'?";
-  throw PresetError(problem + " `tyglab presets` lists the shipped ones.");
+  const auto near = nearest(name_or_file, known);
+  throw PresetError(problem + (near ? " Did you mean '" + std::string(*near) + "'?"
+                                    : " The shipped presets are " + joined(names) + "."));
 }
 
 Preset read_preset(const fs::path& file) {

@@ -16,6 +16,7 @@
 #include "core/io/preset_io.h"
 #include "core/model/changes.h"
 #include "core/model/notation.h"
+#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {
@@ -199,7 +200,7 @@ fs::path find_lab_file(const std::string& name_or_file) {
   }
   const auto meant = nearest(name_or_file, std::vector<std::string_view>(names.begin(), names.end()));
   throw LabError("'" + name_or_file + "' is neither a lab's name nor a file." +
-                 (meant ? " Did you mean '" + std::string(*meant) + "'?" : "") + " `tyglab labs` lists the labs.");
+                 (meant ? " Did you mean '" + std::string(*meant) + "'?" : " The labs are " + joined(names) + "."));
 }
 
 std::vector<Lab> read_labs(std::vector<std::string>& problems) {

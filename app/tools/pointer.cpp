@@ -129,6 +129,18 @@ void start_grab(Tools& tools) {
   if (tools.session.picked != site) tools.session.picked = site, tools.session.recorded.forces.clear();
 }
 
+/// The particle that was pressed, or none: its forces are shown.
+void pick(Tools& tools) {
+  if (tools.session.picked != tools.tool.site && force_source(tools.session) == Source::particle)
+    tools.session.recorded.forces.clear();
+  tools.session.picked = tools.tool.site;
+}
+
+/// Held for longer than a click takes.
+bool pressed_long(const Tools& tools, double now) {
+  return now - tools.tool.press_time > tools.input.double_click_s;
+}
+
 void pick_or_pin(Tools& tools, const PointerEvent& event) {
   Tool& tool = tools.tool;
   if (tool.second_press && tool.site) {
@@ -137,12 +149,10 @@ void pick_or_pin(Tools& tools, const PointerEvent& event) {
     tool.last_site.reset();
     return;
   }
-  if (tools.session.picked != tool.site && force_source(tools.session) == Source::particle)
-    tools.session.recorded.forces.clear();
-  tools.session.picked = tool.site;
+  pick(tools);
   tool.last_click = event.time;
   tool.last_press = tool.press;
-  tool.last_site = tool.site;
+  tool.last_site = pressed_long(tools, event.time) ? std::nullopt : tool.site;
 }
 
 void finish(Tools& tools, const PointerEvent& event) {
@@ -205,9 +215,9 @@ void move_body(Tools& tools) {
 /// What a held tool does every frame, whether the pointer moved or not.
 void hold(Tools& tools) {
   Tool& tool = tools.tool;
-  // Held still for longer than a click takes.
-  if (tool.kind == ToolKind::right && tool.site && tools.now - tool.press_time > tools.input.double_click_s)
-    start_grab(tools);
+  // A finger held still reads the particle off, and takes hold of it when it moves; a mouse takes hold.
+  if (tool.kind == ToolKind::right && tool.site && pressed_long(tools, tools.now))
+    tools.input.by_touch ? pick(tools) : start_grab(tools);
   if (tool.kind == ToolKind::cut) use_knife(tools);
   if (tool.kind == ToolKind::body) move_body(tools);
   if (tool.kind == ToolKind::wind) drag_wind(tools);

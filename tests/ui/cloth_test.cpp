@@ -202,6 +202,34 @@ TEST_CASE("a right click picks a particle, a right double-click pins it and anot
   CHECK(window.torn() == 0);
 }
 
+TEST_CASE("a finger held still picks the particle under it, and takes hold of it once it moves") {
+  test::NullUi window;
+  window.input.by_touch = true;
+  const auto [site, from] = point_at_corner(window);
+  const int pins = pinned(window);
+  window.session.picked.reset();
+  window.press(right);
+  window.frames(2);
+  CHECK_FALSE(window.session.picked.has_value());
+  window.frames(60);
+  CHECK(window.session.picked == site);
+  CHECK_FALSE(window.cloth().held().has_value());
+  SUBCASE("it moves") {
+    window.move(from + glm::vec2(20, -10));
+    window.frames(2);
+    CHECK(window.cloth().held() == site);
+    window.release(right);
+    CHECK_FALSE(window.cloth().held().has_value());
+  }
+  SUBCASE("it is lifted: the next tap is the first of two, and pins nothing") {
+    window.release(right);
+    window.press(right), window.release(right);
+    window.frames(4);
+    CHECK(window.session.picked == site);
+    CHECK(pinned(window) == pins);
+  }
+}
+
 TEST_CASE("a left press on a body drags the body and never cuts, and it stays where the button was released") {
   test::NullUi window({.preset = "sphere"});
   window.pause();

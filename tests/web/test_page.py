@@ -275,6 +275,9 @@ class Tests:
                 time.sleep(0.1)
             page.call("DOM.setFileInputFiles", files=[str(changed)], backendNodeId=page.choosers.pop())
             wait_for(page, "the file opens", lambda now: now["preset"]["forces"]["k_s"] == 81)
+            page.ask("tyglab.tyglabPage.take(new File(['{'], 'broken.json')).then(() => 1)")
+            now = wait_for(page, "a broken file is told of", lambda now: any("broken.json" in said for said in now["messages"]))
+            assert not any("web_user" in said for said in now["messages"]), now["messages"]
 
     def test_is_kept(self):
         page = self.page
@@ -338,16 +341,31 @@ class Tests:
         page = self.open("?report#hanging", width=390, height=844, scale=2, touch=True)
         self.shot(page, "phone")
         now = report(page)
-        ratio = now["window"][0] / 390
+        ratio, picked_before = now["window"][0] / 390, now["picked"]
         particle = next((p for p in now["particles"] if p["at"] and not p["pinned"] and p["i"] > 8 and p["at"][1] > 0), None)
         x, y = (pixel / ratio for pixel in particle["at"])
+
+        def drag(start, by):
+            page.touch("touchStart", start)
+            for step in range(1, 9):
+                page.touch("touchMove", tuple(a + b * step / 8 for a, b in zip(start, by)))
+                time.sleep(0.05)
+
         page.touch("touchStart", (x, y))
-        for step in range(1, 9):
-            page.touch("touchMove", (x + 8 * step, y - 3 * step))
-            time.sleep(0.05)
+        now = wait_for(page, "a finger held still picks", lambda now: now["picked"] != picked_before)
+        assert not now["held"], now["held"]
+        self.shot(page, "phone_long_press")
+        page.touch("touchEnd")
+        drag((x, y), (64, -24))
         wait_for(page, "a finger holds a particle", lambda now: now["held"])
         page.touch("touchEnd")
         wait_for(page, "it lets go", lambda now: not now["held"])
+        assert report(page)["torn_springs"] == 0
+        command(page, "cut with one finger")
+        drag((x - 60, y), (120, 0))
+        wait_for(page, "a finger cuts", lambda now: now["torn_springs"] > 0)
+        page.touch("touchEnd")
+        self.shot(page, "phone_cut")
         before = report(page)["camera"]
         left, top, width, height = (pixel / ratio for pixel in report(page)["viewport"])
         x, y = left + width / 2, top + height / 2
@@ -363,10 +381,26 @@ class Tests:
     def test_embedded(self):
         page = self.open("?embed&preset=flag&panels=0&report")
         assert report(page)["label"] == "flag"
-        assert page.ask("!document.getElementById('whole').hidden")
         assert "embed" not in page.ask("document.getElementById('whole').href")
         assert not [key for key in report(page)["controls"] if key.startswith("constants.")]
+        # The bar is below the canvas and covers nothing of it.
+        assert page.ask("canvas.getBoundingClientRect().bottom <= bar.getBoundingClientRect().top && bar.clientHeight > 30")
         self.shot(page, "embed")
+
+        def click(name):
+            page.click(*json.loads(page.ask(f"""(() => {{ const box = document.getElementById('{name}').getBoundingClientRect();
+                return JSON.stringify([box.x + box.width / 2, box.y + box.height / 2]); }})()""")))
+
+        click("pause")
+        wait_for(page, "it is paused", lambda now: now["paused"])
+        page.key(" ", "Space", 32, text=" ")
+        wait_for(page, "keys still mean the cloth", lambda now: not now["paused"])
+        page.key("F6", "F6", 117)
+        assert page.ask("document.activeElement.id") == "pause"
+        page.key("Enter", "Enter", 13, text="\r")
+        wait_for(page, "the keyboard pauses it, once", lambda now: now["paused"])
+        click("restart")
+        wait_for(page, "it starts again", lambda now: now["steps"] == 0)
         page.call("Page.close")
         page = self.open("?embed&preset=flag&report#k_s=77")
         wait_for(page, "what is before the # counts", lambda now: now["label"] == "flag")

@@ -9,7 +9,7 @@
 
 // Of app/platform/web/library.js.
 extern "C" {
-void tyglab_start_copy(int number, void* parts, void* memory_end);
+void tyglab_start_copy(int number, void* parts);
 void tyglab_end_copy(int number);
 void tyglab_report(const char* bytes, int count);
 void* sbrk(long bytes);
@@ -38,7 +38,7 @@ Copy::Copy(std::function<void(const Report& report)> work, Report take)
   static int last = 0;
   parts_->number = ++last;
   Parts::all().emplace(parts_->number, parts_.get());
-  tyglab_start_copy(parts_->number, parts_.get(), sbrk(0));
+  tyglab_start_copy(parts_->number, parts_.get());
 }
 
 Copy::~Copy() {
@@ -63,6 +63,11 @@ struct CopyCalls {
 }  // namespace tyglab
 
 extern "C" {
+/// Where the memory that is in use ends.
+EMSCRIPTEN_KEEPALIVE void* tyglab_memory_end() {
+  return sbrk(0);
+}
+
 EMSCRIPTEN_KEEPALIVE void tyglab_run_copy(void* parts) {
   tyglab::CopyCalls::run(parts);
 }

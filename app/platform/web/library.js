@@ -8,7 +8,7 @@ addToLibrary({
       Space: 32, Quote: 39, Comma: 44, Minus: 45, Period: 46, Slash: 47, Semicolon: 59, Equal: 61, BracketLeft: 91,
       Backslash: 92, BracketRight: 93, Backquote: 96, Escape: 256, Enter: 257, Tab: 258, Backspace: 259, Insert: 260,
       Delete: 261, ArrowRight: 262, ArrowLeft: 263, ArrowDown: 264, ArrowUp: 265, PageUp: 266, PageDown: 267, Home: 268,
-      End: 269, CapsLock: 280, F1: 290, F2: 291, F3: 292, F4: 293, F6: 295, F7: 296, F8: 297, F9: 298, F10: 299,
+      End: 269, CapsLock: 280, F1: 290, F2: 291, F3: 292, F4: 293, F7: 296, F8: 297, F9: 298, F10: 299,
       NumpadDecimal: 330, NumpadDivide: 331, NumpadMultiply: 332, NumpadSubtract: 333, NumpadAdd: 334, NumpadEnter: 335,
       ShiftLeft: 340, ControlLeft: 341, AltLeft: 342, MetaLeft: 341, ShiftRight: 344, ControlRight: 345, AltRight: 346,
       MetaRight: 345,
@@ -19,10 +19,34 @@ addToLibrary({
     cursor: '',
     visited: false,  // the browser came to the address, by back, forward or a link, and the program follows
     workers: {},
+    // The memory that copies are given, in pieces that they give back. New memory costs a frame many times what copying
+    // into used one does, so the pieces for the first copy are made and written to one by one, between frames.
+    pieces: [],
+    newPiece: () => new Uint8Array(1 << 20).fill(1),
+    preparePieces: () => {
+      const missing = _tyglab_memory_end() - tyglabPage.pieces.length * (1 << 20);
+      if (missing > 0 && !document.hidden) tyglabPage.pieces.push(tyglabPage.newPiece());
+      setTimeout(tyglabPage.preparePieces, missing > 0 ? 20 : 1000);
+    },
+    memoryInPieces: () => {
+      const taken = [], end = _tyglab_memory_end();
+      for (let at = 0; at < end; at += 1 << 20) {
+        const piece = tyglabPage.pieces.pop() ?? tyglabPage.newPiece(), part = HEAPU8.subarray(at, Math.min(at + piece.length, end));
+        piece.set(part);
+        taken.push(piece.subarray(0, part.length));  // what follows must stay 0 in the copy
+      }
+      return taken;
+    },
     // In a worker: the memory of the page becomes this instance's, and the work is done.
-    becomeCopy: (memory, parts) => {
-      if (memory.length > HEAPU8.length) _emscripten_resize_heap(memory.length);
-      HEAPU8.set(memory);
+    becomeCopy: (pieces, parts) => {
+      const bytes = pieces.reduce((sum, piece) => sum + piece.length, 0);
+      if (bytes > HEAPU8.length) _emscripten_resize_heap(bytes);
+      let at = 0;
+      for (const piece of pieces) {
+        HEAPU8.set(piece, at);
+        at += piece.length;
+      }
+      postMessage({pieces}, pieces.map((piece) => piece.buffer));
       _tyglab_run_copy(parts);
     },
     field: null,
@@ -69,10 +93,11 @@ addToLibrary({
       canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
       _tyglab_on_size(canvas.width, canvas.height, scale * larger, touch ? 6 * scale : 0);
     },
-    // A file of the person's, put where the program finds it.
+    // A file of the person's, put where the program finds it: in the current folder, so that it is told of by its name.
     take: async (file) => {
-      const folder = '/home/web_user/files', path = folder + '/' + file.name.replace(/[/\\]/g, '_');
+      const folder = '/home/web_user/files', path = file.name.replace(/[/\\]/g, '_');
       FS.mkdirTree(folder);
+      FS.chdir(folder);
       FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
       tyglabPage.withText(path, _tyglab_on_drop);
     },
@@ -161,17 +186,21 @@ addToLibrary({
 
   // Copies of the program, each in a worker.
   tyglab_start_copy__deps: ['$tyglabPage'],
-  tyglab_start_copy: (number, parts, end) => {
-    const memory = HEAPU8.slice(0, end);
+  tyglab_start_copy: (number, parts) => {
     const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
     worker.onmessage = ({data}) => {
+      if (data.pieces) {
+        tyglabPage.pieces.push(...data.pieces.map((piece) => new Uint8Array(piece.buffer)));
+        return;
+      }
       const at = _malloc(data.length);
       HEAPU8.set(data, at);
       _tyglab_on_report(number, at, data.length);
       _free(at);
     };
     worker.onerror = (event) => console.error('Tyglab: a worker failed: ' + event.message);
-    worker.postMessage({module: Module.compiled, memory, parts}, [memory.buffer]);
+    const pieces = tyglabPage.memoryInPieces();
+    worker.postMessage({module: Module.compiled, pieces, parts}, pieces.map((piece) => piece.buffer));
   },
   tyglab_end_copy__deps: ['$tyglabPage'],
   tyglab_end_copy: (number) => {
@@ -192,6 +221,7 @@ addToLibrary({
     matchMedia('(pointer: coarse)').addEventListener('change', tyglabPage.resized);  // a mouse is plugged in
     tyglabPage.listenToPointer(canvas);
     tyglabPage.listenToKeys(canvas);
+    if (HEAPU8.buffer instanceof ArrayBuffer) setTimeout(tyglabPage.preparePieces, 1000);  // where copies work, not threads
     window.addEventListener('dragover', (event) => event.preventDefault());
     window.addEventListener('drop', (event) => {
       event.preventDefault();

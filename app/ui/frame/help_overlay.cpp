@@ -34,7 +34,7 @@ constexpr Entry mouse_entries[] = {
 constexpr Entry finger_entries[] = {
     {"One finger", "grabs the cloth and pulls it, moves a sphere"},
     {"One finger, cutting", "cuts: Menu, Cloth, Cut with one finger"},
-    {"Tap", "picks a particle: its forces are shown"},
+    {"Tap, or hold still", "picks a particle: its forces are shown"},
     {"Two fingers", "orbit; apart or together zooms"},
     {"Two taps on a number", "types a value"},
 };

@@ -5,6 +5,7 @@
 const canvas = document.getElementById('canvas');
 const words = document.getElementById('words'), bar = document.getElementById('progress');
 const asked = new URLSearchParams(location.search), embedded = asked.has('embed');
+document.body.classList.toggle('embedded', embedded);
 const program = may_share_memory() ? 'tyglab-threads' : 'tyglab';
 
 class Refusal extends Error {}
@@ -94,9 +95,11 @@ function arguments_of_address() {
   return words;
 }
 
-function offer_whole() {
-  const whole = document.getElementById('whole');
-  whole.hidden = false;
+/// The bar below an embedded canvas: the way to the whole page and, where the cloth is alone, what its panels would offer.
+function show_bar(tyglab) {
+  const bar = document.getElementById('bar'), whole = document.getElementById('whole');
+  bar.hidden = false;
+  document.getElementById('alone').hidden = asked.get('panels') !== '0';
   const others = new URLSearchParams(asked);
   for (const key of ['embed', 'panels']) others.delete(key);
   const update = () => {
@@ -105,6 +108,20 @@ function offer_whole() {
   update();
   whole.addEventListener('pointerdown', update);
   whole.addEventListener('focus', update);
+  const keys = {pause: 32, restart: 259};  // GLFW's Space and Backspace
+  for (const [id, key] of Object.entries(keys))
+    document.getElementById(id).addEventListener('click', (event) => {
+      for (const down of [1, 0]) tyglab._tyglab_on_key(key, down, 0);
+      if (event.detail > 0) canvas.focus({preventScroll: true});  // by a pointer: keys still mean the cloth
+    });
+  // The canvas takes Tab: F6 goes on to the bar, and from there Tab to what follows in the course's page.
+  for (const kind of ['keydown', 'keyup']) bar.addEventListener(kind, (event) => event.stopPropagation());
+  canvas.addEventListener('keydown', (event) => {
+    if (event.key !== 'F6') return;
+    bar.querySelector(asked.get('panels') === '0' ? 'button' : 'a').focus();
+    event.preventDefault();
+  });
+  canvas.ariaLabel += ' F6 leaves it.';
 }
 
 /// What is not needed for the first frame.
@@ -156,7 +173,7 @@ async function start() {
   for (const [name, bytes] of unpack(await data)) write(tyglab, name, bytes);
   tyglab.FS.symlink('/tyglab/bin/tyglab', '/proc/self/exe');
   if (!embedded) restore(tyglab);
-  else offer_whole();
+  else show_bar(tyglab);
   const code_of_end = tyglab.callMain(arguments_of_address());
   if (code_of_end) throw new Refusal(said.replace(/^tyglab: /, '').trim());
 }

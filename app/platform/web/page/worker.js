@@ -1,7 +1,7 @@
 // A copy of the program at work beside the page (app/platform/copies.h): its memory comes with the message.
 importScripts('tyglab.js');
 
-onmessage = async ({data: {module, memory, parts}}) => {
+onmessage = async ({data: {module, pieces, parts}}) => {
   const tyglab = await createTyglab({
     noInitialRun: true,
     instantiateWasm: (imports, take) => {
@@ -9,5 +9,5 @@ onmessage = async ({data: {module, memory, parts}}) => {
       return {};
     },
   });
-  tyglab.tyglabPage.becomeCopy(memory, parts);
+  tyglab.tyglabPage.becomeCopy(pieces, parts);
 };
