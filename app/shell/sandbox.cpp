@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "app/base/data_files.h"
+#include "app/base/file_stamp.h"
 #include "app/base/link.h"
 #include "app/base/preset_files.h"
 #include "app/platform/address.h"
@@ -100,7 +101,8 @@ class Sandbox : public Turns {
   int busy_frames_ = 4;      ///< Dear ImGui needs a few frames after an event to settle
   double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
-  std::optional<Preset> linked_;  ///< whose link the page's address shows
+  std::optional<FileStamp> texture_read_;  ///< of the texture that is shown, once another than the first was read
+  std::optional<Preset> linked_;           ///< whose link the page's address shows
   std::uint64_t linked_document_ = 0;
   std::string linked_lab_;     ///< and the lab that it shows
   bool address_left_ = false;  ///< the browser has gone to another link
@@ -172,10 +174,14 @@ void Sandbox::start_preset() {
 
 /// Returns what is wrong with it; the present one stays then.
 std::optional<std::string> Sandbox::show_texture(const std::string& texture) {
+  const std::optional<FileStamp> stamp = stamp_of(texture_file(texture));
+  if (stamp && stamp == texture_read_) return std::nullopt;  // reading it again would take several frames' time
   const FoundPicture picture = find_picture(texture);
   if (const auto* why = std::get_if<std::string>(&picture)) return *why;
   scene_.redraw = true;
-  return scene_.renderer->set_texture(std::get<ClothPicture>(picture));
+  const std::optional<std::string> problem = scene_.renderer->set_texture(std::get<ClothPicture>(picture));
+  if (!problem) texture_read_ = stamp;
+  return problem;
 }
 
 Document Sandbox::first_document() {

@@ -1,9 +1,11 @@
 #include "core/theory/amplification.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace tyglab {
@@ -15,12 +17,41 @@ Matrix identity(int size) {
   return one;
 }
 
-/// `out`, of the same size, is another matrix: a search for a limit squares ten thousands of them.
-void square(const Matrix& a, Matrix& out) {
-  std::fill(out.elements.begin(), out.elements.end(), 0.0);
-  for (int i = 0; i < a.size; ++i)
-    for (int k = 0; k < a.size; ++k)
-      for (int j = 0; j < a.size; ++j) out.at(i, j) += a.at(i, k) * a.at(k, j);
+/// `size` is an int or a constant of that type: a search for a limit squares ten thousands of matrices, most of them
+/// small, which takes a third of the time where the compiler knows how small.
+template <class Size>
+void square(Size size, const double* a, double* __restrict out) {
+  std::fill_n(out, size * size, 0.0);
+  for (int i = 0; i < size; ++i)
+    for (int k = 0; k < size; ++k)
+      for (int j = 0; j < size; ++j) out[i * size + j] += a[i * size + k] * a[k * size + j];
+}
+
+/// `power`, the matrix, and `squared` are overwritten.
+template <class Size>
+double radius_by_squaring(Size size, double* power, double* squared) {
+  constexpr int squarings = 48;
+  double log_radius = 0, weight = 1;
+  for (int n = 0; n < squarings; ++n) {
+    double norm = 0;
+    for (int e = 0; e < size * size; ++e) norm = std::max(norm, std::abs(power[e]));
+    // A nilpotent matrix is gone after as many squarings as its size has bits. One with a defective eigenvalue (Verlet
+    // at ω·dt = 2) comes close to such a one, and is lost to rounding long after its radius is known.
+    if (norm == 0) return weight * size > 0.5 ? 0 : std::exp(log_radius);
+    for (int e = 0; e < size * size; ++e) power[e] /= norm;
+    log_radius += weight * std::log(norm);
+    square(size, power, squared);
+    std::swap(power, squared);
+    weight /= 2;
+  }
+  return std::exp(log_radius);
+}
+
+template <int size>
+double radius_of_small(const Matrix& matrix) {
+  std::array<double, size * size> power, squared;
+  std::copy(matrix.elements.begin(), matrix.elements.end(), power.begin());
+  return radius_by_squaring(std::integral_constant<int, size>{}, power.data(), squared.data());
 }
 
 bool stable(const Scheme& scheme, double h, double zeta) {
@@ -62,22 +93,13 @@ Matrix amplification(const Scheme& scheme, double h, double zeta) {
 }
 
 double spectral_radius(const Matrix& matrix) {
-  constexpr int squarings = 48;
-  Matrix power = matrix, squared = matrix;
-  double log_radius = 0, weight = 1;
-  for (int n = 0; n < squarings; ++n) {
-    double norm = 0;
-    for (const double e : power.elements) norm = std::max(norm, std::abs(e));
-    // A nilpotent matrix is gone after as many squarings as its size has bits. One with a defective eigenvalue (Verlet
-    // at ω·dt = 2) comes close to such a one, and is lost to rounding long after its radius is known.
-    if (norm == 0) return weight * matrix.size > 0.5 ? 0 : std::exp(log_radius);
-    for (double& e : power.elements) e /= norm;
-    log_radius += weight * std::log(norm);
-    square(power, squared);
-    std::swap(power, squared);
-    weight /= 2;
-  }
-  return std::exp(log_radius);
+  if (matrix.size == 2) return radius_of_small<2>(matrix);
+  if (matrix.size == 3) return radius_of_small<3>(matrix);
+  if (matrix.size == 4) return radius_of_small<4>(matrix);
+  if (matrix.size == 5) return radius_of_small<5>(matrix);
+  if (matrix.size == 6) return radius_of_small<6>(matrix);
+  std::vector<double> power = matrix.elements, squared(power.size());
+  return radius_by_squaring(matrix.size, power.data(), squared.data());
 }
 
 double stability_limit(const Scheme& scheme, double zeta) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "core/integrators/scheme.h"
 #include "core/theory/amplification.h"
@@ -20,12 +21,25 @@ int springs_inside(const Preset& p) {
   return std::min(p.rows, 3) * std::min(p.columns, 3) - 1;
 }
 
+/// ω·dt up to which no undamped mode grows. Worked out once, since every slider's zones ask for it.
+double undamped_limit(const Scheme& method) {
+  struct Limit {
+    std::once_flag once;
+    double h = no_limit;
+  };
+  static std::vector<Limit> limits(schemes().size());
+  Limit& limit = limits[std::size_t(&method - schemes().data())];
+  std::call_once(limit.once, [&] {
+    if (has_step_limit(method)) limit.h = stability_limit(method, 0);
+  });
+  return limit.h;
+}
+
 /// Says which modes a method lets grow.
 class Judge {
  public:
-  explicit Judge(const Scheme& method) : method_(method) {
-    if (has_step_limit(method)) undamped_ = stability_limit(method, 0);
-  }
+  /// One of schemes().
+  explicit Judge(const Scheme& method) : method_(method), undamped_(undamped_limit(method)) {}
 
   Zone zone(const Preset& p) const {
     if (!has_step_limit(method_)) return Zone::stable;
@@ -62,7 +76,7 @@ class Judge {
   }
 
   const Scheme& method_;
-  double undamped_ = no_limit;  ///< ω·dt up to which no undamped mode grows
+  double undamped_;
 };
 
 /// The value within a thousandth of which the zone becomes another.

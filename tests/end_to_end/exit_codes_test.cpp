@@ -184,7 +184,8 @@ TEST_CASE("3: a preset is wrong or missing") {
                {{"presets", "check", "missing.json"}, 3, "missing.json"},
                {{"presets", "show", "demin"}, 3, "denim"},
                {{"presets", "check", "demin"}, 3, "denim"},
-               {{"runn"}, 3, "Did you mean 'run'?"}},
+               {{"runn"}, 3, "Did you mean 'run'?"},
+               {{"run", "nothing"}, 3, "file. The shipped presets are curtain, cutting, "}},
               folder.path());
   test::write_file(folder / "right.json", preset_to_json({}));
   check_calls({{{"presets", "check", "right.json"}, 0, "right.json"},

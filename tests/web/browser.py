@@ -50,7 +50,7 @@ class Browser:
 class Page:
     def __init__(self, address):
         self.socket = websocket.create_connection(address, timeout=120)
-        self.number, self.errors, self.choosers = 0, [], []
+        self.number, self.errors, self.choosers, self.traced, self.tracing = 0, [], [], [], False
         for domain in ["Page", "Runtime", "Log", "Network"]:
             self.call(f"{domain}.enable")
 
@@ -74,6 +74,10 @@ class Page:
             self.errors.append(" ".join(str(argument.get("value", argument.get("description"))) for argument in said["args"]))
         elif kind == "Page.fileChooserOpened":
             self.choosers.append(said["backendNodeId"])
+        elif kind == "Tracing.dataCollected":
+            self.traced += said["value"]
+        elif kind == "Tracing.tracingComplete":
+            self.tracing = False
         elif kind == "Log.entryAdded" and said["entry"]["level"] == "error":
             self.errors.append(said["entry"]["text"] + " " + said["entry"].get("url", ""))
 
@@ -90,6 +94,19 @@ class Page:
             if time.monotonic() > end:
                 raise RuntimeError(f"not within {seconds} s: {expression}")
             time.sleep(0.1)
+
+    def trace(self):
+        """Begins to record what the browser's threads do."""
+        self.traced, self.tracing = [], True
+        self.call("Tracing.start", transferMode="ReportEvents", traceConfig={"includedCategories": ["devtools.timeline"]})
+
+    def frames_traced(self):
+        """The processor time that the page itself took for each frame since then, ms: without what draws, which is another
+        process, and without waiting for it or for a processor."""
+        self.call("Tracing.end")
+        while self.tracing:
+            self.ask("1")
+        return [event["tdur"] / 1000 for event in self.traced if event["name"] == "FireAnimationFrame" and "tdur" in event]
 
     def started(self):
         self.wait("performance.getEntriesByName('tyglab first frame').length > 0", 120)

@@ -291,16 +291,21 @@ class Tests:
         assert report(page)["theme"] == changed, report(page)["theme"]
 
     def test_studies_leave_frames_alone(self):
-        """The page goes on while a study runs in its worker. The times are printed, not judged: here the processor draws."""
+        """The page goes on while a study runs in its worker. Times between frames are printed, not judged, since here the
+        processor draws; what the page itself computes for a frame is, far above the 100 ms that are aimed at."""
         page = self.open("?report#hanging&rows=64&columns=64", width=800, height=600)
-        page.ask("""window.tasks = [], window.gaps = [];
-            new PerformanceObserver((list) => tasks.push(...list.getEntries().map((task) => task.duration))).observe({entryTypes: ['longtask']});
+        page.ask("""window.gaps = [];
             (function frame(last) { requestAnimationFrame((now) => { if (last) gaps.push(now - last); frame(now); }); })(0); 1""")
 
+        page.trace()
+
         def times(what):
-            gaps, tasks = sorted(page.ask("gaps.splice(0)")), page.ask("tasks.splice(0)")
+            gaps, computed = sorted(page.ask("gaps.splice(0)")), sorted(page.frames_traced())
             print(f"  {what}: {len(gaps)} frames, median {gaps[len(gaps) // 2]:.0f} ms, longest {gaps[-1]:.0f} ms; "
-                  f"longest task of the page {max(tasks, default=0):.0f} ms", flush=True)
+                  f"the page's own processor time for one: median {computed[len(computed) // 2]:.0f} ms, longest {computed[-1]:.0f} ms",
+                  flush=True)
+            assert computed[-1] < 300, computed[-9:]
+            page.trace()
 
         time.sleep(5)
         times("the start at 64 x 64")
@@ -362,6 +367,7 @@ class Tests:
         wait_for(page, "it lets go", lambda now: not now["held"])
         assert report(page)["torn_springs"] == 0
         command(page, "cut with one finger")
+        x, y = (pixel / ratio for pixel in middle_particle(report(page))["at"])
         drag((x - 60, y), (120, 0))
         wait_for(page, "a finger cuts", lambda now: now["torn_springs"] > 0)
         page.touch("touchEnd")

@@ -20,18 +20,44 @@ addToLibrary({
     visited: false,  // the browser came to the address, by back, forward or a link, and the program follows
     workers: {},
     // The memory that copies are given, in pieces that they give back. New memory costs a frame many times what copying
-    // into used one does, so the pieces for the first copy are made and written to one by one, between frames.
+    // into used one does, so pieces are made and written to one by one, between frames: beforehand, and some more than
+    // would be needed now, since memory grows while they are away. A copy begins once there are enough.
     pieces: [],
-    newPiece: () => new Uint8Array(1 << 20).fill(1),
+    waiting: [],  // copies
+    timer: 0,
     preparePieces: () => {
-      const missing = _tyglab_memory_end() - tyglabPage.pieces.length * (1 << 20);
-      if (missing > 0 && !document.hidden) tyglabPage.pieces.push(tyglabPage.newPiece());
-      setTimeout(tyglabPage.preparePieces, missing > 0 ? 20 : 1000);
+      const {pieces, waiting} = tyglabPage, spare = pieces.length * (1 << 20) - _tyglab_memory_end();
+      let soon = 1000;  // ms
+      if (waiting.length > 0 && spare >= 0) {
+        tyglabPage.beginCopy(waiting.shift());
+        soon = 0;
+      } else if (waiting.length > 0 || (spare < 8 << 20 && !document.hidden)) {
+        pieces.push(new Uint8Array(1 << 20).fill(1));
+        soon = waiting.length > 0 ? 0 : 20;
+      }
+      clearTimeout(tyglabPage.timer);
+      tyglabPage.timer = setTimeout(tyglabPage.preparePieces, soon);
+    },
+    beginCopy: ({number, parts}) => {
+      const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
+      worker.onmessage = ({data}) => {
+        if (data.pieces) {
+          tyglabPage.pieces.push(...data.pieces.map((piece) => new Uint8Array(piece.buffer)));
+          return;
+        }
+        const at = _malloc(data.length);
+        HEAPU8.set(data, at);
+        _tyglab_on_report(number, at, data.length);
+        _free(at);
+      };
+      worker.onerror = (event) => console.error('Tyglab: a worker failed: ' + event.message);
+      const pieces = tyglabPage.memoryInPieces();
+      worker.postMessage({module: Module.compiled, pieces, parts}, pieces.map((piece) => piece.buffer));
     },
     memoryInPieces: () => {
       const taken = [], end = _tyglab_memory_end();
       for (let at = 0; at < end; at += 1 << 20) {
-        const piece = tyglabPage.pieces.pop() ?? tyglabPage.newPiece(), part = HEAPU8.subarray(at, Math.min(at + piece.length, end));
+        const piece = tyglabPage.pieces.pop(), part = HEAPU8.subarray(at, Math.min(at + piece.length, end));
         piece.set(part);
         taken.push(piece.subarray(0, part.length));  // what follows must stay 0 in the copy
       }
@@ -187,24 +213,13 @@ addToLibrary({
   // Copies of the program, each in a worker.
   tyglab_start_copy__deps: ['$tyglabPage'],
   tyglab_start_copy: (number, parts) => {
-    const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
-    worker.onmessage = ({data}) => {
-      if (data.pieces) {
-        tyglabPage.pieces.push(...data.pieces.map((piece) => new Uint8Array(piece.buffer)));
-        return;
-      }
-      const at = _malloc(data.length);
-      HEAPU8.set(data, at);
-      _tyglab_on_report(number, at, data.length);
-      _free(at);
-    };
-    worker.onerror = (event) => console.error('Tyglab: a worker failed: ' + event.message);
-    const pieces = tyglabPage.memoryInPieces();
-    worker.postMessage({module: Module.compiled, pieces, parts}, pieces.map((piece) => piece.buffer));
+    tyglabPage.waiting.push({number, parts});
+    tyglabPage.preparePieces();
   },
   tyglab_end_copy__deps: ['$tyglabPage'],
   tyglab_end_copy: (number) => {
-    tyglabPage.workers[number].terminate();
+    tyglabPage.waiting = tyglabPage.waiting.filter((copy) => copy.number !== number);
+    tyglabPage.workers[number]?.terminate();
     delete tyglabPage.workers[number];
   },
   tyglab_report: (bytes, count) => postMessage(HEAPU8.slice(bytes, bytes + count)),
@@ -262,7 +277,7 @@ addToLibrary({
   // A text field takes keys, so a touch screen shows its keyboard: for a field of the page that nobody sees.
   tyglab_type_by_touch__deps: ['$tyglabPage'],
   tyglab_type_by_touch: (wanted) => {
-    if (!matchMedia('(pointer: coarse)').matches || (tyglabPage.field !== null) === (wanted !== 0)) return;
+    if ((tyglabPage.field !== null) === (wanted !== 0) || !matchMedia('(pointer: coarse)').matches) return;
     if (!wanted) {
       tyglabPage.field.remove();
       tyglabPage.field = null;

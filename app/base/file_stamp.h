@@ -1,0 +1,22 @@
+// Whether a file is still the one that was read.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace tyglab {
+
+/// Of two equal ones the file has the same content, unless somebody has set its time back.
+struct FileStamp {
+  std::filesystem::path file;
+  std::filesystem::file_time_type written;
+  std::uintmax_t bytes;
+
+  bool operator==(const FileStamp&) const = default;
+};
+
+/// None if there is no such file.
+std::optional<FileStamp> stamp_of(const std::filesystem::path& file);
+
+}  // namespace tyglab
