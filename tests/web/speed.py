@@ -4,7 +4,8 @@ Verlet in float, 128 x 128: the desktop's program with its best vectors, with AV
 Node, and the program for Windows under Wine. Processor time of one thread, and for the page with two threads real time.
 
 Also what a browser loads before the page's first frame, compressed, and how long after the last byte Chromium shows it, on this
-processor, which also draws: the median of as many starts, each with nothing kept. Needs the packages of [page] in
+processor, which also draws: the median of as many starts, each with nothing kept; and the processor time that the page itself
+takes for a frame beside studies. Needs the packages of [page] in
 cmake/packages.txt, which tests/web/run installs.
 
 Each time is that of a long run less that of a short one, so that starting counts nowhere; the runs of all programs take
@@ -25,7 +26,7 @@ import time
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from browser import Browser
 from instruction_sets import WIDER, limited_to
-from test_page import downloaded, served
+from test_page import CLOTH_OF_STUDIES, downloaded, frames_beside_studies, opened, served
 
 SIDE, SHORT, LONG = 128, 1500, 7500
 
@@ -93,11 +94,17 @@ def main():
         start = statistics.median(start_times(args.page, threads, args.rounds))
         starts.append({"program": "page with threads" if threads else "page", "bytes": size, "first_frame_s": start})
         print(f"{starts[-1]['program']:34} {size / 1e6:6.2f} MB before the first frame, {start:.2f} s after the last byte")
+    with served(args.page) as address, Browser() as browser:
+        shown = opened(browser, f"{address}/?report{CLOTH_OF_STUDIES}", width=800, height=600)
+        frames = [{"beside": what, "median_ms": statistics.median(computed), "longest_ms": max(computed)}
+                  for what, _, computed in frames_beside_studies(shown)]
+    for row in frames:
+        print(f"{row['beside']:52} {row['median_ms']:4.0f} ms of the page's own for a frame, {row['longest_ms']:4.0f} for the longest")
     if args.json:
         node = subprocess.run(["node", "--version"], check=True, capture_output=True, text=True).stdout.strip()
         runs = [{"program": name, "ns_per_particle_step": taken, "over_avx2": taken / times["AVX2"]} for name, taken in times.items()]
         args.json.write_text(json.dumps({"side": SIDE, "date": str(datetime.date.today()), "node": node, "runs": runs,
-                                         "starts": starts}))
+                                         "starts": starts, "frames": frames}))
 
 
 main()

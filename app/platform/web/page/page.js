@@ -97,8 +97,8 @@ function arguments_of_address() {
 
 /// The bar below an embedded canvas: the way to the whole page and, where the cloth is alone, what its panels would offer.
 function show_bar(tyglab) {
-  const bar = document.getElementById('bar'), whole = document.getElementById('whole');
-  bar.hidden = false;
+  const footer = document.getElementById('bar'), whole = document.getElementById('whole');
+  footer.hidden = false;
   document.getElementById('alone').hidden = asked.get('panels') !== '0';
   const others = new URLSearchParams(asked);
   for (const key of ['embed', 'panels']) others.delete(key);
@@ -115,10 +115,10 @@ function show_bar(tyglab) {
       if (event.detail > 0) canvas.focus({preventScroll: true});  // by a pointer: keys still mean the cloth
     });
   // The canvas takes Tab: F6 goes on to the bar, and from there Tab to what follows in the course's page.
-  for (const kind of ['keydown', 'keyup']) bar.addEventListener(kind, (event) => event.stopPropagation());
+  for (const kind of ['keydown', 'keyup']) footer.addEventListener(kind, (event) => event.stopPropagation());
   canvas.addEventListener('keydown', (event) => {
     if (event.key !== 'F6') return;
-    bar.querySelector(asked.get('panels') === '0' ? 'button' : 'a').focus();
+    footer.querySelector(asked.get('panels') === '0' ? 'button' : 'a').focus();
     event.preventDefault();
   });
   canvas.ariaLabel += ' F6 leaves it.';
