@@ -7,7 +7,8 @@
 
 namespace tyglab {
 
-/// Of two equal ones the file has the same content, unless somebody has set its time back.
+/// Of two equal ones the file has the same content, unless it was written twice between two ticks of the clock, or its
+/// time was set back.
 struct FileStamp {
   std::filesystem::path file;
   std::filesystem::file_time_type written;

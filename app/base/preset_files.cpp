@@ -87,7 +87,8 @@ PresetSource find_preset(const std::string& name_or_file, const std::vector<std:
   known.insert(known.end(), commands.begin(), commands.end());
   const auto near = nearest(name_or_file, known);
   throw PresetError(problem + (near ? " Did you mean '" + std::string(*near) + "'?"
-                                    : " The shipped presets are " + joined(names) + "."));
+                                    : " The shipped presets are " + joined(names) + "." +
+                                          (commands.empty() ? "" : " `tyglab --help` lists the commands.")));
 }
 
 Preset read_preset(const fs::path& file) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "app/base/data_files.h"
-#include "app/base/file_stamp.h"
 #include "app/base/link.h"
 #include "app/base/preset_files.h"
 #include "app/platform/address.h"
@@ -101,7 +100,7 @@ class Sandbox : public Turns {
   int busy_frames_ = 4;      ///< Dear ImGui needs a few frames after an event to settle
   double settle_until_ = 0;  ///< s, and some time, to fade what it fades
   double last_time_ = 0;
-  std::optional<FileStamp> texture_read_;  ///< of the texture that is shown, once another than the first was read
+  std::optional<FileStamp> texture_read_;  ///< of the texture that is shown
   std::optional<Preset> linked_;           ///< whose link the page's address shows
   std::uint64_t linked_document_ = 0;
   std::string linked_lab_;     ///< and the lab that it shows
@@ -159,6 +158,7 @@ void Sandbox::start_preset() {
   session_.show_texture = [&](const std::string&) -> std::optional<std::string> {
     scene_.redraw = true;
     if (auto* why = std::get_if<std::string>(&first.picture)) return std::move(*why);
+    texture_read_ = first.picture_file;
     return scene_.renderer->set_texture(std::get<ClothPicture>(first.picture));
   };
   begin_document(session_, first_document());

@@ -71,6 +71,7 @@ FoundPicture find_picture(const std::string& texture) {
 
 First build_first(const Preset& preset, int threads, bool whole) {
   First first;
+  first.picture_file = stamp_of(texture_file(preset.texture));
   first.picture = find_picture(preset.texture);
   if (!whole && preset.engine != EngineKind::cpu) {
     Preset shown = preset;

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "app/base/file_stamp.h"
 #include "app/base/settings.h"
 #include "app/render/cloth_texture.h"
 #include "app/shell/sandbox.h"
@@ -30,6 +31,7 @@ struct First {
   std::shared_ptr<Simulation> simulation;
   std::string fallback;  ///< why it runs on another engine than it asks for; empty: it does not
   FoundPicture picture;
+  std::optional<FileStamp> picture_file;  ///< as it was before it was read
 };
 /// Builds it while the window opens. `whole`: on the preset's own engine; a device that shares buffers with OpenGL
 /// needs the window first, and then there is no simulation yet. Otherwise the CPU engine shows what is to run on a

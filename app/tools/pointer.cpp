@@ -119,7 +119,9 @@ void start(Tools& tools, const PointerEvent& event) {
 
 void start_grab(Tools& tools) {
   Tool& tool = tools.tool;
-  const auto site = nearest_site(tools, tool.tile, tool.press, true);
+  // The cloth may have carried away what was pressed.
+  const bool free = tool.site && !cloth_in_tile(tools.scene, tool.tile).pinned(tool.site->i, tool.site->j);
+  const auto site = free ? tool.site : nearest_site(tools, tool.tile, tool.press, true);
   if (!site || !apply_edit(tools.session, edit::Grab{site->i, site->j})) {
     tool.kind = ToolKind::none;
     return;
@@ -143,7 +145,7 @@ bool pressed_long(const Tools& tools, double now) {
 
 void pick_or_pin(Tools& tools, const PointerEvent& event) {
   Tool& tool = tools.tool;
-  if (tool.second_press && tool.site) {
+  if (tool.second_press && tool.site && !pressed_long(tools, event.time)) {
     const auto [i, j] = *tool.site;
     apply_edit(tools.session, edit::Pin{i, j, !tools.session.simulation->pinned(i, j)});
     tool.last_site.reset();

@@ -1,9 +1,9 @@
 #include "core/theory/zones.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "core/integrators/scheme.h"
 #include "core/theory/amplification.h"
@@ -21,18 +21,14 @@ int springs_inside(const Preset& p) {
   return std::min(p.rows, 3) * std::min(p.columns, 3) - 1;
 }
 
-/// ω·dt up to which no undamped mode grows. Worked out once, since every slider's zones ask for it.
+/// ω·dt up to which no undamped mode grows. Kept, since every slider's zones ask for it. Two threads that ask at once
+/// find the same.
 double undamped_limit(const Scheme& method) {
-  struct Limit {
-    std::once_flag once;
-    double h = no_limit;
-  };
-  static std::vector<Limit> limits(schemes().size());
-  Limit& limit = limits[std::size_t(&method - schemes().data())];
-  std::call_once(limit.once, [&] {
-    if (has_step_limit(method)) limit.h = stability_limit(method, 0);
-  });
-  return limit.h;
+  if (!has_step_limit(method)) return no_limit;
+  static std::vector<std::atomic<double>> known(schemes().size());  // 0: not yet, or soon found again
+  std::atomic<double>& limit = known[std::size_t(&method - schemes().data())];
+  if (limit == 0) limit = stability_limit(method, 0);
+  return limit;
 }
 
 /// Says which modes a method lets grow.

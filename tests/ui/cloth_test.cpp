@@ -228,6 +228,15 @@ TEST_CASE("a finger held still picks the particle under it, and takes hold of it
     CHECK(window.session.picked == site);
     CHECK(pinned(window) == pins);
   }
+  SUBCASE("it follows a tap: held, it is no second half of a double tap") {
+    window.release(right);
+    window.frames(60);
+    window.press(right), window.release(right);
+    window.press(right);
+    window.frames(60);
+    window.release(right);
+    CHECK(pinned(window) == pins);
+  }
 }
 
 TEST_CASE("a left press on a body drags the body and never cuts, and it stays where the button was released") {

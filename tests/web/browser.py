@@ -98,15 +98,24 @@ class Page:
     def trace(self):
         """Begins to record what the browser's threads do."""
         self.traced, self.tracing = [], True
-        self.call("Tracing.start", transferMode="ReportEvents", traceConfig={"includedCategories": ["devtools.timeline"]})
+        self.call("Tracing.start", transferMode="ReportEvents",
+                  traceConfig={"includedCategories": ["devtools.timeline", "disabled-by-default-devtools.timeline"]})
 
-    def frames_traced(self):
-        """The processor time that the page itself took for each frame since then, ms: without what draws, which is another
-        process, and without waiting for it or for a processor."""
+    def frames_traced(self, seconds=60):
+        """Of a page that is the only one to draw, since then, ms: when its frames began, the processor time that it took itself
+        for each, and that of its longest task of any kind. Without what draws, which is another process, and without waiting
+        for it or for a processor. The page asks for one frame at a time."""
         self.call("Tracing.end")
+        end = time.monotonic() + seconds
         while self.tracing:
             self.ask("1")
-        return [event["tdur"] / 1000 for event in self.traced if event["name"] == "FireAnimationFrame" and "tdur" in event]
+            if time.monotonic() > end:
+                raise RuntimeError("the trace does not end")
+        frames = [event for event in self.traced if event["name"] == "FireAnimationFrame" and "tdur" in event]
+        threads = {(event["pid"], event["tid"]) for event in frames}
+        tasks = [event["tdur"] / 1000 for event in self.traced
+                 if event["name"] == "RunTask" and "tdur" in event and (event["pid"], event["tid"]) in threads]
+        return [event["ts"] / 1000 for event in frames], [event["tdur"] / 1000 for event in frames], max(tasks)
 
     def started(self):
         self.wait("performance.getEntriesByName('tyglab first frame').length > 0", 120)

@@ -118,36 +118,34 @@ CLOTH_OF_STUDIES = "#hanging&rows=64&columns=64"
 
 
 def frames_beside_studies(page):
-    """Studies one after the other in a page with CLOTH_OF_STUDIES and a report: beside what, the times between frames, and the
-    processor time that the page itself took for each, ms."""
-    page.ask("""window.gaps = [];
-        (function frame(last) { requestAnimationFrame((now) => { if (last) gaps.push(now - last); frame(now); }); })(0); 1""")
-    page.trace()
+    """Studies one after the other in a page with CLOTH_OF_STUDIES and a report: beside what, and Page.frames_traced."""
+    def errors():
+        command(page, "accuracy")
+        now = wait_for(page, "the card's result", lambda now: now["accuracy"] and now["accuracy"]["error_rms_m"] is not None, 180)
+        assert now["accuracy"]["seconds"] > 0, now["accuracy"]
 
-    def frames(what):
-        found = what, page.ask("gaps.splice(0)"), page.frames_traced()
+    def stability_map():
+        command(page, "map")
+        before = wait_for(page, "the map's first cells", lambda now: now["map_cells"], 120)
+        time.sleep(5)
+        now = wait_for(page, "more cells", lambda now: now["map_cells"] > before["map_cells"], 120)
+        assert now["frames"] > before["frames"], "no frame came beside the map"
+
+    def convergence():
+        command(page, "order of convergence")
+        time.sleep(8)
+
+    def large_cloth():
+        page.ask("location.hash = 'hanging&rows=300&columns=400'; 1")
+        wait_for(page, "the large cloth", lambda now: now["preset"]["cloth"]["rows"] == 300, 240)
+        time.sleep(3)
+
+    for what, happens in [("no study", lambda: time.sleep(5)), ("the errors of the present settings", errors),
+                          ("the map of stiffness and dt", stability_map), ("the order of convergence", convergence),
+                          ("building a cloth of 300 x 400, and drawing it first", large_cloth)]:
         page.trace()
-        return found
-
-    time.sleep(5)
-    yield frames("no study")
-    command(page, "accuracy")
-    now = wait_for(page, "the card's result", lambda now: now["accuracy"] and now["accuracy"]["error_rms_m"] is not None, 180)
-    assert now["accuracy"]["seconds"] > 0, now["accuracy"]
-    yield frames("the errors of the present settings")
-    command(page, "map")
-    cells = wait_for(page, "the map's first cells", lambda now: now["map_cells"], 120)["map_cells"]
-    shown = report(page)["frames"]
-    time.sleep(5)
-    now = wait_for(page, "more cells", lambda now: now["map_cells"] > cells, 120)
-    assert now["frames"] > shown, "no frame came beside the map"
-    yield frames("the map of stiffness and dt")
-    command(page, "order of convergence")
-    time.sleep(8)
-    yield frames("the order of convergence")
-    page.ask("location.hash = 'hanging&rows=300&columns=400'; 1")
-    wait_for(page, "the large cloth", lambda now: now["preset"]["cloth"]["rows"] == 300, 240)
-    yield frames("building a cloth of 300 x 400, and drawing it first")
+        happens()
+        yield what, *page.frames_traced()
 
 
 class Tests:
@@ -315,6 +313,9 @@ class Tests:
             page.ask("tyglab.tyglabPage.take(new File(['{'], 'broken.json')).then(() => 1)")
             now = wait_for(page, "a broken file is told of", lambda now: any("broken.json" in said for said in now["messages"]))
             assert not any("web_user" in said for said in now["messages"]), now["messages"]
+            page.ask("tyglab.tyglabPage.take(new File(['no picture'], 'denim.png')).then(() => 1)")
+            wait_for(page, "a file called like a texture of Tyglab's is the person's",
+                     lambda now: any("denim.png" in said for said in now["messages"]))
 
     def test_is_kept(self):
         page = self.page
@@ -329,12 +330,14 @@ class Tests:
 
     def test_studies_leave_frames_alone(self):
         """The page goes on while a study runs in its worker. Times between frames are printed, not judged, since here the
-        processor draws; what the page itself computes for a frame is, far above the 100 ms that are aimed at."""
+        processor draws. What the page itself computes is judged, but against 250 ms only: 100 ms are aimed at."""
         page = self.open("?report" + CLOTH_OF_STUDIES, width=800, height=600)
-        for what, gaps, computed in frames_beside_studies(page):
-            print(f"  {what}: {len(gaps)} frames, median {statistics.median(gaps):.0f} ms, longest {max(gaps):.0f} ms; the page's own "
-                  f"processor time for one: median {statistics.median(computed):.0f} ms, longest {max(computed):.0f} ms", flush=True)
-            assert max(computed) < 300, sorted(computed)[-9:]
+        for what, begun, computed, longest in frames_beside_studies(page):
+            between = [later - earlier for earlier, later in zip(begun, begun[1:])]
+            print(f"  {what}: {len(begun)} frames, {statistics.median(between):.0f} ms from one to the next, {max(between):.0f} ms the "
+                  f"longest; the page's own processor time for one {statistics.median(computed):.1f} ms, {longest:.0f} ms for its "
+                  "longest task", flush=True)
+            assert longest < 250, longest
             if "map" in what:
                 self.shot(page, "study")
         page.call("Page.close")

@@ -19,49 +19,54 @@ addToLibrary({
     cursor: '',
     visited: false,  // the browser came to the address, by back, forward or a link, and the program follows
     workers: {},
-    // The memory that copies are given, in pieces that they give back. New memory costs a frame many times what copying
-    // into used one does, so pieces are made and written to one by one, between frames: beforehand, and some more than
-    // would be needed now, since memory grows while they are away. A copy begins once there are enough.
+    // Copies that have not begun, and the memory that they are given: in pieces, which come back. New memory costs a frame
+    // many times what copying into used one does, so pieces are made between frames, in a few milliseconds each time.
+    waiting: [],
     pieces: [],
-    waiting: [],  // copies
-    timer: 0,
-    preparePieces: () => {
-      const {pieces, waiting} = tyglabPage, spare = pieces.length * (1 << 20) - _tyglab_memory_end();
-      let soon = 1000;  // ms
-      if (waiting.length > 0 && spare >= 0) {
-        tyglabPage.beginCopy(waiting.shift());
-        soon = 0;
-      } else if (waiting.length > 0 || (spare < 8 << 20 && !document.hidden)) {
-        pieces.push(new Uint8Array(1 << 20).fill(1));
-        soon = waiting.length > 0 ? 0 : 20;
+    pieceSize: 1 << 20,
+    piecesMissing: () => tyglabPage.pieces.length * tyglabPage.pieceSize < _tyglab_memory_end(),
+    beginWaiting: () => {
+      const begun = performance.now();
+      while (tyglabPage.waiting.length > 0) {
+        while (tyglabPage.piecesMissing()) {
+          if (performance.now() > begun + 4 && !document.hidden) return void setTimeout(tyglabPage.beginWaiting);
+          tyglabPage.pieces.push(new Uint8Array(tyglabPage.pieceSize).fill(1));
+        }
+        tyglabPage.beginCopy(tyglabPage.waiting.shift());
       }
-      clearTimeout(tyglabPage.timer);
-      tyglabPage.timer = setTimeout(tyglabPage.preparePieces, soon);
     },
     beginCopy: ({number, parts}) => {
-      const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
-      worker.onmessage = ({data}) => {
-        if (data.pieces) {
-          tyglabPage.pieces.push(...data.pieces.map((piece) => new Uint8Array(piece.buffer)));
-          return;
-        }
-        const at = _malloc(data.length);
-        HEAPU8.set(data, at);
-        _tyglab_on_report(number, at, data.length);
+      const report = (bytes) => {
+        const at = _malloc(bytes.length);
+        HEAPU8.set(bytes, at);
+        _tyglab_on_report(number, at, bytes.length);
         _free(at);
       };
-      worker.onerror = (event) => console.error('Tyglab: a worker failed: ' + event.message);
-      const pieces = tyglabPage.memoryInPieces();
-      worker.postMessage({module: Module.compiled, pieces, parts}, pieces.map((piece) => piece.buffer));
+      const fail = (message) => {
+        console.error('Tyglab: a worker failed: ' + message);
+        report(new TextEncoder().encode('eThe browser could not begin or finish this: ' + message));
+      };
+      try {
+        const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
+        worker.onmessage = ({data}) => (data.pieces ? tyglabPage.takeBack(data.pieces) : report(data));
+        worker.onerror = (event) => fail(event.message);
+        const pieces = tyglabPage.memoryInPieces();
+        worker.postMessage({module: Module.compiled, pieces, parts}, pieces.map((piece) => piece.buffer));
+      } catch (error) {
+        fail(error.message);
+      }
     },
     memoryInPieces: () => {
       const taken = [], end = _tyglab_memory_end();
-      for (let at = 0; at < end; at += 1 << 20) {
+      for (let at = 0; at < end; at += tyglabPage.pieceSize) {
         const piece = tyglabPage.pieces.pop(), part = HEAPU8.subarray(at, Math.min(at + piece.length, end));
         piece.set(part);
         taken.push(piece.subarray(0, part.length));  // what follows must stay 0 in the copy
       }
       return taken;
+    },
+    takeBack: (pieces) => {
+      for (const piece of pieces) if (tyglabPage.piecesMissing()) tyglabPage.pieces.push(new Uint8Array(piece.buffer));
     },
     // In a worker: the memory of the page becomes this instance's, and the work is done.
     becomeCopy: (pieces, parts) => {
@@ -119,9 +124,10 @@ addToLibrary({
       canvas.height = Math.max(1, Math.round(canvas.clientHeight * scale));
       _tyglab_on_size(canvas.width, canvas.height, scale * larger, touch ? 6 * scale : 0);
     },
-    // A file of the person's, put where the program finds it: in the current folder, so that it is told of by its name.
+    // A file of the person's, put where the program finds it: in the current folder, so that it is told of by its name, and
+    // as a path, so that it is neither a link nor a shipped texture.
     take: async (file) => {
-      const folder = '/home/web_user/files', path = file.name.replace(/[/\\]/g, '_');
+      const folder = '/home/web_user/files', path = './' + file.name.replace(/[/\\]/g, '_');
       FS.mkdirTree(folder);
       FS.chdir(folder);
       FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
@@ -214,7 +220,7 @@ addToLibrary({
   tyglab_start_copy__deps: ['$tyglabPage'],
   tyglab_start_copy: (number, parts) => {
     tyglabPage.waiting.push({number, parts});
-    tyglabPage.preparePieces();
+    setTimeout(tyglabPage.beginWaiting);
   },
   tyglab_end_copy__deps: ['$tyglabPage'],
   tyglab_end_copy: (number) => {
@@ -236,7 +242,6 @@ addToLibrary({
     matchMedia('(pointer: coarse)').addEventListener('change', tyglabPage.resized);  // a mouse is plugged in
     tyglabPage.listenToPointer(canvas);
     tyglabPage.listenToKeys(canvas);
-    if (HEAPU8.buffer instanceof ArrayBuffer) setTimeout(tyglabPage.preparePieces, 1000);  // where copies work, not threads
     window.addEventListener('dragover', (event) => event.preventDefault());
     window.addEventListener('drop', (event) => {
       event.preventDefault();

@@ -3,8 +3,8 @@
 //   ?embed&lab=03_stiffness               in a course's page: without what was kept, with a button that opens it whole
 //   ?embed&preset=flag&panels=0           likewise, the cloth alone
 const canvas = document.getElementById('canvas');
-const words = document.getElementById('words'), bar = document.getElementById('progress');
-const asked = new URLSearchParams(location.search), embedded = asked.has('embed');
+const words = document.getElementById('words'), progress = document.getElementById('progress');
+const asked = new URLSearchParams(location.search), embedded = asked.has('embed'), alone = asked.get('panels') === '0';
 document.body.classList.toggle('embedded', embedded);
 const program = may_share_memory() ? 'tyglab-threads' : 'tyglab';
 
@@ -26,7 +26,7 @@ function show(text) {
 /// The program cannot start, or has ended: why, and what to do.
 function end(text) {
   show(text);
-  bar.hidden = true;
+  progress.hidden = true;
   document.getElementById('action').hidden = false;
   document.getElementById('again').href = location.pathname;
   document.getElementById('start').classList.remove('gone');
@@ -53,7 +53,7 @@ async function fetched(name) {
   const counted = answer.body.pipeThrough(new TransformStream({
     transform(bytes, out) {
       loaded += bytes.length;
-      bar.value = loaded / tyglab_bytes[program];
+      progress.value = loaded / tyglab_bytes[program];
       out.enqueue(bytes);
     },
   }));
@@ -90,16 +90,16 @@ function arguments_of_address() {
   if (location.hash.length > 1) words.push(location.href);
   else if (asked.get('preset')) words.push(asked.get('preset'));
   if (asked.get('lab')) words.push('--lab', asked.get('lab'));
-  if (asked.get('panels') === '0') words.push('--no-panels');
+  if (alone) words.push('--no-panels');
   if (asked.has('report')) words.push('--session-report', '/report.json');  // docs/session-report.md, for scripts and tests
   return words;
 }
 
 /// The bar below an embedded canvas: the way to the whole page and, where the cloth is alone, what its panels would offer.
 function show_bar(tyglab) {
-  const footer = document.getElementById('bar'), whole = document.getElementById('whole');
-  footer.hidden = false;
-  document.getElementById('alone').hidden = asked.get('panels') !== '0';
+  const bar = document.getElementById('bar'), whole = document.getElementById('whole');
+  bar.hidden = false;
+  document.getElementById('alone').hidden = !alone;
   const others = new URLSearchParams(asked);
   for (const key of ['embed', 'panels']) others.delete(key);
   const update = () => {
@@ -108,20 +108,20 @@ function show_bar(tyglab) {
   update();
   whole.addEventListener('pointerdown', update);
   whole.addEventListener('focus', update);
-  const keys = {pause: 32, restart: 259};  // GLFW's Space and Backspace
-  for (const [id, key] of Object.entries(keys))
+  const {Space, Backspace} = tyglab.tyglabPage.codes;
+  for (const [id, key] of Object.entries({pause: Space, restart: Backspace}))
     document.getElementById(id).addEventListener('click', (event) => {
       for (const down of [1, 0]) tyglab._tyglab_on_key(key, down, 0);
       if (event.detail > 0) canvas.focus({preventScroll: true});  // by a pointer: keys still mean the cloth
     });
   // The canvas takes Tab: F6 goes on to the bar, and from there Tab to what follows in the course's page.
-  for (const kind of ['keydown', 'keyup']) footer.addEventListener(kind, (event) => event.stopPropagation());
+  for (const kind of ['keydown', 'keyup']) bar.addEventListener(kind, (event) => event.stopPropagation());
   canvas.addEventListener('keydown', (event) => {
     if (event.key !== 'F6') return;
-    footer.querySelector(asked.get('panels') === '0' ? 'button' : 'a').focus();
+    bar.querySelector(alone ? 'button' : 'a').focus();
     event.preventDefault();
   });
-  canvas.ariaLabel += ' F6 leaves it.';
+  canvas.ariaLabel += ' F6 leaves the cloth.';
 }
 
 /// What is not needed for the first frame.
