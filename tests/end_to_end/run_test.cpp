@@ -294,7 +294,8 @@ TEST_CASE("a cloth whose springs tear has diverged when its motion has more ener
 TEST_CASE("130: two signals at once are one wish, and what was asked for is written") {
   const test::TemporaryFolder folder;
   const std::string script =
-      "\"$0\" run denim --seconds 1000 --state s.csv --json r.json & sleep 1; kill -INT $!; kill -TERM $!; wait $!";
+      "\"$0\" run denim --seconds 100000 --state s.csv --json r.json --series t.csv & "
+      "until [ -e t.csv.incomplete ]; do sleep 0.1; done; sleep 0.5; kill -INT $!; kill -TERM $!; wait $!";
   const auto ended = test::run(folder.path(), {"sh", "-c", script, TYGLAB_BINARY});
   CHECK(ended.code == 130);
   CHECK(std::filesystem::exists(folder.path() / "s.csv"));
