@@ -241,6 +241,10 @@ float pointer_reach(const Tools& tools) {
 
 void handle_pointer(Tools& tools) {
   Tool& tool = tools.tool;
+  // A cloth may have been rebuilt with fewer particles while one was held down.
+  const Lattice& lattice = cloth_in_tile(tools.scene, tool.tile).lattice();
+  for (auto* site : {&tool.site, &tool.last_site})
+    if (*site && !lattice.contains((*site)->i, (*site)->j)) site->reset();
   for (const PointerEvent& event : tools.input.pointer) {
     const glm::vec2 at = event.at - tools.scene.viewport.origin(tool.tile);
     switch (event.type) {

@@ -18,7 +18,7 @@ Matrix identity(int size) {
 }
 
 /// `size` is an int or a constant of that type: a search for a limit squares tens of thousands of matrices, most of
-/// them small, which takes half the time where the compiler knows how small.
+/// them small, which is faster where the compiler knows how small.
 template <class Size>
 void square(Size size, const double* a, double* __restrict out) {
   std::fill_n(out, size * size, 0.0);

@@ -82,7 +82,8 @@ TEST_CASE("drift tells every method on both scenes; which of them loses, keeps a
 
 TEST_CASE("an interrupted map prints the cells that it has where they belong") {
   const test::TemporaryFolder folder;
-  const auto outcome = test::tyglab_interrupted(folder.path(), {"stability", "map", "hanging", "--csv", "m.csv"}, 1.5);
+  const auto outcome = test::tyglab_interrupted(folder.path(), {"stability", "map", "hanging", "--csv", "m.csv"},
+                                                test::sanitized ? 15 : 1.5);
   REQUIRE(outcome.code == 130);
   double first = 0, last = 0;
   std::vector<std::string> drawn;
@@ -109,7 +110,7 @@ TEST_CASE("an interrupted map prints the cells that it has where they belong") {
     letter += 1 + mark.size(), ++at, ++cells;
   }
   CHECK(row + 1 == drawn.size());
-  CHECK(cells > 0);  // on a slow machine few
+  CHECK(cells > 10);
   CHECK(cells < columns * 26);
 }
 
