@@ -81,6 +81,29 @@ TEST_CASE("a third quick click does not free again what the second pinned") {
   CHECK(desk.session.simulation->pinned(4, 4));
 }
 
+TEST_CASE("a press is forgotten when the cloth becomes too small to have its particle") {
+  for (const bool by_touch : {false, true}) {
+    CAPTURE(by_touch);
+    test::Desk desk;
+    start(desk, falling_cloth());
+    desk.input.by_touch = by_touch;
+    PointerEvent press{PointerEvent::Type::press};
+    press.button = GLFW_MOUSE_BUTTON_RIGHT, press.at = pixel_of(desk, {8, 8}), press.time = desk.tools.now = 1;
+    desk.input.pointer = {press};
+    handle_pointer(desk.tools);
+    REQUIRE(desk.tools.tool.site == Pins::Site{8, 8});
+    Preset small = falling_cloth();
+    small.rows = small.columns = 3;
+    REQUIRE(apply_edit(desk.session, edit::Change{small}));
+    desk.input.pointer.clear();
+    desk.tools.now = 2;  // long enough to take hold, or to pick
+    handle_pointer(desk.tools);
+    CHECK_FALSE(desk.tools.tool.site.has_value());
+    CHECK_FALSE(desk.session.picked.has_value());
+    CHECK_FALSE(desk.session.simulation->held().has_value());
+  }
+}
+
 TEST_CASE("pinning a particle is unsaved, freeing it again is as it was saved") {
   test::Desk desk;
   Preset preset = falling_cloth();
