@@ -10,6 +10,7 @@
 
 #include "core/analysis/one_weight.h"
 #include "core/io/preset_io.h"
+#include "tests/support/places.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
@@ -209,7 +210,7 @@ TEST_CASE("the shipped presets, with fewer particles: what is promised holds") {
   for (; tried < test::fewer(int(names.size()), 2); ++tried) {
     const std::string& name = names[std::size_t(tried)];
     CAPTURE(name);
-    Preset preset = load_preset(TYGLAB_SOURCE_DIR "/app/presets/" + name + ".json");
+    Preset preset = load_preset(std::string(test::source_dir) + "/app/presets/" + name + ".json");
     if (preset.kind == Kind::cloth && preset.pins.mode != Pins::Mode::list) preset.rows = preset.columns = 9;
     promised += keeps_its_word(preset, 1e-3);
   }

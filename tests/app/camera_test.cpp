@@ -11,6 +11,7 @@
 #include "app/render/camera.h"
 #include "app/render/picking.h"
 #include "core/io/preset_io.h"
+#include "tests/support/places.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::camera_test {
@@ -147,7 +148,7 @@ TEST_CASE("the sphere in front is the one under the pointer") {
 }
 
 TEST_CASE("a shipped scene's start fills the picture without leaving it") {
-  for (const auto& entry : std::filesystem::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(test::source_dir) + "/app/presets")) {
     CAPTURE(entry.path().string());
     const Preset preset = load_preset(entry.path());
     if (preset.kind == Kind::one_weight) continue;

@@ -13,6 +13,7 @@
 #include "app/session/observables.h"
 #include "app/session/session.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::lab_file_test {
@@ -275,7 +276,7 @@ TEST_CASE("every observable has a name of its own, and can be asked of any scene
 }
 
 TEST_CASE("the list of observables in docs/labs/README.md is current") {
-  const std::string file = std::string(TYGLAB_SOURCE_DIR) + "/docs/labs/README.md";
+  const std::string file = std::string(test::source_dir) + "/docs/labs/README.md";
   const std::string text = test::read_file(file), begin = "<!-- observables -->\n", end = "<!-- end -->\n";
   const std::size_t from = text.find(begin), to = text.find(end);
   REQUIRE(from != std::string::npos);

@@ -9,6 +9,7 @@
 #include "app/render/cloth_topology.h"
 #include "app/render/drawn_cloth.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::renderer_test {
@@ -244,7 +245,7 @@ TEST_CASE("a texture shows, and a bad file gives a message and keeps the old one
   Stage stage;
   Simulation simulation(hanging());
   const Image plain = stage.draw(simulation, 1);
-  CHECK_FALSE(stage.renderer().set_texture(TYGLAB_SOURCE_DIR "/textures/uv_grid.png").has_value());
+  CHECK_FALSE(stage.renderer().set_texture(std::string(test::source_dir) + "/textures/uv_grid.png").has_value());
   const Image grid = stage.draw(simulation, 1);
   CHECK(difference(plain, grid) > 1000);
   test::write_file(folder / "bad.png", "no picture");

@@ -12,6 +12,7 @@
 #include "app/scene/sketch.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "tests/support/places.h"
 
 namespace tyglab::sketch_test {
 
@@ -25,7 +26,7 @@ bool inside(const SceneSketch& sketch) {
 }
 
 TEST_CASE("every shipped preset has a picture that fits its frame, those that diverge too") {
-  for (const auto& file : std::filesystem::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+  for (const auto& file : std::filesystem::directory_iterator(std::string(test::source_dir) + "/app/presets")) {
     if (file.path().extension() != ".json") continue;
     CAPTURE(file.path().filename().string());
     const SceneSketch sketch = sketch_of(load_preset(file.path()), go_on);

@@ -10,11 +10,12 @@
 
 #include "app/cli/bench_instructions.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/skip.h"
 
 namespace tyglab::instructions_test {
 
-const std::filesystem::path counts_file = TYGLAB_SOURCE_DIR "/tests/bench/instructions.txt";
+const std::filesystem::path counts_file = std::string(test::source_dir) + "/tests/bench/instructions.txt";
 
 /// "gcc-12": the compiler as instructions.txt calls it.
 std::string compiler() {
@@ -74,7 +75,7 @@ void write_counts(const std::map<std::string, Counts>& known) {
 }
 
 TEST_CASE("a step of the default cloth costs no more instructions than it did") {
-  const InstructionCounter counter(TYGLAB_BINARY);
+  const InstructionCounter counter(test::binary);
   if (skipped_without_counts(counter)) return;
   // The default cloth is the one with bending on.
   const auto in_float = counter.per_particle_step({"bending", SkipState::on, Precision::float_});
@@ -100,7 +101,7 @@ TEST_CASE("a step of the default cloth costs no more instructions than it did") 
 }
 
 TEST_CASE("a feature that is off costs at most 1 % more instructions than an engine without it") {
-  if (skipped_without_counts(InstructionCounter(TYGLAB_BINARY))) return;
+  if (skipped_without_counts(InstructionCounter(test::binary))) return;
   const test::TemporaryFolder folder;
   const auto outcome = test::tyglab(folder.path(), {"bench", "skip", "--quick", "--side", "64", "--json", "skip.json"});
   CAPTURE(outcome.err);

@@ -5,6 +5,7 @@
 
 #include "tests/support/devices.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/skip.h"
 
@@ -17,7 +18,7 @@ test::Outcome tyglab_with(const test::TemporaryFolder& home, const std::vector<s
                                    "XDG_CACHE_HOME=" + (home / ".cache").string(),
                                    "POCL_CACHE_DIR=" + (home / "pocl").string()};
   command.insert(command.end(), environment.begin(), environment.end());
-  command.emplace_back(TYGLAB_BINARY);
+  command.emplace_back(test::binary);
   command.insert(command.end(), arguments.begin(), arguments.end());
   return test::run(home.path(), command);
 }
@@ -61,8 +62,8 @@ TEST_CASE("a limit of memory ends the drawing with a sentence that names it") {
     CAPTURE(megabytes);
     const auto outcome =
         test::run(folder.path(), {"/bin/sh", "-c",
-                                  "ulimit -v " + std::to_string(megabytes * 1024) +
-                                      "; exec \"" TYGLAB_BINARY "\" render hanging --seconds 0 --png a.png"});
+                                  "ulimit -v " + std::to_string(megabytes * 1024) + "; exec \"" +
+                                      std::string(test::binary) + "\" render hanging --seconds 0 --png a.png"});
     CAPTURE(outcome.err);
     if (outcome.code == 0) continue;
     ++failed;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/sanitized.h"
 
 namespace tyglab::endurance_test {
@@ -16,7 +17,7 @@ constexpr const char* seconds = test::sanitized ? "2" : "60";
 
 std::vector<std::string> shipped() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+  for (const auto& entry : fs::directory_iterator(std::string(test::source_dir) + "/app/presets")) {
     if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());

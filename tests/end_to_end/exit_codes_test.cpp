@@ -6,6 +6,7 @@
 
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::exit_codes_test {
 
@@ -32,7 +33,7 @@ void check_calls(const std::vector<Call>& calls, const fs::path& folder) {
 
 TEST_CASE("3: a preset's texture lies outside its folder; one that the user chose may lie anywhere") {
   const test::TemporaryFolder folder;
-  fs::copy_file(TYGLAB_SOURCE_DIR "/textures/linen.png", folder / "own.png");
+  fs::copy_file(std::string(test::source_dir) + "/textures/linen.png", folder / "own.png");
   fs::create_directory(folder / "sub");
   for (const char* texture : {"../own.png", "/etc/passwd"})
     for (const char* command : {"run", "render"}) {
@@ -196,7 +197,7 @@ TEST_CASE("3: a preset is wrong or missing") {
 TEST_CASE("3: the program's data is missing, also where the command line is wrong") {
   const test::TemporaryFolder folder;
   std::filesystem::create_directory(folder / "bin");
-  std::filesystem::copy(TYGLAB_BINARY, folder / "bin/tyglab");
+  std::filesystem::copy(test::binary, folder / "bin/tyglab");
   for (const char* option : {"--bogus", "--help"}) {
     const auto outcome = test::run(folder.path(), {(folder / "bin/tyglab").string(), "rum", option});
     CHECK(outcome.code == (std::string(option) == "--help" ? 0 : 3));
@@ -293,7 +294,7 @@ TEST_CASE("6: whatever goes to standard output and is lost") {
     CAPTURE(std::string(words));
     for (const char* nowhere : {" >/dev/full", " >&-"}) {
       const auto outcome =
-          test::run(folder.path(), {"/bin/sh", "-c", std::string(TYGLAB_BINARY) + " " + words + nowhere});
+          test::run(folder.path(), {"/bin/sh", "-c", std::string(test::binary) + " " + words + nowhere});
       CHECK(outcome.code == 6);
       CHECK(outcome.err.find("standard output") != std::string::npos);
     }
@@ -307,7 +308,7 @@ TEST_CASE("6: a reader of standard output that has had enough ends the run, whic
     CAPTURE(std::string(words));
     // The reader is gone before the first byte comes.
     const auto outcome = test::run(folder.path(), {"/bin/sh", "-c",
-                                                   std::string("{ sleep 0.3; ") + TYGLAB_BINARY + " " + words +
+                                                   std::string("{ sleep 0.3; ") + test::binary + " " + words +
                                                        "; echo $? > code; } | true; "
                                                        "while [ ! -s code ]; do sleep 0.1; done"});
     CHECK(test::read_file(folder / "code") == "6\n");
@@ -318,7 +319,7 @@ TEST_CASE("6: a reader of standard output that has had enough ends the run, whic
 
 TEST_CASE("6: a file that grows beyond the limit of the shell leaves nothing behind") {
   const test::TemporaryFolder folder;
-  const std::string call = "ulimit -f 4; " + std::string(TYGLAB_BINARY) + " run hanging --steps 1 --state s.csv";
+  const std::string call = "ulimit -f 4; " + std::string(test::binary) + " run hanging --steps 1 --state s.csv";
   const auto outcome = test::run(folder.path(), {"/bin/sh", "-c", call});
   CHECK(outcome.code == 6);
   CHECK(outcome.err.find("s.csv: cannot be written") != std::string::npos);
@@ -327,7 +328,7 @@ TEST_CASE("6: a file that grows beyond the limit of the shell leaves nothing beh
 
 TEST_CASE("a file does not take the place of a closed standard output") {
   const test::TemporaryFolder folder;
-  test::run(folder.path(), {"/bin/sh", "-c", std::string(TYGLAB_BINARY) + " run hanging --steps 1 --series t.csv >&-"});
+  test::run(folder.path(), {"/bin/sh", "-c", std::string(test::binary) + " run hanging --steps 1 --series t.csv >&-"});
   const auto rows = test::lines(test::read_file(folder / "t.csv"));
   REQUIRE(rows.size() == 3);
   CHECK(rows.back().starts_with("0,"));

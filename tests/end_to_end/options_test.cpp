@@ -5,6 +5,7 @@
 
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::options_test {
 
@@ -134,7 +135,7 @@ TEST_CASE("a preset may be a link wherever it is read") {
 
 TEST_CASE("an output does not replace the texture that is read, nor take an option for its name") {
   const test::TemporaryFolder folder;
-  std::filesystem::copy_file(TYGLAB_SOURCE_DIR "/textures/linen.png", folder / "a.png");
+  std::filesystem::copy_file(std::string(test::source_dir) + "/textures/linen.png", folder / "a.png");
   const std::string image = test::read_file(folder / "a.png");
   check(folder, {"render", "hanging", "--seconds", "0.01", "--set", "texture=a.png", "--png", "a.png"}, 2,
         "--png a.png: would overwrite the texture that is read");

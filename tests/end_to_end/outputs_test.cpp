@@ -11,6 +11,7 @@
 
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::outputs_test {
 
@@ -129,7 +130,7 @@ TEST_CASE("6: a full disk leaves every older file, and whole rows and frames bes
   // A limit of the shell for a file's size (blocks of 512 bytes) stands for the disk.
   const auto outcome = test::run(
       folder.path(), {"/bin/sh", "-c",
-                      "ulimit -f 200; " + std::string(TYGLAB_BINARY) +
+                      "ulimit -f 200; " + std::string(test::binary) +
                           " run hanging --steps 100000 --series t.csv --series-every 1 --ledger l.csv --pc2 c.pc2"});
   CHECK(outcome.code == 6);
   CHECK(outcome.err.find("cannot be written") != std::string::npos);
@@ -201,7 +202,7 @@ TEST_CASE("130: one signal ends a run whose output has no reader") {
     CHECK(outcome.code == 130);
   }
   const auto stalled = test::run(folder.path(), {"/bin/sh", "-c",
-                                                 std::string("{ timeout --preserve-status -s TERM 1 ") + TYGLAB_BINARY +
+                                                 std::string("{ timeout --preserve-status -s TERM 1 ") + test::binary +
                                                      " run flag --seconds 1000 --series - 2>said; echo $? >code; } | "
                                                      "while [ ! -s code ]; do sleep 0.1; done"});
   CHECK(test::read_file(folder / "code") == "130\n");

@@ -10,6 +10,7 @@
 #include "core/io/preset_io.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::run_test {
 
@@ -24,7 +25,7 @@ test::Outcome good(const fs::path& folder, const std::vector<std::string>& argum
 TEST_CASE("tyglab run denim --precision double --steps 200 equals the oracle's state to 1e-10 m") {
   const test::TemporaryFolder folder;
   good(folder.path(), {"run", "denim", "--precision", "double", "--steps", "200", "--state", "s.csv"});
-  oracle::Cloth cloth(load_preset(TYGLAB_SOURCE_DIR "/app/presets/denim.json"));
+  oracle::Cloth cloth(load_preset(std::string(test::source_dir) + "/app/presets/denim.json"));
   cloth.advance(200);
   const auto rows = test::lines(test::read_file(folder / "s.csv"));
   REQUIRE(int(rows.size()) == 2 + cloth.rows() * cloth.columns());
@@ -111,7 +112,7 @@ TEST_CASE("--obj and --pc2 write a frame for each 1/fps, of the same positions")
   CHECK(shorter.err.find("frames also holds 2 frames of an earlier sequence of hanging; remove them") !=
         std::string::npos);
   const std::string cache = test::read_file(folder / "c.pc2");
-  const Preset preset = load_preset(TYGLAB_SOURCE_DIR "/app/presets/hanging.json");
+  const Preset preset = load_preset(std::string(test::source_dir) + "/app/presets/hanging.json");
   const std::size_t count = std::size_t(preset.rows) * preset.columns;
   REQUIRE(cache.size() == 32 + 5 * count * 12);
   std::int32_t samples = 0;
@@ -296,7 +297,7 @@ TEST_CASE("130: two signals at once are one wish, and what was asked for is writ
   const std::string script =
       "\"$0\" run denim --seconds 100000 --state s.csv --json r.json --series t.csv & "
       "until [ -e t.csv.incomplete ]; do sleep 0.1; done; sleep 0.5; kill -INT $!; kill -TERM $!; wait $!";
-  const auto ended = test::run(folder.path(), {"sh", "-c", script, TYGLAB_BINARY});
+  const auto ended = test::run(folder.path(), {"sh", "-c", script, test::binary});
   CHECK(ended.code == 130);
   CHECK(std::filesystem::exists(folder.path() / "s.csv"));
   CHECK(std::filesystem::exists(folder.path() / "r.json"));

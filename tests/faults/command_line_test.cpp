@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/skip.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string program = TYGLAB_BINARY;
+const std::string program = test::binary;
 
 /// The same through a shell that sets limits first.
 test::Outcome limited(const fs::path& folder, const std::string& limits, const std::string& arguments) {

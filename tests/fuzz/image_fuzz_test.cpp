@@ -11,6 +11,7 @@
 #include "app/render/jpeg.h"
 #include "tests/support/files.h"
 #include "tests/support/pictures.h"
+#include "tests/support/places.h"
 
 namespace tyglab::image_fuzz_test {
 
@@ -97,7 +98,8 @@ TEST_CASE("mutants of pictures are read or refused") {
 TEST_CASE("JPEGs that wrote out of bounds in stb_image, and their mutants, are read or refused") {
   test::Random random(102);
   for (const char* name : {"j37.jpg", "j50.jpg"}) {
-    const std::string picture = test::read_file(std::filesystem::path(TYGLAB_SOURCE_DIR "/tests/fuzz/pictures") / name);
+    const std::string picture =
+        test::read_file(std::filesystem::path(std::string(test::source_dir) + "/tests/fuzz/pictures") / name);
     decodes(picture);
     for (int mutant = 0; mutant < 4 * mutants_of_each; ++mutant) {
       CAPTURE(mutant);

@@ -24,6 +24,7 @@
 #include "core/output/state_csv.h"
 #include "tests/fuzz/csv_reader.h"
 #include "tests/support/pictures.h"
+#include "tests/support/places.h"
 
 namespace tyglab::fuzz {
 namespace {
@@ -195,7 +196,7 @@ void write_tables(std::string_view input) {
 
 std::vector<std::string> files_of(const char* folder, const char* extension) {
   std::vector<std::string> all;
-  for (const auto& entry : fs::directory_iterator(fs::path(TYGLAB_SOURCE_DIR) / folder))
+  for (const auto& entry : fs::directory_iterator(fs::path(test::source_dir) / folder))
     if (entry.path().extension() == extension) all.push_back(content(entry.path()));
   return all;
 }

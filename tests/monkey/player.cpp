@@ -14,6 +14,7 @@
 #include "app/ui/frame/frame.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
+#include "tests/support/places.h"
 
 namespace tyglab::monkey {
 namespace {
@@ -78,7 +79,7 @@ Player::~Player() {
 
 /// Presets and pictures, good ones and bad ones.
 void Player::lay_out_files() const {
-  const fs::path source(TYGLAB_SOURCE_DIR);
+  const fs::path source(test::source_dir);
   for (const char* folder : {"tests/monkey/corpus", "tests/fuzz/pictures", "app/presets"})
     for (const auto& entry : fs::directory_iterator(source / folder)) fs::copy(entry.path(), folder_.path());
   fs::copy(source / "textures/linen.png", folder_.path());

@@ -8,6 +8,7 @@
 
 #include "core/output/obj.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/scenes.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
@@ -137,7 +138,7 @@ struct Ply {
 };
 
 Ply read_with_assimp(const test::TemporaryFolder& folder, const std::filesystem::path& obj) {
-  const auto outcome = test::run(folder.path(), {TYGLAB_ASSIMP, "export", obj.string(), "mesh.ply"});
+  const auto outcome = test::run(folder.path(), {test::assimp, "export", obj.string(), "mesh.ply"});
   REQUIRE_MESSAGE(outcome.code == 0, outcome.out);
   Ply ply;
   bool body = false;

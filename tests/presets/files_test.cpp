@@ -8,6 +8,7 @@
 #include "core/io/files.h"
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::files_test {
 
@@ -133,14 +134,14 @@ TEST_CASE("a preset in a file names no texture outside its folder") {
 
 TEST_CASE("every shipped preset is valid, has a name and a description, and the contract's names are there") {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(TYGLAB_SOURCE_DIR "/app/presets")) {
+  for (const auto& entry : fs::directory_iterator(std::string(test::source_dir) + "/app/presets")) {
     if (entry.path().extension() != ".json") continue;
     CAPTURE(entry.path().string());
     const Preset preset = load_preset(entry.path());
     CHECK(check_preset(preset) == "");
     CHECK(preset.name != Preset{}.name);
     CHECK(preset.description.size() > 20);
-    CHECK(fs::exists(fs::path(TYGLAB_SOURCE_DIR "/textures") / preset.texture));
+    CHECK(fs::exists(fs::path(std::string(test::source_dir) + "/textures") / preset.texture));
     names.push_back(entry.path().stem().string());
   }
   CHECK(names.size() >= 10);

@@ -9,6 +9,7 @@
 #include "core/io/files.h"
 #include "core/model/notation.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 namespace tyglab::notation_test {
 
@@ -86,15 +87,15 @@ TEST_CASE("every variable of table B.1 can be read out") {
 TEST_CASE("docs/notation.md is current") {
   // After a change of the table: TYGLAB_WRITE_DOCS=1 presets_tests writes the page anew.
   if (std::getenv("TYGLAB_WRITE_DOCS") != nullptr) {
-    write_atomically(TYGLAB_SOURCE_DIR "/docs/notation.md", notation_markdown());
+    write_atomically(std::string(test::source_dir) + "/docs/notation.md", notation_markdown());
   }
-  CHECK(test::read_file(TYGLAB_SOURCE_DIR "/docs/notation.md") == notation_markdown());
+  CHECK(test::read_file(std::string(test::source_dir) + "/docs/notation.md") == notation_markdown());
 }
 
 TEST_CASE("docs/integrators.md is current, and says of each method what it must") {
   if (std::getenv("TYGLAB_WRITE_DOCS") != nullptr)
-    write_atomically(TYGLAB_SOURCE_DIR "/docs/integrators.md", integrators_markdown());
-  CHECK(test::read_file(TYGLAB_SOURCE_DIR "/docs/integrators.md") == integrators_markdown());
+    write_atomically(std::string(test::source_dir) + "/docs/integrators.md", integrators_markdown());
+  CHECK(test::read_file(std::string(test::source_dir) + "/docs/integrators.md") == integrators_markdown());
   for (const Scheme& scheme : schemes()) {
     CAPTURE(std::string(scheme.name));
     for (const std::string_view text :

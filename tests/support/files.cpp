@@ -13,6 +13,8 @@
 #include <iterator>
 #include <thread>
 
+#include "tests/support/places.h"
+
 namespace tyglab::test {
 
 namespace fs = std::filesystem;
@@ -124,13 +126,13 @@ Outcome run(const fs::path& folder, const std::vector<std::string>& command) {
 }
 
 Outcome tyglab(const fs::path& folder, std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), TYGLAB_BINARY);
+  arguments.insert(arguments.begin(), test::binary);
   return run_and_signal(folder, arguments, 0, 0, {});
 }
 
 Outcome tyglab_interrupted(const fs::path& folder, std::vector<std::string> arguments, double after_seconds, int signal,
                            const fs::path& file) {
-  arguments.insert(arguments.begin(), TYGLAB_BINARY);
+  arguments.insert(arguments.begin(), test::binary);
   return run_and_signal(folder, arguments, after_seconds, signal, file);
 }
 

@@ -13,6 +13,7 @@
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
+#include "tests/support/places.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::glyphs_test {
@@ -123,7 +124,7 @@ void check_sources(GlyphCheck& glyphs) {
   namespace fs = std::filesystem;
   for (const char* folder : {"app/ui", "app/session", "app/studies", "app/scene", "app/tools", "app/base", "app/shell",
                              "core/model", "core/theory", "core/analysis", "core/engines", "core/fields"})
-    for (const auto& entry : fs::recursive_directory_iterator(fs::path(TYGLAB_SOURCE_DIR) / folder)) {
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(test::source_dir) / folder)) {
       const fs::path& file = entry.path();
       if (file.filename() == "text_lines.cpp") continue;  // its signs are what a formula may be broken at
       if (file.extension() == ".cpp" || file.extension() == ".h")
