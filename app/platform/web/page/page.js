@@ -10,7 +10,7 @@ const program = may_share_memory() ? 'tyglab-threads' : 'tyglab';
 
 class Refusal extends Error {}
 
-/// Whether the server lets the page have threads (README.md), and the browser has an address space for what they share.
+/// Whether the server lets the page have threads (docs/web.md), and the browser has an address space for what they share.
 function may_share_memory() {
   try {
     return self.crossOriginIsolated && Boolean(new WebAssembly.Memory({initial: 1, maximum: 32768, shared: true}));
