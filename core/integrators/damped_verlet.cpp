@@ -18,36 +18,37 @@ Scheme damped_verlet() {
       .order_damped = 2,
       .vectors = 3,
       .keeps_displacement = false,
-      .note = "Second order with damping too, and stable as Verlet is without damping, however strong the damping.",
+      .note = "Second order, also with damping. As stable as undamped Verlet, however strong the damping is.",
       .stability = "stable up to hω = 2, whatever the damping; symplectic without it",
       .cost =
           "one evaluation of the force and the products of one linear system with the constant matrix of the damping",
       .formula =
-          R"(Verlet's step with the mean of two velocities in the damping: $h' = h + dt\,(f(x) - C\,\tfrac12(h + h'))$, )"
-          R"($\;x' = x + dt\,h'$, where $h$ is the velocity between two steps, $f$ all of $a$ but the damping, and )"
-          R"($-C v$ the damping, $k_d/m$ times the differences along all whole stretch springs. The unknown is )"
-          R"($s = (h' - h)/dt$, with $(1 + \tfrac12 dt\,C)\,s = a(x, h)$: one evaluation of the force at what is )"
-          R"(known, and one linear system whose matrix depends on neither positions nor velocities. The velocity )"
-          R"(at the position is $h + \tfrac12 dt\,s$. With $dt \to -dt$ and $C \to -C$ a step is undone; without )"
-          R"(damping it is Verlet's own, reversible and symplectic, and its energy does not drift. With damping )"
-          R"(energy only falls, as in the motion itself: by $dt\,\bar v^T C \bar v\,m$ a step, $\bar v = )"
-          R"(\tfrac12(h + h')$. Motions with $c\,dt \gg 2$ have $\xi \to -1$: a jolt leaves velocities that change their )"
-          R"(sign in every step and fade slowly, where the true ones are gone at once; implicit Euler and TR-BDF2 remove them.
+          R"(This is Verlet's step with the mean of two velocities in the damping: $h' = h + dt\,(f(x) - )"
+          R"(C\,\tfrac12(h + h'))$, $\;x' = x + dt\,h'$, where $h$ is the velocity between two steps, $f$ is $a$ )"
+          R"(without the damping, and $-C v$ is the damping, $k_d/m$ times the velocity differences along all )"
+          R"(intact stretch springs. The unknown is $s = (h' - h)/dt$, with $(1 + \tfrac12 dt\,C)\,s = a(x, h)$. A )"
+          R"(step thus needs one evaluation of the force at known values and one linear system whose matrix depends )"
+          R"(on neither positions nor velocities. The velocity at the time of the position is $h + \tfrac12 dt\,s$. )"
+          R"(The step is undone by $dt \to -dt$ and $C \to -C$; without damping it is Verlet's step, reversible and )"
+          R"(symplectic, with an energy that does not drift. With damping, energy only decreases, as in the exact )"
+          R"(motion: by $dt\,\bar v^T C \bar v\,m$ per step, $\bar v = \tfrac12(h + h')$. Motions with $c\,dt \gg )"
+          R"(2$ have $\xi \to -1$: after a jolt, velocities change sign in every step and fade slowly, whereas the )"
+          R"(exact velocities vanish at once. Implicit Euler and TR-BDF2 remove them.
 
-*Why the damping sets no limit:* a mode with the frequency $\omega$ and the damping $c$ obeys $(1 + \tfrac12 c\,dt)\,\xi^2 )"
-          R"(- (2 - \omega^2 dt^2)\,\xi + (1 - \tfrac12 c\,dt) = 0$, both of whose roots have $|\xi| \le 1$ exactly )"
-          R"(where $\omega\,dt \le 2$. That damping and stiffness have different modes changes nothing, since $\omega^2$ )"
-          R"(and $c$ may be taken as the Rayleigh quotients of the growing motion itself.
+*Why the damping sets no limit:* a mode with the frequency $\omega$ and the damping $c$ obeys $(1 + \tfrac12 )"
+          R"(c\,dt)\,\xi^2 - (2 - \omega^2 dt^2)\,\xi + (1 - \tfrac12 c\,dt) = 0$, and both of its roots have )"
+          R"($|\xi| \le 1$ exactly if $\omega\,dt \le 2$. It makes no difference that damping and stiffness have )"
+          R"(different modes, since $\omega^2$ and $c$ can be the Rayleigh quotients of the growing motion itself.
 
-*The linear system.* The eigenvalues of its matrix lie between 1 and $\kappa = 1 + 6\,dt\,k_d/m$, with tears and pins )"
-          R"(too, so Chebyshev's iteration needs nothing but these bounds: no sums over the cloth, the same number of )"
-          R"(products whatever the motion, no factors that would fill memory (one of a band of a 4096 × 4096 cloth )"
-          R"(would hold $7 \cdot 10^{10}$ numbers), and the same bits for any number of threads. Two equal rounds of )"
-          R"($n$ products leave the residual polynomial $(T_n(\cdot)/T_n(\cdot))^2 \ge 0$: what is solved for can )"
-          R"(only be smaller than the solution in any mode, as if particles were heavier there, which never makes )"
-          R"(the step less stable. $n$ is what makes the rest at most $10^{-6}$ in float and $10^{-12}$ in double )"
-          R"((16 and 32 products at $\kappa = 5$), but at most 500; a step in which that leaves more is counted and reported as )"
-          R"(unconverged.)",
+*The linear system.* The eigenvalues of its matrix lie between 1 and $\kappa = 1 + 6\,dt\,k_d/m$, also with )"
+          R"(tears and pins, and Chebyshev iteration needs only these bounds. It computes no sums over the cloth, )"
+          R"(makes a number of products that does not depend on the motion, stores no factors (a band factor of a )"
+          R"(4096 × 4096 cloth would have $7 \cdot 10^{10}$ numbers), and gives identical bits for any number of )"
+          R"(threads. Two equal rounds of $n$ products leave the residual polynomial $(T_n(\cdot)/T_n(\cdot))^2 \ge )"
+          R"(0$. In every mode the computed $s$ can therefore only be smaller than the solution, as if the )"
+          R"(particles were heavier, which never makes the step less stable. $n$ is chosen so that the residual is )"
+          R"(at most $10^{-6}$ in float and $10^{-12}$ in double (16 and 32 products at $\kappa = 5$), but is at )"
+          R"(most 500; a step with a larger residual is counted and reported as unconverged.)",
       .sweeps = {{.position = x, .velocity = v, .velocity_dt_power = 0, .assignments = {{slope, {{a, 1, 0}}}}},
                  {.position = x,
                   .velocity = slope,

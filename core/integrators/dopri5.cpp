@@ -109,45 +109,46 @@ std::vector<Sweep> sweeps() {
 }  // namespace
 
 Scheme dopri5() {
-  return {.name = "dopri5",
-          .title = "Dormand-Prince 5(4)",
-          .equation = "",
-          .source =
-              "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6, 19 (1980); step control as in E. Hairer, "
-              "S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), II.4, II.5, "
-              "and K. Gustafsson, ACM Trans. Math. Softw. 17, 533 (1991)",
-          .order_undamped = 5,
-          .order_damped = 5,
-          .vectors = first_a + stages,
-          .keeps_displacement = false,
-          .note = "Fifth order. Chooses its own steps within dt so that no step's error exceeds the tolerance.",
-          .stability = "shortens its steps where they would be unstable, hλ about 1 to 3.3 in size, and counts them",
-          .cost = "six evaluations of the force per inner step; a rejected step costs as much",
-          .formula =
-              R"(Seven slopes of $y = (x, v)$, the last of which is the next step's first. Two sums of them, of )"
-              R"(fifth and of fourth order, differ by about the error of the step. **`tolerance`** (m) is the )"
-              R"(largest such error of any coordinate of any particle, the error of a velocity counting as the )"
-              R"(distance it covers in one more step: $\max(|e_x|, h\,|e_v|) \le$ tolerance. A step with a larger )"
-              R"(error is discarded and tried again; the last two errors determine the length of the next (a PI )"
-              R"(controller, $h' = 0.9\,h\,\varepsilon^{-0.17}\,\varepsilon_{old}^{0.04}$ with $\varepsilon$ = )"
-              R"(error/tolerance, at most ten times longer and five times shorter), and the steps of a $dt$ fill it )"
-              R"(exactly. The fifth-order result is kept, so the error at a later time falls about in proportion to )"
-              R"(the tolerance. $dt$ is only the interval of output. Bodies and tearing act, and the force on the )"
-              R"(hand is measured, after each inner step; the hand lets go at the end of a $dt$. Contact is not a )"
-              R"(smooth force, and the error estimate does not include it: its error is what a particle does within )"
-              R"(an inner step, whatever the tolerance, so where bodies matter $dt$ must be short too.
+  return {
+      .name = "dopri5",
+      .title = "Dormand-Prince 5(4)",
+      .equation = "",
+      .source =
+          "J. R. Dormand, P. J. Prince, J. Comput. Appl. Math. 6, 19 (1980); step control as in E. Hairer, "
+          "S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed. (1993), II.4, II.5, "
+          "and K. Gustafsson, ACM Trans. Math. Softw. 17, 533 (1991)",
+      .order_undamped = 5,
+      .order_damped = 5,
+      .vectors = first_a + stages,
+      .keeps_displacement = false,
+      .note = "Fifth order. Chooses inner steps within dt such that no step's error exceeds the tolerance.",
+      .stability = "shortens its steps where they would be unstable, hλ about 1 to 3.3 in size, and counts them",
+      .cost = "six evaluations of the force per inner step; also for rejected steps",
+      .formula =
+          R"(The method computes seven slopes of $y = (x, v)$, the last of which is the first of the next step. Two )"
+          R"(combinations of them, of fifth and fourth order, differ by about the error of the step. )"
+          R"(**`tolerance`** (m) limits this error for every coordinate of every particle; the error of a velocity )"
+          R"(counts as the distance that it covers in one more step: $\max(|e_x|, h\,|e_v|) \le$ tolerance. A step )"
+          R"(with a larger error is rejected and repeated. The last two errors determine the length of the next )"
+          R"(step (a PI controller, $h' = 0.9\,h\,\varepsilon^{-0.17}\,\varepsilon_{old}^{0.04}$ with $\varepsilon$ )"
+          R"(= error/tolerance, at most ten times longer and five times shorter), and the inner steps fill each )"
+          R"($dt$ exactly. The method keeps the fifth-order result, so the error at a later time is roughly )"
+          R"(proportional to the tolerance. $dt$ is only the interval of output. After each inner step, bodies and )"
+          R"(tearing act and the force on the hand is measured; the hand releases at the end of a $dt$. Contact is )"
+          R"(not a smooth force, and the error estimate does not include it. Its error depends on how far particles )"
+          R"(move within an inner step, whatever the tolerance, so with bodies $dt$ must be short too.
 
-The program counts what limits the steps: *stability* where the fastest motion left between the last two stages, )"
-              R"(which both belong to the step's end, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"
-              R"(outside $|R(h\lambda)| \le 1$ (Hairer's test, which asks for $h|\lambda| > 3.25$, is the case of a )"
-              R"(motion that only decays); *dt* where one step covers it; *accuracy* otherwise. Where steps are )"
-              R"(limited by stability a smaller tolerance costs little, and an implicit method may be faster. An )"
-              R"(inner step is never shorter than $dt/10^4$, and errors below the last digit of the largest )"
-              R"(coordinate are ignored: such a step is accepted, counted and reported.)",
-          .sweeps = sweeps(),
-          .start = {},
-          .lag = 0,
-          .estimate = estimate()};
+The program counts what limits the steps: *stability* if the fastest motion between the last two stages, which )"
+          R"(both belong to the end of the step, fitted as $\ddot x = -\omega^2 x - 2\zeta\omega\dot x$, lies )"
+          R"(outside $|R(h\lambda)| \le 1$ (Hairer's test, $h|\lambda| > 3.25$, is the case of a motion that only )"
+          R"(decays); *dt* if one step covers it; *accuracy* otherwise. If stability limits the steps, a smaller )"
+          R"(tolerance costs little, and an implicit method may be faster. An inner step is never shorter than )"
+          R"($dt/10^4$, and errors below the last digit of the largest coordinate are ignored: such a step is )"
+          R"(accepted, counted and reported.)",
+      .sweeps = sweeps(),
+      .start = {},
+      .lag = 0,
+      .estimate = estimate()};
 }
 
 }  // namespace tyglab

@@ -17,9 +17,10 @@ std::vector<Scheme> explicit_schemes() {
        .note = "First order. Adds energy to every oscillation; stable only with enough damping.",
        .stability = "grows at every dt without damping; with it stable up to hω = 2ζ",
        .cost = "one evaluation of the force",
-       .formula = R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines use only the beginning of the step, so )"
-                  R"(every oscillation grows, by a factor of $\sqrt{1 + (\omega\,dt)^2}$ per step: the report's )"
-                  R"(example of what not to do, and worth seeing.)",
+       .formula =
+           R"($x' = x + dt\,v$, $\;v' = v + dt\,a(x, v)$. Both lines use only the state at the beginning of the )"
+           R"(step, so every oscillation grows by a factor of $\sqrt{1 + (\omega\,dt)^2}$ per step. This is the )"
+           R"(report's example of what not to do, and worth seeing.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
        .lag = 0},
@@ -36,13 +37,14 @@ std::vector<Scheme> explicit_schemes() {
            "method, which other texts call improved Euler.",
        .stability = "grows at every dt without damping, more slowly than Euler",
        .cost = "one evaluation of the force",
-       .formula = R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to )"
-                  R"(second order, the velocity only to first, and the method is only as good as the worse of the )"
-                  R"(two. An oscillation grows by a factor of $\sqrt{1 + (\omega\,dt)^2/2}$ per step.)",
+       .formula =
+           R"($x' = x + dt\,v + \tfrac12 dt^2 a(x, v)$, $\;v' = v + dt\,a(x, v)$. The position is expanded to second )"
+           R"(order but the velocity only to first order, and the less accurate of the two determines the order of )"
+           R"(the method. An oscillation grows by a factor of $\sqrt{1 + (\omega\,dt)^2/2}$ per step.)",
        .sweeps = {{x, v, 0, {{x, {{x, 1, 0}, {v, 1, 1}, {a, 0.5, 2}}}, {v, {{v, 1, 0}, {a, 1, 1}}}}}},
        .start = {},
        .lag = 0},
-      // d[n] = x[n] - x[n-1] is kept: x[n+1] = 2x[n] - x[n-1] + dt² a would lose a float's last digits in every step.
+      // Stores d[n] = x[n] - x[n-1]: x[n+1] = 2x[n] - x[n-1] + dt² a would lose a float's last digits in every step.
       {.name = "verlet",
        .title = "Verlet",
        .equation = "2.15",
@@ -51,14 +53,14 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 1,
        .vectors = 2,
        .keeps_displacement = true,
-       .note =
-           "Second order without damping; first order with it, since the damping sees the velocity half a step late.",
+       .note = "Second order without damping; first order with it, since damping uses the velocity of half a step ago.",
        .stability = "symplectic; stable up to hω = 2 without damping, 2(√(1 + ζ²) − ζ) with it",
        .cost = "one evaluation of the force",
-       .formula = R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, starting with $d = dt\,v - \tfrac12 dt^2 a$. $d$ )"
-                  R"(is stored and $2x - x_{old}$ is never computed, which in float would lose the last digits in )"
-                  R"(every step. Damping sees the velocity of half a step ago, which costs an order. The energy )"
-                  R"(fluctuates but does not drift while no spring switches.)",
+       .formula =
+           R"($d' = d + dt^2\,a(x, d/dt)$, $\;x' = x + d'$, starting with $d = dt\,v - \tfrac12 dt^2 a$. The method )"
+           R"(stores $d$ and never computes $2x - x_{old}$, which in float would lose the last digits in every step. )"
+           R"(Damping uses the velocity of half a step ago, which reduces the order to 1. The energy fluctuates but )"
+           R"(does not drift while no spring switches.)",
        .sweeps = {{x, v, -1, {{v, {{v, 1, 0}, {a, 1, 2}}}, {x, {{x, 1, 0}, {v, 1, 0}}}}}},
        .start = {{v, {{v, 1, 1}, {a, -0.5, 2}}}},
        .lag = 0.5},
@@ -70,18 +72,18 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 1,
        .vectors = 2,
        .keeps_displacement = false,
-       .note = "Verlet's recurrence with a simpler start: first order, and just as stable.",
+       .note = "Verlet's recurrence with a simpler start: first order, and as stable as Verlet.",
        .stability = "symplectic; as stable as Verlet",
        .cost = "one evaluation of the force",
        .formula =
-           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. Verlet's recurrence, read as an Euler step that uses its )"
-           R"(new velocity at once; the velocity that it reports belongs to half a step earlier, and that is its )"
-           R"(first-order error.)",
+           R"($v' = v + dt\,a(x, v)$, $\;x' = x + dt\,v'$. This is Verlet's recurrence, read as an Euler step that )"
+           R"(uses its new velocity at once. The velocity that it reports belongs to half a step earlier; this is )"
+           R"(its first-order error.)",
        .sweeps = {{x, v, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}}}},
        .start = {},
        .lag = 0},
-      // Vector 1 is v half a step back; vector 2 is v + dt a of the step before, a second-order prediction that the
-      // damping sees, so that one evaluation a step is enough.
+      // Vector 1 is v half a step ago. Vector 2 is v + dt a of the previous step, a second-order prediction that
+      // damping uses, so one evaluation per step is enough.
       {.name = "velocity_verlet",
        .title = "Velocity Verlet",
        .equation = "",
@@ -92,13 +94,13 @@ std::vector<Scheme> explicit_schemes() {
        .order_damped = 2,
        .vectors = 3,
        .keeps_displacement = false,
-       .note = "Second order with damping too, since the damping sees a predicted velocity. One evaluation per step.",
+       .note = "Second order, also with damping, which uses a predicted velocity. One evaluation per step.",
        .stability = "symplectic without damping; stable up to hω = 2, less with damping",
        .cost = "one evaluation of the force",
        .formula =
            R"($h' = h + dt\,a(x, p)$, $\;x' = x + dt\,h'$, $\;p' = h' + \tfrac12 dt\,a(x, p)$: $h$ is the velocity )"
-           R"(between two steps, $p$ a prediction of the velocity at the end of the step. The damping sees $p$, )"
-           R"(whose error is only $O(dt^2)$, so it costs no order.)",
+           R"(between two steps, and $p$ is a prediction of the velocity at the end of the step. Damping uses $p$, )"
+           R"(whose error is only $O(dt^2)$, so it does not reduce the order.)",
        .sweeps = {{x, 2, 0, {{v, {{v, 1, 0}, {a, 1, 1}}}, {x, {{x, 1, 0}, {v, 1, 1}}}, {2, {{v, 1, 0}, {a, 0.5, 1}}}}}},
        .start = {{2, {{v, 1, 0}}}, {v, {{v, 1, 0}, {a, -0.5, 1}}}},
        .lag = 0.5},
@@ -114,8 +116,9 @@ std::vector<Scheme> explicit_schemes() {
        .note = "Fourth order while no spring switches. Four evaluations per step; loses a little energy.",
        .stability = "stable up to hω = 2√2; removes energy: (hω)⁶/144 of the amplitude per step",
        .cost = "four evaluations of the force",
-       .formula = R"(Four slopes of $y = (x, v)$, at the beginning, twice in the middle, at the end: $y' = y + )"
-                  R"(\tfrac{dt}{6}(k_1 + 2k_2 + 2k_3 + k_4)$.)",
+       .formula =
+           R"(The method combines four slopes of $y = (x, v)$, one at the beginning of the step, two in the middle )"
+           R"(and one at the end: $y' = y + \tfrac{dt}{6}(k_1 + 2k_2 + 2k_3 + k_4)$.)",
        .sweeps = {{x,
                    v,
                    0,
@@ -153,10 +156,11 @@ std::vector<Scheme> explicit_schemes() {
        .note = "Fourth order without damping for three evaluations per step, while no spring switches; second with it.",
        .stability = "stable up to hω = 2.59 without damping",
        .cost = "three evaluations of the force",
-       .formula = R"(Runge-Kutta's idea for $\ddot x = a(x)$ itself: with $a_1 = a(x)$, $a_2 = a(x + \tfrac12 dt\,v + )"
-                  R"(\tfrac18 dt^2 a_1)$, $a_3 = a(x + dt\,v + \tfrac12 dt^2 a_2)$ it is $x' = x + dt\,v + \tfrac16 )"
-                  R"(dt^2 (a_1 + 2 a_2)$, $v' = v + \tfrac16 dt\,(a_1 + 4 a_2 + a_3)$. Damping sees a first-order )"
-                  R"(velocity at the stages.)",
+       .formula =
+           R"(This is the idea of Runge-Kutta methods, applied to $\ddot x = a(x)$ directly: with $a_1 = a(x)$, $a_2 )"
+           R"(= a(x + \tfrac12 dt\,v + \tfrac18 dt^2 a_1)$, $a_3 = a(x + dt\,v + \tfrac12 dt^2 a_2)$ a step is $x' = )"
+           R"(x + dt\,v + \tfrac16 dt^2 (a_1 + 2 a_2)$, $v' = v + \tfrac16 dt\,(a_1 + 4 a_2 + a_3)$. At the stages, )"
+           R"(damping uses a first-order velocity.)",
        .sweeps = {{x,
                    v,
                    0,
@@ -174,8 +178,9 @@ std::vector<Scheme> explicit_schemes() {
                   {4, 5, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}, {a, 1.0 / 6, 1}}}}}},
        .start = {},
        .lag = 0},
-      // Vector 1 lacks the end of the last step's closing kick, which is one with the next step's first; vectors 2 and
-      // 3 hold the middle and the middle shifted, 4 a second-order prediction of the velocity, which the damping sees.
+      // Vector 1 lacks the end of the last step's closing kick, which shares its evaluation with the next step's first
+      // kick. Vectors 2 and 3 hold the middle and the shifted middle, 4 a predicted velocity of second order for
+      // damping.
       {.name = "force_gradient4",
        .title = "Force gradient 4",
        .equation = "",
@@ -191,13 +196,13 @@ std::vector<Scheme> explicit_schemes() {
        .stability = "stable up to hω = 2√3 without damping; oscillations lag by (hω)⁵/4320 per step",
        .cost = "three evaluations of the force",
        .formula =
-           R"(Verlet's step with kicks of $\tfrac16$, $\tfrac23$ and $\tfrac16$ of $dt$, whose middle one has the )"
-           R"(force's gradient in it: $v_1 = v + \tfrac16 dt\,a(x)$, $\;x_m = x + \tfrac12 dt\,v_1$, $\;v_2 = v_1 + )"
-           R"(\tfrac23 dt\,\tilde a(x_m)$, $\;x' = x_m + \tfrac12 dt\,v_2$, $\;v' = v_2 + \tfrac16 dt\,a(x')$ with )"
-           R"($\tilde a(x) = a(x + \tfrac1{24} dt^2 a(x)) = a + \tfrac1{48} dt^2\,\nabla |a|^2 + O(dt^4)$. A step's )"
-           R"(last kick and the next one's first are one, so a step costs three evaluations. All coefficients are )"
-           R"(positive, which no splitting of fourth order without the gradient can have. Damping sees a )"
-           R"(second-order prediction of the velocity.)",
+           R"(This is Verlet's step with kicks of $\tfrac16$, $\tfrac23$ and $\tfrac16$ of $dt$, the middle one of )"
+           R"(which includes the gradient of the force: $v_1 = v + \tfrac16 dt\,a(x)$, $\;x_m = x + \tfrac12 )"
+           R"(dt\,v_1$, $\;v_2 = v_1 + \tfrac23 dt\,\tilde a(x_m)$, $\;x' = x_m + \tfrac12 dt\,v_2$, $\;v' = v_2 + )"
+           R"(\tfrac16 dt\,a(x')$ with $\tilde a(x) = a(x + \tfrac1{24} dt^2 a(x)) = a + \tfrac1{48} dt^2\,\nabla )"
+           R"(|a|^2 + O(dt^4)$. The last kick of a step and the first kick of the next share one evaluation, so a )"
+           R"(step costs three. All coefficients are positive, which is impossible for a fourth-order splitting )"
+           R"(without the gradient. Damping uses a second-order prediction of the velocity.)",
        .sweeps =
            {{x,
              4,

@@ -27,22 +27,22 @@ std::vector<Scheme> implicit_schemes() {
        .order_damped = 1,
        .vectors = 4,
        .keeps_displacement = false,
-       .note = "Stable at every dt and k_s, since it removes energy: the larger dt, the more.",
+       .note = "Stable at every dt and k_s. It removes energy, the more the larger dt is.",
        .stability = "stable at every dt (L-stable); removes energy from all oscillations",
        .cost =
            "one solve: a few steps of Newton's method, each a few dozen products with the stiffness; in stiff cloths "
            "10 to 30 steps of an interior-point method",
        .formula =
-           R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$: the forces at the end of the step. An oscillation )"
-           R"(shrinks by a factor of $1/\sqrt{1 + (\omega\,dt)^2}$ per step. Where $k_s dt^2/m \ge 10$ springs switch )"
-           R"(so often that Newton's method would stall, in all implicit methods. Then each stretch spring gets a )"
-           R"(tension $\lambda > 0$ and a slack $s > 0$ with $|x_{ij}| - L - \lambda/k_s + s = 0$ and $\lambda s )"
-           R"(= \mu$, and $\mu$ goes to 0 by Mehrotra's predictor and corrector: Newton's method, which now meets )"
-           R"(no switch. Its matrix resists with $k_s\lambda/(\lambda + k_s s)$ along a spring and )"
-           R"($\lambda/|x_{ij}|$ across it; conjugate gradients solve with it, preconditioned by a V cycle of )"
-           R"(multigrid with Galerkin's coarser operators. The threads of the CPU engine share the rows of these )"
-           R"(systems where that pays; what a row depends on beyond a thread's own rows each thread computes too, and )"
-           R"(sums are over all rows in their order, so that any number of threads computes the same bits.)",
+           R"($x' = x + dt\,v'$, $\;v' = v + dt\,a(x', v')$. The step uses the forces at its end. An oscillation )"
+           R"(shrinks by a factor of $1/\sqrt{1 + (\omega\,dt)^2}$ per step. If $k_s dt^2/m \ge 10$, springs switch )"
+           R"(so often that Newton's method would stall; this holds for all implicit methods. Then each stretch )"
+           R"(spring has a tension $\lambda > 0$ and a slack $s > 0$ with $|x_{ij}| - L - \lambda/k_s + s = 0$ and )"
+           R"($\lambda s = \mu$. Mehrotra's predictor-corrector, a form of Newton's method without switches, reduces )"
+           R"($\mu$ to 0. Its matrix has the stiffness $k_s\lambda/(\lambda + k_s s)$ along a spring and )"
+           R"($\lambda/|x_{ij}|$ across it. Conjugate gradients solve the linear systems, preconditioned by a )"
+           R"(V-cycle of multigrid with Galerkin coarse operators. Where that pays, the threads of the CPU engine )"
+           R"(divide the rows of these systems. Each thread also computes the values of neighboring rows that it )"
+           R"(needs, and sums run over all rows in order, so the bits are identical for any number of threads.)",
        .sweeps = {{2, 3, 0, {{x, {{2, 1, 0}}}, {v, {{3, 1, 0}}}}, 1, {{2, {{x, 1, 0}}}, {3, {{v, 1, 0}}}}}},
        .start = {},
        .lag = 0},
@@ -54,12 +54,13 @@ std::vector<Scheme> implicit_schemes() {
        .order_damped = 2,
        .vectors = 4,
        .keeps_displacement = false,
-       .note = "Second order, symplectic, stable at every dt while no spring switches; fast oscillations stay.",
+       .note = "Second order, symplectic, stable at every dt while no spring switches; fast oscillations remain.",
        .stability = "symplectic, stable at every dt while no spring switches (A-stable)",
        .cost = "one solve",
-       .formula = R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' )"
-                  R"(= 2v_m - v$. No oscillation grows or shrinks; those too fast for $dt$ have the wrong frequency )"
-                  R"(but keep their amplitude.)",
+       .formula =
+           R"($x_m = x + \tfrac12 dt\,v_m$, $\;v_m = v + \tfrac12 dt\,a(x_m, v_m)$; $\;x' = 2x_m - x$, $\;v' = 2v_m )"
+           R"(- v$. No oscillation grows or shrinks. Oscillations that are too fast for $dt$ have the wrong )"
+           R"(frequency but keep their amplitude.)",
        .sweeps = {{2,
                    3,
                    0,
@@ -79,11 +80,12 @@ std::vector<Scheme> implicit_schemes() {
        .vectors = 4,
        .keeps_displacement = false,
        .note = "Second order. Damps oscillations that dt does not resolve and keeps the others. Two solves.",
-       .stability = "stable at every dt (L-stable); removes energy from what is too fast for dt",
+       .stability = "stable at every dt (L-stable); removes energy from oscillations that are too fast for dt",
        .cost = "two solves and one evaluation of the force",
        .formula =
-           R"(The trapezium rule to $t + \gamma\,dt$, then the backward difference over the beginning, that point )"
-           R"(and the end, with $\gamma = 2 - \sqrt2$, for which both solves have the same $\beta = \gamma/2$.)",
+           R"(The trapezoidal rule advances to $t + \gamma\,dt$; then the backward difference over the beginning, )"
+           R"(this point and the end completes the step. With $\gamma = 2 - \sqrt2$ both solves have $\beta = )"
+           R"(\gamma/2$.)",
        .sweeps = {{x, v, 0, {{2, {{x, 1, 0}, {v, gamma / 2, 1}}}, {3, {{v, 1, 0}, {a, gamma / 2, 1}}}}},
                   {2,
                    3,

@@ -10,19 +10,18 @@ namespace {
 constexpr const char* head =
     R"(# Integrators
 
-*This page is generated from the table of methods (core/integrators) by `TYGLAB_WRITE_DOCS=1 )"
-    R"(build/release/bin/presets_tests`; a test checks that it is current.*
+*`TYGLAB_WRITE_DOCS=1 build/release/bin/presets_tests` generates this page from the table of methods )"
+    R"((core/integrators); a test checks that it is current.*
 
-A method advances position and velocity from one time step to the next, with $a = \ddot x(x, v)$ from all forces. )"
-    R"(`--integrator NAME`, `solver.integrator` in a preset and the first row of the sandbox's panel choose it; it )"
-    R"(can be changed while the cloth moves. [accuracy.md](accuracy.md) measures which one is fastest for a given )"
-    R"(error, [stability.md](stability.md) where each becomes unstable; [model.md](model.md#integrators) describes )"
-    R"(what they have in common.
+A method advances position and velocity from one time step to the next, using the acceleration $a = \ddot x(x, v)$ )"
+    R"(of all forces. `--integrator NAME`, `solver.integrator` in a preset, or the first row of the sandbox's panel selects )"
+    R"(it, even while the cloth moves. [accuracy.md](accuracy.md) measures which method is fastest for a given error, and )"
+    R"([stability.md](stability.md) where each becomes unstable; [model.md](model.md#integrators) describes what they have )"
+    R"(in common.
 
-*Order* is that of the whole method, position and velocity, on a smooth motion: order 2 means that half the step )"
-    R"(gives a quarter of the error. No method keeps its order where springs switch between pulling and slack. *h* )"
-    R"(is $dt$ (of `dopri5` and `rkc2` an inner step), $\omega$ the fastest angular frequency of the cloth, $\zeta$ its damping )"
-    R"(ratio.
+The *order* is that of the whole method, position and velocity, on a smooth motion: with order 2, half the step gives a )"
+    R"(quarter of the error. No method keeps its order when springs switch between taut and slack. *h* is $dt$ (for `dopri5` )"
+    R"(and `rkc2`, an inner step), $\omega$ the fastest angular frequency of the cloth, $\zeta$ its damping ratio.
 
 )";
 
@@ -32,17 +31,18 @@ std::string order_of(const Scheme& scheme) {
                                                       : plain + ", damped " + std::to_string(scheme.order_damped);
 }
 
-/// What it reads of the preset beside dt, and what it cannot do.
+/// The preset's keys that the method reads besides dt, and the studies that do not support it.
 std::string particulars(const Scheme& scheme) {
   std::string text;
-  if (chooses_steps(scheme)) text += " It reads `tolerance`.";
-  if (iterates(scheme)) text += " It reads `iterations`.";
+  if (chooses_steps(scheme)) text += " It uses `tolerance`.";
+  if (iterates(scheme)) text += " It uses `iterations`.";
   if (chooses_steps(scheme))
-    text += " Linear theory gives no limit of $dt$ for it, so `stability boundary` leaves it out.";
+    text += " Linear theory gives no limit of $dt$ for it, so `stability boundary` does not include it.";
   if (projects(scheme))
     text +=
-        " It has no amplification matrix, since a step is not linear even where the cloth is: `stability boundary` "
-        "leaves it out, and the sandbox's gauge shows no limit.";
+        " It has no amplification matrix, since a step is not linear even for a linear cloth: `stability boundary` "
+        "does "
+        "not include it, and the sandbox's gauge shows no limit.";
   return text;
 }
 

@@ -131,37 +131,37 @@ Scheme rkc2() {
       .vectors = last_a + 1,
       .keeps_displacement = false,
       .note =
-          "Second order, for heavy damping: its many stages are spent on stability. Chooses its own steps and "
-          "the number of their stages.",
+          "Second order, for strong damping: its many stages serve stability. Chooses its inner steps and their "
+          "number of stages.",
       .stability =
           "chooses steps and stages that are stable, hλ down to −0.65 s² with s stages; oscillations need "
           "h < 2.5 k_d/k_s, or grow slowly without damping",
       .cost = "2 to 100 evaluations of the force per inner step, as many as damping asks for",
       .formula =
-          R"(An explicit method whose stages follow Chebyshev's recurrence, so that s of them are stable for )"
-          R"(real $h\lambda$ down to $-\tfrac23(s^2 - 1)(1 - \tfrac2{15}\varepsilon)$ with $\varepsilon = \tfrac2{13}$: )"
-          R"(twice the stages bear a damping four times as large. With $y = (x, v)$ and $w_0 = 1 + )"
+          R"(The stages of this explicit method follow Chebyshev's recurrence, so that s stages are stable for real )"
+          R"($h\lambda$ down to $-\tfrac23(s^2 - 1)(1 - \tfrac2{15}\varepsilon)$ with $\varepsilon = \tfrac2{13}$: )"
+          R"(twice as many stages tolerate four times as much damping. With $y = (x, v)$ and $w_0 = 1 + )"
           R"(\varepsilon/s^2$, $\;w_1 = T_s'(w_0)/T_s''(w_0)$, $\;b_j = T_j''(w_0)/T_j'(w_0)^2$ ($b_0 = b_1 = )"
           R"(b_2$), the stages are $y_1 = y + b_1 w_1\,h f(y)$ and, up to $y' = y_s$, $y_j = y + \mu (y_{j-1} - y) )"
           R"(+ \nu (y_{j-2} - y) + \tilde\mu\,h f(y_{j-1}) + \tilde\gamma\,h f(y)$ with $\mu = 2 b_j w_0/b_{j-1}$, )"
           R"($\nu = -b_j/b_{j-2}$, $\tilde\mu = 2 b_j w_1/b_{j-1}$, $\tilde\gamma = -(1 - b_{j-1} )"
-          R"(T_{j-1}(w_0))\,\tilde\mu$. The tolerance, the control of steps and what $dt$ means are those of )"
+          R"(T_{j-1}(w_0))\,\tilde\mu$. The tolerance, the step control and the meaning of $dt$ are as for )"
           R"([`dopri5`](#dopri5), with the error $\tfrac1{15}(12(y - y') + 6h(f(y) + f(y')))$ and $h' = )"
-          R"(0.9\,h\,\varepsilon^{-0.30}\,\varepsilon_{old}^{0.04}$: the error falls with the tolerance to the )"
-          R"(power of two thirds.
+          R"(0.9\,h\,\varepsilon^{-0.30}\,\varepsilon_{old}^{0.04}$. The error is proportional to the tolerance to )"
+          R"(the power of two thirds.
 
-How many stages a step needs follows from its length and the bounds of linear theory, which hold in every shape of the )"
-          R"(cloth: a mode with the stiffness $\omega^2$ and the damping $c$ has the eigenvalues $\lambda^2 + )"
-          R"(c\lambda + \omega^2 = 0$. Real ones reach down to $-12 k_d/m$. Since every mode has $\omega^2 \le r c$ )"
-          R"(with $r = (k_s + 4 k_b)/k_d$, complex ones have $|\lambda|^2 = \omega^2$, $\mathrm{Re}\,\lambda = )"
-          R"(-c/2$ and so lie in the disc $|\lambda + r| \le r$. The method is stable in such a disc up to $h r = )"
-          R"(1$ (2 stages), 2.0 (4) or 2.57 (with the most) stages, and that limits the steps: )"
-          R"($h \le 2.57/r$. Verlet with damping $\zeta$ of the fastest mode needs $dt \approx 1/(\zeta\omega)$; )"
-          R"(the step of `rkc2` is about $5\zeta^2$ times as long and costs about $4\zeta$ evaluations, so it pays from )"
-          R"($\zeta \approx 1$ on and gains in proportion to $\zeta$. Where damping is weak, it is not suited: )"
-          R"(steps are kept at $h\omega \le 0.5$, at which an undamped oscillation still grows by up to 0.8 % )"
-          R"(a step, until the control of errors sees it. Steps that either bound keeps short are counted as )"
-          R"(limited by *stability*.)",
+The number of stages of a step follows from its length and the bounds of linear theory, which hold in every )"
+          R"(shape of the cloth: a mode with the stiffness $\omega^2$ and the damping $c$ has the eigenvalues )"
+          R"($\lambda^2 + c\lambda + \omega^2 = 0$. Real eigenvalues reach down to $-12 k_d/m$. Since every mode )"
+          R"(has $\omega^2 \le r c$ with $r = (k_s + 4 k_b)/k_d$, complex eigenvalues have $|\lambda|^2 = \omega^2$ )"
+          R"(and $\mathrm{Re}\,\lambda = -c/2$, so they lie in the disc $|\lambda + r| \le r$. The method is stable )"
+          R"(in such a disc up to $h r = 1$ with 2 stages, 2.0 with 4 and 2.57 with the largest number. This limits )"
+          R"(the steps: $h \le 2.57/r$. Verlet with damping $\zeta$ of the fastest mode needs $dt \approx )"
+          R"(1/(\zeta\omega)$; a step of `rkc2` is about $5\zeta^2$ times as long and costs about $4\zeta$ )"
+          R"(evaluations, so the method pays from $\zeta \approx 1$ on, and its advantage grows in proportion to )"
+          R"($\zeta$. It is not suitable for weak damping: its steps are limited to $h\omega \le 0.5$, and even )"
+          R"(then an undamped oscillation grows by up to 0.8 % per step, until the step control reacts. Steps )"
+          R"(limited by either bound count as limited by *stability*.)",
       .sweeps = tables.front().sweeps,
       .start = {},
       .lag = 0,

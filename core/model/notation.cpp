@@ -26,21 +26,20 @@ const std::array<PresetRow, 25> rows{{
     {"cloth", "m", "m", "Mass of a particle", "Partikelmassa", "kg", &Preset::m, 1e-9, 1e3, logarithmic, force, "2.1",
      "A lighter particle moves faster and needs a smaller time step."},
     {"cloth", "x_0", "x_0", "Original position (middle of the top row)", "Ursprungsposition", "m", &Preset::x_0, -1e3,
-     1e3, linear, start, "2.3",
-     "Where the cloth begins; for the mass on a spring, x_0.y is where the spring is at rest.", false, Kind::cloth,
-     false, force},
+     1e3, linear, start, "2.3", "Start position; for a mass on a spring, x_0.y is the rest position of the spring.",
+     false, Kind::cloth, false, force},
     {"cloth", "v_0", "v_0", "Original velocity", "Ursprungshastighet", "m/s", &Preset::v_0, -1e3, 1e3, linear, start,
-     "", "The same for all free particles."},
+     "", "Initial velocity of all free particles."},
     {"cloth", "tilt_deg", "θ", "Tilt (90 hangs, 0 lies flat)", "Lutning", "°", &Preset::tilt_deg, -360, 360, linear,
      start, "", "Angle of the cloth at the start.", false, Kind::cloth, true},
     {"cloth", "initial_stretch", "s", "Initial stretch (1 at rest length)", "Ursprunglig töjning", "",
      &Preset::initial_stretch, 0.1, 10, linear, start, "", "Above 1 every spring starts taut.", false, Kind::cloth,
      true},
     {"cloth", "offset", "y_start", "Start above the rest position", "Startläge över viloläget", "m", &Preset::offset,
-     -1e3, 1e3, linear, start, "2.3", "Where the mass on a spring is released.", false, Kind::one_weight, true},
+     -1e3, 1e3, linear, start, "2.3", "Release point of the mass on a spring.", false, Kind::one_weight, true},
 
     {"forces", "k_s", "k_s", "Spring constant, stretching", "Fjäderkonstant töjning", "N/m", &Preset::k_s, 0, 1e9,
-     logarithmic, force, "2.5", "Stiffness against stretching. The higher, the smaller the time step must be.", false,
+     logarithmic, force, "2.5", "Stiffness against stretching. A higher value requires a smaller time step.", false,
      Kind::cloth, true},
     {"forces", "k_b", "k_b", "Spring constant, bending", "Fjäderkonstant böjning", "N/m", &Preset::k_b, 0, 1e9,
      logarithmic, force, "2.7", "Stiffness against folding.", false, Kind::cloth, true},
@@ -53,23 +52,23 @@ const std::array<PresetRow, 25> rows{{
     {"forces", "W", "W", "Wind", "Vind", "N", &Preset::W, -1e3, 1e3, linear, force, "2.16",
      "Force on each triangle along its normal: N (N·W).", false, Kind::cloth, true},
     {"forces", "gust", "W_gust", "Strength of gusts, as a fraction of W", "Vindbyarnas styrka", "", &Preset::gust, 0,
-     10, linear, force, "", "The wind rises and falls by up to this fraction of W; 0 is the report's steady wind.",
+     10, linear, force, "", "The wind rises and falls by up to this fraction of W; 0 gives the report's steady wind.",
      false, Kind::cloth, true},
     {"forces", "gust_period", "T_gust", "Period of the gusts", "Vindbyarnas period", "s", &Preset::gust_period, 0.01,
-     1e3, logarithmic, force, "", "Time from one gust to the next; two shorter waves are added to it.", false,
+     1e3, logarithmic, force, "", "Time from one gust to the next; two shorter waves are superimposed.", false,
      Kind::cloth, true},
 
     {"tearing", "F_max", "F_max", "Largest force that a spring can carry", "Maximal fjäderkraft", "N", &Preset::F_max,
-     0, 1e9, logarithmic, tearing, "", "A stretch spring whose F_s is larger breaks for good.", true, Kind::cloth,
+     0, 1e9, logarithmic, tearing, "", "A stretch spring whose F_s is larger breaks permanently.", true, Kind::cloth,
      true},
     {"tearing", "F_release", "F_release", "Force at which the hand lets go", "Kraft då greppet släpper", "N",
-     &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "Above it the held particle is released.", true, Kind::cloth,
-     true},
+     &Preset::F_release, 0, 1e9, logarithmic, tearing, "", "A larger force releases the held particle.", true,
+     Kind::cloth, true},
 
     {"solver", "integrator", "", "Integrator", "Approximationsmetod", "", &Preset::integrator, 0, 0, linear, integrator,
-     "2.10", "How x and ẋ are advanced from one time step to the next."},
+     "2.10", "Method that advances x and ẋ from one time step to the next."},
     {"solver", "dt", "dt", "Time step", "Tidssteg", "s", &Preset::dt, 1e-7, 1, logarithmic, dt, "2.10",
-     "Too large a step makes the simulation unstable."},
+     "A step that is too large makes the simulation unstable."},
     {"solver", "tolerance", "tol", "Tolerance of adaptive methods", "Tolerans", "m", &Preset::tolerance, 1e-12, 1,
      logarithmic, tolerance, "", "Error allowed in a step by methods that choose their own steps."},
     {"solver", "iterations", "n_iter", "Largest number of iterations in a step", "Iterationer", "", &Preset::iterations,
@@ -85,9 +84,9 @@ const std::array<PresetRow, 25> rows{{
 
 const std::array<BodyRow, 5> body_rows{{
     {"bodies", "c", "c", "Center of a sphere", "Centrumpunkt för sfär", "m", &Body::c, -1e3, 1e3, linear, bodies, "2.9",
-     "Where the sphere is."},
+     "Position of the sphere."},
     {"bodies", "r", "r", "Radius of a sphere", "Radie", "m", &Body::r, 1e-3, 100, logarithmic, bodies, "2.9",
-     "A particle is inside where (x - c)·(x - c) < r²."},
+     "A particle is inside if (x - c)·(x - c) < r²."},
     {"bodies", "y", "y", "Height of a plane", "Planets höjd", "m", &Body::y, -1e3, 1e3, linear, bodies, "",
      "A horizontal plane; particles stay above it."},
     {"bodies", "friction", "μ", "Friction", "Friktion", "", &Body::friction, 0, 10, linear, bodies, "",
@@ -101,11 +100,11 @@ const std::array<Variable, 10> variable_rows{{
     {"F_s", "F_s", "Stretching force", "Töjningskraft", "N", "2.5", "Sum over the eight stretch springs."},
     {"F_b", "F_b", "Bending force", "Böjningskraft", "N", "2.7", "Sum over the four bending springs."},
     {"F_d", "F_d", "Damping force", "Dämpningskraft", "N", "2.6", "Sum over the eight stretch springs."},
-    {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downwards."},
+    {"F_g", "F_g", "Gravitational force", "Gravitationskraft", "N", "2.2", "m·g, downward."},
     {"F_int", "F_int", "Internal forces", "Interna krafter", "N", "2.2", "F_s + F_b + F_d."},
     {"F_ext", "F_ext", "External forces", "Externa krafter", "N", "2.2", "Gravity, wind and the hand."},
-    {"x", "x", "Position", "Position", "m", "2.4", "Of the particle."},
-    {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Of the particle, at the time of its position."},
+    {"x", "x", "Position", "Position", "m", "2.4", "Position of the particle."},
+    {"v", "x'", "Velocity", "Hastighet", "m/s", "2.10", "Velocity of the particle, at the time of its position."},
     {"a", "x''", "Acceleration", "Acceleration", "m/s²", "2.1", "F/m; 0 for a pinned particle."},
 }};
 
@@ -151,7 +150,7 @@ std::string default_text(const Row<T>& row) {
 
 template <class T>
 void table(std::ostringstream& out, std::span<const Row<T>> list) {
-  out << "| Key | Symbol | Quantity | Storhet | Unit | Allowed | Default | Equation | What it does |\n"
+  out << "| Key | Symbol | Quantity | Storhet | Unit | Allowed | Default | Equation | Meaning |\n"
          "|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& row : list)
     out << "| `" << row.section << '.' << row.key << "` | " << (row.symbol.empty() ? "–" : row.symbol) << " | "
@@ -230,10 +229,9 @@ Preset nearest_allowed(Preset preset) {
 
 std::string notation_markdown() {
   std::ostringstream out;
-  out << "# Notation\n\nMade from the notation table (`core/model/notation.cpp`) by `tyglab presets notation`; a "
-         "test checks that it is current. Symbols are those of table B.1 of the report, units are SI, ranges include "
-         "their "
-         "ends.\n\n"
+  out << "# Notation\n\n`tyglab presets notation` generates this page from the notation table "
+         "(`core/model/notation.cpp`); a test checks that it is current. Symbols are those of table B.1 of the report. "
+         "Units are SI. Ranges include their ends.\n\n"
          "## Constants of a preset\n\n";
   table<Preset>(out, rows);
   out << "\nOther keys: `name`, `description`, `kind` (`cloth` or `one_weight`), `cloth.pins` (`none`, `top_row`, "
