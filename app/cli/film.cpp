@@ -42,7 +42,11 @@ Image Film::with_legend() const {
   const PictureGui gui(size, theme);
   gui.show(renderer_.texture_id());
   draw_color_legend({gui.draw(), theme, gui.fonts()}, {size.x - margin - legend.x, size.y - margin - legend.y}, legend,
-                    {info(colors_->field), colors_->map(false), colors_->top(), {}, colors_->beyond()});
+                    {.field = info(colors_->field),
+                     .map = colors_->map(false),
+                     .top = colors_->top(),
+                     .root = root_scale(colors_->field),
+                     .beyond = colors_->beyond()});
   return gui.pixels();
 }
 
@@ -54,7 +58,7 @@ std::filesystem::path Film::shoot(Simulation& simulation, const std::filesystem:
     read_field(colors_->field, simulation, nullptr, {simulation.lattice(), options_.every}, values);
     const DrawnSites sites{simulation.lattice(), options_.every};
     renderer_.set_values(values, sites.rows(), sites.columns());
-    colors_->look(span_of(values));
+    colors_->look(span_of(values), simulation.preset());
     options_.colored = colors_->range();
   }
   renderer_.draw(camera_, options_, size_.width, size_.height);

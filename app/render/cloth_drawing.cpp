@@ -105,7 +105,7 @@ const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl:
   program.set("stride", mesh.stride());
   program.set("values", values_unit);
   program.set("color_map", colors_unit);
-  program.set("value_range", glm::vec2(range.lo, 1 / std::max(range.hi - range.lo, 1e-30f)));
+  program.set("value_range", glm::vec3(range.lo, 1 / std::max(range.hi - range.lo, 1e-30f), range.root ? 1.f : 0.f));
   return program;
 }
 

@@ -46,9 +46,10 @@ inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f
                                        .highlight = {0.0f, 0.0f, 0.0f},
                                        .body = {0.545f, 0.569f, 0.608f}};
 
-/// Which values the ends of the color map stand for.
+/// Which values the ends of the color map stand for, and whether the colors between them follow the square root.
 struct ValueRange {
   float lo = 0, hi = 1;
+  bool root = false;
   bool operator==(const ValueRange&) const = default;
 };
 

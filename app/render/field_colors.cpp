@@ -31,17 +31,38 @@ double SteadyTop::look(double greatest) {
   return top_;
 }
 
-void FieldColors::look(const std::optional<FieldSpan>& span, bool wreck) {
+double least_top(ParticleField field, const Preset& preset) {
+  constexpr double standard_gravity = 9.82, part = 1e-3;
+  const double g = preset.g != 0 ? std::abs(preset.g) : standard_gravity;
+  const double size = preset.L * std::hypot(preset.rows - 1, preset.columns - 1);
+  const double speed = part * std::sqrt(2 * g * size);  // a thousandth of that of a fall through the cloth's own size
+  switch (field) {
+    case ParticleField::tension:
+      return preset.m * g;
+    case ParticleField::strain:
+      return part;
+    case ParticleField::speed:
+      return speed;
+    case ParticleField::kinetic:
+      return preset.m * speed * speed / 2;
+    case ParticleField::distance:
+      return part * part * size;  // methods that are compared differ by little
+  }
+  return 0;
+}
+
+void FieldColors::look(const std::optional<FieldSpan>& span, const Preset& preset, bool wreck) {
   seen = span;
   if (!span) return;
+  const double least = least_top(field, preset);
   if (wreck) {
     automatic.forget();
-    automatic.look(span->middle > 0 ? double(span->middle) : double(span->usual));
+    automatic.look(std::max(least, span->middle > 0 ? double(span->middle) : double(span->usual)));
     return;
   }
   const double most = std::max(std::abs(double(span->least)), std::abs(double(span->most)));
-  // Where hardly anything is not 0, that is what is to be seen.
-  automatic.look(span->usual > 1e-3 * most ? double(span->usual) : most);
+  // Where nearly all values are 0, the few others decide.
+  automatic.look(std::max(least, span->usual > 1e-3 * most ? double(span->usual) : most));
 }
 
 bool FieldColors::beyond() const {

@@ -46,7 +46,7 @@ void ClothColors::update(Scene& scene, int tile, int every) {
   // Where another cloth shares the scale, what is left of one that has diverged would take all of it.
   if (wreck && !scene.session.copies.lockstep.empty()) return;
   if (std::exchange(picture.wreck, wreck) && !wreck) chosen->automatic.forget();
-  chosen->look(span_of(picture.values), wreck);
+  chosen->look(span_of(picture.values), cloth.preset(), wreck);
 }
 
 void ClothColors::give(Scene& scene, int tile, ClothRenderer& renderer) {

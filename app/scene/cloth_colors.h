@@ -1,8 +1,9 @@
 // What colors the cloths of the window: worked out only where it is shown and something has moved.
 //
 // Copies share one scale, so the values of all pictures are worked out before any is drawn. The scale ends at a round
-// number that all but two in a hundred values stay below; it grows at once, shrinks once it was not needed for forty
-// frames in which the cloth moved (SteadyTop), or is typed. A replay begins with a scale of its own, which grows with
+// number that all but two in a hundred values stay below, but never below a floor (least_top), so that rounding noise
+// has no colors; it grows at once and shrinks once it was not needed for forty frames in which the cloth moved
+// (SteadyTop). The user can also drag or type its end. A replay begins with a scale of its own, which grows with
 // what it shows: that of its end would leave all but the last steps pale. Values beyond it have the color of its end,
 // and the legend's ends are then arrows. Values go into a texture of one float a particle; fragments interpolate
 // values, not colors, and look them up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). Shaders

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "app/base/preset_files.h"
 #include "app/platform/headless_context.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/drawn_cloth.h"
 #include "app/render/field_colors.h"
 #include "app/ui/cards/performance.h"
 #include "app/ui/kit/color_legend.h"
+#include "core/io/preset_io.h"
 #include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 
@@ -72,11 +74,11 @@ TEST_CASE("the scale grows at once to a round number and shrinks only after a wh
 
 TEST_CASE("a fixed scale stays, and a signed one is symmetric") {
   FieldColors colors{ParticleField::strain};
-  colors.look(FieldSpan{-0.07f, 0.01f, 0.07f, 0.02f});
+  colors.look(FieldSpan{-0.07f, 0.01f, 0.07f, 0.02f}, {});
   CHECK_FALSE(colors.beyond());
   CHECK(colors.range() == ValueRange{-0.1f, 0.1f});
   colors.fixed = 0.25;
-  colors.look(FieldSpan{-2, 2, 2, 1});
+  colors.look(FieldSpan{-2, 2, 2, 1}, {});
   CHECK(colors.beyond());
   CHECK(colors.range() == ValueRange{-0.25f, 0.25f});
   CHECK(FieldColors{ParticleField::speed}.range() == ValueRange{0, 1});
@@ -85,14 +87,83 @@ TEST_CASE("a fixed scale stays, and a signed one is symmetric") {
 TEST_CASE("the legend names quantity, symbol and unit, with few round numbers") {
   CHECK(legend_words(info(ParticleField::tension)) == "Tension F_s, N");
   CHECK(legend_words(info(ParticleField::strain)) == "Strain");
-  const auto labels = [](ParticleField field, double top) {
+  const auto legend = [](ParticleField field, double top) {
+    return ColorLegend{.field = info(field), .map = {}, .top = top, .root = root_scale(field)};
+  };
+  const auto labels = [&](ParticleField field, double top) {
     std::string all;
-    for (const PlotTick& tick : legend_ticks(info(field), top)) all += tick.label + " ";
+    for (const PlotTick& tick : legend_ticks(legend(field, top))) all += tick.label + " ";
     return all;
   };
-  CHECK(labels(ParticleField::tension, 0.2) == "0 0.1 0.2 ");
+  CHECK(labels(ParticleField::tension, 0.2) == "0 0.02 0.1 0.2 ");
+  CHECK(labels(ParticleField::tension, 3) == "0 0.3 1 3 ");
+  CHECK(labels(ParticleField::tension, 5) == "0 0.5 2 5 ");
+  CHECK(labels(ParticleField::tension, 0.123456) == "0 0.0123 0.0617 0.123 ");  // while its end is dragged
   CHECK(labels(ParticleField::speed, 3) == "0 1 2 3 ");
   CHECK(labels(ParticleField::strain, 0.05) == "-0.05 0 0.05 ");
+  CHECK(legend(ParticleField::tension, 2).at(0.5) == 0.5);  // a quarter of the end: half of the colors
+  CHECK(legend(ParticleField::speed, 2).at(0.5) == 0.25);
+  CHECK(legend(ParticleField::strain, 2).at(0) == 0.5);
+}
+
+TEST_CASE("an automatic scale has a floor under which values are noise; a typed end has none") {
+  Preset preset = test::cloth(12, 12);
+  for (const FieldInfo& field : particle_fields()) {
+    CAPTURE(field.name);
+    FieldColors colors{field.field};
+    colors.look(FieldSpan{-1e-9f, 1e-9f, 1e-9f, 5e-10f}, preset);
+    const double least = least_top(field.field, preset);
+    CHECK(colors.top() >= least * (1 - 1e-9));
+    CHECK(colors.top() <= 2 * least);
+    colors.look(FieldSpan{0, 1000, 900, 500}, preset);
+    CHECK(colors.top() == 1000);
+    colors.fixed = 1e-9;
+    CHECK(colors.top() == 1e-9);
+  }
+  CHECK(least_top(ParticleField::strain, preset) == 1e-3);
+  CHECK(least_top(ParticleField::tension, preset) == doctest::Approx(preset.m * preset.g));
+  const double speed = least_top(ParticleField::speed, preset);
+  CHECK(least_top(ParticleField::kinetic, preset) == doctest::Approx(preset.m * speed * speed / 2));
+  preset.g = 0;
+  CHECK(least_top(ParticleField::tension, preset) > 0);
+  CHECK(least_top(ParticleField::speed, preset) > 0);
+}
+
+TEST_CASE("a cloth at rest shows no rounding noise, in any field") {
+  Preset preset = load_preset(find_preset("hanging").file);
+  test::Desk desk(preset);
+  for (const FieldInfo& field : particle_fields()) {
+    if (field.field == ParticleField::distance) continue;
+    CAPTURE(field.name);
+    desk.scene.colors.choose(field.field);
+    desk.scene.colors.update(desk.scene, 0, 1);
+    const FieldColors& colors = *desk.scene.colors.chosen;
+    const ColorLegend legend{.field = field, .map = {}, .top = colors.top(), .root = root_scale(field.field)};
+    double least = 1, most = 0;
+    for (int i = 0; i < preset.rows; ++i)
+      for (int j = 0; j < preset.columns; ++j) {
+        const double at = legend.at(*desk.scene.colors.value(0, {i, j}));
+        least = std::min(least, at), most = std::max(most, at);
+      }
+    CHECK(most - least < 0.1);  // of the colors
+  }
+}
+
+TEST_CASE("of the tension of a hanging cloth more than two corners is seen") {
+  Preset preset = load_preset(find_preset("hanging").file);
+  test::Desk desk(preset);
+  desk.session.simulation->advance(4000);
+  desk.scene.colors.choose(ParticleField::tension);
+  desk.scene.colors.update(desk.scene, 0, 1);
+  const FieldColors& colors = *desk.scene.colors.chosen;
+  const ValueRange range = colors.range();
+  int seen = 0;
+  for (int i = 0; i < preset.rows; ++i)
+    for (int j = 0; j < preset.columns; ++j) {
+      const double part = *desk.scene.colors.value(0, {i, j}) / range.hi;
+      seen += (range.root ? std::sqrt(part) : part) > 0.25;
+    }
+  CHECK(seen > preset.rows * preset.columns / 4);
 }
 
 class Stage {
@@ -153,6 +224,11 @@ TEST_CASE("values color the cloth from one end of the map to the other, in every
   // Legible: in the light, a color is between two thirds of the legend's and the legend's own.
   const auto high = mean(stage.draw(cloth, 1, ValueRange{0, 2}, values), true);
   const auto wanted = bytes(map_color({}, 1));
+  // On a root scale a quarter of the end has the color that half of it has on a linear one.
+  const std::vector<float> half(81, 1.f), quarter(81, 0.5f);
+  const auto linear = mean(stage.draw(cloth, 1, ValueRange{0, 2}, half), true),
+             root = mean(stage.draw(cloth, 1, ValueRange{0, 2, true}, quarter), true);
+  for (std::size_t c = 0; c < 3; ++c) CHECK(root[c] == doctest::Approx(linear[c]).epsilon(0.01));
   CHECK(high[0] <= wanted[0] + 1);
   CHECK(high[0] >= 0.66 * wanted[0]);
   CHECK(high[2] / high[0] == doctest::Approx(double(wanted[2]) / wanted[0]).epsilon(0.06));

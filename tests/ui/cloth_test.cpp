@@ -322,6 +322,30 @@ TEST_CASE("the list chooses a coloring, the value under the pointer is said, and
   CHECK(shown_colors(window.scene)->top() == 7);
 }
 
+TEST_CASE("the end of the scale is dragged in the legend, and a double click lets it follow the values again") {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(560, 400)}) {  // whole, and on a single line
+    CAPTURE(size.x);
+    test::NullUi window({.size = size, .settings = [](Settings& settings) { settings.color = "speed"; }});
+    fall(window, 0.3);
+    window.pause();
+    window.rest();
+    REQUIRE(shown_colors(window.scene) != nullptr);
+    const auto bar = window.control("viewport.colour_scale");
+    const double before = shown_colors(window.scene)->top();
+    const glm::vec2 from = (bar.lo + bar.hi) / 2.f;
+    window.drag({from, from - glm::vec2(5, 0), from - glm::vec2((bar.hi.x - bar.lo.x) / 4, 0)});
+    window.frames(2);
+    REQUIRE(shown_colors(window.scene)->fixed.has_value());
+    const double dragged = shown_colors(window.scene)->top();
+    CHECK(dragged == doctest::Approx(before * std::pow(10, -0.25)).epsilon(0.15));
+    CHECK(window.torn() == 0);  // it is no cut
+    window.double_click(from);
+    window.frames(2);
+    CHECK_FALSE(shown_colors(window.scene)->fixed.has_value());
+    CHECK(shown_colors(window.scene)->top() == before);
+  }
+}
+
 TEST_CASE("copies are colored each by its own values on one scale; the distance from the reference needs one") {
   test::NullUi window({.settings = [](Settings& settings) { settings.color = "distance"; }});
   CHECK_FALSE(color(window).has_value());  // without a copy there is nothing to measure from

@@ -40,7 +40,8 @@ void draw_heading(const PlotPaint& paint, ImVec2 lo, float right, const ColorLeg
     x += text_width(with, text);
   };
   const std::string value = legend.marked ? steady_number(*legend.marked) : "";
-  const std::string unit = legend.field.unit.empty() ? "" : ", " + std::string(legend.field.unit);
+  const std::string unit =
+      (legend.field.unit.empty() ? "" : ", " + std::string(legend.field.unit)) + (legend.root ? ", root scale" : "");
   const float others = symbol_width(paint.fonts, legend.field.symbol) + text_width(font, unit) +
                        text_width(*paint.fonts.mono, value) + paint.theme.px(value.empty() ? 8 : 16);
   say(font, c.text, fitted(font, std::string(legend.field.title), right - lo.x - others));
@@ -69,8 +70,21 @@ float draw_name(const PlotPaint& paint, float x, float baseline, const FieldInfo
   return x + text_width(font, after);
 }
 
+void draw_marker(const PlotPaint& paint, const ColorLegend& legend, ImVec2 lo, ImVec2 hi) {
+  if (!legend.marked) return;
+  const float x = std::round(lo.x + float(legend.at(*legend.marked)) * (hi.x - lo.x)), r = paint.theme.px(5);
+  paint.draw.AddTriangleFilled({x - r, lo.y - r}, {x + r, lo.y - r}, {x, lo.y + r / 2}, paint.theme.colors.text);
+}
+
+/// What the end of the scale is dragged by.
+void draw_grip(const PlotPaint& paint, const ColorLegend& legend, ImVec2 lo, ImVec2 hi) {
+  if (!legend.grip) return;
+  const float half = paint.theme.px(2), over = paint.theme.px(3);
+  paint.draw.AddRectFilled({hi.x - half, lo.y - over}, {hi.x + half, hi.y + over}, paint.theme.colors.text, half);
+}
+
 /// Name, colors, and room for the number at their end.
-ImVec2 draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
+LegendParts draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
   const float middle = std::round(at.y + size.y / 2), baseline = baseline_at(paint.fonts, middle);
@@ -78,24 +92,31 @@ ImVec2 draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLege
   const float from = std::round(draw_name(paint, at.x + pad, baseline, legend.field)) + pad;
   const ImVec2 lo{from, middle - half}, hi{std::max(from, at.x + size.x - theme.px(line_top)), middle + half};
   draw_bar(paint, lo, hi, legend.map);
-  if (legend.marked) {
-    const PlotScale scale{legend.field.is_signed ? -legend.top : 0, legend.top};
-    const float x = lo.x + float(std::clamp(scale.at(*legend.marked), 0.0, 1.0)) * (hi.x - lo.x), r = theme.px(5);
-    paint.draw.AddTriangleFilled({x - r, lo.y - r}, {x + r, lo.y - r}, {x, lo.y + r / 2}, c.text);
-  }
-  return {at.x + size.x - pad, middle};
+  draw_marker(paint, legend, lo, hi);
+  draw_grip(paint, legend, lo, hi);
+  return {{at.x + size.x - pad, middle}, lo, hi};
 }
 
 }  // namespace
 
-std::vector<PlotTick> legend_ticks(const FieldInfo& field, double top) {
+double ColorLegend::at(double value) const {
+  const double from = field.is_signed ? -top : 0, part = std::clamp((value - from) / (top - from), 0.0, 1.0);
+  return root ? std::sqrt(part) : part;
+}
+
+std::vector<PlotTick> legend_ticks(const ColorLegend& legend) {
+  const double top = legend.top;
   std::vector<double> ticks;
-  if (field.is_signed) {
+  if (legend.field.is_signed) {
     ticks = {-top, 0, top};
+  } else if (legend.root) {
+    const double middle = lead(top) == 3 ? 3 : lead(top) == 5 ? 2.5 : 2;  // of the top, so that it is a round number
+    ticks = {0, top / 10, top / middle, top};
   } else {
     const int parts = lead(top) == 3 ? 3 : 2;
     for (int k = 0; k <= parts; ++k) ticks.push_back(top * k / parts);
   }
+  for (double& tick : ticks) tick = rounded(tick, 3);  // while the end is dragged it has many digits
   return labeled(ticks);
 }
 
@@ -118,7 +139,7 @@ ImVec2 legend_short_line_size(const Theme& theme, float room) {
   return {std::min(theme.px(short_line_width), room), theme.px(line_height)};
 }
 
-ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
+LegendParts draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
   const Tokens& c = theme.colors;
   paint.draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, faded(c.ground, 0.85f), theme.px(6));
@@ -133,26 +154,25 @@ ImVec2 draw_color_legend(const PlotPaint& paint, ImVec2 at, ImVec2 size, const C
     if (legend.field.is_signed)
       paint.draw.AddTriangleFilled({lo.x, hi.y}, {lo.x - tip, middle}, {lo.x, lo.y}, map_color(legend.map, 0));
   }
-  const PlotScale scale{legend.field.is_signed ? -legend.top : 0, legend.top};
-  const auto place = [&](double value) {
-    return std::round(lo.x + float(std::clamp(scale.at(value), 0.0, 1.0)) * (hi.x - lo.x));
-  };
   const ImFont& mono = *paint.fonts.mono;
   const float baseline = baseline_at(paint.fonts, std::round(at.y + theme.px(ticks_middle)));
-  const std::vector<PlotTick> ticks = legend_ticks(legend.field, legend.top);
+  const std::vector<PlotTick> ticks = legend_ticks(legend);
+  const float end = hi.x + pad / 2, of_top = text_width(mono, ticks.back().label), gap = theme.px(8);
+  float free_from = lo.x - pad / 2;
   for (const PlotTick& tick : ticks) {
-    const float x = place(tick.at), half = text_width(mono, tick.label) / 2;
+    const bool last = &tick == &ticks.back();
+    const float x = std::round(lo.x + float(legend.at(tick.at)) * (hi.x - lo.x)), of_it = text_width(mono, tick.label);
     paint.draw.AddLine({x, hi.y}, {x, hi.y + theme.px(3)}, c.quiet);
-    if (&tick == &ticks.back() && !legend.top_is_drawn) continue;
-    // At the left end where the strip is narrower than the number.
-    const float left = std::max(std::min(x - half, hi.x + pad / 2 - 2 * half), lo.x - pad / 2);
+    if (last && legend.grip) continue;
+    // The number at the end stays; one that would touch it or the one before it goes without.
+    const float left = last ? std::max(end - of_it, lo.x - pad / 2) : std::max(x - of_it / 2, lo.x - pad / 2);
+    if (!last && (left < free_from || left + of_it + gap > end - of_top)) continue;
     draw_on_baseline(paint.draw, mono, {left, baseline}, c.text, tick.label);
+    free_from = left + of_it + gap;
   }
-  if (legend.marked) {
-    const float x = place(*legend.marked), r = theme.px(5);
-    paint.draw.AddTriangleFilled({x - r, lo.y - r}, {x + r, lo.y - r}, {x, lo.y + r / 2}, c.text);
-  }
-  return {hi.x + pad / 2, at.y + theme.px(ticks_middle)};
+  draw_marker(paint, legend, lo, hi);
+  draw_grip(paint, legend, lo, hi);
+  return {{end, at.y + theme.px(ticks_middle)}, lo, hi};
 }
 
 }  // namespace tyglab

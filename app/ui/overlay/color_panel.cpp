@@ -25,17 +25,40 @@ void choice(Ui& ui, std::optional<ParticleField> field, const char* title, const
   tooltip(ui, gui::item_id(), why.empty() ? help : why.c_str());
 }
 
-/// The number at the end of the scale, which can be typed: the scale is then fixed until nothing is typed.
+/// A drag of the colors moves the end of the scale, which then stays; a double click lets it follow the values again.
+void scale_grip(Ui& ui, FieldColors& colors, const LegendParts& parts) {
+  const float over = ui.theme.px(6), length = std::max(parts.bar_hi.x - parts.bar_lo.x, 1.f);
+  ImGui::SetCursorScreenPos({parts.bar_lo.x, parts.bar_lo.y - over});
+  gui::press_area("colour scale", {length + over, parts.bar_hi.y - parts.bar_lo.y + 2 * over});
+  report_control(ui, "colour_scale");
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+  const bool root = root_scale(colors.field);
+  tooltip(
+      ui, gui::item_id(),
+      std::string("Drag to move the end of the scale: the length of the colors is a factor of 10. Double-click for "
+                  "an automatic scale.") +
+          (root ? " The colors follow the square root of the tension, so that more than the corners is seen." : ""));
+  if (ImGui::IsItemActive() && ui.input.double_click) {
+    colors.fixed.reset();
+  } else if (const float moved = ImGui::GetIO().MouseDelta.x; ImGui::IsItemActive() && moved != 0) {
+    constexpr double least = 1e-12, most = 1e12;
+    colors.fixed = std::clamp(colors.top() * std::pow(10, moved / length), least, most);
+  } else if (ImGui::IsItemDeactivated() && colors.fixed) {
+    colors.fixed = rounded(*colors.fixed, 2);
+  }
+}
+
+/// The number at the end of the scale, which can be typed: the scale then stays until 0 is typed.
 void top_cell(Ui& ui, FieldColors& colors, ImVec2 right_end) {
   const FieldInfo& field = info(colors.field);
   const float width = ui.theme.px(70), height = ui.theme.px(18);
   ImGui::SetCursorScreenPos({right_end.x + ui.theme.px(4) - width, std::round(right_end.y - height / 2)});
   const SliderResult typed =
-      value_cell(ui, "colour top", colors.top(), short_number(rounded(colors.top(), 4)), width, height, field.unit);
+      value_cell(ui, "colour top", colors.top(), short_number(rounded(colors.top(), 3)), width, height, field.unit);
   report_control(ui, "colour_top");
   tooltip(ui, gui::item_id(),
-          colors.fixed ? "The scale ends at the typed value. Double-click and type 0 for an automatic scale."
-                       : "The scale follows the largest value. Double-click to type its end.");
+          colors.fixed ? "The scale ends at this value. Double-click the colors for an automatic scale."
+                       : "The scale follows the largest value. Double-click to type its end, or drag the colors.");
   if (!typed.changed) return;
   colors.fixed.reset();
   if (typed.value > 0) colors.fixed = typed.value;
@@ -100,10 +123,16 @@ void color_legend(Ui& ui) {
   const Box& box = *places[*ui.legend_place];
   const ImVec2 at{box.lo.x, box.lo.y}, size{box.hi.x - box.lo.x, box.hi.y - box.lo.y};
   const PlotPaint paint{*ImGui::GetWindowDrawList(), ui.theme, ui.fonts};
-  const ColorLegend legend{info(shown->field), shown->map(light_ground(ui.scene)),
-                           shown->top(),       ui.scene.colors.under_pointer,
-                           shown->beyond(),    false};
-  top_cell(ui, *ui.scene.colors.chosen, draw_color_legend(paint, at, size, legend));
+  const ColorLegend legend{.field = info(shown->field),
+                           .map = shown->map(light_ground(ui.scene)),
+                           .top = shown->top(),
+                           .root = root_scale(shown->field),
+                           .marked = ui.scene.colors.under_pointer,
+                           .beyond = shown->beyond(),
+                           .grip = true};
+  const LegendParts parts = draw_color_legend(paint, at, size, legend);
+  scale_grip(ui, *ui.scene.colors.chosen, parts);
+  top_cell(ui, *ui.scene.colors.chosen, parts.number);
   ui.placing.take("legend", box);
   cover_viewport(ui, {box.lo.x, box.lo.y}, {box.hi.x, box.hi.y});
 }
