@@ -1,5 +1,5 @@
-// Every change of a simulation is an edit: a value, applied in one place (Simulation::apply) between two steps. Undo,
-// replay, lockstep copies, --set and tests are the same thing seen from other sides.
+// Every change of a simulation is an edit: a value that Simulation::apply alone applies between two steps. Undo,
+// replay, lockstep copies, --set and tests all use edits.
 #pragma once
 
 #include <glm/vec3.hpp>

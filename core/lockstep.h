@@ -1,9 +1,9 @@
-// Copies of a simulation that differ from it in some constants and move in lockstep with it: the same start, the same
-// hand, cuts, pins and bodies, each with its own method, dt, engine or any other constant.
+// Copies of a simulation that differ from it in some constants and move in lockstep with it: with its start, hand,
+// cuts, pins and bodies, and each with its own method, dt, engine or any other constant.
 //
-// Every edit of the original goes to its copies too, a change of constants with their differences put back on top;
-// after each piece of steps they make the whole steps of their own dt that end by the original's time. Nothing is
-// computed differently: a copy is a Simulation, so one with equal settings stays equal to the last bit.
+// Every edit of the original also goes to its copies; after a change of constants their differences are applied again.
+// After each batch of steps the copies make the whole steps of their own dt that end before the original's time. A copy
+// is an ordinary Simulation, so a copy with equal settings stays equal to the last bit.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// One cloth (or a mass on a spring) in motion: ties presets, engines and edits together. No window, no clock.
+// One cloth (or a mass on a spring) in motion. It connects presets, engines and edits, without a window or a clock.
 #pragma once
 
 #include <cassert>

@@ -1,8 +1,8 @@
-// One step of one particle written out: forces spring by spring, and every sum of the method's table with the numbers
-// put in. Worked out in double from the table itself (scheme.h), apart from the engines, so it also checks them.
+// Writes out one step of one particle: its forces spring by spring, and every sum of the method's table with numbers.
+// It is computed in double from the table (scheme.h), independently of the engines, so it also checks them.
 //
-// The sum is the engine's own step to rounding (tests/unit/step_trace_test.cpp: 1e-13 m), so the Inside card shows how
-// the number comes about and not how it might.
+// The result equals the engine's own step up to rounding (tests/unit/step_trace_test.cpp: 1e-13 m), so the Inside card
+// shows the real calculation.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// `tyglab bench accuracy`: error against run time, for the integrators of this project and those of Boost.Odeint.
+// `tyglab bench accuracy` measures error against run time for the integrators of this project and of Boost.Odeint.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The scenes of `tyglab bench accuracy`: small, and short enough to be predicted.
+// The scenes of `tyglab bench accuracy`, small and short enough to be predictable.
 #pragma once
 
 #include <string>

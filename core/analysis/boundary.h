@@ -1,6 +1,6 @@
-// `tyglab stability boundary`: where each explicit method becomes unstable on the taut sheet, where motion is linear,
-// measured with the running code beside what linear theory predicts (frequency.h). Unstable is meant as in
-// docs/model.md: in double, a seeded perturbation of 1e-9 m grows 1e5-fold within 4,000 steps.
+// `tyglab stability boundary` finds where each explicit method becomes unstable on the taut sheet, where motion is
+// linear, and compares the running code with the prediction of linear theory (frequency.h). docs/model.md defines
+// unstable: in double, a seeded perturbation of 1e-9 m grows by a factor of 1e5 within 4,000 steps.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The measured order of a method in a scene: its error with dt, dt/2, dt/4, …, and the slope through them.
+// Measures the order of a method in a scene: the errors with dt, dt/2, dt/4, …, and the slope through them.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// `tyglab stability drift`: the energy of every method over very many steps without damping, where the exact motion
-// keeps it.
+// `tyglab stability drift` follows the energy of every method over very many steps without damping, where the exact
+// motion conserves it.
 #pragma once
 
 #include <cstdint>

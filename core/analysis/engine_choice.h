@@ -1,4 +1,4 @@
-// `--engine auto`: which engine steps a scene fastest here, from short runs of it.
+// `--engine auto` chooses the engine that steps a scene fastest on this machine, from short runs.
 #pragma once
 
 #include <functional>

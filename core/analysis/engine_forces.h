@@ -1,5 +1,5 @@
-// The CPU engine's own force sweep as a function of one contiguous state: what another library's integrators are driven
-// with in `tyglab bench accuracy`, so that they are held against this project's with the same forces.
+// The CPU engine's own force sweep as a function of one contiguous state. In `tyglab bench accuracy` it drives the
+// integrators of another library, so they are compared with this project's integrators on identical forces.
 #pragma once
 
 #include <glm/vec3.hpp>

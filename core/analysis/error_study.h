@@ -1,6 +1,6 @@
-// How large an error is made of the motion at hand, by the present settings and by others: short runs from one state,
-// held against finer ones, all on the CPU engine. What `--tolerance` chooses from, and what the sandbox's accuracy card
-// shows.
+// Measures the error of the present settings and of others on the present motion: short runs from one state are
+// compared with finer runs, all on the CPU engine. `--tolerance` chooses from the results, and the sandbox's Accuracy
+// card shows them.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// How fast the cloth can oscillate as it is now, and hence at which dt a method breaks: the linearised force
-// F = -K δx - C δv of the springs that act at the present positions, with exact derivatives, pinned and held particles
-// fixed. Its extreme modes are found by Lanczos' method, which needs products with K and C alone (stiffness.h).
+// The fastest oscillation of the cloth in its present shape, and hence the stability limit of a method. The linearized
+// force F = -K δx - C δv has the springs that act at present, with exact derivatives; pinned and held particles are
+// fixed. The Lanczos method finds the extreme modes from products with K and C (stiffness.h).
 #pragma once
 
 #include <vector>

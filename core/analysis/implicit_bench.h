@@ -1,4 +1,4 @@
-// `tyglab bench implicit`: what a step of an implicit method takes, and whether it is the method's step.
+// `tyglab bench implicit` measures the cost of an implicit step, and whether the step converged.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Independent measurements on several threads, told in their order.
+// Runs independent measurements on several threads and reports the results in order.
 #pragma once
 
 #include <functional>

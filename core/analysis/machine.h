@@ -1,4 +1,4 @@
-// The machine and build that measurements belong to.
+// Describes the machine and the build of a measurement.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// When a motion last does what it has not done before: what a shorter look at it would miss.
+// Finds the time of the last event that is new in a motion, and that a shorter trial would therefore miss.
 #pragma once
 
 #include "core/analysis/error_study.h"

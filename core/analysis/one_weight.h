@@ -1,4 +1,4 @@
-// The mass on a spring of figure 3.2: its motion in closed form, and how far an integrator strays from it.
+// The mass on a spring of figure 3.2: its exact motion, and the error of an integrator.
 #pragma once
 
 #include <functional>

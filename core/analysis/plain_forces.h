@@ -1,5 +1,5 @@
-// docs/model.md's forces on a cloth once more, as plain loops in double over lists of springs and triangles. It shares
-// no formula with the engines, so that a motion computed from it is an independent one: references of accuracy use it.
+// The forces of docs/model.md as plain loops in double over lists of springs and triangles. They share no formula with
+// the engines, so a motion computed from them is independent; the references of the accuracy benchmark use them.
 #pragma once
 
 #include <array>

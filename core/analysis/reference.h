@@ -1,4 +1,4 @@
-// The motion that integrators' errors are measured against, and how far it can be trusted.
+// The reference motion for the errors of integrators, and its own accuracy.
 #pragma once
 
 #include <glm/vec3.hpp>

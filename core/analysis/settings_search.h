@@ -1,5 +1,5 @@
-// Which methods and steps reach an error in the motion at hand, and what they cost: short runs of many settings, held
-// against a fine reference. What `--tolerance` and "Find settings" of the Accuracy card choose from.
+// Finds methods and steps that keep a given error on the present motion, and their cost, by short runs compared with a
+// fine reference. `--tolerance` and "Find settings" in the Accuracy card choose from the results.
 #pragma once
 
 #include <functional>

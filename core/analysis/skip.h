@@ -1,4 +1,4 @@
-// `tyglab bench skip`: what a feature costs when it is on, when it is off, and in an engine compiled without it.
+// `tyglab bench skip` measures the cost of a feature that is on, off, and absent from the compiled engine.
 #pragma once
 
 #include <memory>

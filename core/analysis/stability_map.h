@@ -1,5 +1,5 @@
-// A map of stiffness against dt: what a method tolerates in a scene, by linear theory and by short runs of that
-// very scene. Between theory's two borders it depends on the shape of the cloth: the runs show what comes of it.
+// A map of stiffness against dt: the values that a method tolerates in a scene, by linear theory and by short runs.
+// Between the two limits of theory stability depends on the shape of the cloth, and the runs show the result.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What can still be said of a motion that cannot be predicted: its means over time, and how well those are known.
+// Means over time, and their accuracy, for a motion that cannot be predicted.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// `tyglab stability stress`: random scenes over the whole range of every constant, edited while they move. Each must
-// end bounded, or be reported as diverged with time, particle, cause and advice, and leave nothing that is not finite.
-// State, read-outs, forces and energies are looked at here; the files that such runs write, by tests/fuzz/runs.
+// `tyglab stability stress` runs random scenes over the range of every constant and edits them as they move. Each must
+// stay bounded or be reported as diverged with time, particle, cause and advice, with finite values only. This file
+// checks states, read-outs, forces and energies; tests/fuzz/runs checks the files that such runs write.
 #pragma once
 
 #include <cstdint>

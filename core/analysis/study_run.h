@@ -1,4 +1,4 @@
-// Runs that studies are made of: from one state, and soon stopped.
+// Short runs from one state, from which studies are made.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// `tyglab bench throughput`: time for one particle and step, beside what this machine could reach at most.
+// `tyglab bench throughput` measures the time per particle and step, and the best time that this machine could reach.
 #pragma once
 
 #include <array>

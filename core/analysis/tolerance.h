@@ -1,4 +1,4 @@
-// `--tolerance E`: the method and the dt that reach an error soonest, by short trial runs of the very scene.
+// `--tolerance E` finds the cheapest method and dt that keep an error, by short trial runs of the scene.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Of a cloth that is finer than the picture, the particles that are drawn.
+// Selects the particles to draw in a cloth that is finer than the picture.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The lattice: which particle is joined to which, rest lengths, triangles. docs/model.md, "Space and lattice".
+// The lattice: connections between particles, rest lengths, triangles. docs/model.md, "Space and lattice".
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// How a preset begins (docs/model.md, "Space and lattice").
+// The initial state of a preset (docs/model.md, "Space and lattice").
 #pragma once
 
 #include <cstdint>

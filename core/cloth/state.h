@@ -1,4 +1,4 @@
-// State of the particles as structure of arrays.
+// The state of the particles as a structure of arrays.
 #pragma once
 
 #include <cstddef>

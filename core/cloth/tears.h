@@ -1,4 +1,4 @@
-// Which springs are whole. Allocated only once something is torn, so an untorn cloth pays nothing.
+// The set of torn springs, allocated only when something tears, so an untorn cloth has no cost.
 #pragma once
 
 #include <cassert>

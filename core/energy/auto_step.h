@@ -1,4 +1,4 @@
-// `--dt auto`: a dt that is stable for the present constants, and a watch over the energy that detects when it is not.
+// `--dt auto` chooses a dt that is stable for the present constants, and reduces it if the energy shows that it is not.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// The energy of a cloth and the power of what acts on it, at one moment: what the ledger sums up.
+// The energy of a cloth and the powers acting on it at one moment, which the ledger sums up.
 #pragma once
 
 #include "core/cloth/state.h"

@@ -1,4 +1,4 @@
-// Follows a simulation step by step for its energy ledger.
+// Updates the energy ledger of a simulation after every step.
 #pragma once
 
 #include <span>

@@ -1,10 +1,10 @@
-// The energy ledger: where a cloth's energy came from and where it went. What no force, contact, tear or edit explains
-// was added or removed by the integrator.
+// The energy ledger tracks where a cloth's energy comes from and where it goes. The integrator added or removed the
+// part that no force, contact, tear or edit explains.
 //
-// It is kept while the Energy card is open, while dt is automatic, and for `run --ledger` and `--dt auto`
-// (Simulation::enable_ledger). Every step is then looked at: bands note what bodies stop, the state is read,
-// read_energy passes over it in SIMD, Ledger adds up. That costs several times the step itself, and nothing where no
-// ledger is kept. No bit of the motion depends on it.
+// The ledger is kept while the Energy card is open, while dt is automatic, and for `run --ledger` and `--dt auto`
+// (Simulation::enable_ledger). Then every step is examined: bands record the energy that bodies remove, the state is
+// read, read_energy passes over it in SIMD, and Ledger adds up. This costs several times as much as the step itself,
+// and nothing if no ledger is kept. The ledger does not change the motion by a single bit.
 #pragma once
 
 #include <array>

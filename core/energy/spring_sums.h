@@ -1,4 +1,4 @@
-// Sums over the springs of one direction that a row of particles owns, in SIMD: the energy's inner loop.
+// Sums over the springs of one direction that a row of particles owns, in SIMD: the inner loop of the energy.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// How well the forces of an implicit stage balance: what it means that a step of an implicit method has converged.
+// Measures how well the forces of an implicit stage balance, which defines whether a step has converged.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-// Cholesky factorization of a banded matrix: solves an implicit step's linear system directly, for cloths so stiff that
-// conjugate gradients do not converge. If a lattice is numbered along its shorter side, no spring reaches farther than
-// two such lines. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems (1981), 4.
+// Cholesky factorization of a banded matrix. It solves the linear system of an implicit step directly if a cloth is so
+// stiff that conjugate gradients do not converge. With a lattice numbered along its shorter side, no spring spans more
+// than two lines. A. George, J. W. Liu, Computer Solution of Large Sparse Positive Definite Systems (1981), 4.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Direct solution of an implicit stage's linear system, for cloths so stiff that conjugate gradients do not converge: A
-// of newton.h as a banded matrix, factorized on the processor for every engine.
+// Solves the linear system of an implicit stage directly if a cloth is so stiff that conjugate gradients do not
+// converge: the processor factorizes A of newton.h as a banded matrix, for every engine.
 #pragma once
 
 #include <functional>

@@ -1,8 +1,8 @@
-// Where a simulation runs. An engine owns the particles' arrays and steps them; time, edits, the bookkeeping of tears
-// and files belong to Simulation, and how a device's arrays reach OpenGL to VertexSharing.
+// An engine owns the arrays of the particles and steps them. Simulation handles time, edits, tears and files, and
+// VertexSharing brings the arrays of a device to OpenGL.
 //
-// Where the processor's memory fails (std::bad_alloc), every function of the CPU engine leaves it as it was, and
-// advance() with its last whole step. After an EngineError, as of a device that is lost, an engine can only be
+// If memory runs out (std::bad_alloc), every function of the CPU engine leaves the engine unchanged, and advance()
+// leaves it at the last complete step. After an EngineError, for example a lost device, an engine can only be
 // destroyed.
 #pragma once
 

@@ -1,5 +1,5 @@
-// What ends a run: a number that is not finite, a spring that is far too long, or a motion that nothing in the scene
-// can have caused. Engines examine the cloth for it only when particles have moved far or fast enough (StepGuard).
+// The reasons that end a run: a number that is not finite, a spring that is far too long, or a motion that nothing in
+// the scene can have caused. Engines check for them only when particles have moved far or fast enough (StepGuard).
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// OpenGL's buffers as a graphics card writes them itself, so that nothing that is drawn passes through main memory.
+// OpenGL buffers that a graphics card writes itself, so no drawn data passes through main memory.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
-// How fast and how far particles can be, by what has given them energy: what finds a run that exploded once no whole
-// spring is left to be too long. docs/model.md, "Divergence", derives it.
+// Bounds how fast and how far particles can move, from everything that has given them energy. It detects a run that
+// exploded and left no intact spring that is too long. docs/model.md, "How fast and how far", derives the bound.
 //
-// With U² = Σ |v|² + 2 E/m, E being the energy of all springs, no step of the exact motion lets U grow by more than
-// ∫ A dt, and U² beside that by more than ∫ B dt: A is the root of the sum of squares of what weight and wind can
-// accelerate particles by, and of what the hand can pull, B what the damping between the hand and its neighbors can
-// add. So U has a bound that follows from the start and from time alone, and costs a few operations a step.
+// Let U² = Σ |v|² + 2 E/m, where E is the energy of all springs. In the exact motion, U grows by at most ∫ A dt, and U²
+// in addition by at most ∫ B dt. A is the root of the sum of squares of the accelerations by weight and wind, plus the
+// largest pull of the hand; B is the largest power of the damping between the hand and its neighbors. So the bound of U
+// follows from the start and from time alone, and costs a few operations per step.
 #pragma once
 
 #include <glm/vec3.hpp>

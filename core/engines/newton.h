@@ -1,11 +1,11 @@
 // Newton's method with line search for the implicit stage of a method, x = c_x + h v, v = c_v + h a(x, v) with h = β
-// dt. It works for any engine, since the vectors stay there and only sums of them are requested. The linear systems
-// are solved by preconditioned conjugate gradients, or directly if those do not converge.
+// dt. It works with any engine, since the vectors stay there and it requests only sums of them. Preconditioned
+// conjugate gradients solve the linear systems, or a direct solver if these do not converge.
 //
-// Stretch springs pull only, so their potential is convex; bending springs push, and a compressed one would make the
-// system indefinite, so only the part of its stiffness along the spring enters, which changes how quickly Newton's
-// method converges but not to what. Likewise, the linear system leaves out the wind. D. Baraff, A.
-// Witkin, SIGGRAPH 1998; J. Nocedal, S. J. Wright, Numerical Optimization, 2nd ed. (2006), 7.1.
+// Stretch springs only pull, so their potential is convex. A compressed bending spring would make the system
+// indefinite, so only its stiffness along the spring is included, which affects how fast Newton's method converges but
+// not the solution. Likewise, the linear system leaves out the wind. D. Baraff, A. Witkin, SIGGRAPH 1998; J. Nocedal,
+// S. J. Wright, Numerical Optimization, 2nd ed. (2006), 7.1.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Memory for positions, lent to an engine by the code that draws them, so that they are written where they are drawn.
+// Memory for positions that the drawing code lends to an engine, so the engine writes them where they are drawn.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// Finds the first step that goes wrong without examining every one. A spring grows by no more than its two ends move,
-// so after all springs have been measured it is known how much motion may pass before one can be too long or
-// overloaded; each step spends some of these budgets, and only when one is used up is the cloth examined again. The
-// same motion over dt bounds every speed, so speeds are summed up only where all particles at that speed would have
-// more energy than the scene can hold (MotionLimit). The state is backed up now and then: if a step turns out to be
-// bad, or later steps have overwritten the one to be examined, the engine returns to the backup and repeats the good
-// steps, which gives the same bits.
+// Finds the first bad step without examining every step. A spring grows by no more than its two ends move, so after all
+// springs have been measured, it is known how much motion can pass before one can be too long or overloaded. Each step
+// uses up some of these budgets, and only when one is exhausted is the cloth examined again. The motion divided by dt
+// bounds every speed, so speeds are summed only if all particles at that speed would have more energy than the scene
+// can contain (MotionLimit). The state is backed up now and then: if a step turns out to be bad, or if later steps have
+// overwritten the step to be examined, the engine returns to the backup and repeats the good steps, which gives
+// identical bits.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
-// A state that stands still behind the face of an engine: what is looked at while the cloth's own engine is in the
-// middle of a step, in another thread.
+// A fixed state with the interface of an engine, for reading while the cloth's own engine makes a step in another
+// thread.
 #pragma once
 
 #include "core/engines/engine.h"

@@ -1,5 +1,5 @@
-// How the positions of an engine whose arrays lie on a device reach OpenGL, with as few copies as can be. Engines that
-// step in the program's own memory have nothing of this: their positions are drawn from a copy.
+// Brings the positions of an engine with arrays on a device to OpenGL, with as few copies as possible. Engines that
+// step in the program's own memory do not have this: a copy of their positions is drawn.
 #pragma once
 
 #include <cstddef>

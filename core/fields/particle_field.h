@@ -1,5 +1,5 @@
-// One number for each particle, by which the cloth is colored: what its springs do, how it moves, how far it is from
-// where a reference is.
+// One number per particle that colors the cloth: tension or strain of its springs, its motion, or its distance from a
+// reference.
 #pragma once
 
 #include <optional>

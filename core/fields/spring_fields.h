@@ -1,4 +1,4 @@
-// What the springs of one direction add to the particles of a row, in SIMD: the inner loop of tension and strain.
+// Adds the springs of one direction to the particles of a row, in SIMD: the inner loop of tension and strain.
 #pragma once
 
 #include <cstddef>

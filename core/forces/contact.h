@@ -1,5 +1,5 @@
-// Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"). In double for both precisions: few
-// particles touch a body, and rounding to float would be visible as jitter.
+// Collision of one particle with fixed bodies (2.1.5; docs/model.md, "Collision"). It uses double for both precisions:
+// few particles touch a body, and rounding to float would be visible as jitter.
 #pragma once
 
 #include <glm/vec3.hpp>

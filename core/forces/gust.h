@@ -1,9 +1,9 @@
-// Gusts: W varies with simulated time. They are not part of the report's model, in which the wind is steady, and off by
-// default. The acceleration stays a(x, v): the wind changes only between two steps, so that all stages of a step use
-// the same wind.
+// Gusts: W varies with simulated time. They are not part of the report's model, whose wind is steady, and off by
+// default. The acceleration remains a(x, v): the wind changes only between two steps, so all stages of a step use one
+// wind.
 //
-// Simulation::advance_part gives the engine another W between steps, so no engine, method or formula knows of gusts;
-// where they are off they cost one comparison for each call of advance.
+// Simulation::advance_part gives the engine another W between steps, so engines, methods and formulas need no code for
+// gusts. If gusts are off, they cost one comparison for each call of advance.
 #pragma once
 
 #include "core/model/preset.h"

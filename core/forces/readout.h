@@ -1,5 +1,5 @@
-// The forces on one particle, computed in double from a state, for panels and plots. The engines compute the same
-// formulas (spring-inl.h, wind-inl.h), spring by spring.
+// The forces on one particle for panels and plots, computed in double from a state. The engines compute these formulas
+// (spring-inl.h, wind-inl.h) spring by spring.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
-// Forces of springs (2.3) to (2.8), each formula once: V is a SIMD vector (core/simd/simd-inl.h) or a plain
-// double. V brings positive(a) = max(a, 0), negative(a) = min(a, 0), if_greater(a, b, then) = then where
-// a > b else 0, and over_root(h, r2, c) = 2h/√r2 + c.
-// Included once for each SIMD target (hwy/foreach_target.h), so the guard toggles.
+// Forces of springs (2.3) to (2.8), each formula once. V is a SIMD vector (core/simd/simd-inl.h) or a plain double.
+// V provides positive(a) = max(a, 0), negative(a) = min(a, 0), if_greater(a, b, then) = then where a > b else 0,
+// and over_root(h, r2, c) = 2h/√r2 + c. Included once for each SIMD target (hwy/foreach_target.h), so the guard
+// toggles.
 #if defined(TYGLAB_SPRING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_SPRING_INL_H_
 #undef TYGLAB_SPRING_INL_H_

@@ -1,4 +1,4 @@
-// Wind on a triangle (2.16), once for vectors of triangles and for one. Included once for each SIMD target.
+// Wind on a triangle (2.16), for vectors of triangles and for a single one. Included once for each SIMD target.
 #if defined(TYGLAB_WIND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_WIND_INL_H_
 #undef TYGLAB_WIND_INL_H_

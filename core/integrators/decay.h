@@ -1,4 +1,4 @@
-// Exponential decay, with the same bits on every system.
+// Exponential decay with identical bits on every system.
 #pragma once
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-// docs/integrators.md, made from the table of methods.
+// Generates docs/integrators.md from the table of methods.
 #pragma once
 
 #include <string>

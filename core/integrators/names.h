@@ -1,4 +1,4 @@
-// Names of the integrators there are. Apart from the schemes, so that presets can be checked without them.
+// The names of all integrators, separate from the schemes, so presets can be checked without them.
 #pragma once
 
 #include <span>

@@ -1,6 +1,6 @@
-// Integrators as data: a step is a few sweeps, each of which evaluates the force on every particle at one pair of state
+// Integrators as data. A step consists of a few sweeps. Each evaluates the force on every particle at one pair of state
 // vectors, or solves an implicit stage for them, and then replaces some state vectors by linear combinations. One sweep
-// in each engine runs them all; a new scheme is one row in schemes.cpp.
+// in each engine runs all schemes; a new scheme is one row in schemes.cpp.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// Where the rows of the table of methods come from; schemes.cpp puts them together.
+// The parts of the table of methods, which schemes.cpp combines.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What the implicit methods' solves took, and whether they got there.
+// Counts the work of implicit solves, and those that did not converge.
 #pragma once
 
 #include <cstdint>

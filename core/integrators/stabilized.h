@@ -1,4 +1,4 @@
-// Stabilized Runge-Kutta-Chebyshev methods: how many stages a step needs, and how long it may be.
+// Stabilized Runge-Kutta-Chebyshev methods: the number of stages that a step needs, and its maximum length.
 #pragma once
 
 #include <complex>

@@ -1,5 +1,5 @@
-// How long the inner steps of a method are that chooses its own: a PI controller on the estimated error, and the counts
-// of what limited them.
+// Controls the length of inner steps for methods that choose their own: a PI controller on the estimated error, and
+// counts of what limited the steps.
 #pragma once
 
 #include <cstdint>

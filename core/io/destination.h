@@ -1,4 +1,4 @@
-// Where an output goes: a file, or standard output by the name "-".
+// The destination of an output: a file, or standard output, written as "-".
 #pragma once
 
 #include <filesystem>

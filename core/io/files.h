@@ -1,4 +1,4 @@
-// Files written whole or not at all.
+// Files that are written completely or not at all.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// How every file that a person may hand over is read: never more than it may hold, and without waiting for anybody.
+// Reads files that a person may supply: never more than a size limit, and without blocking.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// JSON text as a tree whose every value knows its line, with doubled keys refused and faults told in words. (The tree
-// of nlohmann-json keeps neither lines nor doubled keys, and its errors speak of tokens: here it reads strings and
-// numbers.)
+// JSON text as a tree in which every value knows its line. Duplicate keys are rejected, and errors are in plain words.
+// (The tree of nlohmann-json stores neither lines nor duplicate keys, and its errors are about tokens; here it only
+// reads strings and numbers.)
 #pragma once
 
 #include <cstdint>

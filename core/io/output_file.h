@@ -1,4 +1,4 @@
-// How every output is written: beside its name, which it takes once it is whole.
+// Writes every output under a temporary name and renames it once it is complete.
 #pragma once
 
 #include <cstdint>

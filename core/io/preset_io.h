@@ -1,4 +1,4 @@
-// Presets in and out: JSON files, `--set KEY=VALUE`. Everything is checked before anything is applied.
+// Reads and writes presets: JSON files, `--set KEY=VALUE`. Everything is checked before anything is applied.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,7 @@
-// Files as the operating system has them: what POSIX and Windows do differently, and only that. What is written and
-// read with it, and in which order, stands in output_file.cpp and input_file.cpp.
+// File operations that differ between POSIX and Windows, and only those. output_file.cpp and input_file.cpp determine
+// what is written and read with them, and in which order.
 //
-// Functions that can fail return -1 or false then, and leave the reason in errno.
+// Functions that can fail return -1 or false, and leave the reason in errno.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// What people read on a terminal: names, texts and messages come from files and drivers, and none of them may steer it.
+// Protects the terminal from names, texts and messages of files and drivers, which must not control it.
 //
-// filter_standard_streams() puts a filter between std::cout, std::cerr and their descriptors, so that whatever is
-// printed goes through it, by whoever. Outputs that are files ("-") and the progress line have streams of their own.
+// filter_standard_streams() puts a filter between std::cout, std::cerr and their descriptors, so all printed text
+// passes through it, whoever prints it. Outputs that are files ("-") and the progress line have separate streams.
 #pragma once
 
 #include <ostream>

@@ -1,4 +1,4 @@
-// Numbers as files hold them: text, quick and the same in every locale; and never one that is not finite.
+// Numbers as text in files: fast, independent of the locale, and always finite.
 #pragma once
 
 #include <array>

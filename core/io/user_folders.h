@@ -1,4 +1,4 @@
-// Where a user's files are, and what the environment says.
+// The user's folders, and the environment variables that set them.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// What differs between two presets, by what it asks for. Every "does this change restart, rebuild, only look
-// different?" is a line on changes(): no other place lists constants.
+// Derives from two presets what must be redone. Every decision about a restart, a rebuild or only a different
+// appearance asks changes(); no other place lists constants.
 #pragma once
 
 #include "core/model/effect.h"

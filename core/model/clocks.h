@@ -1,4 +1,4 @@
-// Clocks by which steps are measured.
+// Clocks for measuring steps.
 #pragma once
 
 #include "core/model/preset.h"

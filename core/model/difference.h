@@ -1,4 +1,4 @@
-// One constant with a value of its own: how a copy differs from its original.
+// One constant with a separate value: the difference between a copy and its original.
 #pragma once
 
 #include <cstddef>

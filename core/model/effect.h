@@ -1,4 +1,4 @@
-// What a change of a constant asks of what shows it, computes it or keeps it.
+// What must be redone when a constant changes.
 #pragma once
 
 #include <initializer_list>

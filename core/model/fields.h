@@ -1,4 +1,4 @@
-// Every field of a preset: the rows of the notation table, and the few that are no row of it.
+// All fields of a preset: the rows of the notation table, and the few other keys.
 #pragma once
 
 #include <span>

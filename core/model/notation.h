@@ -1,5 +1,5 @@
-// The notation table: one row a constant. Presets, `--set`, panels, tooltips, CSV headers and docs/notation.md read it;
-// a new constant is one field in preset.h and one row in notation.cpp.
+// The notation table has one row per constant. Presets, `--set`, panels, tooltips, CSV headers and docs/notation.md
+// read it; a new constant is one field in preset.h and one row in notation.cpp.
 #pragma once
 
 #include <optional>

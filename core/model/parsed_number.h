@@ -1,4 +1,4 @@
-// Numbers read from text, alike in every locale.
+// Reads numbers from text, independently of the locale.
 #pragma once
 
 #include <charconv>

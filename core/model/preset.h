@@ -1,5 +1,5 @@
-// A preset: everything that defines a scene, in SI units. The plain description that files, panels, `--set` and
-// engines share. Ranges, symbols and defaults' meaning stand in the notation table (notation.h).
+// A preset defines a complete scene, in SI units. Files, panels, `--set` and engines share this plain structure. The
+// notation table (notation.h) defines ranges, symbols and meanings.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// Numbers and sentences as people read them: panels, messages, reports.
+// Formats numbers and sentences for people: panels, messages, reports.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The same cloth with more or fewer particles (docs/model.md, Resolution).
+// Changes the number of particles of a cloth and keeps its size, mass and stiffness (docs/model.md, Resolution).
 #pragma once
 
 #include "core/model/preset.h"

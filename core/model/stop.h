@@ -1,4 +1,4 @@
-// How long work is stopped from outside: by a question that it asks itself often.
+// Lets long work be stopped from outside: the work checks a question often.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Words and numbers as preset files spell them.
+// The spelling of words and numbers in preset files.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// OBJ: the cloth as a mesh for other programs (2.4.5), one file a frame.
+// OBJ: the cloth as a mesh for other programs (2.4.5), one file per frame.
 #pragma once
 
 #include <cstdint>

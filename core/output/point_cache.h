@@ -1,4 +1,4 @@
-// PC2: the point cache that Blender and Maya read. One file with the positions of every particle at every frame.
+// PC2: the point cache of Blender and Maya, one file with the positions of every particle at every frame.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Time series: how a few quantities change over a run, as a CSV with a column each.
+// Time series: a CSV with one column for each quantity that changes over a run.
 #pragma once
 
 #include <filesystem>

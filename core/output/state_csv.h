@@ -1,4 +1,4 @@
-// State files: where every particle is and how it moves, as a CSV that gives back the very same numbers.
+// State files: the position and velocity of every particle, as a CSV that reproduces the numbers exactly.
 #pragma once
 
 #include <cstdint>

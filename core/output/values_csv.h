@@ -1,4 +1,4 @@
-// What the particles' values are now, as a CSV: the numbers that color the cloth.
+// The present values of the particles as a CSV: the numbers that color the cloth.
 #pragma once
 
 #include <string>

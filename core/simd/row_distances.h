@@ -1,4 +1,4 @@
-// Distances within a row and from a row, in SIMD: for tearing, divergence and bodies.
+// Distances within a row and from a row, in SIMD, for tearing, divergence and bodies.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// One vector per particle (position, velocity, force …), row by row, each row as its x, then its y, then its z: a row
-// is contiguous, and the sweep reaches all its components from one pointer.
+// One vector per particle (position, velocity, force …), row by row. Each row has its x, then its y, then its z, so a
+// row is contiguous, and the sweep reaches all components from one pointer.
 #pragma once
 
 #include <cassert>

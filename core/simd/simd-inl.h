@@ -1,5 +1,5 @@
-// SIMD vectors with the operations that the formulas of core/forces use, on top of Highway. Included once for each
-// target (hwy/foreach_target.h), so the guard toggles.
+// SIMD vectors with the operations of the formulas in core/forces, on top of Highway. Included once for each target
+// (hwy/foreach_target.h), so the guard toggles.
 #if defined(TYGLAB_SIMD_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_SIMD_INL_H_
 #undef TYGLAB_SIMD_INL_H_

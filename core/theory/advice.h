@@ -1,5 +1,5 @@
-// What to do when a run has diverged: a sentence with numbers from the linear theory (docs/model.md, "What the
-// shape decides").
+// Advice after a divergence: a sentence with numbers from linear theory (docs/model.md, "What the shape
+// decides").
 #pragma once
 
 #include <optional>

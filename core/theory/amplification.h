@@ -1,4 +1,4 @@
-// Linear stability of the explicit schemes, read off their tables: what one step makes of x'' = -ω² x - 2ζω x'.
+// Linear stability of the explicit schemes, derived from their tables: the effect of one step on x'' = -ω² x - 2ζω x'.
 #pragma once
 
 #include <vector>

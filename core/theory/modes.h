@@ -1,5 +1,5 @@
-// What linear theory says of a method on modes of the cloth: at which dt it breaks, at which stiffness, how it grows.
-// From the method's own table (amplification.h).
+// Linear theory of a method for the modes of the cloth: its limits of dt and stiffness, and its growth, from the
+// method's own table (amplification.h).
 #pragma once
 
 #include <span>

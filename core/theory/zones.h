@@ -1,5 +1,5 @@
-// Where along a constant a method is stable in any shape of the cloth, where that depends on the shape, and where it is
-// unstable in every shape, the other constants being as they are: by linear theory (docs/model.md, "What the shape
+// The zones of a constant, with the others fixed, in which a method is stable in any shape of the cloth,
+// depends on the shape, or is unstable in every shape: by linear theory (docs/model.md, "What the shape
 // decides").
 #pragma once
 

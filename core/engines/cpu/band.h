@@ -1,5 +1,5 @@
-// A band of rows, swept by one thread, pair by pair. Bands sweep in place at the same time: each copies the rows of its
-// neighbors that it needs before any thread writes, and recomputes the forces from the pair above it in the same order,
+// A band of rows that one thread sweeps, pair by pair. Bands sweep in place simultaneously: before any thread writes,
+// each band copies the neighboring rows that it needs, and it recomputes the forces from the pair above in their order,
 // so the result does not depend on the number of bands.
 #pragma once
 

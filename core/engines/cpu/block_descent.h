@@ -1,11 +1,11 @@
-// Vertex block descent on the lattice: a pass visits the particles color by color, and each takes a step of Newton's
-// method for the energy of implicit Euler's step (docs/model.md) in its own three coordinates. With the color (i + 2j)
-// mod 5 no spring, bending ones included, joins two particles of one color, so all of them move at once, and the result
-// has the same bits for any number of threads. A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, ACM Trans. Graph. 43, 116
+// Vertex block descent on the lattice. A pass visits the particles color by color, and each makes a step of
+// Newton's method for the energy of implicit Euler's step (docs/model.md) in its own three coordinates. With the
+// color (i + 2j) mod 5 no spring connects two particles of one color, so all of these move simultaneously, and the
+// bits are identical for any number of threads. A. H. Chen, Z. Liu, Y. Yang, C. Yuksel, ACM Trans. Graph. 43, 116
 // (2024).
 //
-// Each component of a row is stored as five parts, columns 0, 5, 10 …, then 1, 6, 11 … and so on, so that particles of
-// one color are neighbors in memory, and so are theirs in each direction.
+// Each component of a row is stored in five parts, columns 0, 5, 10 …, then 1, 6, 11 … and so on, so particles of
+// one color are adjacent in memory, and so are their neighbors in each direction.
 #pragma once
 
 #include <vector>

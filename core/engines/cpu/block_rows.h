@@ -1,5 +1,5 @@
-// Vertex block descent on particles of one color in a row, in SIMD: each takes a step of Newton's method for the energy
-// of implicit Euler's step in which all others rest.
+// Vertex block descent for the particles of one color in a row, in SIMD: each makes a step of Newton's method for the
+// energy of implicit Euler's step while all others stay fixed.
 #pragma once
 
 #include <array>

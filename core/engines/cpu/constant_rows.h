@@ -1,4 +1,4 @@
-// A row of Chebyshev's iteration for A = 1 + Σ over springs (constant_solve.h), in SIMD.
+// One row of the Chebyshev iteration for A = 1 + Σ over springs (constant_solve.h), in SIMD.
 #pragma once
 
 #include <cstddef>

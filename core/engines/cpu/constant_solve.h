@@ -1,6 +1,6 @@
-// Linear systems on the lattice whose matrix no motion changes: A = 1 + Σ over whole springs of β (e_i - e_j)(e_i -
-// e_j)ᵀ, the same for x, y and z, where pinned and held particles keep 0. By Chebyshev's iteration, which needs bounds
-// of the eigenvalues and nothing else, so that a solution has the same bits for any number of threads.
+// Linear systems on the lattice with a matrix that does not depend on the motion: A = 1 + Σ over intact springs of β
+// (e_i - e_j)(e_i - e_j)ᵀ, for each of x, y and z, with 0 for pinned and held particles. The Chebyshev iteration solves
+// them. It needs only bounds of the eigenvalues, so the bits of a solution are identical for any number of threads.
 #pragma once
 
 #include <functional>

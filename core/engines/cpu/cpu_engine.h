@@ -1,27 +1,27 @@
-// The CPU engine: runs every explicit scheme in place over rows, in SIMD.
+// The CPU engine runs every explicit scheme in place over rows, in SIMD.
 //
-// A step is, for each sweep of the method, one pass of every band (band.h) over its rows from top to bottom, two rows
-// at a time. For rows i and i + 1, block of columns after block:
+// In a step, every band (band.h) makes one pass over its rows for each sweep of the method, from top to bottom, two
+// rows at a time. For rows i and i + 1, and for each block of columns:
 //
-// 1. Forces that the pair owns (pair_sweep-inl.h): springs to the right, below and diagonally below, bending springs
-//    two to the right and two below, the wind on the triangles down to row i + 2. What the upper row takes from the
-//    lower stays in registers; what both take from rows i + 2 and i + 3 waits in a ring of four rows, to be subtracted
-//    there.
+// 1. The forces that the pair owns are computed (pair_sweep-inl.h): springs to the right, below and diagonally below,
+//    bending springs two to the right and two below, and the wind on the triangles down to row i + 2. Forces of the
+//    lower row on the upper stay in registers; those of rows i + 2 and i + 3 wait in a ring of four rows, to be
+//    subtracted there.
 // 2. Everything above and to the left is done, so the force on the block is complete and the block is updated in place.
-// 3. Pinned and held particles get no force; the force on the hand is measured here.
-// 4. Bodies: if a quick test says that the row may touch one, the exact correction runs, in double, particle by
+// 3. Pinned and held particles receive no force; the force on the hand is measured here.
+// 4. Bodies: if a quick test says that the row may touch one, the exact correction runs in double, particle by
 //    particle.
-// 5. The largest displacement is kept, and whether something was not finite (fault.h).
+// 5. The largest displacement is kept, and whether a value was not finite (fault.h).
 //
-// So each spring is computed once, a sweep reads and writes the state once, and accelerations never travel through
-// memory. Once all bands are done, one thread ends the step (cpu_step.cpp): springs above F_max break, the hand lets
-// go.
+// So each spring is computed once, a sweep reads and writes the state once, and accelerations are never stored in
+// memory. Once all bands are done, one thread ends the step (cpu_step.cpp): springs above F_max break, and the hand
+// releases.
 //
-// Where the state does not stay in a core's own cache, and wherever several threads work, steps follow each other in
-// waves (step_in_waves): a sweep runs two rows behind the sweep before it, up to eight sweeps a thread, so that rows
-// are worked on eight times while they lie in the cache. Threads wait for rows, not for barriers. A wave begins only if
-// the divergence budget lasts for it with a margin; if a step in it was faster than that, the engine returns to its
-// backup and makes the steps one by one. Bits are the same either way (tests/unit/waves_test.cpp).
+// If the state exceeds the cache of a core, and whenever several threads work, steps follow each other in waves
+// (step_in_waves): a sweep runs two rows behind the sweep before it, up to eight sweeps per thread, so rows are used
+// eight times while they are in the cache. Threads wait for rows, not for barriers. A wave starts only if the
+// divergence budget suffices for it with a margin; if a step in it was faster than that, the engine returns to its
+// backup and makes the steps one by one. The bits are identical either way (tests/unit/waves_test.cpp).
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
-// The implicit stages of a method on the processor (newton.h), in SIMD; on one thread, but for the linear systems of
-// stiff stages. Products with the matrix are computed row by row from the stiffness of each spring (stiffness.h); it is
-// stored only if it must be factorized.
+// The implicit stages of a method on the processor (newton.h), in SIMD, and on one thread except for the linear systems
+// of stiff stages. Products with the matrix are computed row by row from the stiffness of each spring (stiffness.h);
+// the matrix is stored only for factorization.
 #pragma once
 
 #include <functional>

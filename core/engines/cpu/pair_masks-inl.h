@@ -1,5 +1,5 @@
-// Which lanes of a block have springs and triangles, and which may move: for the ends of rows, the last rows, and
-// around what is torn, pinned or held. Included once for each SIMD target, so the guard toggles.
+// Masks of a block: which lanes have springs and triangles, and which may move, at the ends of rows, in the last rows,
+// and near torn, pinned or held particles. Included once for each SIMD target, so the guard toggles.
 #if defined(TYGLAB_PAIR_MASKS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef TYGLAB_PAIR_MASKS_INL_H_
 #undef TYGLAB_PAIR_MASKS_INL_H_

@@ -1,7 +1,7 @@
-// The sweep over a pair of rows, in SIMD: forces of the springs and triangles that the two rows own, and the update of
-// both. Springs are owned by their upper end, so once a pair is done the force on it is complete and it is overwritten
-// at once: a sweep runs in place, computes each spring once, and a never passes through memory. Two rows at a time, so
-// that reactions of the upper row on the lower stay in registers.
+// The sweep over a pair of rows, in SIMD, computes the forces of the springs and triangles that the two rows own, and
+// updates both rows. The upper end of a spring owns it, so once a pair is done its force is complete and it is
+// overwritten at once: a sweep runs in place, computes each spring once, and never stores accelerations. Two rows at a
+// time keep the reactions of the upper row on the lower in registers.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Parts that an engine is compiled with. The engine that scenes run on has all; `tyglab bench skip` also runs engines
-// compiled without some, to show that a part costs nothing while it is off.
+// The parts with which an engine is compiled. Scenes run on an engine with all parts; `tyglab bench skip` also runs
+// engines without some of them, to show that a part costs nothing while it is off.
 #pragma once
 
 #include <memory>

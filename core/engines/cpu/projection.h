@@ -1,6 +1,6 @@
 // Extended position-based dynamics on the lattice: Gauss-Seidel over springs colored by the parity of their row or
-// column, so that no two of one color share a particle. The order of the colors is fixed, and no two threads work on
-// the same rows at a time, so the result has the same bits for any number of threads.
+// column, so no two springs of one color share a particle. The order of the colors is fixed, and no two threads work on
+// a row simultaneously, so the bits are identical for any number of threads.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// One row of springs, or a pair of rows joined by springs, in SIMD: extended position-based dynamics and its damping
-// for springs of which no two share a particle, so that all can be projected at once.
+// One row of springs, or a pair of rows connected by springs, in SIMD: extended position-based dynamics and its damping
+// for springs that share no particle, so all are projected simultaneously.
 #pragma once
 
 #include <cstddef>

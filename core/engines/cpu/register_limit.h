@@ -1,4 +1,4 @@
-// The limit that throughput is measured against: one step's arithmetic with everything in registers.
+// The limit for throughput: the arithmetic of one step with all values in registers.
 #pragma once
 
 #include "core/model/preset.h"

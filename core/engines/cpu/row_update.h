@@ -1,4 +1,4 @@
-// Updates of a row once the force on it is known, in SIMD: for methods whose update the pair sweep does not contain.
+// Updates of a row after its force is known, in SIMD, for methods whose update is not part of the pair sweep.
 #pragma once
 
 #include <cstddef>

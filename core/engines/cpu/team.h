@@ -1,5 +1,5 @@
-// A team of threads that runs one function together, with a barrier. Threads sleep between runs, and while the team is
-// smaller than it may be. What one of them throws ends the run of all.
+// A team of threads that run one function together, with a barrier. Threads sleep between runs, and while the team is
+// smaller than its maximum. An exception in one thread ends the run of all.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Threads of a team that help the one which solves, instead of waiting for it.
+// Lets the threads of a team help the thread that solves, instead of waiting for it.
 #pragma once
 
 #include "core/engines/cpu/team.h"

@@ -1,5 +1,5 @@
-// How many threads of a team work. Where other programs hold processors, threads that wait for each other lose time:
-// the governor lets go of those that do not pay, and takes them back when they do.
+// Decides how many threads of a team work. If other programs occupy processors, threads that wait for each other lose
+// time; the governor releases threads that do not pay and takes them back when they do.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Sleeping until a number changes that several threads share.
+// Sleeps until a number that several threads share changes.
 #pragma once
 
 #include <atomic>

@@ -1,5 +1,5 @@
-// The springs of a row as the interior-point method (interior_point.h) sees them, in SIMD and in double. Everything is
-// a length: forces are multiplied by h²/m, stiffnesses by the same, damping by h/m.
+// The springs of a row in the interior-point method (interior_point.h), in SIMD and in double. All quantities are
+// lengths: forces and stiffnesses are multiplied by h²/m, damping by h/m.
 #pragma once
 
 #include <cstddef>

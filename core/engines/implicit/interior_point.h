@@ -1,15 +1,15 @@
 // A primal-dual interior-point method for an implicit stage in which springs switch so often that Newton's method
-// stalls. Bending aside, the solution x of x = c_x + h v, v = c_v + h a(x, v) makes
+// stalls. Except for bending, the solution x of x = c_x + h v, v = c_v + h a(x, v) minimizes
 //
 //   ½ |x - y|² + Σ ½ k max(r - L, 0)² + ½ k_d Σ |x_ij - c_ij|²,   y = c_x + h c_v + h² F/m,
 //
-// least (all forces times h²/m), where r is the length of a stretch spring and F what acts without springs. With a
-// tension t and a slack s for each of these springs that is: forces t along the springs balance all others, r - L - t/k
-// + s = 0, t s = 0, t >= 0, s >= 0. Newton's method for the same with t s = μ never meets a switch, and μ goes to 0.
-// Each iteration solves twice with one matrix, which resists with k t/(t + k s) along a spring and t/r across it: for
-// μ = 0, and for the μ that this promises, with the products that it had left out (S. Mehrotra, SIAM J. Optim. 2, 575
-// (1992)). The linear systems are solved by conjugate gradients with multigrid (multigrid.h). Converged is what the
-// forces of the model itself, without t and s, balance.
+// with all forces multiplied by h²/m, where r is the length of a stretch spring and F the force without springs. With a
+// tension t and a slack s for each of these springs, the conditions are: the forces t along the springs balance all
+// others, r - L - t/k + s = 0, t s = 0, t >= 0, s >= 0. Newton's method for t s = μ never meets a switch, and μ goes to
+// 0. Each iteration solves twice with one matrix, which has the stiffness k t/(t + k s) along a spring and t/r across
+// it: once for μ = 0, and once for the μ that this result allows, including the products left out before (S. Mehrotra,
+// SIAM J. Optim. 2, 575 (1992)). Conjugate gradients with multigrid (multigrid.h) solve the linear systems. Convergence
+// means that the forces of the model itself balance, without t and s.
 #pragma once
 
 #include <functional>

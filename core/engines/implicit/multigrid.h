@@ -1,9 +1,9 @@
-// Multigrid for the linear systems of an implicit stage: a V cycle as the preconditioner of conjugate gradients. Each
-// coarser lattice has every other row and column, down to three by three; between two of them positions are
-// interpolated bilinearly, which leads from one operator to the next (Galerkin's Pᵀ A P). Chebyshev's iteration with
-// the blocks on the diagonal smooths twice before and twice after. The coarser operators see a nine-point operator, in
-// which each bending spring is spread over its two halves; everything on the lattice itself uses the true one.
-// U. Trottenberg, C. W. Oosterlee, A. Schüller, Multigrid (2001), 2 and 4; M. Adams et al., J. Comput. Phys. 188, 593
+// Multigrid for the linear systems of an implicit stage: a V-cycle as the preconditioner of conjugate gradients.
+// Each coarser lattice has every other row and column, down to three by three. Positions are interpolated
+// bilinearly between lattices, which also gives the coarser operator (Galerkin's Pᵀ A P). Two Chebyshev iterations
+// with the diagonal blocks smooth before, and two after. The coarser operators derive from a nine-point operator,
+// in which each bending spring is spread over its two halves; the finest lattice uses the exact operator. U.
+// Trottenberg, C. W. Oosterlee, A. Schüller, Multigrid (2001), 2 and 4; M. Adams et al., J. Comput. Phys. 188, 593
 // (2003).
 #pragma once
 

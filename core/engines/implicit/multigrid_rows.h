@@ -1,10 +1,10 @@
-// What multigrid (multigrid.h) does to a row, in SIMD: products with a nine-point operator of 3 x 3 blocks, smoothing,
-// going to a coarser lattice and back, and the coarser operator itself.
+// The operations of multigrid (multigrid.h) on a row, in SIMD: products with a nine-point operator of 3 x 3 blocks,
+// smoothing, restriction and interpolation, and the coarser operator itself.
 //
-// A block is symmetric: xx, yy, zz, yz, zx, xy. A row of the operator holds the blocks of its particles on the
-// diagonal, then those between a particle and its neighbors to the right, below, below to the right, and between the
-// right neighbor and the one below (so that every link is read from the column of its left end): thirty arrays, each
-// `stride` numbers long, whose elements beyond the last column are 0. At least one such element follows each array.
+// A block is symmetric: xx, yy, zz, yz, zx, xy. A row of the operator contains the diagonal blocks of its particles,
+// then the blocks between a particle and its neighbors to the right, below, below to the right, and between the right
+// neighbor and the one below (so every link is read from the column of its left end): thirty arrays, each `stride`
+// numbers long, whose elements beyond the last column are 0. At least one such element follows each array.
 #pragma once
 
 #include <cstddef>

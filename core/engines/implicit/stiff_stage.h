@@ -1,5 +1,5 @@
-// An implicit stage by the interior-point method (interior_point.h), on the processor and in double, for every engine:
-// where Newton's method would stall, or has.
+// Solves an implicit stage by the interior-point method (interior_point.h), on the processor and in double, for every
+// engine, if Newton's method would stall or has stalled.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // The cloth's linearized force, row by row and in SIMD: A p for A = M + Σ over springs of (t 1 + a aᵀ) between its
-// ends, where t and a describe a spring's resistance to stretching, turning and damping. Only t and a are stored. Also
-// the vector operations of conjugate gradients.
+// ends, where t and a describe the resistance of a spring to stretching, rotation and damping. Only t and a are stored.
+// This file also has the vector operations of conjugate gradients.
 #pragma once
 
 #include <cstddef>

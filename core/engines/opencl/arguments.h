@@ -1,4 +1,4 @@
-// Arguments of kernels. Included only in this folder.
+// Arguments of kernels. Include this only in this folder.
 #pragma once
 
 #include "core/engines/opencl/handles.h"

@@ -1,5 +1,5 @@
-// Vertex buffers of OpenGL that a device writes (cl_khr_gl_sharing). Only run against a double of such a device so far:
-// no graphics card was there to try it on.
+// Vertex buffers of OpenGL that a device writes (cl_khr_gl_sharing). So far tested only with a simulated device of this
+// kind, since no graphics card was available.
 #pragma once
 
 #include <memory>

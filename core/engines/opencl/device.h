@@ -1,4 +1,4 @@
-// An open OpenCL device, with its queue and the programs built for it; and how to find one.
+// An open OpenCL device with its queue and its built programs, and a function to find one.
 #pragma once
 
 #include <map>

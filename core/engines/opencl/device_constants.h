@@ -1,4 +1,4 @@
-// Arguments of kernels and contents of buffers: the same structs as in kernels/cloth.cl, bodies.cl and implicit.cl.
+// Arguments of kernels and contents of buffers, with the structs of kernels/cloth.cl, bodies.cl and implicit.cl.
 #pragma once
 
 #include <cstdint>

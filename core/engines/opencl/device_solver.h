@@ -1,14 +1,14 @@
-// The implicit stages of a method on a device (newton.h, kernels/implicit.cl): vectors stay there, and the host reads
-// only the sums that Newton's method needs.
+// The implicit stages of a method on a device (newton.h, kernels/implicit.cl). Vectors stay on the device, and the host
+// reads only the sums that Newton's method needs.
 //
-// The residual is one more sweep; the linearized force is kept as four numbers a spring. Conjugate gradients with the
-// blocks of the diagonal run in two launches a step: one multiplies, each particle gathering from its twelve springs;
-// one updates. Each work-item or group leaves its part of the sums, and whoever needs the whole sum adds the parts in
-// the same order: nothing is read back, no launch is made for a sum, and every run has the same bits. The host queues
-// as many steps as the last system took, then looks; launches that come too late do nothing. Small cloths are solved by
-// one group in a single launch. Where conjugate gradients do not converge, the host reads the four numbers a spring and
-// factorizes (direct_solve.h). Stiff stages, and those at which Newton's method fails, are solved by the host
-// (implicit/stiff_stage.h), as on the CPU engine.
+// The residual is one more sweep; the linearized force is stored as four numbers per spring. A step of conjugate
+// gradients with the diagonal blocks takes two launches: in the first, each particle gathers the product from its
+// twelve springs; the second updates. Each work-item or group stores its part of the sums, and every reader adds the
+// parts in one fixed order: nothing is read back, sums need no launches, and every run has identical bits. The host
+// queues as many steps as the last system took and then reads the result; launches that come too late do nothing. For
+// small cloths, one group solves in a single launch. If conjugate gradients do not converge, the host reads the four
+// numbers per spring and factorizes (direct_solve.h). The host also solves stiff stages, and those at which Newton's
+// method fails (implicit/stiff_stage.h), as with the CPU engine.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What takes long to find out about a device (built programs, measured times), kept on disk between runs: in
-// XDG_CACHE_HOME/tyglab, or ~/.cache/tyglab. A file that cannot be read or written counts as missing.
+// Caches slow results about a device (built programs, measured times) on disk between runs: in XDG_CACHE_HOME/tyglab,
+// or ~/.cache/tyglab. A file that cannot be read or written counts as missing.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The library through which OpenCL's drivers are found, and what to tell where it or a driver is missing: by system.
+// The library that finds OpenCL drivers, and the advice if it or a driver is missing, for each system.
 #pragma once
 
 #include <string_view>

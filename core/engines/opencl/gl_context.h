@@ -1,5 +1,5 @@
-// The OpenGL context with which devices share buffers. Includes no header of OpenGL or OpenCL; app provides the handles
-// of its window.
+// The OpenGL context with which devices share buffers. It includes no header of OpenGL or OpenCL; app provides the
+// handles of its window.
 #pragma once
 
 #include <cstdint>

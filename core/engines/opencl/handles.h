@@ -1,5 +1,5 @@
-// OpenCL's objects as owning types, and its error codes as exceptions. Uses the C interface, since the C++ one takes as
-// long to compile as the whole engine. Included only in this folder.
+// OpenCL objects as owning types, and OpenCL error codes as exceptions. It uses the C interface, since the C++
+// interface takes as long to compile as the whole engine. Include this only in this folder.
 #pragma once
 
 #define CL_TARGET_OPENCL_VERSION 120

@@ -1,4 +1,4 @@
-// The OpenCL C of kernels/, which CMake compiles into the program, so that no file has to be found.
+// The OpenCL C of kernels/, which CMake compiles into the program, so no file has to be found at run time.
 #pragma once
 
 #include <string_view>

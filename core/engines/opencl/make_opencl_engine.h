@@ -1,4 +1,4 @@
-// The way to the OpenCL engine. No OpenCL header.
+// Creates the OpenCL engine without an OpenCL header.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Which OpenCL devices there are, and what each can do. Includes no OpenCL header.
+// Lists the OpenCL devices and their abilities. It includes no OpenCL header.
 #pragma once
 
 #include <cstdint>

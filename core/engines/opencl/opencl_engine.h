@@ -1,28 +1,29 @@
-// The OpenCL engine: runs every explicit scheme of fixed dt, and those that solve, on an OpenCL device.
+// The OpenCL engine runs every explicit scheme of fixed dt, and the implicit schemes, on an OpenCL device.
 //
-// Its program is the files of kernels/ and, behind them, a kernel for each sweep of the method, whose sums are written
-// from the scheme (program_text.h). What a scene has (bending, damping, wind, bodies) are build options, so what is off
-// costs nothing; constants are arguments, so a slider builds nothing, unless it switches a feature on or off.
+// Its program consists of the files of kernels/ followed by a kernel for each sweep of the method, whose sums are
+// generated from the scheme (program_text.h). The features of a scene (bending, damping, wind, bodies) are build
+// options, so unused features cost nothing. Constants are arguments, so a slider builds nothing unless it switches a
+// feature.
 //
-// A sweep has two forms. On processors (kernels/band.cl) a work-item takes a band of rows, in vectors of the
-// processor's own width, and computes each spring once, as the CPU engine does: compilers for processors do not make
-// vectors out of work-items. On graphics cards (kernels/gather.cl) a work-item takes a particle and gathers the forces
-// from its twelve neighbors; every spring is computed twice, and nothing is handed over.
+// A sweep has two forms. On processors (kernels/band.cl) a work-item processes a band of rows in vectors of the
+// processor's width and computes each spring once, like the CPU engine, because compilers for processors do not turn
+// work-items into vectors. On graphics cards (kernels/gather.cl) a work-item processes one particle and gathers the
+// forces from its twelve neighbors; every spring is computed twice, and nothing is passed on.
 //
-// A sweep reads one set of arrays and writes another, since neighbors may still read what it replaces. On processors a
-// launch makes several levels, that is steps: each runs three rows behind the one before, and at the edges of a band
-// the rows that the next step needs are made twice. So the state passes through memory once for several steps, and they
-// share the cost of a launch.
+// A sweep reads one set of arrays and writes another, since neighbors may still read the old values. On processors a
+// launch makes several levels, that is, steps: each runs three rows behind the one before, and at the edges of a band
+// the rows that the next step needs are computed twice. So the state passes through memory once for several steps, and
+// these share the cost of a launch.
 //
-// Masks hold a byte a particle: which of its springs are there and whole, whether it is free, and whether everything
-// that a block looks at is there, in which case no mask is looked at. Beyond the cloth there are zeros, so an edge is a
-// tear.
+// Masks contain one byte per particle: which of its springs are intact, whether it is free, and whether everything that
+// a block depends on is intact, in which case no other mask is read. Values beyond the cloth are zeros, so an edge
+// works like a tear.
 //
-// Steps are queued in batches, each as long as the divergence budget lasts with a margin (fault.h). A batch reports its
-// largest displacement; if a step in it should have been looked at, the engine returns to its backup and makes the
-// steps up to that one again. The host waits for nothing but the end of a batch. Positions are looked at through a
-// mapping: on a processor the memory that kernels write, on a card one copy; of one particle a card reads no more than
-// what stands near it.
+// Steps are queued in batches, each as long as the divergence budget allows with a margin (fault.h). A batch reports
+// its largest displacement; if a step in it should have been examined, the engine returns to its backup and repeats the
+// steps up to that one. The host waits only for the end of a batch. Positions are read through a mapping: on a
+// processor this is the memory that kernels write, on a card one copy. For a single particle, a card transfers only the
+// values near it.
 #pragma once
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// What of a preset decides which kernels an engine builds.
+// The features of a preset that determine which kernels an engine builds.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The text of an engine's program: the files of kernels/, and after them a kernel for each sweep of the method.
+// The text of an engine's program: the files of kernels/, followed by a kernel for each sweep of the method.
 #pragma once
 
 #include <string>
