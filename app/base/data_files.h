@@ -1,4 +1,4 @@
-// Where the program's own files are: presets, labs, shaders, textures.
+// The locations of the program's own files: presets, labs, shaders, textures.
 #pragma once
 
 #include <filesystem>

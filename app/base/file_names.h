@@ -1,4 +1,4 @@
-// Names that people give, as names of files.
+// Makes file names from names that people choose.
 #pragma once
 
 #include <string>

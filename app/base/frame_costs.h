@@ -1,4 +1,4 @@
-// What a frame costs, by part.
+// The cost of each part of a frame.
 #pragma once
 
 #include <array>

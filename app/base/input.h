@@ -1,5 +1,5 @@
-// Keyboard and pointer events since the last frame, in order, as GLFW's callbacks report them. Who draws slowly still
-// gets every press, however short it was.
+// Keyboard and pointer events since the last frame, in order, as GLFW's callbacks report them. Slow drawing loses no
+// press, however short.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-// An experiment's constants as a link: "#hanging&k_s=300&W=[0,0,0.02]", a shipped preset and what differs from it, as
-// --set takes it. A page of Tyglab shows it at the end of its address; the command line takes the whole address, or the
-// link alone.
+// The constants of an experiment as a link, "#hanging&k_s=100&W=[0,0,0.02]": a shipped preset and its differences,
+// written as for --set. A page of Tyglab shows the link at the end of its address; the command line accepts the whole
+// address or the link alone.
 #pragma once
 
 #include <string>

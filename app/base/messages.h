@@ -1,4 +1,4 @@
-// What the program tells its user: in the window, and in the log.
+// Messages to the user: in the window, and in the log.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Numbers as a panel shows and reads them; constants are shown by short_number of readable.h.
+// Formats and reads numbers in panels; short_number of readable.h formats constants.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,4 +1,4 @@
-// Presets as files: those that are shipped, and those that a person names.
+// Preset files: the shipped ones and the user's own.
 #pragma once
 
 #include <filesystem>

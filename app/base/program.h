@@ -1,4 +1,4 @@
-// This program as the system sees it.
+// The running program, as the system identifies it.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What is remembered from one session to the next: window, layout, text size, the last preset.
+// Everything remembered between sessions: window, layout, text size, the last preset.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// How long something takes: by the clock on the wall, and of this thread's own time on a processor.
+// Measures durations: in real time, and in processor time of the current thread.
 #pragma once
 
 #include <chrono>

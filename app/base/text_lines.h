@@ -1,5 +1,5 @@
-// How text is broken into lines: at its spaces, and within a formula or a quantity only where a whole line is too short
-// for it.
+// Breaks text into lines: at spaces, and within a formula or a quantity only if it is wider than a whole
+// line.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The part of the window in which the cloth is seen.
+// The part of the window that shows the cloth.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// What `tyglab bench accuracy` says of its figures: a table for people, JSON for programs, charts.
+// Reports the results of `tyglab bench accuracy`: a table for people, JSON for programs, charts.
 #pragma once
 
 #include <iosfwd>

@@ -1,4 +1,4 @@
-// Counts instructions with valgrind's callgrind: unlike times, they do not depend on the machine's mood.
+// Counts instructions with valgrind's callgrind: unlike times, they do not depend on the load of the machine.
 #pragma once
 
 #include <filesystem>

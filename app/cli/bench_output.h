@@ -1,4 +1,4 @@
-// What the benchmarks say alike: the machine and build that figures belong to.
+// Output common to all benchmarks: the machine and build of the measurements.
 #pragma once
 
 #include <nlohmann/json.hpp>

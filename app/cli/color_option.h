@@ -1,4 +1,4 @@
-// --color: what colors the cloth in pictures and in the window.
+// --color: the quantity that colors the cloth in pictures and in the window.
 #pragma once
 
 #include <CLI/CLI.hpp>

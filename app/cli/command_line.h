@@ -1,4 +1,4 @@
-// What all commands share: exit codes, and how errors become sentences and codes.
+// Common to all commands: exit codes, and the conversion of errors into messages and codes.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// What the sandbox does where there is no display.
+// The replacement of the sandbox on a machine without a display.
 #pragma once
 
 #include <iosfwd>

@@ -1,4 +1,4 @@
-// The options of a command that name files to be written, checked before any work: not after hours of it.
+// The output options of a command, all checked before any work starts, and not after hours of it.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// The argument PRESET and the options that go with it wherever a preset goes.
+// The argument PRESET and the options that accompany it in every command.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// Progress of long work with the time left: one line on stderr that is written over, on a terminal alone.
+// Progress of long work with the time left: one line on stderr that is overwritten, on a terminal only.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// --size WxH: of pictures and of the window.
+// --size WxH: the size of pictures and of the window.
 #pragma once
 
 #include <string>

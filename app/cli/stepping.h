@@ -1,4 +1,4 @@
-// How `run` and `render` bring a simulation forward: in portions, with progress, until it ends, diverges or Ctrl-C.
+// Steps a simulation for `run` and `render`: in batches, with progress, until it ends, diverges or receives Ctrl-C.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// A page's address, with the link to the experiment in it. Elsewhere there is none.
+// The address of the page with the link to the experiment. Other platforms have none.
 #pragma once
 
 #include <string>

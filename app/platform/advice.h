@@ -1,4 +1,4 @@
-// What this system's users can do about graphics.
+// Advice about graphics for the users of this system.
 #pragma once
 
 namespace tyglab {

@@ -1,5 +1,5 @@
-// Work beside the frames where there are no threads: a page's memory belongs to one thread, but a worker can have a
-// copy of it, and with it of the whole program as it is. What the copy finds comes back as bytes.
+// Background work without threads: the memory of a page belongs to one thread, but a worker can receive a copy of it,
+// and with it of the whole running program. The results of the copy return as bytes.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The OpenGL context that is current, as OpenCL wants to have it named.
+// The current OpenGL context, in the form that OpenCL requires.
 #pragma once
 
 #include "core/engines/opencl/gl_context.h"

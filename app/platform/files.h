@@ -1,5 +1,5 @@
-// Files that a person has: on a desktop those of the system, which need nothing more; in a page they come and go by the
-// browser.
+// The user's files: on a desktop these are files of the system; in a page the browser transfers
+// them.
 #pragma once
 
 #include <filesystem>

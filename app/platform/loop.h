@@ -1,4 +1,4 @@
-// The frame loop, which a desktop's program runs and a browser calls.
+// The frame loop: a desktop program runs it, and a browser calls it.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Threads beside the frames.
+// Background threads.
 #pragma once
 
 namespace tyglab {

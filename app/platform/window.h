@@ -1,5 +1,5 @@
-// The window with its OpenGL context. What is behind it differs by platform: GLFW on desktops (app/platform/desktop), a
-// page's canvas in a browser (app/platform/web).
+// The window with its OpenGL context. Its implementation depends on the platform: GLFW on desktops
+// (app/platform/desktop), a page's canvas in a browser (app/platform/web).
 #pragma once
 
 #include <glm/vec2.hpp>

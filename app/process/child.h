@@ -1,5 +1,5 @@
-// Child processes: a function of this program whose crash or hang is a result like any other. Not on Windows, which
-// cannot copy a process.
+// Child processes: they run a function of this program whose crash or hang is an ordinary result. Not available on
+// Windows, which cannot fork.
 #pragma once
 
 #include <sys/types.h>

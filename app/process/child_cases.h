@@ -1,5 +1,5 @@
-// Numbered cases in processes of their own, so that one that crashes or hangs is a result like any other; on Windows in
-// threads of this process.
+// Runs numbered cases in separate processes, so a crash or hang is an ordinary result; on Windows in threads of this
+// process.
 #pragma once
 
 #include <cstdint>

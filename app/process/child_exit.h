@@ -1,4 +1,4 @@
-// How a part of the program that ran by itself ended.
+// How a part of the program that ran separately ended.
 #pragma once
 
 #include <string>

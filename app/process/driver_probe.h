@@ -1,4 +1,4 @@
-// Whether an OpenCL driver crashes when it is asked for its devices: found out in a child process, where there are any.
+// Finds out in a child process, where these exist, whether an OpenCL driver crashes when asked for its devices.
 #pragma once
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-// How the C library's heap gives memory back.
+// Controls how the C library's heap returns memory.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Ctrl-C, SIGTERM and SIGHUP (a terminal that is closed) end the program with a sentence: at once while there is
-// nothing to keep, cleanly during long work. On Windows: Ctrl-C, Ctrl-Break, and a console that is closed.
+// Ctrl-C, SIGTERM and SIGHUP (a closed terminal) end the program with a message: at once while there is nothing to
+// save, cleanly during long work. On Windows: Ctrl-C, Ctrl-Break, and a closed console.
 #pragma once
 
 #include <memory>

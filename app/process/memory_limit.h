@@ -1,4 +1,4 @@
-// A limit of memory (ulimit -v): graphics and OpenCL drivers crash where they are refused memory, and the limit is why.
+// Memory limits (ulimit -v): graphics and OpenCL drivers crash when memory is refused, and the limit is the reason.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Printing what is asked of drivers, which may crash.
+// Prints answers of drivers, which may crash.
 #pragma once
 
 #include <string>

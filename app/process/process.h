@@ -1,4 +1,4 @@
-// This process: its streams, arguments and end.
+// This process: its streams, its arguments and its end.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Other programs, run to their end without a window or a terminal of theirs.
+// Runs other programs to their end, without a window or a terminal.
 #pragma once
 
 #include <optional>

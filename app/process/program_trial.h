@@ -1,9 +1,9 @@
-// Programs for OpenCL devices, tried in a process of their own: drivers that lack a linker, room on a disk or a sane
-// state end the process that they work in.
+// Tests programs for OpenCL devices in a separate process: drivers that lack a linker, disk space or a sane state end
+// the process in which they run.
 //
-// The child does with a small cloth what an engine does with its own, and the driver, or disk_cache.h, keeps on disk
-// what it has built: so here it is only loaded. Built here, in a thread, it would keep the present cloth waiting, since
-// pocl starts no kernel while it builds another.
+// The child runs a small cloth like an engine, and the driver, or disk_cache.h, stores the built programs on disk, so
+// this process only has to load them. Building here, in a thread, would block the present cloth, since pocl starts no
+// kernel while it builds another.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The Python module `tyglab`: presets, one simulation or many, and the studies, for scripts and notebooks. Its types
-// and functions with shapes and units: tyglab.pyi; docs/python.md shows it at work.
+// The Python module `tyglab`: presets, simulations and studies for scripts and notebooks. tyglab.pyi lists its types
+// and functions with shapes and units; docs/python.md has examples.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,5 +1,5 @@
-// The cloth's buffers: positions as the engine's device writes them, where the engine keeps them, or copied from its
-// arrays; normals where a view is lit; and index lists.
+// The cloth's buffers: positions, either written by the engine's device, or where the engine stores them, or copied
+// from its arrays; normals for lit views; and index lists.
 #pragma once
 
 #include <array>

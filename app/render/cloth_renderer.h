@@ -1,4 +1,4 @@
-// Draws a simulation: cloth (or a mass on a spring), bodies, ground, in the five views of 2.4. OpenGL 3.3 core.
+// Draws a simulation: cloth (or a mass on a spring), bodies and ground, in the five views of 2.4. OpenGL 3.3 core.
 #pragma once
 
 #include <cstdint>

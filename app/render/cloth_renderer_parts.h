@@ -1,5 +1,5 @@
-// What a ClothRenderer has: cloth_renderer.cpp brings it up to date and draws a frame, cloth_drawing.cpp draws each
-// thing in it. Included by these two alone.
+// The members of a ClothRenderer: cloth_renderer.cpp updates it and draws a frame, cloth_drawing.cpp draws each part.
+// Only these two include this file.
 #pragma once
 
 #include <algorithm>

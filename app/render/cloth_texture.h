@@ -1,4 +1,4 @@
-// The picture on the cloth.
+// The texture of the cloth.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Which particles a view joins: lists of vertex indices, where particle (i, j) is vertex i·stride + j.
+// Connections between particles in a view: lists of vertex indices, where particle (i, j) is vertex i·stride + j.
 #pragma once
 
 #include <cstdint>

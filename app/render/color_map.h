@@ -1,5 +1,5 @@
-// Colors for values: evenly spaced to the eye, and distinguished by the color-blind. All are interpolated in Oklab
-// (B. Ottosson 2020).
+// Color scales for values: perceptually uniform, and distinguishable with color blindness. All are interpolated in
+// Oklab (B. Ottosson 2020).
 #pragma once
 
 #include <imgui.h>

@@ -1,4 +1,4 @@
-// How long the graphics card takes to draw, asked without waiting for it.
+// Measures how long the graphics card takes to draw, without waiting for it.
 #pragma once
 
 #include "app/render/gl_objects.h"

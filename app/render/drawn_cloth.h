@@ -1,4 +1,4 @@
-// Of a cloth that is finer than the picture, as much as is worth drawing.
+// Selects the visible part of a cloth that is finer than the picture.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The scale of a colored cloth: which values its colors stand for.
+// The scale of a colored cloth: the values that its colors represent.
 #pragma once
 
 #include <optional>

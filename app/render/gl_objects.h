@@ -1,4 +1,4 @@
-// OpenGL objects as owning, move-only types. Each needs its context to be current when it is made and destroyed.
+// OpenGL objects as owning, move-only types. Their context must be current on creation and destruction.
 #pragma once
 
 #include <glad/gl.h>

@@ -1,4 +1,4 @@
-// Pictures in memory and as files.
+// Pictures in memory and in files.
 #pragma once
 
 #include <cstdint>

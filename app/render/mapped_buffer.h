@@ -1,4 +1,4 @@
-// OpenGL's memory that the program, or a device, writes where it lies.
+// OpenGL memory that the program, or a device, writes directly.
 #pragma once
 
 #include <array>

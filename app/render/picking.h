@@ -1,4 +1,4 @@
-// What is under the pointer.
+// Finds what is under the pointer.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// Where a frame is drawn: a multisampled picture with depth, and the plain texture it is resolved into.
+// The target of a frame: a multisampled picture with depth, and the plain texture into which it is resolved.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// How far the key light reaches: a depth picture from the light's side, which fits the scene closely.
+// The shadow of the key light: a depth picture from the direction of the light that fits the scene closely.
 #pragma once
 
 #include <glm/mat4x4.hpp>

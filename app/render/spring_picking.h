@@ -1,4 +1,4 @@
-// Which springs a stroke across the picture meets.
+// Finds the springs that a stroke across the picture crosses.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// Sizes and places of what stands round the cloth.
+// Sizes and positions of objects around the cloth.
 #pragma once
 
 #include <glm/vec3.hpp>

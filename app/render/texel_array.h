@@ -1,4 +1,4 @@
-// A long list of numbers that shaders look up by their place: what a buffer texture is, which OpenGL ES lacks.
+// A long list of numbers that shaders look up by index: the equivalent of a buffer texture, which OpenGL ES lacks.
 #pragma once
 
 #include <cstddef>

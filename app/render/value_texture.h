@@ -1,4 +1,4 @@
-// Numbers that shaders look up: a value of every particle, and the colors that values have.
+// Numbers for shaders: a value of every particle, and the colors of values.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Vertex buffers that are written where they lie: engines keep their positions in them, normals are computed into them.
+// Vertex buffers that are written directly: engines store their positions in them, normals are computed into them.
 #pragma once
 
 #include <memory>

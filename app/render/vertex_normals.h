@@ -1,4 +1,4 @@
-// Normals for smooth shading, and the box, of a cloth's vertices.
+// Normals for smooth shading, and the bounding box, of a cloth's vertices.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The mass on a spring (figure 3.2) as things to draw.
+// The drawable parts of the mass on a spring (figure 3.2).
 #pragma once
 
 #include <glm/vec3.hpp>

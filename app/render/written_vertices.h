@@ -1,12 +1,12 @@
-// Vertex buffers of a cloth that its device writes itself (cl_khr_gl_sharing), so that nothing passes through main
-// memory. Only run against a double of such a device so far: no graphics card was there to try it on.
+// Vertex buffers of a cloth that its device writes itself (cl_khr_gl_sharing), so no data passes through main memory.
+// So far tested only with a simulated device, since no graphics card was available.
 //
-// The engine acquires the two buffers, copies positions into the first (kernels/drawing.cl), only the rows and columns
-// that are drawn, computes normals into the second with the bits of compute_normals, and releases both; back come the
-// 24 bytes of the box that the shadow needs. With cl_khr_gl_event acquiring and releasing order both sides; without it,
-// glFinish stands before and clFinish behind, since the extension knows no other portable way. All of it runs on the
+// The engine acquires the two buffers, copies the rows and columns that are drawn into the first (kernels/drawing.cl),
+// computes normals into the second with the bits of compute_normals, and releases both; it returns only the 24 bytes of
+// the bounding box that the shadow needs. With cl_khr_gl_event, acquiring and releasing order both sides; without it,
+// glFinish comes before and clFinish after, since the extension has no other portable way. All of this runs on the
 // window's thread, and the buffers belong to the viewport, which frees them before OpenGL's, so engines may end
-// anywhere. A driver that shares in name only, or fails later, is left for a copy.
+// anywhere. If a driver only claims to share, or fails later, the program changes to copying.
 #pragma once
 
 #include <optional>

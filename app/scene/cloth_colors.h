@@ -1,14 +1,14 @@
-// What colors the cloths of the window: worked out only where it is shown and something has moved.
+// The coloring of the cloths in the window, computed only while it is shown and something has moved.
 //
-// Copies share one scale, so the values of all pictures are worked out before any is drawn. The scale ends at a round
-// number that all but two in a hundred values stay below, but never below a floor (least_top), so that rounding noise
-// has no colors; it grows at once and shrinks once it was not needed for forty frames in which the cloth moved
-// (SteadyTop). The user can also drag or type its end. A replay begins with a scale of its own, which grows with
-// what it shows: that of its end would leave all but the last steps pale. Values beyond it have the color of its end,
-// and the legend's ends are then arrows. Values go into a texture of one float a particle; fragments interpolate
-// values, not colors, and look them up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). Shaders
-// are the usual files, compiled a second time with COLORED once a cloth is colored. What colors the cloth is remembered
-// with the settings, and stands in no preset.
+// Copies share one scale, so the values of all pictures are computed before any is drawn. The scale ends at a round
+// number that 98 % of the values stay below, but never below a floor (least_top), so rounding noise has no colors. It
+// grows at once and shrinks after forty frames of motion in which it was not needed (SteadyTop). The user can also drag
+// or type its end. A replay starts with a separate scale, which grows with the values; the scale of its end would leave
+// all but the last steps pale. Values beyond the scale have the color of its end, and the ends of the legend are then
+// arrows. A texture stores the values, one float per particle; fragments interpolate values, not colors, and look them
+// up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). The shaders are the usual files, compiled
+// a second time with COLORED once a cloth is colored. The choice of the quantity is stored in the settings, not in
+// presets.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// The pictures of the cloth and its copies: drawn again only where something in them has changed.
+// The pictures of the cloth and its copies, redrawn only where something has changed.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Effects of the viewport's picture, and leaving them out where drawing takes too long on this machine.
+// Effects in the viewport's picture, which are left out if drawing is too slow on this machine.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The session as it is seen: camera, views, colors, effects, and the pictures of the cloth and its copies.
+// The visible side of the session: camera, views, colors, effects, and the pictures of the cloth and its copies.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Small pictures of presets: how a scene looks a moment after its start, as triangles that Dear ImGui can draw. Made
-// beside the frames, of any preset, so that no image files go with them.
+// Small pictures of presets, a moment after their start, as triangles for Dear ImGui. They are made in the background
+// from any preset, so no image files are needed.
 #pragma once
 
 #include <array>

@@ -1,10 +1,10 @@
-// Steps that may take longer than a frame are made beside the frames, in a thread of their own.
+// Makes steps that may take longer than a frame in a background thread.
 //
-// Of most methods a step costs the same each time, and frames make as many as they have time for (Pacing). A method
-// that solves, iterates or chooses its own steps may need seconds for one. Its steps, and those of the copies, are made
-// by a worker that has the true cloth to itself; the session shows a stand-in meanwhile (Simulation::stand_in), the
-// cloth as it was before. Each update waits for the worker as long as steps may take anyway, so quick steps are there
-// in the same frame. Whoever would change the cloth stops the step first (settle), which undoes what it has done.
+// With most methods every step costs the same, and frames make as many steps as time permits (Pacing). A method that
+// solves equations, iterates or chooses its own steps may need seconds for a single one. A worker makes its steps, and
+// those of the copies, and owns the true cloth meanwhile; the session shows a stand-in (Simulation::stand_in), the
+// cloth before the step. Each update waits for the worker as long as steps may take anyway, so quick steps are ready in
+// the same frame. Before any change of the cloth the step is stopped (settle), which undoes its work.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The copies that move beside the cloth, as they are seen: side by side or overlaid, measured against one of them.
+// The visible copies that move with the cloth: side by side or overlaid, and measured against one of them.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Presets opened and saved.
+// Opens and saves presets.
 #pragma once
 
 #include <filesystem>

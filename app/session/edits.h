@@ -1,4 +1,4 @@
-// The one place at which the sandbox changes its cloth and the copies: edits, with what follows from them in the
+// The only place that changes the cloth and its copies in the sandbox: edits, and their consequences in the
 // window.
 #pragma once
 

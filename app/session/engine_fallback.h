@@ -1,4 +1,4 @@
-// What becomes of the cloth when its device is lost during the run.
+// Replaces the engine if its device is lost during the run.
 #pragma once
 
 #include <string>

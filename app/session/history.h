@@ -1,4 +1,4 @@
-// Undo and redo: what stood before each action, one entry a gesture.
+// Undo and redo: the state before each action, one entry per gesture.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// A lab: steps in which a student predicts, does something, and the app looks whether it is so. Read from Markdown
-// (docs/labs/README.md says how a file looks).
+// A lab consists of steps in which a student predicts and experiments, and the app checks the result. It is read from
+// Markdown (docs/labs/README.md describes the format).
 #pragma once
 
 #include <array>

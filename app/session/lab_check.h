@@ -1,4 +1,4 @@
-// Whether a lab's checks hold, over the part of the motion that each is about, and what the card says of them.
+// Evaluates a lab's checks, each over its part of the motion, and describes them on the card.
 #pragma once
 
 #include <cstdint>

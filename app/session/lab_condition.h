@@ -1,4 +1,4 @@
-// What a check asks and what an answer says, as a lab writes it. In words: words_of() (lab.h).
+// The conditions of checks and answers, as a lab writes them. words_of() (lab.h) puts them into words.
 #pragma once
 
 #include <string_view>

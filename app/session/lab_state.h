@@ -1,11 +1,11 @@
-// The current lab: which step, what was predicted, what holds; and the labs that there are.
+// The current lab: its step, predictions and checks; and the list of labs.
 //
-// A lab's file is read line by line and refused whole, with its line (lab_file.cpp). Presets, settings and words of
-// checks are looked up there and then, so a lab that is read can be played. watch_lab asks the checks of the present
-// step in every frame (lab_check.h), and keeps at the moment of its completion what the next step compares with. Where
-// a step says `stop`, up_to_stop shortens the frame's steps, so that the motion pauses at exactly that simulated time
-// and two runs can be compared particle by particle. While another preset than the step's is open, the lab waits
-// (lab_waits). None of it knows the window: tests/app/lab_play_test.cpp plays every lab without one.
+// A lab file is read line by line and rejected as a whole, with the line of the error (lab_file.cpp). Presets, settings
+// and words of checks are looked up at once, so a lab that was read can be played. watch_lab evaluates the checks of
+// the present step in every frame (lab_check.h), and on completion stores the values with which the next step compares.
+// If a step has `stop`, up_to_stop shortens the steps of the frame, so the motion pauses at exactly that simulated time
+// and two runs can be compared particle by particle. While another preset than that of the step is open, the lab waits
+// (lab_waits). All of this is independent of the window: tests/app/lab_play_test.cpp plays every lab without one.
 #pragma once
 
 #include <filesystem>

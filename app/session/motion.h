@@ -1,4 +1,4 @@
-// What is done to the motion and to the constants as a whole: restart, rewind, undo, single steps, an automatic dt.
+// Commands for the motion and for all constants: restart, rewind, undo, single steps, an automatic dt.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What a lab's checks can ask the sandbox: one row each, and every constant of the notation table.
+// The quantities that a lab's checks can use: one row each, and every constant of the notation table.
 #pragma once
 
 #include <array>

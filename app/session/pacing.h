@@ -1,4 +1,4 @@
-// How many steps of fixed dt a frame makes: simulated time runs at speed times real time as far as the budget allows.
+// Sets the number of steps of fixed dt per frame: simulated time runs at speed times real time, within the budget.
 #pragma once
 
 #include <algorithm>

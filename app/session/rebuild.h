@@ -1,15 +1,15 @@
-// Cloths that take longer to build than a frame lasts are built beside it, in a thread of their own; the present one
-// goes on meanwhile. So are the programs of OpenCL devices.
+// Builds cloths that take longer than a frame in a background thread, while the present cloth continues; also the
+// programs of OpenCL devices.
 //
-// From 100,000 particles on, whatever asks for new arrays (Simulation::rebuilds: another lattice, precision, engine or
-// method, a restart, a preset that is opened) is built beside the frames. Panels show and change the preset that was
-// asked for. Of what changes meanwhile the present cloth takes what is quick, and the new one takes all; another
-// request is built next, and what has become useless is thrown away, since a thread cannot be stopped halfway. A new
-// cloth with the old one's state (another precision while it moves) is read from the old one, which therefore stands
-// still until then; cuts, pins and releases are kept and made afterwards. With --frames everything is built at once, so
-// that the same frames come on every machine. Programs of OpenCL devices are built by a child process
-// (app/process/program_trial.h), of small cloths too: a feature that is switched on counts once its program is there,
-// and a preset that is opened on a device comes once it can run. Where the device fails, the CPU engine opens it.
+// From 100,000 particles on, every request for new arrays (Simulation::rebuilds: another lattice, precision, engine or
+// method, a restart, opening a preset) is built in the background. Panels show and change the requested preset. Of
+// changes during the build, the present cloth receives those that are quick, and the new cloth receives all. Another
+// request is built next, and useless results are discarded, since a thread cannot be stopped halfway. A new cloth that
+// needs the state of the old one (another precision during motion) is read from the old one, which stands still until
+// then; cuts, pins and releases are stored and made afterward. With --frames everything is built at once, so every
+// machine shows identical frames. A child process builds the programs of OpenCL devices (app/process/program_trial.h),
+// also for small cloths: a feature takes effect once its program is ready, and a preset on a device opens once it can
+// run. If the device fails, the CPU engine opens the preset.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the plots of the forces and of a weight's height show: samples taken while somebody wants them.
+// Samples for the plots of the forces and of a weight's height, recorded while a plot needs them.
 #pragma once
 
 #include <array>

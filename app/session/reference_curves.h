@@ -1,4 +1,4 @@
-// Figure 3.2 live: companions of the mass on a spring that the report's other methods move, and its exact motion.
+// Figure 3.2 live: companions of the mass on a spring that use the report's other methods, and its exact motion.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The last steps before a divergence once more, slowly: at full speed an explosion is over within a few frames.
+// Replays the last steps before a divergence slowly; at full speed an explosion lasts only a few frames.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// What panels, keys, menus and labs ask of a session. They change nothing themselves: requests.cpp applies what they
-// ask, in one place.
+// Requests from panels, keys, menus and labs to a session. They change nothing themselves: requests.cpp applies them in
+// one place.
 #pragma once
 
 #include <filesystem>

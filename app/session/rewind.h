@@ -1,7 +1,7 @@
-// The cloth's recent past, in capped memory, so that a divergence costs a second and not the session.
+// The cloth's recent past, in limited memory, so a divergence costs a second and not the session.
 //
-// ← goes a second back, with the constants as they are; after a divergence the banner offers to go on from there with a
-// smaller dt or another method. A restart, another lattice or another preset forgets the past.
+// ← goes back one second and keeps the present constants; after a divergence the banner offers to continue from there
+// with a smaller dt or another method. A restart, another lattice or another preset clears the past.
 #pragma once
 
 #include <cstddef>

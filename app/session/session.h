@@ -1,5 +1,5 @@
-// The current experiment: the cloth, what is asked of it, its past, its copies, its lab. No window, no picture, no
-// Dear ImGui: the window, the tests and whoever else runs an experiment call update() and read what it says.
+// The current experiment: the cloth, its requests, its past, its copies, its lab. There is no window, picture or Dear
+// ImGui here: the window, the tests and other callers run an experiment by update() and read its results.
 #pragma once
 
 #include <cstdint>

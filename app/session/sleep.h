@@ -1,11 +1,11 @@
-// A cloth at rest goes to sleep: the sandbox makes no more steps until something touches it. Only the sandbox does
-// that; runs, benchmarks and --frames compute every step.
+// A cloth at rest goes to sleep: the sandbox makes no more steps until something touches the cloth. Only the sandbox
+// does this; runs, benchmarks and --frames compute every step.
 //
-// Until three particles have been still for τ/2 the others are not looked at. Where a cloth sleeps it is within 1e-4 ℓ,
-// a fraction of a pixel, of where it would have gone, as long as what is left of its creep is spent in a hundred such
-// spans; tests/app/sleep_test.cpp measures that on a strongly damped cloth, which creeps longest. Any edit wakes it. A
-// cloth in wind, in the hand, or with a mass on a spring alone never sleeps. While it sleeps time stands still, and
-// the status bar says so.
+// The other particles are examined only after three of them have been still for τ/2. A sleeping cloth is within 1e-4 ℓ,
+// a fraction of a pixel, of its final position, provided that the rest of its creep would end within a hundred such
+// spans; tests/app/sleep_test.cpp measures this on a strongly damped cloth, which creeps longest. Any edit wakes the
+// cloth. A cloth in wind or in the hand, and a mass on a spring, never sleep. During sleep, simulated time stands
+// still, and the status bar reports it.
 #pragma once
 
 #include <array>

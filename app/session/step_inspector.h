@@ -1,4 +1,4 @@
-// The picked particle's next step, written out while somebody wants it.
+// Writes out the picked particle's next step while a card shows it.
 #pragma once
 
 #include <cstdint>

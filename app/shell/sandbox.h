@@ -1,4 +1,4 @@
-// The sandbox: a window in which a preset is simulated, seen and handled.
+// The sandbox: a window for simulating a preset and working with it.
 #pragma once
 
 #include <filesystem>

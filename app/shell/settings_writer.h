@@ -1,4 +1,4 @@
-// Settings on their way to the disk while the window is open, so that nothing of them is lost however it ends.
+// Writes settings to disk while the window is open, so nothing is lost however the window ends.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What a window begins with: settings, options, the first cloth and its picture; and what it leaves to the next.
+// The start of a window: settings, options, the first cloth and its picture; and what the window saves for the next.
 #pragma once
 
 #include <memory>

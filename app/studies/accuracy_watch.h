@@ -1,5 +1,5 @@
-// How large the errors of the present settings are: short runs of the present motion, finer ones and those of other
-// methods, made beside the frames at low priority while somebody wants to know, and dropped afterwards.
+// Measures the error of the present settings: short runs of the present motion, finer runs, and runs of other methods,
+// in the background with low priority, while a card or lab requests them.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The order of convergence of the present motion, measured beside the frames once somebody asks for it.
+// Measures the order of convergence of the present motion in the background, on request.
 #pragma once
 
 #include <memory>

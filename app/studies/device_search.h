@@ -1,4 +1,4 @@
-// Which OpenCL devices there are, asked once and beside the frames: drivers take their time, and some fail.
+// Lists the OpenCL devices, once and in the background, because drivers are slow and some fail.
 #pragma once
 
 #include <optional>

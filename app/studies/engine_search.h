@@ -1,4 +1,4 @@
-// The engine menu's "Automatic": measures beside the frames which engine is fastest with the present scene.
+// The engine menu's "Automatic": measures in the background which engine is fastest with the present scene.
 #pragma once
 
 #include <optional>

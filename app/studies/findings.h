@@ -1,4 +1,4 @@
-// The parts of what core's studies find, for app/studies/transfer.h.
+// The parts of the results of core's studies, for app/studies/transfer.h.
 #pragma once
 
 #include "core/analysis/convergence.h"

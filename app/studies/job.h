@@ -1,7 +1,7 @@
-// Work beside the frames: one thread, a result or an error at its end, and a way to stop it. Everything that runs
-// beside the frames is a Job. How far it is, the work says itself: a Study in its findings, a step through its engine.
-// Where there are no threads, what takes long is done by a copy of the program (app/platform/copies.h), if its result
-// can be sent back.
+// Background work: one thread, a result or an error at its end, and a way to stop it. All background work
+// is a Job. The work reports its own progress: a Study in its findings, a step through its engine.
+// Without threads, a copy of the program does long work (app/platform/copies.h), if its result can be
+// sent back.
 #pragma once
 
 #include <atomic>

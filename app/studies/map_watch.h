@@ -1,4 +1,4 @@
-// The map of stiffness against dt, filled by short runs beside the frames while somebody wants it.
+// The map of stiffness against dt, filled by short runs in the background while it is requested.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The moment that studies are asked about.
+// The moment of the motion to which studies refer.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// "Find settings": which methods and dt keep an error in the motion from now on, and what they cost; searched for
-// beside the frames once somebody asks, and dropped when nobody wants to see it any more.
+// "Find settings": searches in the background, on request, for methods and dt that keep an error in the motion from now
+// on, and for their cost; dropped when nothing shows it any more.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// How large dt may be for the cloth as it is: worked out beside the frames while somebody wants it, at most twice a
-// second.
+// Computes in the background, at most twice per second, the largest dt for the present cloth, while it is
+// requested.
 #pragma once
 
 #include <functional>

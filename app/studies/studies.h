@@ -1,4 +1,4 @@
-// Everything that is worked out beside the frames, each while somebody wants it.
+// All background studies, each of which runs while it is requested.
 #pragma once
 
 #include "app/studies/accuracy_watch.h"

@@ -1,7 +1,7 @@
-// What studies find as bytes, from a copy of the program to the program itself (app/platform/copies.h).
+// Sends the results of studies as bytes from a copy of the program to the program itself (app/platform/copies.h).
 //
-// A type that is no plain memory tells its parts by visit_parts(visit, object), which calls visit(part, …) once with
-// all of them; structured bindings there make a forgotten one an error of the compiler.
+// A type that is not plain memory lists its parts in visit_parts(visit, object), which calls visit(part, …) once with
+// all of them; structured bindings turn a forgotten part into a compiler error.
 #pragma once
 
 #include <cstring>

@@ -1,8 +1,8 @@
-// The knife: a held left button cuts upward, as in the report (2.3.4), or along the pointer's path.
+// The knife: dragging with the left button cuts upward, as in the report (2.3.4), or along the pointer's path.
 //
-// Upward it cuts springs of the particles near the path (particles_near_path); along the path it cuts the springs
-// whose two ends lie on either side of the stroke (springs_across), with a rule for points on it, so that strokes that
-// follow each other miss nothing. Both end in the same masks of tears, so engines know nothing of knives.
+// An upward cut removes springs of the particles near the path (particles_near_path). A cut along the path removes the
+// springs whose two ends lie on different sides of the stroke (springs_across), with a rule for points on it, so
+// consecutive strokes miss nothing. Both produce masks of tears, so engines need no code for knives.
 #pragma once
 
 #include <vector>

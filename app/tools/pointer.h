@@ -1,5 +1,5 @@
-// The pointer in the viewport: orbit, pan, zoom, pick, pin, grab, cut, drag a body. A drag belongs to whoever took the
-// press, until its button comes up.
+// The pointer in the viewport: orbit, pan, zoom, pick, pin, grab, cut, drag a body. A drag belongs to the tool that
+// received the press, until the button is released.
 #pragma once
 
 #include <glm/vec2.hpp>

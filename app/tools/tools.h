@@ -1,4 +1,4 @@
-// What the pointer does to the cloth, the bodies, the wind and the camera: from pointer events to edits.
+// Actions of the pointer on the cloth, the bodies, the wind and the camera: from pointer events to edits.
 #pragma once
 
 #include <functional>

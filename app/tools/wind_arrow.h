@@ -1,4 +1,4 @@
-// The wind as an arrow that can be taken by its tip.
+// The wind as an arrow with a draggable tip.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// `tyglab bench`: the benchmarks, a table for people and JSON for programs.
+// `tyglab bench`: the benchmarks, with a table for people and JSON for programs.
 #pragma once
 
 #include "app/cli/command_line.h"

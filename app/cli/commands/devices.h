@@ -1,4 +1,4 @@
-// `tyglab devices`: where a simulation can run.
+// `tyglab devices`: lists where a simulation can run.
 #pragma once
 
 #include "app/cli/command_line.h"

@@ -1,4 +1,4 @@
-// `tyglab labs`: the labs there are; a file checked.
+// `tyglab labs`: lists the labs, and checks a lab file.
 #pragma once
 
 #include "app/cli/command_line.h"

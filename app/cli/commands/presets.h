@@ -1,4 +1,4 @@
-// `tyglab presets`: the shipped presets; one as JSON; a file checked.
+// `tyglab presets`: lists the shipped presets, prints one as JSON, and checks a file.
 #pragma once
 
 #include "app/cli/command_line.h"

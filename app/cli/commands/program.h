@@ -1,4 +1,4 @@
-// The program from its command line to its exit code.
+// Runs the program, from its command line to its exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// `tyglab stability`: the stability experiments, a table for people and JSON for programs.
+// `tyglab stability`: the stability experiments, with a table for people and JSON for programs.
 #pragma once
 
 #include "app/cli/command_line.h"

@@ -1,4 +1,4 @@
-// `tyglab try-opencl`, which the program starts itself (app/process/program_trial.h) and help does not list.
+// `tyglab try-opencl`, which only the program itself starts (app/process/program_trial.h) and help does not list.
 #pragma once
 
 #include "app/cli/command_line.h"

@@ -1,4 +1,4 @@
-// Where the OpenGL of desktops and that of browsers (WebGL 2) differ: everything else is called alike.
+// The differences between desktop OpenGL and that of browsers (WebGL 2); all other calls are identical.
 #pragma once
 
 #include <cstdint>

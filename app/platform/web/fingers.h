@@ -1,5 +1,5 @@
-// Fingers on a touch screen as the buttons of a mouse: one takes hold of what is under it, two turn the view and, going
-// apart, zoom; over panels one presses and two scroll.
+// Translates fingers on a touch screen into mouse buttons: one finger grabs what is under it, two rotate and zoom the
+// view; over panels one finger presses and two scroll.
 #pragma once
 
 #include <glm/vec2.hpp>

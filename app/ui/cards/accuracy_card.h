@@ -1,5 +1,5 @@
-// What linear theory and trial runs say of the present settings, and which others reach an error, as two cards of the
-// plots column.
+// The results of linear theory and of trial runs for the present settings, and other settings that keep an error, as
+// two cards of the plots column.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The cards of the plots' column by their names, which stand on their tabs and headings.
+// The names of the cards in the plots column, as on their tabs and headings.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// The copies in lockstep as a card: which there are, what each costs, how far apart they are.
+// The card of the copies in lockstep: the list of copies, their costs, and their distances.
 #pragma once
 
 #include "app/ui/state/ui.h"

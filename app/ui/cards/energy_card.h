@@ -1,4 +1,4 @@
-// The energy ledger as a card: what the cloth has, what worked on it, and what the integrator added or removed.
+// The card of the energy ledger: the cloth's energies, the work on it, and the energy that the integrator added.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The forces of the picked particle, their sums or their largest, over time.
+// The forces of the picked particle, their sums or their maxima, over time.
 #pragma once
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-// The next step of the picked particle: formulas, numbers put in, results.
+// The next step of the picked particle: formulas, formulas with numbers, results.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The map of stiffness against dt as a plot: a click goes there.
+// The map of stiffness against dt as a plot; a click sets both constants.
 #pragma once
 
 #include "app/ui/state/ui.h"

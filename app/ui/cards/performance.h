@@ -1,4 +1,4 @@
-// What a frame and a step are made of: what ran, what was skipped, and its time.
+// The parts of a frame and a step: which ran, which were skipped, and their times.
 #pragma once
 
 #include <optional>

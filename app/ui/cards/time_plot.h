@@ -1,4 +1,4 @@
-// Plots over simulated time share how much of it they show.
+// Plots over simulated time share one visible time span.
 #pragma once
 
 #include <string_view>

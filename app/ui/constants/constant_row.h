@@ -1,4 +1,4 @@
-// One constant on one line: symbol, slider, value, unit, in columns that line up.
+// One constant on one line: symbol, slider, value, unit, in aligned columns.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// The left column: every constant of the notation table that plays a part in the scene, and the picked particle.
+// The left column: every constant of the notation table that the scene uses, and the picked particle.
 #pragma once
 
 #include <string_view>

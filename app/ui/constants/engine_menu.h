@@ -1,4 +1,4 @@
-// The top bar's menu of engines and precisions, which the palette lists too.
+// The menu of engines and precisions in the top bar, which the palette also lists.
 #pragma once
 
 #include <span>

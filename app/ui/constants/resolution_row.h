@@ -1,5 +1,5 @@
-// How many particles the cloth has: halved and doubled, or typed. What was typed may mean the same cloth with finer
-// springs, or more of the same cloth: that is asked, beside the constants, before anything is built.
+// The number of particles: halved, doubled or typed. A typed number may mean a finer cloth or more cloth; the row asks
+// which, next to the constants, before anything is built.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The gauge under dt: dt as a part of what linear theory allows in the worst case, and of what this cloth does now.
+// The gauge under dt: dt relative to the worst-case limit of linear theory, and to the limit of the present cloth.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Danger painted on the controls: where along a constant the method is stable in any shape of the cloth, where it
-// depends on the shape, and where it is unstable in every shape.
+// Stability zones on the controls: where along a constant the method is stable in any shape of the cloth, where this
+// depends on the shape, and where the method is unstable in every shape.
 #pragma once
 
 #include <string>

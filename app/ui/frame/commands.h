@@ -1,5 +1,5 @@
-// The commands: one row each, with its name, its keys, what it does and when it can be done. Keys, help, menus and the
-// palette read it; a new command is one row in its topic's file (motion_commands.cpp and the like), and nothing else.
+// The commands: one row each, with its name, keys, action and condition. Keys, help, menus and the palette read it; a
+// new command is one row in the file of its topic (motion_commands.cpp and the like), and nothing else.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Questions and file dialogs over everything else.
+// Questions and file dialogs above everything else.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// A frame of the sandbox but for its window: what events do, and what is drawn with Dear ImGui. The window has events
-// before it and shows a picture after it; a test has neither.
+// A frame of the sandbox without its window: the effects of events, and everything drawn with Dear ImGui. The window
+// collects events before it and shows a picture after it; a test needs neither.
 #pragma once
 
 namespace tyglab {

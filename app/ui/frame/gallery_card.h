@@ -1,4 +1,4 @@
-// A card of the gallery: a scene's picture, its title and what it is for.
+// A card of the gallery: the picture, title and purpose of a scene.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Dear ImGui looks at keys, buttons and pointer once a frame, while one of our frames may hold a whole click, a drag
-// or a word typed. So it is shown everything in order, and in each frame no more than it can tell apart.
+// Dear ImGui reads keys, buttons and the pointer once per frame, but one of our frames may contain a whole click, a
+// drag or a typed word. So it receives all events in order, and in each frame only as many as it can distinguish.
 #pragma once
 
 #include <bitset>

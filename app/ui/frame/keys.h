@@ -1,4 +1,4 @@
-// Keys to commands, from the window's own callback: Dear ImGui drops short presses when frames are long.
+// Keys to commands, from the window's own callback: Dear ImGui loses short presses during long frames.
 #pragma once
 
 namespace tyglab {

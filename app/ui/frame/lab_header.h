@@ -1,4 +1,4 @@
-// The head of a lab's strip, and the buttons that lead through its steps.
+// The header of a lab's strip, and the buttons for its steps.
 #pragma once
 
 #include "app/session/lab_state.h"

@@ -1,4 +1,4 @@
-// Ctrl+P: commands, presets, integrators, labs, constants and views, found by what is typed.
+// Ctrl+P: finds commands, presets, integrators, labs, constants and views by typing.
 #pragma once
 
 #include <filesystem>

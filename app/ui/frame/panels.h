@@ -1,4 +1,4 @@
-// The bars and what lies over everything, and how all regions share the window.
+// The bars, everything that lies above the window, and the division of the window between all regions.
 #pragma once
 
 #include "app/ui/kit/region.h"

@@ -1,5 +1,5 @@
-// What the sandbox is doing, as a JSON file that is rewritten about ten times a second (--session-report): for tests
-// that drive the window, and for a teacher's scripts. Nothing of it costs anything unless it is asked for.
+// The state of the sandbox as a JSON file that is rewritten about ten times per second (--session-report), for tests
+// that drive the window and for teachers' scripts. It costs nothing unless requested.
 #pragma once
 
 #include <chrono>

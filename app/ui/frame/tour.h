@@ -1,4 +1,4 @@
-// A handful of cards that show a newcomer round: once at the first start, and again from the help.
+// A few cards that introduce the sandbox: once at the first start, and again from the help.
 #pragma once
 
 #include "app/ui/state/ui.h"

@@ -1,4 +1,4 @@
-// Run, step, restart, and how fast time runs: in the top bar and, large, in presentation mode.
+// Run, step, restart and the speed: in the top bar and, large, in presentation mode.
 #pragma once
 
 #include <imgui.h>

@@ -1,4 +1,4 @@
-// Tabs for cards of which one has room: in a row or two, or as a list where the column is small.
+// Tabs for cards of which only one has room: in a row or two, or as a list in a small column.
 #pragma once
 
 #include <span>

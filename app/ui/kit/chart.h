@@ -1,4 +1,4 @@
-// A whole chart with title, axes and legend, as the benchmarks write it, and its picture as PNG without a display.
+// A complete chart with title, axes and legend, for the benchmarks, and its PNG without a display.
 #pragma once
 
 #include <filesystem>

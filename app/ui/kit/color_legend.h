@@ -1,4 +1,4 @@
-// What a colored cloth's colors mean: quantity, symbol, unit, the colors and the values that they stand for.
+// The legend of a colored cloth: quantity, symbol, unit, the colors and their values.
 #pragma once
 
 #include <optional>

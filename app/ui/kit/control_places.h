@@ -1,4 +1,4 @@
-// Where the controls of a frame are, by their names.
+// The positions of the controls in a frame, by name.
 #pragma once
 
 #include <map>

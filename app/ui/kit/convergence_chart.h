@@ -1,4 +1,4 @@
-// Error over dt as a chart, in the window and as a picture.
+// A chart of error over dt, in the window and as a picture.
 #pragma once
 
 #include "app/ui/kit/chart.h"

@@ -1,5 +1,5 @@
-// Curves in axes, linear or logarithmic, that survive a blow-up: what the window's plots and the benchmarks' pictures
-// are drawn with.
+// Curves with axes, linear or logarithmic, robust against huge values, for the window's plots and the benchmarks'
+// pictures.
 #pragma once
 
 #include <imgui.h>

@@ -1,4 +1,4 @@
-// Colors and line styles of curves: one for each force, method and copy, alike in every plot.
+// Colors and line styles of curves: one for each force, method and copy, in all plots.
 #pragma once
 
 #include <optional>

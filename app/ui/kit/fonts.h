@@ -1,4 +1,4 @@
-// Fonts: Inter for text, STIX Italic for symbols, JetBrains Mono for numbers, Fork Awesome for icons, all Debian's.
+// Fonts, all from Debian: Inter for text, STIX Italic for symbols, JetBrains Mono for numbers, Fork Awesome for icons.
 #pragma once
 
 #include <imgui.h>

@@ -1,4 +1,4 @@
-// Dear ImGui 1.86 (Debian 12) and 1.90 (Debian 13) through one set of names.
+// One set of names for Dear ImGui 1.86 (Debian 12) and 1.90 (Debian 13).
 #pragma once
 
 #include <imgui.h>

@@ -1,11 +1,11 @@
-// Marks over the cloth that keep out of each other's way: each takes its place in turn, and those that come later go
-// where none stands yet.
+// Places marks over the cloth without overlap: each mark chooses its place in turn, and later marks use the space that
+// is left.
 //
-// A mark finds the nearest free place in a corner, or the first free one of several, and says where it then stands.
-// View buttons come first, then the names of copies, the scales of arrows, PAUSED, the banner and the legend; labels of
-// arrows come last, and are left out where nothing is free; they and the scales make room for a tooltip. PAUSED and the
-// legend also keep off the cloth, and stay where they are as long as nothing comes under them. tests/ui/marks_test.cpp
-// holds that no two marks overlap.
+// A mark requests the nearest free place in a corner, or the first free one of several, and receives its place. View
+// buttons come first, then the names of copies, the scales of arrows, PAUSED, the banner and the legend. Labels of
+// arrows come last, and are left out if there is no space; they and the scales make room for a tooltip. PAUSED and the
+// legend also avoid the cloth, and stay where they are while nothing comes under them. tests/ui/marks_test.cpp checks
+// that no two marks overlap.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// Dear ImGui without a window: for pictures that are written to files.
+// Dear ImGui without a window, for pictures that are written to files.
 #pragma once
 
 #include "app/render/image.h"

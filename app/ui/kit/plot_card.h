@@ -1,4 +1,4 @@
-// A card with a plot: its ground, with a title, a note and buttons over what it holds.
+// A card with a plot: its background, with a title, a note and buttons above the contents.
 #pragma once
 
 #include <string_view>

@@ -1,4 +1,4 @@
-// A region of the window: a fixed part of it with a ground of its own.
+// A region of the window: a fixed part of it with its own background.
 #pragma once
 
 #include <imgui.h>

@@ -1,4 +1,4 @@
-// Colors, sizes and line styles as tokens: every panel asks here, so that a further theme is one more table of tokens.
+// Colors, sizes and line styles as tokens. All panels use them, so another theme is one more table of tokens.
 #pragma once
 
 #include <imgui.h>

@@ -1,5 +1,5 @@
-// What the toolkit draws with and remembers: looks, the pointer and keys of a frame, what is hovered, typed or dragged.
-// No cloth is in it.
+// The drawing context and memory of the toolkit: the theme, the pointer and keys of a frame, and the controls that are
+// hovered, typed into or dragged. It contains no cloth.
 #pragma once
 
 #include <glm/vec2.hpp>

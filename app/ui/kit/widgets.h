@@ -1,4 +1,4 @@
-// Small things that panels are made of.
+// Small building blocks of panels.
 #pragma once
 
 #include <imgui.h>

@@ -29,8 +29,8 @@ void choice(Ui& ui, std::optional<ParticleField> field, const char* title, const
 void scale_grip(Ui& ui, FieldColors& colors, const LegendParts& parts) {
   const float over = ui.theme.px(6), length = std::max(parts.bar_hi.x - parts.bar_lo.x, 1.f);
   ImGui::SetCursorScreenPos({parts.bar_lo.x, parts.bar_lo.y - over});
-  gui::press_area("colour scale", {length + over, parts.bar_hi.y - parts.bar_lo.y + 2 * over});
-  report_control(ui, "colour_scale");
+  gui::press_area("color scale", {length + over, parts.bar_hi.y - parts.bar_lo.y + 2 * over});
+  report_control(ui, "color_scale");
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
   const bool root = root_scale(colors.field);
   tooltip(

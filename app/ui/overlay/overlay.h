@@ -1,4 +1,4 @@
-// What is drawn over the cloth, in parts; viewport_overlay() in panels.h draws it all.
+// The parts drawn over the cloth; viewport_overlay() in panels.h draws them all.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -1,4 +1,4 @@
-// How the cloths are told apart while there are copies.
+// The visual distinction of the cloths while there are copies.
 #pragma once
 
 #include "app/session/copies.h"

@@ -1,4 +1,4 @@
-// What is said of a divergence, of the cloth itself or of a copy.
+// The description of a divergence, of the cloth itself or of a copy.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The user interface of one session: what panels, cards, marks and dialogs remember from frame to frame. They draw what
-// the session and the scene say, and ask; they decide nothing.
+// The user interface of one session: the memory of panels, cards, marks and dialogs from frame to frame. They draw the
+// session and the scene, and make requests; they decide nothing.
 #pragma once
 
 #include <array>

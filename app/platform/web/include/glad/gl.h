@@ -1,5 +1,5 @@
-// What the loader of desktops declares, for WebGL 2: OpenGL ES 3.0, and of what that lacks enough for the code that
-// asks for it first to compile.
+// The declarations of the desktop loader for WebGL 2 (OpenGL ES 3.0), with enough of what it lacks for the code that
+// checks for it to compile.
 #pragma once
 
 #include <GLES3/gl3.h>
