@@ -330,7 +330,7 @@ TEST_CASE("the end of the scale is dragged in the legend, and a double click let
     window.pause();
     window.rest();
     REQUIRE(shown_colors(window.scene) != nullptr);
-    const auto bar = window.control("viewport.colour_scale");
+    const auto bar = window.control("viewport.color_scale");
     const double before = shown_colors(window.scene)->top();
     const glm::vec2 from = (bar.lo + bar.hi) / 2.f;
     window.drag({from, from - glm::vec2(5, 0), from - glm::vec2((bar.hi.x - bar.lo.x) / 4, 0)});
