@@ -17,13 +17,24 @@ void Scene::follow() {
   if (now.lattices != seen_.lattices && extent(session.preset()) != extent_) wants_framing = true;
   extent_ = extent(session.preset());
   if (now.copies != seen_.copies) views.forget_copies();
-  if (now.labs_begun != seen_.labs_begun) colors.choose(std::nullopt);  // the next session has the user's choice again
+  if (now.labs_begun != seen_.labs_begun) {
+    const auto field = colors.chosen ? std::optional(colors.chosen->field) : std::nullopt;
+    if (!own_look_) own_look_ = OwnLook{camera, camera_by_hand, field};
+    colors.choose(std::nullopt);
+  }
   if (now.lab_steps != seen_.lab_steps && session.labs.run) {
     const std::string& field = session.labs.run->now().color;
     if (!field.empty() || lab_colors_) colors.choose(field_called(field));
     lab_colors_ = !field.empty();
   }
   if (lab_colors_ && !session.labs.run) lab_colors_ = false, colors.choose(std::nullopt);
+  if (own_look_ && !session.labs.run) {
+    if (now.experiments_back != seen_.experiments_back) {
+      if (own_look_->by_hand) camera = own_look_->camera, camera_by_hand = true, wants_framing = false;
+      colors.choose(own_look_->color);
+    }
+    own_look_.reset();
+  }
   if (now.cloths != seen_.cloths) redraw = true;
   seen_ = now;
 }

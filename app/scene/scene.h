@@ -41,6 +41,13 @@ struct Scene {
   SessionCounts seen_;
   glm::dvec2 extent_{0};     ///< of the cloth that was seen last, m
   bool lab_colors_ = false;  ///< a step of a lab has colored the cloth
+  /// How the user's experiment was seen when a lab took its place.
+  struct OwnLook {
+    Camera camera;
+    bool by_hand;
+    std::optional<ParticleField> color;
+  };
+  std::optional<OwnLook> own_look_;
 };
 
 /// The cloth whose picture stands there: the original's is 0.

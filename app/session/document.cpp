@@ -18,11 +18,6 @@ Preset on_cpu(Preset preset) {
   return preset;
 }
 
-void go_on_from(Session& session, Resumption where) {
-  if (where.state && session.simulation->fits(*where.state)) session.simulation->restore(*where.state);
-  session.history = std::move(where.history);
-}
-
 /// The middle of the cloth, so that there is something to read at once.
 std::optional<Pins::Site> first_pick(const Session& session) {
   const Lattice& lattice = session.simulation->lattice();
@@ -38,7 +33,6 @@ void begin_document(Session& session, Document document) {
   session.history.clear(), session.rewind.clear(), session.curves.clear(), session.auto_dt.reset();
   session.picked = first_pick(session);
   session.recorded.clear();
-  session.labs.left_behind.reset();
   session.pacing.forget_cost(), session.pacing.restart_measure();
   ++session.counts.documents;
 }
@@ -57,19 +51,15 @@ void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildO
   settle(session);
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));
-  if (order.document) {
-    begin_document(session, std::move(*order.document));
-    return order.resumption ? go_on_from(session, std::move(*order.resumption)) : void();
-  }
+  if (order.document) return begin_document(session, std::move(*order.document));
   follow_up(session, before);
   if (!order.fresh) return;
   session.recorded.clear();
   session.pacing.restart_measure();
 }
 
-void reopen_document(Session& session, const Preset& preset, const Document& document,
-                     std::optional<Resumption> resumption) {
-  BuildOrder order{.target = preset, .document = document, .resumption = std::move(resumption)};
+void reopen_document(Session& session, const Preset& preset, const Document& document) {
+  BuildOrder order{.target = preset, .document = document};
   if (takes_long(session, preset)) return session.rebuild.order(session, std::move(order), session.history);
   std::string fallback;
   auto simulation = make_simulation(preset, session.threads, fallback);

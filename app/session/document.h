@@ -20,8 +20,7 @@ void open_document(Session& session, const std::filesystem::path& file, bool shi
 void open_link(Session& session, const std::string& link);
 /// Opens these constants, which may differ from what the document has saved, beside the frames where that takes long.
 /// Throws as Simulation does.
-void reopen_document(Session& session, const Preset& preset, const Document& document,
-                     std::optional<Resumption> resumption = {});
+void reopen_document(Session& session, const Preset& preset, const Document& document);
 /// Takes what has been built as the present cloth; what follows belongs to an edit, or to a preset that is opened.
 void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildOrder order);
 /// Why a preset could not be saved.

@@ -104,7 +104,7 @@ Lab load_lab(const std::filesystem::path& file);
 
 /// The check in words: "k_s ≥ 180 N/m throughout", "Integrator: Verlet".
 std::string words_of(const Condition& condition);
-/// The same without what it asks for: "The value of k_s when the cloth diverges", "Whether the simulation diverges".
+/// The same without what it asks for: "The value of k_s when the cloth diverges", "Diverged?".
 std::string subject_of(const Condition& condition);
 
 }  // namespace tyglab

@@ -10,6 +10,7 @@
 #include "app/session/session.h"
 #include "core/model/changes.h"
 #include "core/model/fields.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -51,11 +52,12 @@ std::string with_unit(double value, std::string_view unit) {
   return short_number(value) + (unit.empty() ? "" : " " + std::string(unit));
 }
 
-/// "50 N/m", "Euler"; empty where it is not known.
+/// "50 N/m", "off", "Euler"; empty where it is not known.
 std::string value_in_words(Session& session, const std::string& name) {
   if (name == "untouched") return touched_by(session);
   if (is_word(name)) return shown_word(name, observe_word(session, name));
   const auto value = observe(session, name);
+  if (const PresetRow* row = find_row(name); row != nullptr && row->zero_is_off && value == 0.0) return "off";
   return value ? with_unit(*value, unit_of(name)) : std::string();
 }
 
@@ -93,7 +95,7 @@ CheckState judge_when(Session& session, const Condition& check, CheckState now, 
   return memory.holds ? CheckState::holds : CheckState::broken;
 }
 
-/// "at 180 N/m or more", "below 215 N/m", "Verlet": what is to be kept to.
+/// "180 N/m or more", "below 215 N/m", "Verlet": what is asked for.
 std::string goal_in_words(Session& session, const Condition& check) {
   if (is_word(check.name)) {
     const std::string word = shown_word(check.name, check.right.word);
@@ -105,13 +107,13 @@ std::string goal_in_words(Session& session, const Condition& check) {
     case Relation::less:
       return "below " + number;
     case Relation::at_most:
-      return "at " + number + " or less";
+      return number + " or less";
     case Relation::equal:
-      return "at " + number;
+      return number;
     case Relation::unlike:
-      return "away from " + number;
+      return "anything but " + number;
     case Relation::at_least:
-      return "at " + number + " or more";
+      return number + " or more";
     case Relation::greater:
       return "above " + number;
   }
@@ -125,23 +127,34 @@ bool is_lower(Relation relation) {
   return relation == Relation::greater || relation == Relation::at_least;
 }
 
-/// "a higher": all that is told of a value that is to be found out.
-std::string direction_of(Relation relation) {
-  return is_upper(relation) ? "a lower" : is_lower(relation) ? "a higher" : "another";
-}
-
 /// Whether its words are "no" and "yes", which are said in sentences.
 bool has_sentences(std::string_view name) {
   const Observable* row = find_observable(name);
   return row != nullptr && !row->present[0].empty();
 }
 
-/// "with a higher k_s", "with k_s at 180 N/m or more": how the moment is to be reached. What is to be found out is not
-/// told.
-std::string way_in_words(Session& session, const Condition& check) {
+/// "with a higher k_s", "with k_s at 180 N/m or more": how the moment is to be reached. The value that the student is
+/// to find is not given away.
+std::string with_goal(Session& session, const Condition& check) {
   const std::string label = label_of(check.name);
-  if (!check.to_find) return "with " + label + " " + goal_in_words(session, check);
-  return "with " + direction_of(check.relation) + " " + label;
+  if (!check.to_find) return "with " + label + " at " + goal_in_words(session, check);
+  return std::string("with ") +
+         (is_upper(check.relation)   ? "a lower "
+          : is_lower(check.relation) ? "a higher "
+                                     : "another ") +
+         label;
+}
+
+/// "lower it, then restart", "set it to 180 N/m or more, then restart": what mends a broken check; the restart alone
+/// where the value is right by now.
+std::string cure_in_words(Session& session, const Condition& check) {
+  if (judge_now(session, check) == CheckState::holds) return "restart";
+  if (is_word(check.name)) return "choose " + goal_in_words(session, check) + ", then restart";
+  if (!check.to_find) return "set it to " + goal_in_words(session, check) + ", then restart";
+  return std::string(is_upper(check.relation)   ? "lower it"
+                     : is_lower(check.relation) ? "raise it"
+                                                : "choose another value") +
+         ", then restart";
 }
 
 /// "was 50 N/m": what it was when the check broke.
@@ -155,25 +168,20 @@ std::string broken_in_words(Session& session, const Condition& check, const Chec
   if (check.name == "untouched")
     return (memory.was.empty() ? "Something else was changed" : memory.was) + at +
            ": restart, and change only what the task names";
-  const std::string was = past_in_words(check, memory);
   if (check.span == Span::when) {
     const bool divergence = asks_divergence(check.when[0]);
-    const std::string moment = words_of(check.when[0]), restart = ": restart, and reach it ";
+    const std::string moment = words_of(check.when[0]), again = ": restart and get there " + with_goal(session, check);
     if (memory.was.empty())
-      return (divergence ? "The cloth had diverged" : moment + " was true") + " before this step began" + restart +
-             way_in_words(session, check);
-    return was + at + ", when " + (divergence ? "the cloth diverged" : moment + " became true") + restart +
-           way_in_words(session, check);
+      return (divergence ? "The cloth had diverged" : moment + " was true") + " before this step began" + again;
+    return past_in_words(check, memory) + at + ", when " +
+           (divergence ? "the cloth diverged" : moment + " became true") + again;
   }
-  if (has_sentences(check.name)) return words_of(check) + ": not so" + at + "; restart";
-  if (is_word(check.name)) return was + at + ": choose " + goal_in_words(session, check) + ", and restart";
-  const std::string goal =
-      check.to_find ? "at " + direction_of(check.relation) + " value" : goal_in_words(session, check);
-  return was + at + ": restart, and keep it " + goal + " from the beginning";
+  if (has_sentences(check.name)) return words_of(check) + ": this was not so" + at + "; restart";
+  return past_in_words(check, memory) + at + ": " + cure_in_words(session, check);
 }
 
-/// ", that is 0.001 s": the value that a check compares with, where it is one of the step before; of what is to be
-/// found out only what it was there.
+/// ", that is 0.001 s": the value that a check compares with, where it is one of the step before; of what the student
+/// is to find only what it was there.
 std::string before_in_words(Session& session, const Condition& check) {
   if (!check.right.before || (check.to_find && check.right.name != check.name)) return {};
   Operand then = check.right;
@@ -184,28 +192,47 @@ std::string before_in_words(Session& session, const Condition& check) {
   return check.to_find ? ", " + number + " in the previous lab step" : ", that is " + number;
 }
 
-/// The first constant that differs and that no check of the step names, in words.
-std::string other_constant(const LabRun& run, const Preset& now) {
+/// "now 50 N/m", "it is being measured": what is known at this moment of what a check looks at.
+std::string now_in_words(Session& session, const Condition& check, CheckState state) {
+  const Observable* row = find_observable(check.name);
+  const std::string now = value_in_words(session, check.name);
+  if (now.empty()) {
+    const bool coming = row != nullptr && row->shown_by != nullptr && session.wants.*row->shown_by;
+    if (coming && !session.pacing.playing) return "it is being measured";
+    return row != nullptr && !row->hint.empty() ? std::string(row->hint) : "not known yet";
+  }
+  if (has_sentences(check.name)) return std::string(row->present[now == "yes" ? 1 : 0]);
+  std::string text = "now " + now;
+  // Before the motion begins nothing has been seen yet that could tell in which direction to go.
+  if (check.to_find && check.span == Span::throughout && state == CheckState::open)
+    text += is_upper(check.relation) ? ", too high" : is_lower(check.relation) ? ", too low" : "";
+  const std::string place = place_of(check.name);
+  return place.empty() ? text : text + " (" + place + ")";
+}
+
+/// Whether a check of the step names the constant or one of its components, "W.x".
+bool named(const LabStep& step, std::string_view key) {
+  return std::any_of(step.checks.begin(), step.checks.end(), [&](const Condition& check) {
+    return check.name == key ||
+           (check.name.size() == key.size() + 2 && check.name.starts_with(key) && check.name[key.size()] == '.');
+  });
+}
+
+}  // namespace
+
+std::string changed_constant(const Preset& before, const Preset& now, const LabStep* names) {
   constexpr EffectSet ignored = motionless | Effect::engine | Effect::device;
   for (const PresetField& field : preset_fields()) {
-    if (std::visit([&](auto member) { return run.begun.*member == now.*member; }, field.member)) continue;
-    if (effects_of(field, now).within(ignored)) continue;
-    const auto names = [&](const Condition& check) {
-      return check.name == field.key || (check.name.size() == field.key.size() + 2 &&
-                                         check.name.starts_with(field.key) && check.name[field.key.size()] == '.');
-    };
-    const auto& checks = run.now().checks;
-    if (std::any_of(checks.begin(), checks.end(), names)) continue;
+    if (std::visit([&](auto member) { return before.*member == now.*member; }, field.member)) continue;
+    if (effects_of(field, now).within(ignored) || (names != nullptr && named(*names, field.key))) continue;
     const std::string symbol(field.row != nullptr && !field.row->symbol.empty() ? field.row->symbol : field.key);
     const auto* number = std::get_if<double Preset::*>(&field.member);
     if (number == nullptr) return symbol + " was changed";
-    return symbol + " was changed from " + short_number(run.begun.**number) + " to " +
+    return symbol + " was changed from " + short_number(before.**number) + " to " +
            with_unit(now.**number, field.row != nullptr ? field.row->unit : "");
   }
   return {};
 }
-
-}  // namespace
 
 std::optional<double> value_of(Session& session, const Operand& operand) {
   if (operand.name.empty()) return operand.factor;
@@ -260,31 +287,22 @@ CheckState judge(Session& session, const Condition& check, MotionChange change, 
 
 std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory) {
   if (state == CheckState::broken) return broken_in_words(session, check, memory);
-  const std::string asked = (check.to_find ? subject_of(check) : words_of(check)) + before_in_words(session, check);
-  const std::string now = value_in_words(session, check.name);
-  if (check.name == "untouched") return now.empty() ? asked : asked + " · " + now + ": set it back, and restart";
-  const bool of_now = check.span == Span::now || check.span == Span::throughout;
-  const bool says_all = of_now && !check.to_find && (is_word(check.name) || check.relation == Relation::equal);
-  if (says_all && state == CheckState::holds) return asked;
-  std::string text = asked + " · ";
-  const Observable* row = find_observable(check.name);
-  if (now.empty()) {
-    const bool coming = row != nullptr && row->shown_by != nullptr && session.wants.*row->shown_by;
-    text += coming && !session.pacing.playing      ? "it is being measured"
-            : row != nullptr && !row->hint.empty() ? std::string(row->hint)
-                                                   : "not known yet";
-  } else if (has_sentences(check.name)) {
-    text += row->present[now == "yes" ? 1 : 0];
-  } else if (is_word(check.name)) {
-    text += "now it is " + now;
-  } else {
-    text += (label_of(check.name) == check.name ? check.name : "it") + " is " + now + " now";
-    // Before the motion begins there is nothing to be seen yet that could tell which way to go.
-    if (check.to_find && check.span == Span::throughout && state == CheckState::open)
-      text += is_upper(check.relation) ? ", too high" : is_lower(check.relation) ? ", too low" : "";
+  const bool holds = state == CheckState::holds;
+  if (holds && !check.to_find && check.span == Span::throughout) {
+    Condition plain = check;
+    plain.span = Span::now;
+    return words_of(plain) + " so far";
   }
-  const std::string place = has_sentences(check.name) ? "" : place_of(check.name);
-  return place.empty() || now.empty() ? text : text + " · " + place;
+  const std::string asked = (check.to_find ? subject_of(check) : words_of(check)) + before_in_words(session, check);
+  if (check.name == "untouched") {
+    const std::string other = touched_by(session);
+    return other.empty() ? asked : asked + " · " + other + ": set it back, then restart";
+  }
+  const bool says_all = is_word(check.name) || check.relation == Relation::equal;
+  if (holds && !check.to_find && check.span == Span::now && says_all) return asked;
+  if (check.to_find && has_sentences(check.name))
+    return asked + (observe_word(session, check.name) == "yes" ? " Yes" : " Not yet");
+  return asked + " · " + now_in_words(session, check, state);
 }
 
 bool found_together(const Condition& one, const Condition& other) {
@@ -294,7 +312,8 @@ bool found_together(const Condition& one, const Condition& other) {
 std::string touched_by(const Session& session) {
   if (!session.labs.run) return {};
   const LabRun& run = *session.labs.run;
-  if (std::string other = other_constant(run, session.requested_preset()); !other.empty()) return other;
+  if (std::string other = changed_constant(run.begun, session.requested_preset(), &run.now()); !other.empty())
+    return other;
   if (session.simulation->held()) return "The cloth was held by hand";
   if (session.counts.touches != run.watch.touches) return "The cloth was pulled or cut by hand";
   return {};

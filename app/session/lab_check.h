@@ -9,6 +9,7 @@
 
 namespace tyglab {
 
+struct Preset;
 struct Session;
 
 enum class CheckState {
@@ -58,8 +59,11 @@ std::string check_in_words(Session& session, const Condition& check, CheckState 
 /// Whether both are bounds of one quantity that is to be found out, which the card lists as one.
 bool found_together(const Condition& one, const Condition& other);
 
-/// What was changed beside what the step's checks name, or touched by hand: "k_d is 0.02 N s/m instead of 0"; empty:
-/// nothing.
+/// The first constant of the motion that differs, "k_d was changed from 0 to 0.02 N s/m", but for those that the checks
+/// of a step name; empty: none.
+std::string changed_constant(const Preset& before, const Preset& now, const LabStep* names = nullptr);
+
+/// What was changed beside what the step's checks name, or touched by hand; empty: nothing.
 std::string touched_by(const Session& session);
 
 }  // namespace tyglab

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <span>
 
 #include "app/session/lab_text.h"
@@ -250,10 +249,8 @@ std::string subject_of(const Condition& condition) {
     // A quantity's word takes an article, a symbol none.
     return (condition.name == "energy" ? "The value of the " : "The value of ") + label + span;
   }
-  std::string asked(find_observable(condition.name)->asked[1]);
-  if (asked.empty()) return label + span;
-  asked[0] = char(std::tolower(static_cast<unsigned char>(asked[0])));
-  return "Whether " + asked + span;
+  const bool sentence = !find_observable(condition.name)->asked[1].empty();
+  return label + span + (sentence ? "?" : "");
 }
 
 std::string words_of(const Condition& condition) {

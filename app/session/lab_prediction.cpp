@@ -41,7 +41,9 @@ bool predict(Session& session) {
   if (!run.now().prediction || record.predicted) return false;
   const Prediction& asked = *run.now().prediction;
   if (asked.choices.empty() ? !refusal_of(asked, record.typed).empty() : record.chosen < 0) return false;
-  return record.predicted = true;
+  record.predicted = true;
+  if (run.runs_on) session.pacing.playing = true;
+  return true;
 }
 
 void judge_prediction(Session& session, LabRun& run) {

@@ -8,16 +8,18 @@
 namespace tyglab {
 namespace {
 
-/// "; 2 of 3 predictions were right", of those that a step has answered; nothing where there is none.
+/// "; 2 of 3 predictions were right", of those that count and that a step has answered; nothing where there is none.
 std::string predictions_in_words(const LabRun& run) {
   int asked = 0, right = 0;
   for (std::size_t k = 0; k < run.records.size(); ++k) {
     const StepRecord& record = run.records[k];
-    if (run.lab.steps[k].prediction && record.predicted && record.done) ++asked, right += record.right;
+    if (run.lab.steps[k].prediction && record.predicted && record.done && !record.looked)
+      ++asked, right += record.right;
   }
   if (asked == 0) return {};
   if (asked == 1) return right == 1 ? "; the prediction was right" : "; the prediction was wrong";
-  return "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions were right";
+  return "; " + std::to_string(right) + " of " + std::to_string(asked) + " predictions " +
+         (right == 1 ? "was" : "were") + " right";
 }
 
 /// "step 2", "steps 1 and 2", "steps 1, 2 and 4".

@@ -8,6 +8,7 @@
 #include "app/base/data_files.h"
 #include "app/base/preset_files.h"
 #include "app/base/settings.h"
+#include "app/session/background_steps.h"
 #include "app/session/document.h"
 #include "app/session/edits.h"
 #include "app/session/observables.h"
@@ -137,7 +138,7 @@ void complete(Session& session, LabRun& run) {
 StepRecord begun_again(const StepRecord& before) {
   StepRecord record;
   std::copy(std::begin(before.typed), std::end(before.typed), record.typed);
-  record.chosen = before.chosen, record.predicted = before.predicted;
+  record.chosen = before.chosen, record.predicted = before.predicted, record.looked = before.looked;
   return record;
 }
 
@@ -166,6 +167,26 @@ void put_aside(Session& session, const LabRun& run) {
   std::vector<StepRecord>& left = labs.left[run.lab.label] = run.records;
   // No step is gone on with that compares with a state of before (resumed_at).
   for (StepRecord& record : left) record.outcome.state.reset();
+}
+
+/// Sets the present experiment aside, with its copies.
+void keep_experiment(Session& session) {
+  constexpr std::size_t most = 4;
+  settle(session);
+  if (session.simulation->held()) session.simulation->apply(edit::Release{});
+  session.copies.awaited.reset();
+  if (!session.copies.lockstep.empty()) ++session.counts.copies, ++session.counts.cloths;
+  std::vector<KeptExperiment>& list = session.labs.kept;
+  list.push_back({session.document, session.requested_preset(), unsaved(session), session.simulation,
+                  std::exchange(session.copies, {}), session.history, session.picked, session.auto_dt,
+                  session.step_limit});
+  if (list.size() > most) list.erase(list.begin() + 1);
+}
+
+void end_lab(Session& session) {
+  session.labs.run.reset();
+  session.pacing.speed = session.labs.own_speed;
+  session.pacing.restart_measure();
 }
 
 /// What the step wants to be seen, and at which speed.
@@ -232,10 +253,15 @@ void begin_lab(Session& session, std::string_view label) {
   const std::vector<Lab>& list = find_labs(session);
   const auto lab = std::find_if(list.begin(), list.end(), [&](const Lab& l) { return l.label == label; });
   if (lab == list.end()) return session.messages.error("There is no lab " + std::string(label) + ".");
-  keep_experiment(session);
-  session.labs.begun_with = session.counts.documents;
-  if (put_away_copies(session)) session.messages.note("The copies were removed: a lab begins with one cloth.");
-  if (!session.labs.run) session.labs.own_speed = session.pacing.speed;
+  if (!session.labs.run) {
+    session.labs.own_speed = session.pacing.speed;
+    keep_experiment(session);
+    if (!session.labs.kept.back().copies.lockstep.empty())
+      session.messages.note("A lab begins with one cloth. Your copies come back when you leave it.");
+  } else if (lab_is_away(session) && unsaved(session)) {
+    keep_experiment(session);
+  }
+  put_away_copies(session);
   session.step_limit = 0;  // no result may depend on the machine
   ++session.counts.labs_begun;
   LabRun& run = session.labs.run.emplace();
@@ -252,6 +278,7 @@ void enter_step(Session& session, std::size_t step) {
   run.show_explanation = false;
   if (!run.record().done) run.record() = begun_again(run.record());
   begin_watching(session, run);
+  run.runs_on = !run.now().open && session.pacing.playing;
   if (run.now().needs_opencl && !session.labs.opencl) session.labs.opencl = !opencl_devices().devices.empty();
   // What can only be read opens nothing that cannot run.
   if (run.record().done || cannot_be_done(session)) return;
@@ -273,8 +300,8 @@ void set_up_step(Session& session) {
     const bool shipped = source.file.parent_path() == data_folder() / "presets";
     std::vector<std::string> settings = step.open->settings;
     if (step.view) settings.push_back("mode=" + std::to_string(*step.view));
-    // What a step before left behind is no work that could be lost; what is, is kept.
-    if (session.counts.documents != session.labs.begun_with) keep_experiment(session);
+    // What a step before left behind is no work that could be lost.
+    if (lab_is_away(session) && unsaved(session)) keep_experiment(session);
     session.request(request::Open{source.file, shipped, true, std::move(settings)});
     session.labs.opened = source.file.stem().string();
   } catch (const std::exception& error) {
@@ -286,10 +313,9 @@ void leave_lab(Session& session) {
   LabState& labs = session.labs;
   if (!labs.run) return;
   put_aside(session, *labs.run);
-  if (!lab_is_away(session)) labs.left_behind = session.requested_preset();
-  labs.run.reset();
-  session.pacing.speed = labs.own_speed;
-  session.pacing.restart_measure();
+  if (!lab_is_away(session)) return back_to_experiment(session);
+  end_lab(session);
+  std::erase_if(labs.kept, [](const KeptExperiment& kept) { return !kept.unsaved; });
   if (!labs.kept.empty())
     session.messages.note("“" + labs.kept.back().constants.name +
                           "” is kept as it was before the lab: “Back to your experiment”, in Ctrl+P, opens it.");
@@ -307,33 +333,29 @@ bool next_lab(Session& session) {
 }
 
 bool no_work(const Session& session) {
-  const LabState& labs = session.labs;
-  if (labs.run) return !labs.opened.empty() && !lab_is_away(session);
-  return labs.left_behind && changes(*labs.left_behind, session.requested_preset()).within(Effect::view);
-}
-
-void keep_experiment(Session& session) {
-  if (!unsaved(session)) return;
-  constexpr std::size_t most = 4;
-  settle(session);
-  KeptExperiment kept{session.document, session.requested_preset(), nullptr, session.history};
-  if (!session.simulation->divergence() && !session.rebuild.holds_present())
-    kept.state = motion_entry(session, "").state;
-  std::vector<KeptExperiment>& list = session.labs.kept;
-  list.push_back(std::move(kept));
-  if (list.size() > most) list.erase(list.begin());
+  return session.labs.run && !session.labs.opened.empty() && !lab_is_away(session);
 }
 
 void back_to_experiment(Session& session) {
   LabState& labs = session.labs;
-  if (labs.kept.empty()) return;
-  keep_experiment(session);  // what was done since the lab
-  if (labs.kept.size() > 1 && unsaved(session)) std::rotate(labs.kept.end() - 2, labs.kept.end() - 1, labs.kept.end());
-  const KeptExperiment kept = std::move(labs.kept.back());
+  const bool in_lab = labs.run.has_value();
+  if (labs.kept.empty()) return in_lab ? end_lab(session) : void();
+  KeptExperiment kept = std::move(labs.kept.back());
   labs.kept.pop_back();
-  if (labs.run) labs.run.reset(), session.pacing.speed = labs.own_speed;
+  if (unsaved(session)) keep_experiment(session);  // what was opened since
+  if (in_lab) end_lab(session);
   session.pacing.playing = false;
-  reopen_document(session, kept.constants, kept.document, Resumption{kept.state, kept.history});
+  session.rebuild.drop();
+  put_away_copies(session);
+  settle(session);
+  swap_in(session, std::move(kept.simulation));
+  session.copies = std::move(kept.copies);
+  if (!session.copies.lockstep.empty()) ++session.counts.copies;
+  begin_document(session, std::move(kept.document));
+  if (kept.constants != session.preset()) apply_edit(session, edit::Change{std::move(kept.constants)});
+  session.history = std::move(kept.history);
+  session.picked = kept.picked, session.auto_dt = std::move(kept.auto_dt), session.step_limit = kept.step_limit;
+  ++session.counts.hands, ++session.counts.experiments_back;
 }
 
 bool cannot_be_done(Session& session) {
@@ -349,6 +371,10 @@ bool lab_waits(const Session& session) {
   return lab_is_away(session) && !session.labs.run->record().done;
 }
 
+bool awaits_prediction(const Session& session) {
+  return session.labs.run && session.labs.run->to_be_predicted() && !lab_waits(session);
+}
+
 void resume_lab(Session& session) {
   LabRun& run = *session.labs.run;
   while (run.step > 0 && !run.now().open) --run.step;
@@ -360,6 +386,10 @@ void watch_lab(Session& session) {
   LabRun& run = *session.labs.run;
   StepRecord& record = run.record();
   if (record.done) return;
+  // Cards and gauges show what follows from constants without any motion.
+  const bool opening = !session.requests.empty() || session.rebuild.opens();
+  if (run.to_be_predicted() && !opening)
+    record.looked |= !changed_constant(run.begun, session.requested_preset()).empty();
   const LabStep& step = run.now();
   const bool predicted = !step.prediction || record.predicted;
   if (cannot_be_done(session)) return predicted ? complete(session, run) : void();

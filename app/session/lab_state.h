@@ -16,12 +16,14 @@
 #include <string_view>
 #include <vector>
 
+#include "app/session/copies.h"
 #include "app/session/history.h"
 #include "app/session/lab.h"
 #include "app/session/lab_check.h"
 #include "app/session/rebuild.h"
 #include "app/studies/studies.h"
 #include "core/cloth/state.h"
+#include "core/energy/auto_step.h"
 
 namespace tyglab {
 
@@ -38,6 +40,7 @@ struct StepRecord {
   char typed[32] = "";  ///< of a prediction that is a number
   int chosen = -1;
   bool predicted = false;
+  bool looked = false;             ///< constants were changed before the prediction, which therefore does not count
   std::vector<CheckState> checks;  ///< as they are now
   std::vector<CheckMemory> seen;   ///< what each remembers of the motion
   bool done = false;               ///< all held at once, at least once
@@ -53,6 +56,7 @@ struct LabRun {
   std::string awaited;            ///< all checks hold, and this quantity's value is waited for; empty: none is
   bool show_explanation = false;  ///< it has just come: the card scrolls to it
   Preset begun;                   ///< the constants with which the present step began
+  bool runs_on = false;           ///< the motion ran when the step began, and goes on once the prediction is made
   MotionWatch watch;
   const LabStep& now() const { return lab.steps[step]; }
   /// The card that the present step wants in sight, or else the last step before it that wanted one.
@@ -63,12 +67,17 @@ struct LabRun {
   bool to_be_predicted() const { return now().prediction && !record().predicted && !record().done; }
 };
 
-/// The user's own experiment, as it stood when a lab took its place with changes that no file has.
+/// The user's own experiment, set aside while a lab has the window: the cloth itself, which nobody moves meanwhile.
 struct KeptExperiment {
   Document document;
-  Preset constants;
-  std::shared_ptr<const Snapshot> state;  ///< null: it begins at its start
+  Preset constants;  ///< as they were asked for: the cloth has them, or is yet to be built with them
+  bool unsaved;      ///< no file has them
+  std::shared_ptr<Simulation> simulation;
+  Copies copies;
   History history;
+  std::optional<Pins::Site> picked;
+  std::optional<AutoStep> auto_dt;
+  double step_limit;  ///< s
 };
 
 struct LabState {
@@ -79,9 +88,7 @@ struct LabState {
   std::optional<bool> opencl;           ///< whether there is a device; none: nobody has asked yet
   std::string opened;                   ///< label of the preset that a step opened last
   double own_speed = 1;                 ///< Pacing::speed, outside labs
-  std::vector<KeptExperiment> kept;     ///< the last is gone back to first
-  std::uint64_t begun_with = 0;         ///< SessionCounts::documents of the cloth that was there when the lab began
-  std::optional<Preset> left_behind;    ///< constants of the lab's cloth, which is open still after the lab
+  std::vector<KeptExperiment> kept;     ///< first the one before the lab; the last comes back first
   std::map<std::string, int> progress;  ///< by its name: a lab's steps that are done, up to the first that is not
   std::map<std::string, std::vector<StepRecord>> left;  ///< of labs left unfinished since the program started
 };
@@ -105,16 +112,16 @@ void enter_step(Session& session, std::size_t step);
 void back_step(Session& session);
 /// Opens the step's preset once more, where it has one.
 void set_up_step(Session& session);
-/// Leaves it, and says what came of it.
+/// Leaves it, says what came of it, and brings back the experiment that was there before; but what the user has opened
+/// in place of the lab's cloth stays.
 void leave_lab(Session& session);
 /// Begins the lab after the present one, and says what came of that. False where there is none after it.
 bool next_lab(Session& session);
 /// "“Why Euler gains energy” is done; 2 of 3 predictions were right. …", or with how many steps it was left; `done`:
 /// those that are remembered as done.
 std::string lab_result(const LabRun& run, int done);
-/// Keeps the present experiment where it has unsaved changes, to be gone back to after the lab.
-void keep_experiment(Session& session);
-/// Opens the experiment that was kept last, paused at its moment, and leaves the lab.
+/// Leaves the lab, and brings back the experiment that was set aside last: its cloth and copies as they stood, paused,
+/// with all that can be undone.
 void back_to_experiment(Session& session);
 /// Whether the present cloth is a lab's: what is done there is no work that could be lost.
 bool no_work(const Session& session);
@@ -134,6 +141,8 @@ bool lab_is_away(const Session& session);
 bool lab_waits(const Session& session);
 /// Puts the lab's cloth back: at the current step, or the last one before it that opens one.
 void resume_lab(Session& session);
+/// Whether the motion waits for the step's prediction, which would be none after a look at the result.
+bool awaits_prediction(const Session& session);
 
 /// What the checks of the current step need to be worked out.
 Wants lab_wants(const Session& session);

@@ -108,7 +108,7 @@ void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int step
 
 void single_step(Session& session, const std::optional<glm::dvec3>& hand) {
   session.pacing.playing = false;
-  if (session.rebuild.holds_present() || session.background_steps.busy()) return;
+  if (session.rebuild.holds_present() || session.background_steps.busy() || awaits_prediction(session)) return;
   move_hand(session, hand, 1);
   if (BackgroundSteps::wanted(session)) return session.background_steps.start(session, 1);
   session.steps_made += session.simulation->advance(1).steps;

@@ -165,9 +165,9 @@ const std::array rows{
                .place = "top bar",
                .word = [](const Session& session) { return said(session.pacing.playing); },
                .words = no_or_yes,
-               .label = "Motion runs",
+               .label = "Running",
                .asked = {"The motion is paused", "The motion runs"},
-               .present = {"it is paused now", "it runs now"}},
+               .present = {"not yet", "it runs"}},
     Observable{.name = "diverged",
                .meaning = "Whether the simulation has diverged.",
                .place = "banner below the cloth",
@@ -175,7 +175,7 @@ const std::array rows{
                .words = no_or_yes,
                .label = "Diverged",
                .asked = {"The simulation does not diverge", "The simulation diverges"},
-               .present = {"it has not diverged", "it has diverged"}},
+               .present = {"not yet", "it has diverged"}},
     Observable{.name = "diverged_at",
                .unit = "s",
                .meaning = "Simulated time at which it diverged.",
@@ -184,7 +184,6 @@ const std::array rows{
                .number = time_of_divergence},
     Observable{.name = "integrator",
                .meaning = "The method, by its name in presets.",
-               .place = "constants, Integrator",
                .word = [](const Session& session) -> std::string_view { return session.preset().integrator; },
                .words = integrator_names,
                .label = "Integrator"},
@@ -301,9 +300,9 @@ const std::array rows{
                .place = "below the constants",
                .word = [](const Session& session) { return said(session.picked.has_value()); },
                .words = no_or_yes,
-               .label = "A particle is picked",
+               .label = "Picked",
                .asked = {"No particle is picked", "A particle is picked"},
-               .present = {"none is picked now", "one is picked now"}},
+               .present = {"not yet", "one is picked"}},
     Observable{.name = "x",
                .unit = "m",
                .meaning = "Position of the picked particle (or of the mass on a spring), to the right.",
@@ -441,7 +440,7 @@ std::string place_of(std::string_view name) {
   const auto block = std::find_if(panel_sections.begin(), panel_sections.end(), [&](const PanelSection& s) {
     return std::find(s.keys.begin(), s.keys.end(), row->key) != s.keys.end();
   });
-  return block == panel_sections.end() ? "constants" : "constants, " + std::string(block->name);
+  return block == panel_sections.end() ? "constants" : std::string(block->name);
 }
 
 std::string_view unit_of(std::string_view name) {

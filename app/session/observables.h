@@ -42,7 +42,7 @@ bool is_observable(std::string_view name);
 bool is_word(std::string_view name);
 /// Whether it is worked out beside the motion, so that no check can ask what it was in every step.
 bool is_measured(std::string_view name);
-/// Where the window shows it: "constants, Springs"; empty where it does not.
+/// Where the window shows it: "Springs", the heading among the constants, or "Energy card"; empty where it does not.
 std::string place_of(std::string_view name);
 std::string_view unit_of(std::string_view name);
 /// Every name a check may use, for "did you mean".

@@ -35,12 +35,6 @@ struct Document {
   std::filesystem::path file;  ///< the user's file, empty for a shipped preset
 };
 
-/// Where an experiment that is gone back to goes on.
-struct Resumption {
-  std::shared_ptr<const Snapshot> state;  ///< null: it begins at its start
-  History history;
-};
-
 /// What is to be built.
 struct BuildOrder {
   Preset target;
@@ -48,7 +42,6 @@ struct BuildOrder {
   bool restarts = false;                  ///< a restart asked for it
   std::optional<Document> document = {};  ///< of a preset that is opened
   bool programs = false;  ///< the present cloth is to have these constants, once programs have been built for them
-  std::optional<Resumption> resumption = {};  ///< of a document
 };
 
 struct BuiltCloth {

@@ -100,6 +100,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
   }
   if (simulation->step_limit() != step_limit) simulation->limit_steps(step_limit), warned_unconverged = false;
   for (std::size_t n = 0; n < copies.lockstep.size(); ++n) copies.lockstep[n].simulation->limit_steps(step_limit);
+  if (awaits_prediction(*this)) pacing.playing = false;
   sleep.begin(*simulation);
   if (const bool wanted = wants.ledger || auto_dt; wanted != simulation->ledger().has_value())
     if (!wanted || rebuild.ledger_ready(*this)) simulation->enable_ledger(wanted);

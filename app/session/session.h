@@ -49,9 +49,10 @@ struct SessionCounts {
   std::uint64_t copies_added = 0;
   std::uint64_t lattices = 0;  ///< the cloth has another shape
   std::uint64_t labs_begun = 0;
-  std::uint64_t lab_steps = 0;  ///< a step of a lab is set out: what it shows comes into sight
-  std::uint64_t hands = 0;      ///< the hand lets go, and every tool with it
-  std::uint64_t touches = 0;    ///< the cloth was grabbed or cut
+  std::uint64_t experiments_back = 0;  ///< the user's own is there again after a lab
+  std::uint64_t lab_steps = 0;         ///< a step of a lab is set out: what it shows comes into sight
+  std::uint64_t hands = 0;             ///< the hand lets go, and every tool with it
+  std::uint64_t touches = 0;           ///< the cloth was grabbed or cut
 };
 
 struct Session {

@@ -295,20 +295,26 @@ TEST_CASE("a preset whose device is not there is opened on the CPU, beside the f
   CHECK(session.messages.list().front().text.ends_with("The CPU engine runs it instead."));
 }
 
-TEST_CASE("an experiment that is built beside the frames is gone back to with its motion and its past") {
+TEST_CASE("a large experiment is there again after a lab, at once, and what was being built for it is built then") {
   const Preset preset = test::cloth(large, large);
   Session session = session_with(preset);
   session.simulation->advance(5);
-  History history;
-  history.record({preset, 0, "earlier"}, 0);
-  const Resumption then{std::make_shared<const Snapshot>(session.simulation->snapshot()), history};
-  session.simulation = std::make_shared<Simulation>(test::cloth(20, 20));
-  reopen_document(session, preset, {preset, "large", {}}, then);
+  session.history.record({preset, 0, "earlier"}, 0);
+  Preset finer = preset;
+  finer.rows = large + 1;
+  REQUIRE(apply_edit(session, edit::Change{finer}));
   REQUIRE(session.rebuild.busy());
+  begin_lab(session, "01_hooke");
+  apply_requests(session);
   wait(session);
+  CHECK(session.document.label == "one_weight");
+  leave_lab(session);
   CHECK(session.simulation->steps() == 5);
+  CHECK(session.requested_preset() == finer);
   REQUIRE(session.history.next(true) != nullptr);
-  CHECK(session.history.next(true)->what == "earlier");
+  CHECK(session.history.next(true)->constants == preset);
+  wait(session);
+  CHECK(session.preset() == finer);
 }
 
 TEST_CASE("a change is carried over to other constants alone") {

@@ -106,6 +106,29 @@ TEST_CASE("lab: k_s and the critical time step, done wrongly") {
   CHECK_FALSE(play.done());  // a single step that tears the sheet apart is not yet called an explosion
 }
 
+TEST_CASE("a prediction after constants were changed is marked, and counts neither way") {
+  LabPlayer play("03_stiffness");
+  play.set("mode=2");
+  play.update();
+  CHECK_FALSE(play.lab().record().looked);
+  play.set("k_s=195");  // the gauge shows another limit
+  play.update();
+  play.set("k_s=50");
+  play.update();
+  play.set_up_again();
+  CHECK(play.lab().record().looked);
+  play.predict("200");
+  play.set("k_s=195");
+  play.run(5);
+  REQUIRE(play.done());
+  CHECK(lab_result(play.lab(), 1).ends_with("” with 1 of 3 steps done. Ctrl+L lists all labs."));
+  play.next();
+  play.choose(0);
+  play.set("k_s=190");
+  play.update();
+  CHECK_FALSE(play.lab().record().looked);  // that was after the prediction
+}
+
 TEST_CASE("lab: an explosion that a k_s beyond the limit began does not count below it") {
   LabPlayer play("03_stiffness");
   play.predict("200");
@@ -239,7 +262,7 @@ TEST_CASE("lab: tearing, done wrongly") {
   play.predict("0.08");
   play.run(0.1);
   CHECK_FALSE(play.done());  // it tore before the step began
-  CHECK(play.card(1) == "torn ≥ 100 was true before this step began: restart, and reach it with a higher F_max");
+  CHECK(play.card(1) == "torn ≥ 100 was true before this step began: restart and get there with a higher F_max");
   play.restart();
   play.set("F_max=0");
   play.run(2.5);

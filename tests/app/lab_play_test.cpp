@@ -15,7 +15,7 @@ using test::LabPlayer;
 TEST_CASE("lab: Hooke's law and the forces on a particle") {
   LabPlayer play("01_hooke");
   play.run(1);
-  CHECK_FALSE(play.done());  // nothing has been predicted
+  CHECK(play.session().simulation->steps() == 0);  // nothing has been predicted
   play.predict("0.0982");
   play.run(0.2);
   CHECK_FALSE(play.done());  // it swings
@@ -83,7 +83,7 @@ TEST_CASE("lab: k_s and the critical time step") {
   play.set("k_s=180");
   play.update();
   CHECK_FALSE(play.done());  // the three seconds were made at 50 N/m
-  CHECK(play.card(0) == "k_s was 50 N/m at t = 0.016 s: restart, and keep it at 180 N/m or more from the beginning");
+  CHECK(play.card(0) == "k_s was 50 N/m at t = 0.016 s: restart");
   play.run(3);
   CHECK_FALSE(play.done());
   play.restart();
@@ -410,8 +410,8 @@ TEST_CASE("a lab waits while another preset is open, and goes on with its own") 
   resume_lab(session);
   play.update();
   CHECK_FALSE(lab_waits(session));
-  REQUIRE(session.labs.kept.size() == 1);  // what was changed in the other preset is kept
-  CHECK(session.labs.kept[0].document.label == "flag");
+  REQUIRE(session.labs.kept.size() == 2);  // what was changed in the other preset is kept too
+  CHECK(session.labs.kept[1].document.label == "flag");
 }
 
 TEST_CASE("every shipped lab is read, and what it opens is there") {

@@ -59,6 +59,8 @@ void verdict(Ui& ui, const Prediction& asked, const StepRecord& record) {
   const std::string said = number ? with_unit(typed_number(record.typed, asked.unit).value_or(0), asked.unit)
                                   : asked.choices[std::size_t(record.chosen)];
   if (!record.done) return marked_line(ui, icon::right, ">", c.accent, "You predict: " + said, c.text);
+  if (record.looked)
+    return marked_line(ui, icon::unknown, "?", c.warning, "Predicted after a look, so not counted: " + said, c.text);
   if (record.right) return marked_line(ui, icon::check, "+", c.good, "You were right: " + said, c.text);
   const std::string answer = number ? with_unit(record.answer, asked.unit) : asked.choices[asked.right];
   marked_line(ui, icon::close, "x", c.warning, "You predicted: " + said, c.text);
@@ -124,6 +126,9 @@ void prediction_part(Ui& ui, const LabStep& step, StepRecord& record) {
   small_head(ui, "PREDICT", ui.theme.colors.accent);
   set_text(ui, step.prediction->question, ui.theme.colors.text);
   if (record.predicted) return verdict(ui, *step.prediction, record);
+  if (record.looked)
+    marked_line(ui, icon::warning, "!", ui.theme.colors.warning,
+                "Constants were changed before the prediction, so it will not be counted.", ui.theme.colors.text);
   step.prediction->choices.empty() ? number_field(ui, *step.prediction, record)
                                    : choice_list(ui, *step.prediction, record);
 }
@@ -158,7 +163,7 @@ void check_line(Ui& ui, const LabRun& run, const Condition& check, CheckState st
   state = shown_state(check, state);
   // What must hold to the end holds so far, and is nothing that has been done.
   if (state == CheckState::holds && check.span == Span::throughout)
-    return marked_line(ui, icon::check, "+", c.quiet, words + " · so far", c.quiet);
+    return marked_line(ui, icon::check, "+", c.quiet, words, c.quiet);
   if (state == CheckState::holds) return marked_line(ui, icon::check, "+", c.good, words, c.text);
   if (state == CheckState::open) return marked_line(ui, icon::circle, "o", c.quiet, words, c.text);
   if (state == CheckState::broken) return marked_line(ui, icon::close, "x", c.warning, words, c.text);

@@ -11,7 +11,12 @@ void toggle_play(Ui& ui) {
   pacing.restart_measure();
 }
 
+std::string waits_for_prediction(const Ui& ui) {
+  return awaits_prediction(ui.session) ? "Predict first: the motion waits for your prediction." : "";
+}
+
 std::string nothing_moves(const Ui& ui) {
+  if (std::string waits = waits_for_prediction(ui); !waits.empty()) return waits;
   if (!ui.session.simulation->divergence() || ui.session.copies.lockstep.alive()) return "";
   return "The simulation has diverged: restart it (R), rewind it (←), or choose a way out in the banner.";
 }
@@ -68,7 +73,8 @@ std::vector<CommandRow> motion_rows() {
            {{GLFW_KEY_RIGHT, 0, true}, {GLFW_KEY_O, 0, true}},
            "makes one step of dt",
            "single",
-           step_once},
+           step_once,
+           waits_for_prediction},
           {"rewind",
            "Rewind a second",
            "←",
