@@ -314,6 +314,20 @@ TEST_CASE("every step of every lab has its whole title on its card, in small win
   }
 }
 
+TEST_CASE("the height of the mass names the method that moves it") {
+  test::NullUi window;
+  find_labs(window.session);
+  begin_lab(window.session, "07_implicit");
+  enter_step(window.session, 2);
+  window.frames(6);
+  CHECK(window.sees("plots.Implicit_Euler"));
+  CHECK(window.sees("plots.Verlet"));
+  window.find("integrator verlet");
+  window.frames(4);
+  CHECK_FALSE(window.sees("plots.Implicit_Euler"));
+  CHECK(window.sees("plots.Verlet"));
+}
+
 TEST_CASE("the list of labs has their numbers, minutes and purposes") {
   test::NullUi window;
   window.session.labs.progress["02_euler"] = 3;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "app/ui/cards/time_plot.h"
@@ -13,6 +15,7 @@
 #include "app/ui/kit/plot_card.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab {
 namespace {
@@ -21,17 +24,32 @@ constexpr float height_legend_at_1 = 22, height_under_legend_at_1 = 6,
                 height_least_plot_at_1 = 120;  // pixels at scale 1
 
 constexpr float sample_at_1 = 18, sample_gap_at_1 = 4, entry_gap_at_1 = 10;
+constexpr float own_width = 2.4f;  // of the mass's own curve, at scale 1
+
+/// The mass's own method, drawn thick, then the curves of figure 3.2; its own method is not listed twice.
+struct LegendEntry {
+  std::string_view method, title;
+  std::optional<std::size_t> curve;  ///< that a click hides
+};
+std::vector<LegendEntry> legend_entries(const Ui& ui) {
+  const std::string& own = ui.session.preset().integrator;
+  const auto& curves = ReferenceCurves::curves;
+  std::vector<LegendEntry> entries;
+  if (std::find(curves.begin(), curves.end(), own) == curves.end())
+    entries.push_back({own, scheme(own).title, std::nullopt});
+  for (std::size_t k = 0; k < curves.size(); ++k) entries.push_back({curves[k], ReferenceCurves::titles[k], k});
+  return entries;
+}
 
 /// Where each entry of the legend begins, in lines as wide as that; relative to the first, y in lines.
-std::array<ImVec2, ReferenceCurves::curves.size()> figure_places(const Ui& ui, float width) {
-  std::array<ImVec2, ReferenceCurves::curves.size()> places;
+std::vector<ImVec2> figure_places(const Ui& ui, float width) {
+  std::vector<ImVec2> places;
   ImVec2 at{0, 0};
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const float entry =
-        ui.theme.px(sample_at_1 + sample_gap_at_1) + text_width(*ui.fonts.small, ReferenceCurves::titles[k]);
-    if (at.x > 0 && at.x + entry > width) at = {0, at.y + 1};
-    places[k] = at;
-    at.x += entry + ui.theme.px(entry_gap_at_1);
+  for (const LegendEntry& entry : legend_entries(ui)) {
+    const float wide = ui.theme.px(sample_at_1 + sample_gap_at_1) + text_width(*ui.fonts.small, entry.title);
+    if (at.x > 0 && at.x + wide > width) at = {0, at.y + 1};
+    places.push_back(at);
+    at.x += wide + ui.theme.px(entry_gap_at_1);
   }
   return places;
 }
@@ -40,7 +58,7 @@ float figure_legend_height(const Ui& ui, float card_width) {
   return ui.theme.px(height_legend_at_1) * (figure_places(ui, width).back().y + 1);
 }
 
-/// The report's curves beside the weight's own, which is drawn thicker; a click hides one.
+/// The mass's own curve and the report's beside it; a click hides one of those.
 void figure_legend(Ui& ui, const Region& place) {
   Plots& plots = ui.plots;
   const Tokens& c = ui.theme.colors;
@@ -48,23 +66,31 @@ void figure_legend(Ui& ui, const Region& place) {
   const float sample = ui.theme.px(sample_at_1), line = ui.theme.px(height_legend_at_1);
   const auto places = figure_places(ui, place.size.x);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (std::size_t k = 0; k < ReferenceCurves::curves.size(); ++k) {
-    const float width = sample + ui.theme.px(sample_gap_at_1) + text_width(font, ReferenceCurves::titles[k]);
-    const float x = place.at.x + places[k].x, y = place.at.y + places[k].y * line;
+  const std::vector<LegendEntry> entries = legend_entries(ui);
+  for (std::size_t n = 0; n < entries.size(); ++n) {
+    const LegendEntry& entry = entries[n];
+    const float width = sample + ui.theme.px(sample_gap_at_1) + text_width(font, entry.title);
+    const float x = place.at.x + places[n].x, y = place.at.y + places[n].y * line;
     ImGui::SetCursorScreenPos({x, y});
-    ImGui::PushID(int(k));
-    if (gui::press_area("figure", {width, line})) plots.figure_hidden[k] = !plots.figure_hidden[k];
-    report_control(ui, ReferenceCurves::titles[k]);
-    const float opacity = plots.figure_hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
-    CurveStyle style = integrator_style(c, ReferenceCurves::curves[k]);
+    ImGui::PushID(int(n));
+    bool* const hidden = entry.curve ? &plots.figure_hidden[*entry.curve] : nullptr;
+    if (gui::press_area("figure", {width, line}) && hidden != nullptr) *hidden = !*hidden;
+    report_control(ui, entry.title);
+    const float opacity = hidden != nullptr && *hidden ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
+    CurveStyle style = integrator_style(c, entry.method);
+    if (entry.method == ui.session.preset().integrator) style.width = own_width;
     style.color = faded(style.color, opacity);
     const float middle = std::round(y + line / 2);
     const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
     draw_styled_line(draw, ends, 2, style, ui.theme.scale);
     draw_on_baseline(draw, font, {x + sample + ui.theme.px(sample_gap_at_1), baseline_at(ui.fonts, middle)},
-                     faded(c.text, opacity), ReferenceCurves::titles[k]);
-    tooltip(ui, gui::item_id(), "As in figure 3.2: the same start, constants and dt with this method",
-            plots.figure_hidden[k] ? "Click to show" : "Click to hide");
+                     faded(c.text, opacity), entry.title);
+    if (hidden == nullptr) {
+      tooltip(ui, gui::item_id(), "The mass itself, moved by this method");
+    } else {
+      tooltip(ui, gui::item_id(), "As in figure 3.2: equal start, constants and dt with this method",
+              *hidden ? "Click to show" : "Click to hide");
+    }
     ImGui::PopID();
   }
 }
@@ -99,7 +125,7 @@ void height_card(Ui& ui, float height) {
     if (curves.size() > companions) curves.back().to = from + 1;  // up to where the next one begins
     curves.push_back({"y", integrator_style(ui.theme.colors, method), t, ui.session.recorded.height.column(0)});
     curves.back().from = from;
-    curves.back().style.width = 2.4f;
+    curves.back().style.width = own_width;
   }
   for (PlotCurve& curve : curves) curve.gaps = ui.session.recorded.height.gaps();
   const float head = legend + ui.theme.px(height_under_legend_at_1);
