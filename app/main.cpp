@@ -2,5 +2,5 @@
 #include "app/cli/commands/program.h"
 
 int main(int argc, char** argv) {
-  return tyglab::run_program(argc, argv);
+  return tyglab::run_command_line(argc, argv);
 }

@@ -39,7 +39,7 @@ Ledger::Source source_of(const Edit& edit) {
 }
 
 /// Of a motion that is beyond what the scene can hold.
-std::string cause_of_runaway(const Advance& part, const Preset& preset) {
+std::string cause_of_runaway(const AdvanceResult& part, const Preset& preset) {
   if (part.quantity == "position")
     return "a particle is farther away than " + sources_of_energy(preset) + " the energy to fly";
   return "the motion has " + short_number(part.excess, 2) + " times the energy that " + sources_of_energy(preset);
@@ -369,10 +369,10 @@ void Simulation::stop_when(Stop stop) {
   engine_->stop_when(stop_);
 }
 
-Advance Simulation::advance(int steps) {
-  Advance total;
+AdvanceResult Simulation::advance(int steps) {
+  AdvanceResult total;
   while (!divergence_ && !total.stopped && total.steps < steps) {
-    const Advance part = advance_part(watch_ ? 1 : steps - total.steps);
+    const AdvanceResult part = advance_part(watch_ ? 1 : steps - total.steps);
     const int before = total.steps, torn = total.torn;
     const bool released = total.released;
     total = part;
@@ -382,11 +382,11 @@ Advance Simulation::advance(int steps) {
 }
 
 /// As far as the engine goes by itself: what follows from the steps is done.
-Advance Simulation::advance_part(int steps) {
+AdvanceResult Simulation::advance_part(int steps) {
   if (held_.particle >= 0 && hand_steps_left_ > 0) steps = std::min(steps, hand_steps_left_);
   if (gusts(preset_)) steps = std::min(steps, update_gust());
   if (watch_) watch_->before_step(preset_, tears_);
-  Advance part = engine_->advance(steps, tears_);
+  AdvanceResult part = engine_->advance(steps, tears_);
   steps_ += part.steps;
   if (part.steps > 0) initial_velocity_.reset(), ++revision_;
   left_inside_ = part.left_inside;
@@ -410,7 +410,7 @@ double Simulation::excess() {
   return 2 / preset_.m * (now.kinetic + now.stretch + now.bending) / given;
 }
 
-void Simulation::diverge(const Advance& part) {
+void Simulation::diverge(const AdvanceResult& part) {
   Divergence d;
   d.step = steps_ + 1;
   d.t = time() + preset_.dt;

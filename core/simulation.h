@@ -106,7 +106,7 @@ class Simulation {
   /// Makes up to `steps` steps; fewer when the run diverges or is stopped. Does nothing once diverged. Throws
   /// EngineError; std::bad_alloc, with the last whole step then being the present state, so that it can be called
   /// again.
-  Advance advance(int steps);
+  AdvanceResult advance(int steps);
   /// From now on advance() ends with the last whole step as soon as this says so (Engine::stop_when).
   void stop_when(Stop stop);
   /// From now on a step of a method that can end early does so with what it has found once it has taken so long, s; 0:
@@ -181,8 +181,8 @@ class Simulation {
   void move_body(const edit::MoveBody& edit);
   void rebase_time();
   void hold(const Held& held);
-  void diverge(const Advance& part);
-  Advance advance_part(int steps);
+  void diverge(const AdvanceResult& part);
+  AdvanceResult advance_part(int steps);
   void watch_step();
   void watch_edit(Ledger::Source source);
 

@@ -17,8 +17,8 @@ void FrameCosts::started(StartPart part) {
   started_s_[std::size_t(part)] = program_age_s();
 }
 
-void FrameCosts::add_copied(VertexWay way, std::size_t bytes, const std::string& why, std::size_t read) {
-  way_ = way, why_copied_ = why;
+void FrameCosts::add_copied(VertexPath path, std::size_t bytes, const std::string& why, std::size_t read) {
+  vertex_path_ = path, why_copied_ = why;
   copied_now_ = copied_now_.value_or(0) + bytes;
   read_now_ += read;
 }
@@ -65,7 +65,7 @@ std::string FrameCosts::json(int width, int height, const std::string& engine, c
       of(Part::frame) - of(Part::simulate) - of(Part::draw_cloth) - of(Part::ui_draw) - of(Part::swap);
   report["times_run"] = counts;
   const double per_moved = moved_ > 0 ? 1 / double(moved_) : 0;
-  report["positions_come_by"] = std::string(name_of(way_));
+  report["positions_come_by"] = std::string(name_of(vertex_path_));
   if (!why_copied_.empty()) report["copied_because"] = why_copied_;
   report["copied_bytes_per_frame"] = per_moved * double(copied_);
   report["read_bytes_per_frame"] = per_moved * double(read_);

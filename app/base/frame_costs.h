@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "app/base/stopwatch.h"
-#include "app/base/vertex_way.h"
+#include "app/base/vertex_path.h"
 
 namespace tyglab {
 
@@ -58,9 +58,9 @@ class FrameCosts {
   void add_steps(std::int64_t steps) { steps_ += steps; }
   /// How a cloth that had moved came to be drawn, bytes that were copied for it and why, and bytes that others read of
   /// a device's arrays since the last time.
-  void add_copied(VertexWay way, std::size_t bytes, const std::string& why, std::size_t read);
+  void add_copied(VertexPath path, std::size_t bytes, const std::string& why, std::size_t read);
   /// Of the last such frame.
-  VertexWay way() const { return way_; }
+  VertexPath vertex_path() const { return vertex_path_; }
   const std::string& why_copied() const { return why_copied_; }
   std::size_t last_copied() const { return last_copied_; }
   /// Bytes that others read, a frame, over about the last second.
@@ -80,7 +80,7 @@ class FrameCosts {
   std::array<double, part_names.size()> recent_ms_{};
   std::array<std::int64_t, part_names.size()> counts_{};
   std::int64_t frames_ = 0, steps_ = 0;
-  VertexWay way_ = VertexWay::copied;
+  VertexPath vertex_path_ = VertexPath::copied;
   std::string why_copied_;
   std::optional<std::size_t> copied_now_;  ///< of this frame; none: nothing had moved
   std::size_t read_now_ = 0;

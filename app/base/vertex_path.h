@@ -27,17 +27,18 @@
 
 namespace tyglab {
 
-enum class VertexWay {
+/// How positions reach OpenGL.
+enum class VertexPath {
   shared_buffer,  ///< the device writes OpenGL's own buffer (cl_khr_gl_sharing)
   shared_memory,  ///< the device, a processor, works in OpenGL's memory (ARB_buffer_storage)
   copied,         ///< the program copies them, once a frame
 };
 
-/// "shared_buffer", as files have it.
-constexpr std::string_view name_of(VertexWay way) {
-  return way == VertexWay::shared_buffer   ? "shared_buffer"
-         : way == VertexWay::shared_memory ? "shared_memory"
-                                           : "copied";
+/// "shared_buffer", as written in files.
+constexpr std::string_view name_of(VertexPath path) {
+  return path == VertexPath::shared_buffer   ? "shared_buffer"
+         : path == VertexPath::shared_memory ? "shared_memory"
+                                             : "copied";
 }
 
 }  // namespace tyglab

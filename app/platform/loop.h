@@ -5,20 +5,20 @@
 
 namespace tyglab {
 
-/// What is done again and again until the program is to end.
-class Turns {
+/// The work of each frame, and of the end of the program.
+class FrameLoop {
  public:
-  Turns() = default;
-  virtual ~Turns() = default;
-  Turns(const Turns&) = delete;
-  Turns& operator=(const Turns&) = delete;
-  /// One turn; false once there is to be no other.
-  virtual bool turn() = 0;
-  /// After the last turn; returns the program's exit code.
+  FrameLoop() = default;
+  virtual ~FrameLoop() = default;
+  FrameLoop(const FrameLoop&) = delete;
+  FrameLoop& operator=(const FrameLoop&) = delete;
+  /// Runs one frame; returns false after the last one.
+  virtual bool run_frame() = 0;
+  /// Ends the program after the last frame, and returns its exit code.
   virtual int finish() = 0;
 };
 
 /// Makes all turns and returns what finish() does. A browser makes them after this has returned, with 0.
-int make_turns(std::unique_ptr<Turns> turns);
+int run_frame_loop(std::unique_ptr<FrameLoop> loop);
 
 }  // namespace tyglab

@@ -59,7 +59,7 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   else
     take(scene, moved, needs_normals, work);
   work.moved |= moved;
-  work.way = way_;
+  work.vertex_path = vertex_path_;
   normals_ready_ = needs_normals || (normals_ready_ && !moved);
   const Stopwatch watch(work.index_lists);
   bool lines = false;
@@ -81,7 +81,7 @@ void ClothMesh::take(const ClothScene& scene, bool moved, bool normals, RenderWo
   if (moved) {
     written_.free();
     const auto lent = lent_.show(floats_.data);
-    way_ = lent ? VertexWay::shared_memory : VertexWay::copied;
+    vertex_path_ = lent ? VertexPath::shared_memory : VertexPath::copied;
     set_positions(lent ? *lent : copied(position_buffer_, floats_.data, work));
   }
   if (normals) set_attributes(3, make_normals(scene, work));
@@ -102,7 +102,7 @@ void ClothMesh::take_positions(const PositionView& view, bool moved, RenderWork&
 /// Positions, and normals if asked for, as the engine's device writes them into buffers of their own.
 void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, RenderWork& work) {
   if (!moved && !normals) return;
-  if (way_ != VertexWay::shared_buffer) beside_tears_.reset();  // the device has not been informed of them
+  if (vertex_path_ != VertexPath::shared_buffer) beside_tears_.reset();  // the device has not been informed of them
   if (normals && !beside_tears_) {
     beside_tears_ = particles_beside_tears(lattice_, stride_, scene.tears);
     std::vector<TornSite> torn;
@@ -116,14 +116,15 @@ void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, 
   bounds_ = written_.write(*scene.writer->engine->vertex_sharing(), {scene.writer->sites, normals}, work.read);
   lent_.show(nullptr);
   mapped_normals_.free();
-  way_ = VertexWay::shared_buffer;
+  vertex_path_ = VertexPath::shared_buffer;
   set_positions(written_.positions());
   if (normals) set_attributes(3, written_.normals());
 }
 
 /// Computes them where they are drawn, or else copies them there.
 VertexSource ClothMesh::make_normals(const ClothScene& scene, RenderWork& work) {
-  float* in_place = way_ == VertexWay::shared_memory ? mapped_normals_.next(floats_.size() * sizeof(float)) : nullptr;
+  float* in_place =
+      vertex_path_ == VertexPath::shared_memory ? mapped_normals_.next(floats_.size() * sizeof(float)) : nullptr;
   if (in_place == nullptr) mapped_normals_.free(), normals_.resize(floats_.size());
   {
     const Stopwatch watch(work.normals);

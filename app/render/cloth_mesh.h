@@ -73,7 +73,7 @@ class ClothMesh {
   WrittenVertices written_;
   VertexSource position_source_;  ///< of what is drawn
   TexelArray position_texels_{TexelArray::Of::floats};
-  VertexWay way_ = VertexWay::copied;
+  VertexPath vertex_path_ = VertexPath::copied;
   std::array<IndexList, int(List::count)> lists_;
   std::vector<float> converted_;  ///< of a solver in double
   FloatRows floats_;              ///< valid during update() alone; without data where they are written

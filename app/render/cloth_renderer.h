@@ -11,7 +11,7 @@
 #include <string>
 
 #include "app/base/stopwatch.h"
-#include "app/base/vertex_way.h"
+#include "app/base/vertex_path.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_texture.h"
 #include "app/render/image.h"
@@ -99,7 +99,7 @@ struct RenderWork {
   Duration index_lists;  ///< what a view draws of them: made again where it lacks some
   Duration shadow;       ///< a part of draw()
   bool moved = false;    ///< the cloth had moved
-  VertexWay way = VertexWay::copied;
+  VertexPath vertex_path = VertexPath::copied;
   /// Bytes of positions and normals that the program copied: 0 where OpenGL draws what the device wrote.
   std::size_t copied = 0;
   std::string why_copied;  ///< a part of a sentence; empty: they were not

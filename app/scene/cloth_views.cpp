@@ -31,7 +31,7 @@ void count(FrameCosts& costs, const RenderWork& work) {
   costs.add(Part::upload, work.upload);
   costs.add(Part::index_lists, work.index_lists);
   costs.add(Part::shadow, work.shadow);
-  if (work.moved) costs.add_copied(work.way, work.copied, work.why_copied, work.read);
+  if (work.moved) costs.add_copied(work.vertex_path, work.copied, work.why_copied, work.read);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void BackgroundSteps::start(Session& session, int steps) {
     const double begun = computing_seconds(engine), begun_on_wall = wall_seconds();
     const bool diverged = cloth->divergence().has_value();
     cloth->stop_when(stop), copies.stop_when(stop);
-    StepsMadeBeside made;
+    BackgroundResult made;
     made.advance = cloth->advance(steps);
     made.computing_s = computing_seconds(engine) - begun;
     made.steps = diverged ? steps : made.advance.steps;
@@ -64,7 +64,7 @@ void BackgroundSteps::start(Session& session, int steps) {
   }
 }
 
-StepsMadeBeside BackgroundSteps::take(Session& session) {
+BackgroundResult BackgroundSteps::take(Session& session) {
   auto outcome = work_.take();
   cloth_->stop_when({}), copies_.stop_when({});  // work that has failed has not come to that
   take_appearance(*cloth_, *session.simulation);
@@ -76,7 +76,7 @@ StepsMadeBeside BackgroundSteps::take(Session& session) {
     if (error->out_of_memory) throw std::bad_alloc();
     throw EngineError(error->what);
   }
-  return std::get<StepsMadeBeside>(outcome);
+  return std::get<BackgroundResult>(outcome);
 }
 
 void settle(Session& session) {

@@ -17,9 +17,9 @@ namespace tyglab {
 
 struct Session;
 
-/// What has become of a piece of steps.
-struct StepsMadeBeside {
-  Advance advance;         ///< of the original; nothing where it had diverged
+/// The result of a batch of steps in the background.
+struct BackgroundResult {
+  AdvanceResult advance;   ///< of the original; nothing where it had diverged
   int steps = 0;           ///< of its dt, by which time has gone on
   double t = 0;            ///< s, until which the copies were to go
   double seconds = 0;      ///< on the wall, that all of them took, those of the copies too
@@ -39,7 +39,7 @@ class BackgroundSteps {
   bool wait(double seconds) const { return work_.wait(seconds); }
   bool ready() const { return work_.ready(); }
   /// Puts the cloth back, with the steps made. Waits for them. Throws EngineError if they could not be made.
-  StepsMadeBeside take(Session& session);
+  BackgroundResult take(Session& session);
   void cancel() { work_.cancel(); }
 
   /// How much of the present step is done, 0 to 1, as far as its method can tell.
@@ -51,7 +51,7 @@ class BackgroundSteps {
   std::shared_ptr<Simulation> cloth_;  ///< the true one, while it is away
   Lockstep copies_;
   double begun_ = 0;
-  Job<StepsMadeBeside> work_;
+  Job<BackgroundResult> work_;
 };
 
 /// Stops what is being computed beside the frames, so that the cloth can be changed: it stands at its last whole step.

@@ -58,7 +58,7 @@ std::size_t resumed_at(const Lab& lab, int done) {
 
 /// What the step that follows wants to know of this moment, and what this one has compared with the one before.
 void keep_outcome(Session& session, LabRun& run) {
-  StepOutcome& outcome = run.record().outcome;
+  LabStepOutcome& outcome = run.record().outcome;
   outcome = {};
   for (const Condition& check : run.now().checks)
     if (const auto value = check.right.before ? observe(session, check.name) : std::nullopt)

@@ -29,9 +29,9 @@ namespace tyglab {
 
 struct Session;
 
-/// What is known at the moment at which a step was completed: what later steps call `before`, and what the step itself
-/// has compared with that.
-struct StepOutcome {
+/// The values at the moment at which a lab step was completed: `before` in later steps, and the values that the step
+/// itself has compared with those.
+struct LabStepOutcome {
   std::map<std::string, double, std::less<>> values;
   std::optional<State> state;  ///< where a later step asks how far apart the cloth is from it
 };
@@ -46,7 +46,7 @@ struct StepRecord {
   bool done = false;               ///< all held at once, at least once
   bool right = false;              ///< the prediction, once it is done
   double answer = 0;               ///< the right number then
-  StepOutcome outcome;
+  LabStepOutcome outcome;
 };
 
 struct LabRun {

@@ -152,7 +152,7 @@ void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
     return;
   }
   take(session, std::move(made), std::move(order));
-  if (next_) go_on(session);
+  if (next_) continue_with_next(session);
 }
 
 void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order) {
@@ -169,8 +169,8 @@ void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order
   take_built(session, std::move(made.simulation), std::move(order));
 }
 
-/// From what has just been taken to what has been asked for since.
-void BackgroundRebuild::go_on(Session& session) {
+/// Continues with the request that came during the build.
+void BackgroundRebuild::continue_with_next(Session& session) {
   const edit::Change change{next_->target};
   if (change.preset == session.preset()) return next_.reset();
   next_->programs = !session.simulation->rebuilds(change);

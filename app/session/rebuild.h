@@ -95,7 +95,7 @@ class BackgroundRebuild {
   void start(const Session& session);
   void finish(Session& session, BuiltCloth made);
   void take(Session& session, BuiltCloth made, BuildOrder order);
-  void go_on(Session& session);
+  void continue_with_next(Session& session);
   void give_up(Session& session, const JobError& why);
 
   std::optional<BuildOrder> making_, next_;

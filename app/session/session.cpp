@@ -57,7 +57,7 @@ StudyMoment Session::study_moment() const {
 void Session::update(double real_seconds, const SessionInput& input) {
   now += real_seconds;
   try {
-    go_on(real_seconds, input);
+    advance(real_seconds, input);
   } catch (const std::bad_alloc&) {
     pacing.playing = false;
     messages.error(
@@ -67,7 +67,7 @@ void Session::update(double real_seconds, const SessionInput& input) {
   steps_made = recorded.sampled = 0;
 }
 
-void Session::go_on(double real_seconds, const SessionInput& input) {
+void Session::advance(double real_seconds, const SessionInput& input) {
   rebuild.poll(*this);
   poll_copies(*this);
   take_engine_choice(*this);
@@ -134,11 +134,11 @@ void Session::make_steps(int due, const SessionInput& input) {
                           ? std::clamp(int(0.25 * pacing.budget_s / cost), 1, std::min(due - made, to_sample))
                           : 1;
     const double before = spent();
-    Advance advance;
+    AdvanceResult advance;
     if (BackgroundSteps::wanted(*this)) {
       background_steps.start(*this, piece);
       if (!background_steps.wait(std::max(pacing.budget_s - before, 0.0))) break;
-      const StepsMadeBeside beside = background_steps.take(*this);
+      const BackgroundResult beside = background_steps.take(*this);
       copies_note(*this, beside.t, beside.computing_s);
       advance = beside.advance;
     } else {
@@ -159,7 +159,7 @@ void Session::make_steps(int due, const SessionInput& input) {
 
 void Session::take_steps() {
   const double dt = preset().dt;
-  const StepsMadeBeside beside = background_steps.take(*this);
+  const BackgroundResult beside = background_steps.take(*this);
   copies_note(*this, beside.t, beside.computing_s);
   warn_of(beside.advance);
   steps_made += beside.steps;
@@ -172,7 +172,7 @@ void Session::made_steps(int steps, double seconds, double dt) {
   if (auto_dt && !simulation->divergence()) watch_dt(*this);
 }
 
-void Session::warn_of(const Advance& advance) {
+void Session::warn_of(const AdvanceResult& advance) {
   if (advance.left_inside > 0 && !warned_left_inside) {
     messages.note("Overlapping bodies leave some particles inside one of them; move the bodies apart.");
     warned_left_inside = true;
@@ -187,9 +187,9 @@ void Session::warn_of(const Advance& advance) {
   const int between_looks = 64 * (1 + simulation->lattice().size() / (256 * 256));  // updates
   if (!labs.run && !advance.diverged && ++updates_unlooked >= between_looks) {
     updates_unlooked = 0;
-    const bool said = excess_said_of && changes(*excess_said_of, preset()).within(motionless);
+    const bool said = energy_warning_preset && changes(*energy_warning_preset, preset()).within(motionless);
     std::string excess = said ? "" : energy_in_excess(simulation->excess(), preset());
-    if (!excess.empty()) messages.warning(std::move(excess)), excess_said_of = preset();
+    if (!excess.empty()) messages.warning(std::move(excess)), energy_warning_preset = preset();
   }
   if (advance.released) messages.note("The hand let go: its force exceeded F_release.");
 }

@@ -85,14 +85,14 @@ struct Session {
 
   Wants wants;  ///< of this update; labs add theirs
   SessionCounts counts;
-  std::int64_t steps_made = 0;           ///< since the last update
-  double now = 0;                        ///< s since the session began
-  double last_change = 0;                ///< s, when constants changed last, to tell gestures apart
-  double again_at = 0;                   ///< s: update() wants to be called by then, though nothing moves
-  bool warned_left_inside = false;       ///< that overlapping bodies keep particles inside, said once a session
-  int updates_unlooked = 0;              ///< since it was looked at whether errors of the method have added energy
-  std::optional<Preset> excess_said_of;  ///< the constants with which that was said last
-  bool warned_unconverged = false;       ///< that an implicit method's solves do not reach their tolerance, likewise
+  std::int64_t steps_made = 0;                  ///< since the last update
+  double now = 0;                               ///< s since the session began
+  double last_change = 0;                       ///< s, when constants changed last, to tell gestures apart
+  double again_at = 0;                          ///< s: update() wants to be called by then, though nothing moves
+  bool warned_left_inside = false;              ///< that overlapping bodies keep particles inside, said once a session
+  int updates_unlooked = 0;                     ///< since the check for energy added by errors of the method
+  std::optional<Preset> energy_warning_preset;  ///< the constants at the last such warning
+  bool warned_unconverged = false;  ///< that an implicit method's solves do not reach their tolerance, likewise
   /// s of real time after which a step of an implicit method ends with what it has found; 0: no limit. It is of no
   /// preset, since the motion then depends on the machine.
   double step_limit = 0;
@@ -120,11 +120,11 @@ struct Session {
   void propose(Preset next, unsigned gesture = 0) { request(request::Apply{edit::Change{std::move(next)}, gesture}); }
 
  private:
-  void go_on(double real_seconds, const SessionInput& input);
+  void advance(double real_seconds, const SessionInput& input);
   void step(double real_seconds, const SessionInput& input);
   void make_steps(int due, const SessionInput& input);
   void made_steps(int steps, double seconds, double dt);
-  void warn_of(const Advance& advance);
+  void warn_of(const AdvanceResult& advance);
 };
 
 }  // namespace tyglab

@@ -50,14 +50,14 @@ std::string state_in_words(const Session& session) {
          (session.pacing.playing ? "running" : "paused at t = " + short_number(session.simulation->time()) + " s");
 }
 
-class Sandbox : public Turns {
+class Sandbox : public FrameLoop {
  public:
   explicit Sandbox(const SandboxOptions& options);
   ~Sandbox() override {  // while the window's context lives; first who works in its memory
     session_.rebuild = {}, session_.copies.lockstep.clear(), session_.simulation.reset();
     scene_.views = {}, scene_.renderer.reset();
   }
-  bool turn() override;
+  bool run_frame() override;
   int finish() override;
 
  private:
@@ -73,7 +73,7 @@ class Sandbox : public Turns {
   void take_dropped_files();
   void rescale();
   void begin();
-  First take_first();
+  InitialScene take_initial_scene();
   std::optional<std::string> show_texture(const std::string& texture);
   void draw_cloth();
   void present();
@@ -93,7 +93,7 @@ class Sandbox : public Turns {
   Tools tools_{session_, scene_, input_, settings_.handling};
   Ui ui_{session_, scene_, tools_, input_, settings_};
   std::unique_ptr<SessionReport> report_;  ///< none unless it is asked for
-  Job<First> first_;                       ///< the first cloth, built while the window opens
+  Job<InitialScene> initial_scene_;        ///< the first cloth, built while the window opens
   Window window_;
   Gui gui_;
   int frames_ = 0;
@@ -108,7 +108,7 @@ class Sandbox : public Turns {
   std::string told_;           ///< in words
   double next_link_ = 0;       ///< s, not before which it is looked at again
   Image last_picture_;
-  const InterruptGuard guard_;  ///< from the first turn on, Ctrl-C ends it in good order
+  const InterruptGuard guard_;  ///< from the first frame on, Ctrl-C ends it in good order
 };
 
 Sandbox::Sandbox(const SandboxOptions& options)
@@ -135,31 +135,32 @@ void Sandbox::begin() {
   session_.costs.started(StartPart::settings);
   if (!options_.session_report.empty()) report_ = std::make_unique<SessionReport>(options_.session_report);
   if (report_) ui_.controls = &report_->places();
-  first_.start(Priority::normal, [preset = first_preset(), threads = options_.threads, whole = session_.scripted](
-                                     const JobControl&) { return build_first(preset, threads, whole); });
+  initial_scene_.start(Priority::normal,
+                       [preset = first_preset(), threads = options_.threads, whole = session_.scripted](
+                           const JobControl&) { return build_initial_scene(preset, threads, whole); });
 }
 
-First Sandbox::take_first() {
-  auto outcome = first_.take();
+InitialScene Sandbox::take_initial_scene() {
+  auto outcome = initial_scene_.take();
   if (const auto* error = std::get_if<JobError>(&outcome)) {
     if (error->out_of_memory) throw std::bad_alloc();
     throw EngineError(error->what);
   }
-  return std::move(std::get<First>(outcome));
+  return std::move(std::get<InitialScene>(outcome));
 }
 
 void Sandbox::start_preset() {
-  First first = take_first();
-  if (!first.simulation) first.simulation = make_simulation(first_preset(), options_.threads, first.fallback);
-  if (!first.fallback.empty()) session_.messages.warning(first.fallback);
-  session_.simulation = std::move(first.simulation);
+  InitialScene initial = take_initial_scene();
+  if (!initial.simulation) initial.simulation = make_simulation(first_preset(), options_.threads, initial.fallback);
+  if (!initial.fallback.empty()) session_.messages.warning(initial.fallback);
+  session_.simulation = std::move(initial.simulation);
   session_.rebuild.prepare_programs = try_program;
   // The first texture has been read already.
   session_.show_texture = [&](const std::string&) -> std::optional<std::string> {
     scene_.redraw = true;
-    if (auto* why = std::get_if<std::string>(&first.picture)) return std::move(*why);
-    texture_read_ = first.picture_file;
-    return scene_.renderer->set_texture(std::get<ClothPicture>(first.picture));
+    if (auto* why = std::get_if<std::string>(&initial.picture)) return std::move(*why);
+    texture_read_ = initial.picture_file;
+    return scene_.renderer->set_texture(std::get<ClothPicture>(initial.picture));
   };
   begin_document(session_, first_document());
   session_.show_texture = [this](const std::string& texture) { return show_texture(texture); };
@@ -354,7 +355,7 @@ void Sandbox::frame_parts() {
   ++frames_;
 }
 
-bool Sandbox::turn() {
+bool Sandbox::run_frame() {
   if (session_.quit || InterruptGuard::interrupted() || (options_.frames > 0 && frames_ == options_.frames))
     return false;
   const double start = window_time();
@@ -416,7 +417,7 @@ void Sandbox::remember() {
 int run_sandbox(const SandboxOptions& options) {
   return_large_blocks();
   try {
-    return make_turns(std::make_unique<Sandbox>(options));
+    return run_frame_loop(std::make_unique<Sandbox>(options));
   } catch (const GraphicsError& error) {
     std::cerr << "tyglab: " << error.what() << '\n';
   } catch (const EngineError& error) {

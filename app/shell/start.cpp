@@ -69,22 +69,22 @@ FoundPicture find_picture(const std::string& texture) {
   }
 }
 
-First build_first(const Preset& preset, int threads, bool whole) {
-  First first;
-  first.picture_file = stamp_of(texture_file(preset.texture));
-  first.picture = find_picture(preset.texture);
+InitialScene build_initial_scene(const Preset& preset, int threads, bool whole) {
+  InitialScene scene;
+  scene.picture_file = stamp_of(texture_file(preset.texture));
+  scene.picture = find_picture(preset.texture);
   if (!whole && preset.engine != EngineKind::cpu) {
     Preset shown = preset;
     shown.engine = EngineKind::cpu;
-    first.simulation = make_simulation(shown, threads, first.fallback);
-    return first;
+    scene.simulation = make_simulation(shown, threads, scene.fallback);
+    return scene;
   }
   const bool needs_window = preset.engine == EngineKind::opencl && opencl_offers_gl_sharing(preset.device);
   if (!needs_window) {
-    first.simulation = make_simulation(preset, threads, first.fallback);
-    run_programs_once(first.simulation->preset(), false);  // the first frames do not wait
+    scene.simulation = make_simulation(preset, threads, scene.fallback);
+    run_programs_once(scene.simulation->preset(), false);  // the first frames do not wait
   }
-  return first;
+  return scene;
 }
 
 }  // namespace tyglab

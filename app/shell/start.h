@@ -26,8 +26,8 @@ void remember_session(Ui& ui);
 using FoundPicture = std::variant<ClothPicture, std::string>;
 FoundPicture find_picture(const std::string& texture);
 
-/// The cloth that is shown first.
-struct First {
+/// The first cloth in the window and its picture.
+struct InitialScene {
   std::shared_ptr<Simulation> simulation;
   std::string fallback;  ///< why it runs on another engine than it asks for; empty: it does not
   FoundPicture picture;
@@ -36,6 +36,6 @@ struct First {
 /// Builds it while the window opens. `whole`: on the preset's own engine; a device that shares buffers with OpenGL
 /// needs the window first, and then there is no simulation yet. Otherwise the CPU engine shows what is to run on a
 /// device.
-First build_first(const Preset& preset, int threads, bool whole);
+InitialScene build_initial_scene(const Preset& preset, int threads, bool whole);
 
 }  // namespace tyglab

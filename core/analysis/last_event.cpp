@@ -1,4 +1,4 @@
-#include "core/analysis/motion_news.h"
+#include "core/analysis/last_event.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +25,13 @@ Preset news_settings(const Preset& preset, double seconds, int& steps) {
 
 }  // namespace
 
-double last_news_effort(const Preset& preset, double seconds) {
+double last_event_effort(const Preset& preset, double seconds) {
   int steps = 1;
   const Preset coarse = news_settings(preset, seconds, steps);
   return step_effort(coarse) * steps * news_looks;
 }
 
-double last_news(const StudyStart& start, double seconds, const Stop& stop) {
+double time_of_last_event(const StudyStart& start, double seconds, const Stop& stop) {
   int steps = 1;
   const auto of = begin_study(start, news_settings(start.preset, seconds, steps));
   Simulation& simulation = *of;

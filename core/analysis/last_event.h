@@ -5,15 +5,15 @@
 
 namespace tyglab {
 
-/// Time from the start, s, after which nothing new happens within `seconds`: no contact, no tear, and nowhere do
-/// springs pull more than twice as hard at a particle as they have before (a slack cloth that is caught). In a motion
-/// that touches a body, tears or diverges no end is early enough, and it is `seconds` itself. By one run with a coarse
-/// step. Throws Stopped.
-double last_news(const StudyStart& start, double seconds, const Stop& stop);
-/// The hardest blow of a body within `seconds`: by how much it changes a particle's velocity at once, m/s; 0 where
-/// nothing touches one. By the same kind of run. Throws Stopped.
+/// Time from the start, s, of the last new event within `seconds`: a contact, a tear, or springs that pull a particle
+/// more than twice as hard as ever before (a slack cloth becomes taut). In a motion that touches a body, tears or
+/// diverges new events can always follow, and the result is `seconds`. It makes one run with a coarse step. Throws
+/// Stopped.
+double time_of_last_event(const StudyStart& start, double seconds, const Stop& stop);
+/// The hardest impact of a body within `seconds`: the largest sudden change of a particle's velocity, m/s; 0 without
+/// contact. It makes a run of this kind too. Throws Stopped.
 double hardest_blow(const StudyStart& start, double seconds, const Stop& stop);
-/// Particles times force evaluations of such a run.
-double last_news_effort(const Preset& preset, double seconds);
+/// Effort of such a run: particles times force evaluations.
+double last_event_effort(const Preset& preset, double seconds);
 
 }  // namespace tyglab

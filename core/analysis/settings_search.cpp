@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/analysis/accuracy.h"
-#include "core/analysis/motion_news.h"
+#include "core/analysis/last_event.h"
 #include "core/energy/auto_step.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
@@ -57,7 +57,8 @@ Window window_of(const StudyStart& start, double seconds, const Stop& stop) {
   while (finer > coarse && effort(finer) > (finer > fine ? little_effort : usual_effort)) finer /= 2;
   if (effort(finer) <= most_effort) return {seconds, finer};
   const double fits = seconds * most_effort / effort(finer);
-  if (last_news_effort(preset, seconds) <= most_effort && last_news(start, seconds, stop) < fits) return {fits, finer};
+  if (last_event_effort(preset, seconds) <= most_effort && time_of_last_event(start, seconds, stop) < fits)
+    return {fits, finer};
   throw std::runtime_error("this cloth is too large, or too stiff, to follow the " + two_digits(seconds) +
                            " s that have to be seen finely enough. Use fewer rows and columns, or --dt auto");
 }

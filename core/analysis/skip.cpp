@@ -89,7 +89,7 @@ SkipCase::SkipCase(const SkipFeature& feature, SkipState state) {
 
 double SkipCase::advance(int steps) {
   const auto start = std::chrono::steady_clock::now();
-  const Advance done = engine_->advance(steps, tears_);
+  const AdvanceResult done = engine_->advance(steps, tears_);
   const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - start;
   if (done.steps < steps || done.torn > 0)
     throw std::runtime_error("a scene of bench skip diverged or tore, so its times mean nothing");

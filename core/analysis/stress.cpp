@@ -91,7 +91,7 @@ class StressRun {
     for (int made = 0; made < steps; made += at_once) {
       const SolveCounts before = simulation_->engine().solves();
       const std::int64_t evaluated = simulation_->engine().inner_steps().force_evaluations;
-      const Advance part = simulation_->advance(std::min(at_once, steps - made));
+      const AdvanceResult part = simulation_->advance(std::min(at_once, steps - made));
       const SolveCounts after = simulation_->engine().solves();
       result_.steps += part.steps;
       result_.unconverged += after.unconverged - before.unconverged;

@@ -52,8 +52,8 @@ struct Divergence {
   std::string in_words() const;
 };
 
-/// Result of Engine::advance().
-struct Advance {
+/// The result of Engine::advance().
+struct AdvanceResult {
   int steps = 0;          ///< completed
   bool diverged = false;  ///< the next step diverged; the state is the one before it
   int i = 0, j = 0;       ///< where, if it diverged
@@ -137,7 +137,7 @@ class Engine {
   /// Makes up to `steps` steps; stops early on divergence, when the hand lets go, when stop_when() says so, and where
   /// memory fails after some of them: it is thrown that it does where not even one is made. Updates `tears` as springs
   /// break.
-  virtual Advance advance(int steps, Tears& tears) = 0;
+  virtual AdvanceResult advance(int steps, Tears& tears) = 0;
   /// Whether steps record what bodies stop, which only the energy ledger needs.
   virtual void note_contacts(bool on) = 0;
   /// What bodies stopped in the last dt, in each inner step if the method makes several; requires note_contacts(true).

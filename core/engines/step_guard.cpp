@@ -54,9 +54,9 @@ bool StepGuard::overload_within(int steps) const {
   return rules_.tearing && tear_budget_ < steps * elongation_ && elongation_ < divergence_budget_;
 }
 
-StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
+BatchResult StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
   for (int n = 0; n < count; ++n) {
-    const StepOutcome step = engine.outcome(n);
+    const StepMeasures step = engine.measures(n);
     limit_.pass(step.dt);
     elongation_ = std::isfinite(step.elongation) ? step.elongation : std::numeric_limits<double>::infinity();
     divergence_budget_ -= elongation_, tear_budget_ -= elongation_;
@@ -65,16 +65,16 @@ StepsMade StepGuard::judge(GuardedSteps& engine, int count, Tears& tears, Fault&
     const bool tear = rules_.tearing && !step.tear_budget && !(tear_budget_ > 0), look = !(divergence_budget_ > 0);
     const bool fast = limit_.may_be_exceeded(elongation_, step.dt);
     const bool release = step.hand_force && rules_.F_release > 0 && glm::length(*step.hand_force) > rules_.F_release;
-    if ((tear || look || fast || release) && n < count - 1) return {n + 1, StepsEnd::rolled_back};
+    if ((tear || look || fast || release) && n < count - 1) return {n + 1, BatchEnd::rolled_back};
     if (tear) tear_budget_ = engine.tear_overloaded(tears);
-    if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, StepsEnd::fault};
-    if (fast && engine.find_runaway(limit_, fault)) return {n, StepsEnd::fault};
+    if (look && engine.find_fault(tears, fault, divergence_budget_)) return {n, BatchEnd::fault};
+    if (fast && engine.find_runaway(limit_, fault)) return {n, BatchEnd::fault};
     unconverged_steps_ += !step.converged, worst_residual_ = std::max(worst_residual_, step.residual);
     longest_limited_ = std::max(longest_limited_, step.limited_seconds);
     hand_force_ = step.hand_force.value_or(glm::dvec3(0));
-    if (release) return {n + 1, StepsEnd::released};
+    if (release) return {n + 1, BatchEnd::released};
   }
-  return {count, StepsEnd::complete};
+  return {count, BatchEnd::complete};
 }
 
 void StepGuard::keep_backup(GuardedSteps& engine, const Tears& tears) {
@@ -103,14 +103,14 @@ void StepGuard::remeasure(GuardedSteps& engine, const Tears& tears) {
 }
 
 /// Makes steps that have been overwritten again, up to the one to be examined, and examines it.
-StepsMade StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
+BatchResult StepGuard::examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault) {
   repeat(engine, since_backup_ + count, tears, 1);
-  const StepsMade last = judge(engine, 1, tears, fault);
+  const BatchResult last = judge(engine, 1, tears, fault);
   return {count - 1 + last.count, last.end};
 }
 
-Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once) {
-  Advance result;
+AdvanceResult StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once) {
+  AdvanceResult result;
   const int torn_before = tears.torn_count();
   Fault fault{};
   if (energy_stale_ || pushes_stale_) remeasure(engine, tears);
@@ -123,12 +123,12 @@ Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const 
     const int most = rules_.costly_steps && (stop || once)
                          ? 1
                          : std::min(steps - result.steps, steps_between_backups - since_backup_);
-    StepsMade made;
+    BatchResult made;
     bool rolled_back = false;
     try {
       made = engine.make_steps(most, tears, fault);
       assert(made.count <= most);
-      rolled_back = made.end == StepsEnd::rolled_back;
+      rolled_back = made.end == BatchEnd::rolled_back;
       if (rolled_back) made = examine_last(engine, made.count, tears, fault);
     } catch (const std::bad_alloc&) {
       // Back to the last step that counts. It has been made before, so this asks for no memory that was not there.
@@ -137,9 +137,9 @@ Advance StepGuard::advance(GuardedSteps& engine, int steps, Tears& tears, const 
       if (result.steps == 0) throw;
       break;  // who asks for more steps is told then
     }
-    result.diverged = made.end == StepsEnd::fault;
-    result.released = made.end == StepsEnd::released;
-    result.stopped = made.end == StepsEnd::stopped;
+    result.diverged = made.end == BatchEnd::fault;
+    result.released = made.end == BatchEnd::released;
+    result.stopped = made.end == BatchEnd::stopped;
     result.steps += made.count;
     if (result.diverged || (result.stopped && rules_.costly_steps))
       repeat(engine, since_backup_ + made.count, tears, 0);

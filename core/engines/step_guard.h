@@ -19,8 +19,8 @@
 
 namespace tyglab {
 
-/// How a series of steps ended.
-enum class StepsEnd {
+/// How a batch of steps ended.
+enum class BatchEnd {
   complete,
   fault,       ///< the step after those that count diverged; the state is the one after it
   released,    ///< in the last step the hand's force exceeded F_release
@@ -28,13 +28,14 @@ enum class StepsEnd {
   rolled_back  ///< the last step that counts must be examined, but later ones have overwritten its state
 };
 
-struct StepsMade {
+/// The guard's verdict on a batch of steps.
+struct BatchResult {
   int count = 0;  ///< steps that count
-  StepsEnd end = StepsEnd::complete;
+  BatchEnd end = BatchEnd::complete;
 };
 
-/// What the guard needs to know of a step.
-struct StepOutcome {
+/// What an engine measures in a step, for the guard.
+struct StepMeasures {
   double elongation = 0;                 ///< by which any spring can have grown at most, m; may be non-finite
   double dt = 1;                         ///< s
   int left_inside = 0;                   ///< free particles inside a body
@@ -45,7 +46,7 @@ struct StepOutcome {
   double limited_seconds = 0;            ///< real time it took, where that has a limit
 };
 
-/// What the guard asks of an engine.
+/// The functions of an engine that the guard calls.
 class GuardedSteps {
  public:
   GuardedSteps() = default;
@@ -53,9 +54,9 @@ class GuardedSteps {
   GuardedSteps& operator=(const GuardedSteps&) = delete;
 
   /// Makes up to `most` steps, has the guard check() them, and returns its verdict on all of them together.
-  virtual StepsMade make_steps(int most, Tears& tears, Fault& fault) = 0;
-  /// Of the steps that are being checked, the first of which is 0.
-  virtual StepOutcome outcome(int step) = 0;
+  virtual BatchResult make_steps(int most, Tears& tears, Fault& fault) = 0;
+  /// Measures of a step that is being checked; the first is 0.
+  virtual StepMeasures measures(int step) = 0;
   /// Breaks the springs that are overloaded in the present state. Returns by how much any other spring may grow before
   /// it can be overloaded, m.
   virtual double tear_overloaded(Tears& tears) = 0;
@@ -69,7 +70,7 @@ class GuardedSteps {
   /// Copies the present state, in place of an earlier copy.
   virtual void keep_backup() = 0;
   /// Returns to the backup, whose tears are given, and makes that many steps again, all of which are known to be good
-  /// but perhaps the last. Outcome 0 is then that of the last one.
+  /// but perhaps the last. measures(0) is then that of the last one.
   virtual void repeat(int steps, Tears& tears) = 0;
 
  protected:
@@ -110,7 +111,7 @@ class StepGuard {
   Given given() const { return {limit_, energy_stale_, pushes_stale_}; }
   /// The motion goes on from where it had been given that, with the same constants and wind. Whatever held a particle
   /// then, `held` does now.
-  void go_on(const Given& given, const Preset& preset, const Lattice& lattice, const Held& held) {
+  void resume(const Given& given, const Preset& preset, const Lattice& lattice, const Held& held) {
     limit_ = given.limit, energy_stale_ = given.energy_stale, pushes_stale_ = given.pushes_stale;
     set_scene(preset, lattice, held);
   }
@@ -142,16 +143,16 @@ class StepGuard {
   bool overload_within(int steps) const;
 
   /// Makes up to `steps` good steps, as Engine::advance(). `once`: costly ones are never repeated.
-  Advance advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once = false);
+  AdvanceResult advance(GuardedSteps& engine, int steps, Tears& tears, const Stop& stop, bool once = false);
   /// Judges steps that have been made, of which the state of the last is present.
-  StepsMade judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
+  BatchResult judge(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
 
  private:
   void keep_backup(GuardedSteps& engine, const Tears& tears);
   void spend_budgets();
   void remeasure(GuardedSteps& engine, const Tears& tears);
   void repeat(GuardedSteps& engine, int steps, Tears& tears, int unjudged);
-  StepsMade examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
+  BatchResult examine_last(GuardedSteps& engine, int count, Tears& tears, Fault& fault);
 
   Rules rules_;
   double divergence_budget_ = 0;  ///< by which any spring may grow before one can be too long, m

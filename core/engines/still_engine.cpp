@@ -26,8 +26,8 @@ StillEngine::StillEngine(Engine& of, const Preset& preset, const Lattice& lattic
       std::copy_n(from[c]->data() + std::size_t(i) * lattice.columns, lattice.columns, x_.row(i, c));
 }
 
-Advance StillEngine::advance(int, Tears&) {
-  Advance none;
+AdvanceResult StillEngine::advance(int, Tears&) {
+  AdvanceResult none;
   none.stopped = true;
   return none;
 }

@@ -17,7 +17,7 @@ class StillEngine final : public Engine {
   void load(const StateRows&, const Tears&) override {}
   void set_preset(const Preset&, const Tears&) override {}
   void set_fixed(std::span<const int>, Held) override {}
-  Advance advance(int, Tears&) override;
+  AdvanceResult advance(int, Tears&) override;
   void note_contacts(bool) override {}
 
   /// None: the ledger of who steps asks the engine itself.

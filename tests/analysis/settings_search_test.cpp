@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/motion_news.h"
+#include "core/analysis/last_event.h"
 #include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 
@@ -95,19 +95,19 @@ TEST_CASE("implicit methods are tried up to a tenth of a second, and win where t
 TEST_CASE(
     "news: nothing new happens in a cloth that hangs, a slack one is caught late, one that falls on a body late") {
   Preset hangs = test::cloth(8, 8, "verlet");
-  CHECK(last_news({hangs, std::nullopt}, 1, never) < 0.6);
+  CHECK(time_of_last_event({hangs, std::nullopt}, 1, never) < 0.6);
   Preset caught = hangs;
   caught.rows = 2, caught.columns = 1, caught.pins.mode = Pins::Mode::top_row;
   caught.L = 2, caught.initial_stretch = 0.5, caught.tilt_deg = 90;  // it falls freely for 1 m, in 0.45 s
-  CHECK(last_news({caught, std::nullopt}, 1, never) > 0.45);
+  CHECK(time_of_last_event({caught, std::nullopt}, 1, never) > 0.45);
   Preset falls = hangs;
   falls.pins.mode = Pins::Mode::none;
-  CHECK(last_news({falls, std::nullopt}, 1, never) < 0.6);
+  CHECK(time_of_last_event({falls, std::nullopt}, 1, never) < 0.6);
   Body plane;
   plane.shape = Body::Shape::plane;
   plane.y = falls.x_0.y - 4;  // it falls 4.9 m in a second
   falls.bodies = {plane};
-  CHECK(last_news({falls, std::nullopt}, 1, never) == 1);
+  CHECK(time_of_last_event({falls, std::nullopt}, 1, never) == 1);
 }
 
 TEST_CASE("a cloth too large to be followed is refused") {

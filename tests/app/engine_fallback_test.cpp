@@ -16,7 +16,7 @@ class LostEngine final : public Engine {
   void load(const StateRows& rows, const Tears& tears) override { engine_->load(rows, tears); }
   void set_preset(const Preset& preset, const Tears& tears) override { engine_->set_preset(preset, tears); }
   void set_fixed(std::span<const int> pinned, Held held) override { engine_->set_fixed(pinned, held); }
-  Advance advance(int steps, Tears& tears) override {
+  AdvanceResult advance(int steps, Tears& tears) override {
     if (left_-- == 0) throw EngineError("OpenCL, making a step: the device is not available.");
     return engine_->advance(steps, tears);
   }

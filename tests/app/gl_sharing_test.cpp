@@ -82,7 +82,7 @@ TEST_SUITE("gl_sharing") {
         for (const int steps : {1, 3, 60, 200}) {
           simulation.advance(steps);
           CHECK(stage.copied_for(simulation, 1) == 0);
-          CHECK(stage.way() == VertexWay::shared_buffer);
+          CHECK(stage.vertex_path() == VertexPath::shared_buffer);
           CHECK(stage.picture().rgb != last.rgb);
           last = stage.picture();
         }
@@ -116,7 +116,7 @@ TEST_SUITE("gl_sharing") {
     if (skipped_without_double()) return;
     test::PicturePair stage;
     Simulation simulation(scene());
-    test::check_pictures_of_changes(stage, simulation, VertexWay::shared_buffer);
+    test::check_pictures_of_changes(stage, simulation, VertexPath::shared_buffer);
     CHECK(stage.copied_by_a_sibling(simulation) == 0);
     CHECK(stage.copied_for(simulation, 4) == 0);
     CHECK(counts().buffers == 2);
@@ -205,14 +205,14 @@ TEST_SUITE("gl_sharing") {
         simulation.advance(10);
       }
       problem = opencl_gl_problem(0);
-      return stage.way();
+      return stage.vertex_path();
     };
     std::string problem;
-    CHECK(way_when("refuse_context", problem) == VertexWay::copied);
+    CHECK(way_when("refuse_context", problem) == VertexPath::copied);
     CHECK(problem.find("refuses a context shared with OpenGL") != std::string::npos);
-    CHECK(way_when("other_device", problem) == VertexWay::copied);
+    CHECK(way_when("other_device", problem) == VertexPath::copied);
     CHECK(problem == "OpenGL draws on another device");
-    CHECK(way_when("loses_writes", problem) == VertexWay::copied);
+    CHECK(way_when("loses_writes", problem) == VertexPath::copied);
     CHECK(problem.empty());
   }
 
@@ -221,10 +221,10 @@ TEST_SUITE("gl_sharing") {
     Simulation before(scene());
     test::PicturePair stage;
     CHECK(stage.copied_for(before, 1) > 0);
-    CHECK(stage.way() == VertexWay::copied);
+    CHECK(stage.vertex_path() == VertexPath::copied);
     Simulation after(scene());
     stage.copied_for(after, 1);
-    CHECK(stage.way() == VertexWay::shared_buffer);
+    CHECK(stage.vertex_path() == VertexPath::shared_buffer);
     // In another context nothing of the first could be drawn.
     int somewhere = 0;
     const GlContextInUse other({.context = &somewhere, .display = &somewhere});

@@ -64,7 +64,7 @@ TEST_CASE("the time report gives every part, by the wall and by the processor") 
     costs.add(Part::frame, {0.010, 0.008});
     costs.add(Part::simulate, {0.004, 0.004});
     if (n == 0) costs.add(Part::normals, {0.003, 0.001});
-    if (n > 0) costs.add_copied(VertexWay::shared_buffer, 0, "", 600);
+    if (n > 0) costs.add_copied(VertexPath::shared_buffer, 0, "", 600);
     costs.end_frame();
   }
   const auto report = nlohmann::json::parse(costs.json(100, 50, "an engine", "a preset"));

@@ -27,7 +27,7 @@ class PicturePair {
     CHECK(shared.rgb == copied.rgb);
     CHECK(copying_.take_work().copied > 0);
     const RenderWork work = sharing_.take_work();
-    way_ = work.way;
+    vertex_path_ = work.vertex_path;
     return work.copied;
   }
   /// Draws the first alone; how many bytes that copied.
@@ -38,7 +38,7 @@ class PicturePair {
     return sharing_.take_work().copied;
   }
   const Image& picture() const { return picture_; }
-  VertexWay way() const { return way_; }
+  VertexPath vertex_path() const { return vertex_path_; }
   ClothRenderer& sharing() { return sharing_; }
   ViewOptions& options() { return options_; }
   /// Lends the simulation a sibling's memory, draws it, and lets the sibling go. How many bytes that copied.
@@ -60,15 +60,15 @@ class PicturePair {
   ClothRenderer sharing_, copying_;
   ViewOptions options_;
   Image picture_;
-  VertexWay way_ = VertexWay::copied;
+  VertexPath vertex_path_ = VertexPath::copied;
 };
 
 /// Another lattice, a cut, another view, method, precision and engine, one after the other: what is drawn is right all
-/// along, and it comes by `way` without a copy, but of the CPU engine. Ends as it began, with an OpenCL engine.
-inline void check_pictures_of_changes(PicturePair& stage, Simulation& simulation, VertexWay way) {
+/// along, and it comes by `path` without a copy, but of the CPU engine. Ends as it began, with an OpenCL engine.
+inline void check_pictures_of_changes(PicturePair& stage, Simulation& simulation, VertexPath path) {
   const auto check_shared = [&](int mode) {
     CHECK(stage.copied_for(simulation, mode) == 0);
-    CHECK(stage.way() == way);
+    CHECK(stage.vertex_path() == path);
   };
   const auto change = [&](auto what) {
     Preset next = simulation.preset();
@@ -90,7 +90,7 @@ inline void check_pictures_of_changes(PicturePair& stage, Simulation& simulation
   check_shared(1);
   change([](Preset& p) { p.engine = EngineKind::cpu; });
   CHECK(stage.copied_for(simulation, 1) > 0);
-  CHECK(stage.way() == VertexWay::copied);
+  CHECK(stage.vertex_path() == VertexPath::copied);
   change([](Preset& p) { p.engine = EngineKind::opencl; });
   check_shared(1);
 }

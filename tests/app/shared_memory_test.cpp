@@ -27,7 +27,7 @@ TEST_CASE("the vertex buffer shows what kernels wrote, and no byte is copied") {
     for (const int steps : {1, 3, 60, 200}) {
       simulation.advance(steps);
       CHECK(stage.copied_for(simulation, 1) == 0);
-      CHECK(stage.way() == VertexWay::shared_memory);
+      CHECK(stage.vertex_path() == VertexPath::shared_memory);
       CHECK(stage.picture().rgb != last.rgb);
       last = stage.picture();
     }
@@ -40,7 +40,7 @@ TEST_CASE(
   if (test::skipped_without_device()) return;
   test::PicturePair stage;
   Simulation simulation(scene(EngineKind::opencl, Precision::float_));
-  test::check_pictures_of_changes(stage, simulation, VertexWay::shared_memory);
+  test::check_pictures_of_changes(stage, simulation, VertexPath::shared_memory);
 }
 
 TEST_CASE("an engine goes on in its memory where the renderer that drew it is gone") {

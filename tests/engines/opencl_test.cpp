@@ -185,7 +185,7 @@ TEST_CASE("the hand lets go in the same step") {
   for (int which : {0, 1}) {
     both[which]->apply(edit::Grab{15, 10});
     both[which]->apply(edit::MoveHand{{0.5, 0.2, 0.5}, 200});
-    const Advance made = both[which]->advance(200);
+    const AdvanceResult made = both[which]->advance(200);
     if (made.released) released[which] = int(both[which]->steps());
   }
   CHECK(released[0] > 0);

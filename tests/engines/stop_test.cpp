@@ -65,7 +65,7 @@ void check_stops(const Preset& preset, int threads) {
     CAPTURE(part);
     Simulation simulation(preset, threads);
     simulation.stop_when(Alarm(1 + most * part / 6));
-    const Advance stopped = simulation.advance(steps);
+    const AdvanceResult stopped = simulation.advance(steps);
     CHECK(stopped.stopped == (stopped.steps < steps));
     CHECK(simulation.steps() == stopped.steps);
     CHECK(simulation.tears().torn_count() == torn[std::size_t(stopped.steps)]);

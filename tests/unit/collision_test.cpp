@@ -278,7 +278,7 @@ TEST_CASE("a body moved onto the cloth pushes it out within a step, without a bl
     simulation.advance(100);
     simulation.apply(edit::MoveBody{0, {0, 0.85, 0.02}});
     CHECK(simulation.preset().bodies[0].c == glm::dvec3(0, 0.85, 0.02));
-    const Advance advance = simulation.advance(1);
+    const AdvanceResult advance = simulation.advance(1);
     CHECK(advance.left_inside == 0);
     CHECK(worst_depth_in_ulp(simulation) <= 8);
     simulation.advance(500);
@@ -300,7 +300,7 @@ TEST_CASE("overlapping bodies: what cannot be resolved is reported, nothing is N
     preset.bodies = {sphere({0, 0.02, 0}, 0.15), plane(0)};
     Simulation simulation(preset);
     for (int step = 0; step < 600; ++step) {
-      const Advance advance = simulation.advance(1);
+      const AdvanceResult advance = simulation.advance(1);
       CHECK(advance.left_inside == 0);
     }
     CHECK(worst_depth_in_ulp(simulation) <= 8);
@@ -309,7 +309,7 @@ TEST_CASE("overlapping bodies: what cannot be resolved is reported, nothing is N
     Preset stuck = shot(integrator, {0, 0.1, 0}, {0, -1, 0});
     stuck.bodies = {sphere({0, 0, 0}, 0.3), sphere({0, 0.4, 0}, 0.35), plane(2)};
     Simulation crowded(stuck);
-    Advance last;
+    AdvanceResult last;
     for (int step = 0; step < 50; ++step) last = crowded.advance(1);
     CHECK(test::all_finite(crowded.read()));
     CHECK((last.left_inside == 0) == (worst_depth_in_ulp(crowded) <= 8));

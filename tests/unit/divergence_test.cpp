@@ -52,7 +52,7 @@ TEST_CASE("divergence is found in the very step that makes a spring 1000 times t
     CAPTURE(std::string(integrator));
     const Preset preset = explosive(integrator, Precision::double_);
     Simulation simulation(preset);
-    const Advance advance = simulation.advance(5000);
+    const AdvanceResult advance = simulation.advance(5000);
     REQUIRE(advance.diverged);
     REQUIRE(simulation.divergence().has_value());
     CHECK(advance.steps == simulation.steps());

@@ -19,17 +19,17 @@ class OneSpring final : public GuardedSteps {
  public:
   explicit OneSpring(std::function<double(int)> length) : length_(std::move(length)) {}
 
-  Advance advance(int steps) { return guard.advance(*this, steps, tears, {}); }
+  AdvanceResult advance(int steps) { return guard.advance(*this, steps, tears, {}); }
 
-  StepsMade make_steps(int most, Tears& torn, Fault& fault) override {
+  BatchResult make_steps(int most, Tears& torn, Fault& fault) override {
     const int count = std::min(guard.steps_ahead(most), at_once);
     first_ = made, made += count;
-    const StepsMade result = guard.judge(*this, count, torn, fault);
-    rolled_back += result.end == StepsEnd::rolled_back ? 1 : 0;
+    const BatchResult result = guard.judge(*this, count, torn, fault);
+    rolled_back += result.end == BatchEnd::rolled_back ? 1 : 0;
     return result;
   }
-  StepOutcome outcome(int step) override {
-    StepOutcome result;
+  StepMeasures measures(int step) override {
+    StepMeasures result;
     result.elongation = length_(first_ + step + 1) - length_(first_ + step), result.dt = dt;
     if (hand) result.hand_force = glm::dvec3(0, length_(first_ + step + 1), 0);
     return result;
@@ -95,7 +95,7 @@ TEST_CASE("a run stops before the first bad step, with few examinations") {
       OneSpring spring(sudden);
       spring.at_once = at_once;
       int steps = 0;
-      Advance last;
+      AdvanceResult last;
       for (int n = 0; n < 2000 && !last.diverged; n += std::max(1, 2000 / calls))
         last = spring.advance(std::max(1, 2000 / calls)), steps += last.steps;
       CHECK(last.diverged);
@@ -114,7 +114,7 @@ TEST_CASE("a spring breaks in the step that overloads it, also in steps that are
     OneSpring spring(sudden);
     spring.at_once = at_once, spring.tearing = true;
     spring.guard.set_rules({.tearing = true});
-    const Advance all = spring.advance(2000);
+    const AdvanceResult all = spring.advance(2000);
     CHECK_FALSE(all.diverged);
     CHECK(all.steps == 2000);
     CHECK(all.torn == 1);
@@ -127,7 +127,7 @@ TEST_CASE("steps that are made again begin with the springs that were whole then
   OneSpring spring([](int n) { return n <= 750 ? sudden(n) : std::numeric_limits<double>::quiet_NaN(); });
   spring.tearing = true;
   spring.guard.set_rules({.tearing = true});
-  const Advance all = spring.advance(2000);
+  const AdvanceResult all = spring.advance(2000);
   CHECK(all.diverged);
   CHECK(all.steps == 750);
   CHECK(spring.torn_at == last_under(overloaded) + 1);
@@ -140,7 +140,7 @@ TEST_CASE("the hand lets go after the step whose force exceeds F_release") {
     OneSpring spring(sudden);
     spring.at_once = at_once, spring.hand = true;
     spring.guard.set_rules({.F_release = 300});
-    const Advance all = spring.advance(2000);
+    const AdvanceResult all = spring.advance(2000);
     CHECK(all.released);
     CHECK_FALSE(all.diverged);
     CHECK(all.steps == last_under(300) + 1);
@@ -152,7 +152,7 @@ TEST_CASE("the hand lets go after the step whose force exceeds F_release") {
 TEST_CASE("a length that is no number is found in the step that makes it") {
   OneSpring spring([](int n) { return n <= 300 ? 1.0 : std::numeric_limits<double>::quiet_NaN(); });
   spring.at_once = 256;
-  const Advance all = spring.advance(2000);
+  const AdvanceResult all = spring.advance(2000);
   CHECK(all.diverged);
   CHECK(all.steps == 300);
   CHECK(spring.made == 300);
@@ -173,7 +173,7 @@ TEST_CASE("a motion that nothing can have caused ends the run in its step, and s
       spring.guard.set_scene(preset, spring.tears.lattice(), {});
       spring.guard.begin({});
       int steps = 0;
-      Advance last;
+      AdvanceResult last;
       for (int n = 0; n < 2000 && !last.diverged; n += std::max(1, 2000 / calls))
         last = spring.advance(std::max(1, 2000 / calls)), steps += last.steps;
       CHECK(last.diverged);

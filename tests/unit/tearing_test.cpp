@@ -23,7 +23,7 @@ TEST_CASE("springs above F_max break, all together, those below stay") {
   Preset preset = taut(5, 6);
   preset.F_max = 0.18;  // between the straight ones and the diagonals
   Simulation simulation(preset);
-  const Advance advance = simulation.advance(1);
+  const AdvanceResult advance = simulation.advance(1);
   CHECK(advance.torn == 2 * 4 * 5);
   CHECK(simulation.tears().torn_count() == 2 * 4 * 5);
   for (int i = 0; i < 4; ++i) {
@@ -193,7 +193,7 @@ TEST_CASE("the force on the held particle is measured: at rest, its weight and w
   preset.initial_stretch = 1 + preset.m * preset.g / preset.k_s / preset.L;
   Simulation simulation(preset);
   simulation.apply(edit::Grab{0, 0});
-  const Advance advance = simulation.advance(5);
+  const AdvanceResult advance = simulation.advance(5);
   CHECK(glm::length(simulation.hand_force() - glm::dvec3(0, -2 * preset.m * preset.g, 0)) < 1e-12);
   CHECK(glm::length(advance.hand_force - simulation.hand_force()) < 1e-15);
 }
@@ -208,7 +208,7 @@ TEST_CASE("the hand lets go when the force exceeds F_release, and never at 0") {
     bool released = false;
     double largest_held = 0;
     for (int step = 0; step < 200; ++step) {
-      const Advance advance = simulation.advance(1);
+      const AdvanceResult advance = simulation.advance(1);
       released = released || advance.released;
       if (simulation.held()) largest_held = std::max(largest_held, glm::length(simulation.hand_force()));
     }

@@ -33,7 +33,7 @@ void declare_program(CLI::App& program, Action& action) {
   add_try_opencl_command(program, action);
 }
 
-int run_program(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
   filter_standard_streams();
   secure_standard_streams();
   const CrashExplainer until_the_end;

@@ -10,7 +10,7 @@ namespace tyglab {
 /// Adds all commands with their options. Parsing sets `action` to what the command line asks for; both must outlive it.
 void declare_program(CLI::App& program, Action& action);
 
-/// Picks a command, and does what it says. Returns the exit code.
-int run_program(int argc, char** argv);
+/// Runs the command of the command line. Returns the exit code.
+int run_command_line(int argc, char** argv);
 
 }  // namespace tyglab

@@ -2,10 +2,10 @@
 
 namespace tyglab {
 
-int make_turns(std::unique_ptr<Turns> turns) {
-  while (turns->turn()) {
+int run_frame_loop(std::unique_ptr<FrameLoop> loop) {
+  while (loop->run_frame()) {
   }
-  return turns->finish();
+  return loop->finish();
 }
 
 }  // namespace tyglab

@@ -7,22 +7,22 @@
 namespace tyglab {
 namespace {
 
-std::unique_ptr<Turns>& present_turns() {
-  static std::unique_ptr<Turns> turns;
-  return turns;
+std::unique_ptr<FrameLoop>& present_loop() {
+  static std::unique_ptr<FrameLoop> loop;
+  return loop;
 }
 
-void one_turn() {
-  if (present_turns()->turn()) return;
+void one_frame() {
+  if (present_loop()->run_frame()) return;
   emscripten_cancel_main_loop();
-  present_turns()->finish();
+  present_loop()->finish();
 }
 
 }  // namespace
 
-int make_turns(std::unique_ptr<Turns> turns) {
-  present_turns() = std::move(turns);
-  emscripten_set_main_loop(one_turn, 0, false);
+int run_frame_loop(std::unique_ptr<FrameLoop> loop) {
+  present_loop() = std::move(loop);
+  emscripten_set_main_loop(one_frame, 0, false);
   return 0;
 }
 

@@ -85,14 +85,14 @@ std::string megabytes(double bytes) {
   return bytes < 1e6 ? text("%.0f kB", bytes / 1e3) : text("%.1f MB", bytes / 1e6);
 }
 
-/// Which way they come there.
-std::string drawn_from(VertexWay way) {
-  switch (way) {
-    case VertexWay::shared_buffer:
+/// How they come there.
+std::string drawn_from(VertexPath path) {
+  switch (path) {
+    case VertexPath::shared_buffer:
       return "a shared buffer";
-    case VertexWay::shared_memory:
+    case VertexPath::shared_memory:
       return "shared memory";
-    case VertexWay::copied:
+    case VertexPath::copied:
       break;
   }
   return "a copy";
@@ -230,8 +230,8 @@ std::vector<PerformanceFact> performance_facts(const Ui& ui) {
   const std::string without = ui.scene.effects.words();
   facts.push_back({"effects turned off", without.empty() ? "nothing" : without});
   const std::string& why = ui.session.costs.why_copied();
-  facts.push_back(
-      {"positions are drawn from", drawn_from(ui.session.costs.way()), why.empty() ? "" : "Copied because " + why});
+  facts.push_back({"positions are drawn from", drawn_from(ui.session.costs.vertex_path()),
+                   why.empty() ? "" : "Copied because " + why});
   const std::size_t copied = ui.session.costs.last_copied();
   facts.push_back({"copied for drawing", copied > 0 ? megabytes(double(copied)) + " per frame" : "0 B"});
   if (bytes_read(engine) > 0)

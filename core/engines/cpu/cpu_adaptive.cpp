@@ -185,10 +185,10 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::finish_inner_step(Tears& tears, Fault& fault) {
   const int torn = tears.torn_count();
   if (cloth_.notes_contacts) add_inner_contacts();
-  const StepsEnd end = guard_.judge(*this, 1, tears, fault).end;
-  if (end != StepsEnd::complete) made_.end = end;
-  left_of_dt_ = end == StepsEnd::fault ? 0 : left_of_dt_ - cloth_.dt;
-  if (left_of_dt_ <= 0 && made_.end != StepsEnd::fault) ++made_.count;
+  const BatchEnd end = guard_.judge(*this, 1, tears, fault).end;
+  if (end != BatchEnd::complete) made_.end = end;
+  left_of_dt_ = end == BatchEnd::fault ? 0 : left_of_dt_ - cloth_.dt;
+  if (left_of_dt_ <= 0 && made_.end != BatchEnd::fault) ++made_.count;
   // The last a is the next step's first, unless something else than the method has moved the particles or the springs.
   std::swap(cloth_.vector(sweeps_.front().assignments.front().target),
             cloth_.vector(sweeps_.back().assignments.front().target));

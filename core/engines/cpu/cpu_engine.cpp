@@ -407,7 +407,7 @@ void CpuEngine<R, Present>::go_on_from(const HeldMotion& then) {
          held->vectors.front().all().size() == cloth_.vector(vector_x).all().size());
   for (std::size_t n = 0; n < held->vectors.size(); ++n) cloth_.vectors[n] = held->vectors[n];
   control_ = held->control, knows_first_a_ = false;
-  guard_.go_on(held->given, cloth_.preset, cloth_.lattice, cloth_.held);
+  guard_.resume(held->given, cloth_.preset, cloth_.lattice, cloth_.held);
 }
 
 template <class R, unsigned Present>

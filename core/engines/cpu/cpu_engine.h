@@ -68,7 +68,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
   void prepare(std::size_t fixed) override;
-  Advance advance(int steps, Tears& tears) override;
+  AdvanceResult advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override { cloth_.notes_contacts = on; }
   std::vector<Contact> contacts() const override;
   void read(State& state, const Tears& tears) override;
@@ -166,8 +166,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   void read_stored(State& state) const;
 
   // What the guard asks for.
-  StepsMade make_steps(int most, Tears& tears, Fault& fault) override;
-  StepOutcome outcome(int step) override;
+  BatchResult make_steps(int most, Tears& tears, Fault& fault) override;
+  StepMeasures measures(int step) override;
   double tear_overloaded(Tears& tears) override;
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
   bool find_runaway(const MotionLimit& limit, Fault& fault) override;
@@ -183,10 +183,10 @@ class CpuEngine final : public Engine, private GuardedSteps {
   /// The steps before no longer say anything about how long the next may be.
   void restart_control() { control_.restart(), knows_first_a_ = false; }
   /// Makes and checks steps until one asks to stop. `waves`: several steps at a time where that pays off.
-  StepsMade run(int steps, Tears& tears, Fault& fault, bool waves);
+  BatchResult run(int steps, Tears& tears, Fault& fault, bool waves);
   int steps_of_run(int left) const;
   /// The same with as many threads as the team has now.
-  StepsMade run_together(int steps, Tears& tears, Fault& fault, bool waves);
+  BatchResult run_together(int steps, Tears& tears, Fault& fault, bool waves);
   void step_in_bands(int number, const Tears& tears);
   /// A sweep that projects, with its assignments. Returns false, to all threads, where it was stopped.
   bool project(int number, const ResolvedSweep& sweep, const Tears& tears, bool last);
@@ -238,7 +238,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<std::unique_ptr<Band<R, Present>>> waves_;  ///< one for each sweep of a wave, over all rows
   std::vector<Progress> progress_;                        ///< of each thread's last sweep in a wave
   StepGuard guard_;
-  StepsMade made_;          ///< by the present run
+  BatchResult made_;        ///< by the present run
   int together_ = 0;        ///< steps that are made in one pass over the rows; 0: the run is over
   bool abandoned_ = false;  ///< the present step was stopped halfway
   bool late_ = false;       ///< the present stage ends with the passes that are made

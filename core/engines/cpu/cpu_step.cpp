@@ -67,12 +67,12 @@ Motion CpuEngine<R, Present>::motion(const Tears& tears) {
 }
 
 template <class R, unsigned Present>
-StepOutcome CpuEngine<R, Present>::outcome(int step) {
+StepMeasures CpuEngine<R, Present>::measures(int step) {
   std::span<const std::unique_ptr<Band<R, Present>>> judged = bands();
   if (together_ > 1) judged = std::span(waves_).subspan(std::size_t(step + 1) * sweeps_.size() - 1, 1);
   const bool hand = has(part::hand) && cloth_.held.particle >= 0, projected = projects(*scheme_);
   double largest = 0;
-  StepOutcome result;
+  StepMeasures result;
   for (const auto& band : judged) {
     largest = std::max(largest, band->max_displacement());
     result.left_inside += band->left_inside();
@@ -194,17 +194,17 @@ void CpuEngine<R, Present>::step_in_waves(int number, int steps, const Tears& te
 }
 
 template <class R, unsigned Present>
-StepsMade CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fault, bool waves) {
+BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& fault, bool waves) {
   made_ = {};
   abandoned_ = false;
   const auto plan = [&] {
-    int left = made_.end == StepsEnd::complete ? steps - made_.count : 0;
-    if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = StepsEnd::stopped, left = 0;
+    int left = made_.end == BatchEnd::complete ? steps - made_.count : 0;
+    if (abandoned_ || (left > 0 && !repeating_ && stops())) made_.end = BatchEnd::stopped, left = 0;
     together_ = left > 0 && waves ? steps_in_wave(left) : std::min(left, 1);
     for (Progress& progress : progress_) progress.restart();
   };
   const auto judge = [&] {
-    const StepsMade judged = guard_.judge(*this, together_, tears, fault);
+    const BatchResult judged = guard_.judge(*this, together_, tears, fault);
     made_ = {made_.count + judged.count, judged.end};
   };
   plan();
@@ -239,15 +239,15 @@ int CpuEngine<R, Present>::steps_of_run(int left) const {
 }
 
 template <class R, unsigned Present>
-StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
+BatchResult CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool waves) {
   using Clock = std::chrono::steady_clock;
-  StepsMade all;
-  while (all.count < steps && all.end == StepsEnd::complete) {
+  BatchResult all;
+  while (all.count < steps && all.end == BatchEnd::complete) {
     crew_->insist(forced_threads_ != nullptr);
     resize_team(forced_threads_ ? forced_threads_() : governor_.threads());
     const std::int64_t evaluations = control_.counts().force_evaluations;
     const auto begin = Clock::now();
-    const StepsMade made = run_together(steps_of_run(steps - all.count), tears, fault, waves);
+    const BatchResult made = run_together(steps_of_run(steps - all.count), tears, fault, waves);
     const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     all = {all.count + made.count, made.end};
     if (made.count == 0) continue;
@@ -260,7 +260,7 @@ StepsMade CpuEngine<R, Present>::run(int steps, Tears& tears, Fault& fault, bool
 }
 
 template <class R, unsigned Present>
-StepsMade CpuEngine<R, Present>::make_steps(int most, Tears& tears, Fault& fault) {
+BatchResult CpuEngine<R, Present>::make_steps(int most, Tears& tears, Fault& fault) {
   return run(most, tears, fault, true);
 }
 
@@ -287,16 +287,16 @@ void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
 }
 
 template <class R, unsigned Present>
-Advance CpuEngine<R, Present>::advance(int steps, Tears& tears) {
+AdvanceResult CpuEngine<R, Present>::advance(int steps, Tears& tears) {
   if (guard_.springs_cut(tears)) restart_control(), guard_.accept_cuts(tears);
   return guard_.advance(*this, steps, tears, stop(), step_limit() > 0);
 }
 
 // What the engine's other files need of this one.
 #define TYGLAB_MAKE(R, present)                                                    \
-  template Advance CpuEngine<R, (present)>::advance(int, Tears&);                  \
-  template StepsMade CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&);     \
-  template StepOutcome CpuEngine<R, (present)>::outcome(int);                      \
+  template AdvanceResult CpuEngine<R, (present)>::advance(int, Tears&);            \
+  template BatchResult CpuEngine<R, (present)>::make_steps(int, Tears&, Fault&);   \
+  template StepMeasures CpuEngine<R, (present)>::measures(int);                    \
   template double CpuEngine<R, (present)>::tear_overloaded(Tears&);                \
   template bool CpuEngine<R, (present)>::find_fault(Tears&, Fault&, double&);      \
   template bool CpuEngine<R, (present)>::find_runaway(const MotionLimit&, Fault&); \

@@ -53,8 +53,8 @@ struct DeviceGradients {
   std::int32_t count, unused;
 };
 
-/// Report of a step.
-struct StepReport {
+/// StepMeasures of a step, as the device reports them.
+struct DeviceStepMeasures {
   float way;  ///< largest component of a displacement, m; ∞ or NaN if something is not finite
   std::uint32_t left_inside, contacts;
   std::uint32_t torn;        ///< 1: a spring was torn

@@ -32,7 +32,7 @@ OpenClEngine<R>::OpenClEngine(const Preset& preset, const Lattice& lattice, std:
       width_(width > 0 ? width : device_->width(sizeof(R))),
       kernels_(make_kernels(preset, false)),
       options_(options(preset, false)) {
-  reports_ = device_->zeros((StepGuard::steps_between_backups + 1) * sizeof(StepReport));
+  reports_ = device_->zeros((StepGuard::steps_between_backups + 1) * sizeof(DeviceStepMeasures));
   hand_ = device_->zeros((StepGuard::steps_between_backups + 1) * 4 * sizeof(R));
   guards_ = state_.mask_field();
   if (is_implicit(*scheme_)) solver_ = std::make_unique<DeviceSolver<R>>(device_, lattice_, state_, width_);

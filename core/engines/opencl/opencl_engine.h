@@ -56,7 +56,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool ready_for(const Preset& preset) const override;
   bool ready_for_contacts() const override;
   void set_fixed(std::span<const int> pinned, Held held) override;
-  Advance advance(int steps, Tears& tears) override;
+  AdvanceResult advance(int steps, Tears& tears) override;
   void note_contacts(bool on) override;
   std::vector<Contact> contacts() const override {
     assert(notes_contacts_);
@@ -135,8 +135,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   StateView<R> view() const { return {state_.host(vector_x), state_.host(vector_v), state_.stride()}; }
 
   // What the guard asks for.
-  StepsMade make_steps(int most, Tears& tears, Fault& fault) override;
-  StepOutcome outcome(int step) override;
+  BatchResult make_steps(int most, Tears& tears, Fault& fault) override;
+  StepMeasures measures(int step) override;
   double tear_overloaded(Tears& tears) override;
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
   bool find_runaway(const MotionLimit& limit, Fault& fault) override;
@@ -152,9 +152,9 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool well_on_device(double& divergence_budget);
   /// What kernels report outside of a step.
   template <class Launch>
-  StepReport report_of(const Launch& launch);
+  DeviceStepMeasures report_of(const Launch& launch);
   /// By how much any spring may grow before one can be overloaded, m.
-  double tear_slack(const StepReport& report) const;
+  double tear_slack(const DeviceStepMeasures& report) const;
   /// Copies what steps have broken on the device.
   void read_tears(Tears& tears);
 
@@ -180,7 +180,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool memory_settled_ = false;  ///< positions are in lent memory, or cannot be
   bool noted_run_ = false;       ///< the device knows that the present kernels have made steps
   std::vector<Contact> contacts_;
-  std::vector<StepReport> report_;
+  std::vector<DeviceStepMeasures> report_;
   std::vector<R> hand_forces_;  ///< of each step of the batch
   StepGuard guard_;
   bool tears_each_ = false;      ///< the steps that are being checked have each broken overloaded springs

@@ -36,7 +36,7 @@ bool OpenClEngine<R>::run(int count, bool tear_each) {
   const auto begun = std::chrono::steady_clock::now();
   state_.end_views();
   const cl_uint zero = 0;
-  const std::size_t bytes = std::size_t(count) * sizeof(StepReport);
+  const std::size_t bytes = std::size_t(count) * sizeof(DeviceStepMeasures);
   check(clEnqueueFillBuffer(device_->queue(), reports_.get(), &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
         "clearing a buffer");
   const int most = tear_each ? 1 : levels_;
@@ -74,7 +74,7 @@ int OpenClEngine<R>::steps_of_batch(int most) const {
 }
 
 template <class R>
-double OpenClEngine<R>::tear_slack(const StepReport& report) const {
+double OpenClEngine<R>::tear_slack(const DeviceStepMeasures& report) const {
   const auto left = [&](double rest, float longest2) {
     const double longest = rest * preset_.L + preset_.F_max / preset_.k_s;
     return longest * (1 - rounding<R>)-std::sqrt(double(longest2));
@@ -85,13 +85,13 @@ double OpenClEngine<R>::tear_slack(const StepReport& report) const {
 /// Reported into the first slot, which has been read after the batch.
 template <class R>
 template <class Launch>
-StepReport OpenClEngine<R>::report_of(const Launch& launch) {
-  const StepReport nothing{};
+DeviceStepMeasures OpenClEngine<R>::report_of(const Launch& launch) {
+  const DeviceStepMeasures nothing{};
   check(
       clEnqueueWriteBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, sizeof nothing, &nothing, 0, nullptr, nullptr),
       "writing to the device");
   launch();
-  StepReport report;
+  DeviceStepMeasures report;
   check(clEnqueueReadBuffer(device_->queue(), reports_.get(), CL_TRUE, 0, sizeof report, &report, 0, nullptr, nullptr),
         "examining the springs");
   return report;
@@ -105,7 +105,7 @@ void OpenClEngine<R>::read_tears(Tears& tears) {
 
 template <class R>
 double OpenClEngine<R>::tear_overloaded(Tears& tears) {
-  const StepReport report = report_of([&] { enqueue_tear(0); });
+  const DeviceStepMeasures report = report_of([&] { enqueue_tear(0); });
   tears_unread_ |= report.torn != 0;
   read_tears(tears);
   return tear_slack(report);
@@ -130,7 +130,7 @@ Motion OpenClEngine<R>::motion(const Tears& tears) {
 
 template <class R>
 bool OpenClEngine<R>::well_on_device(double& divergence_budget) {
-  const StepReport report = report_of([&] {
+  const DeviceStepMeasures report = report_of([&] {
     const cl_mem x = state_.vector(vector_x), v = state_.vector(vector_v), masks = state_.masks(),
                  reports = reports_.get();
     set_arguments(kernels_.look, 0, x, v, masks, reports, cl_int(0), cl_int(state_.stride()),
@@ -142,9 +142,9 @@ bool OpenClEngine<R>::well_on_device(double& divergence_budget) {
 }
 
 template <class R>
-StepOutcome OpenClEngine<R>::outcome(int step) {
-  const StepReport& report = report_[std::size_t(step)];
-  StepOutcome result;
+StepMeasures OpenClEngine<R>::measures(int step) {
+  const DeviceStepMeasures& report = report_[std::size_t(step)];
+  StepMeasures result;
   result.elongation = max_elongation(report.way), result.dt = preset_.dt;
   result.left_inside = int(report.left_inside);
   if (solver_) result.residual = solver_->solved().residual, result.converged = solver_->solved().solved;
@@ -157,12 +157,12 @@ StepOutcome OpenClEngine<R>::outcome(int step) {
 }
 
 template <class R>
-StepsMade OpenClEngine<R>::make_steps(int most, Tears& tears, Fault& fault) {
+BatchResult OpenClEngine<R>::make_steps(int most, Tears& tears, Fault& fault) {
   constexpr int soon = 8;  // steps: where springs must be examined that often, each step had better do so by itself
   tears_each_ = guard_.overload_within(soon);
   const int batch = steps_of_batch(most);
-  if (!run(batch, tears_each_)) return {0, StepsEnd::stopped};
-  const StepsMade made = guard_.judge(*this, batch, tears, fault);
+  if (!run(batch, tears_each_)) return {0, BatchEnd::stopped};
+  const BatchResult made = guard_.judge(*this, batch, tears, fault);
   read_tears(tears);
   return made;
 }
@@ -190,10 +190,10 @@ void OpenClEngine<R>::repeat(int steps, Tears& tears) {
 }
 
 template <class R>
-Advance OpenClEngine<R>::advance(int steps, Tears& tears) {
+AdvanceResult OpenClEngine<R>::advance(int steps, Tears& tears) {
   state_.end_views();
   accept_changes(tears);
-  const Advance result = guard_.advance(*this, steps, tears, stop());
+  const AdvanceResult result = guard_.advance(*this, steps, tears, stop());
   if (notes_contacts_ && !report_.empty() && meets_bodies(preset_)) read_contacts(report_.back().contacts);
   return result;
 }
