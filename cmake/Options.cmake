@@ -17,8 +17,10 @@ endif()
 target_compile_options(tyglab_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 # Names of files in objects are relative, so that the compiler's cache serves every checkout.
 target_compile_options(tyglab_options INTERFACE -ffile-prefix-map=${PROJECT_SOURCE_DIR}=.)
-# What outputs and reports call this version.
-target_compile_definitions(tyglab_options INTERFACE TYGLAB_VERSION="${PROJECT_VERSION}")
+# The version, in a header of its own: a new version recompiles only the few files that print it.
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/tyglab_version.h
+     CONTENT "#pragma once\n#define TYGLAB_VERSION \"${PROJECT_VERSION}\"\n")
+target_include_directories(tyglab_options INTERFACE ${PROJECT_BINARY_DIR}/generated)
 # Builds that check preconditions (assert) check those of the standard library too: indices, empty optionals.
 target_compile_definitions(tyglab_options INTERFACE
                            $<$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>:_GLIBCXX_ASSERTIONS>)

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/base/program.h"
+#include "tyglab_version.h"
 
 namespace tyglab {
 namespace {

@@ -11,6 +11,7 @@
 #include "core/io/destination.h"
 #include "core/model/readable.h"
 #include "core/model/words.h"
+#include "tyglab_version.h"
 
 namespace tyglab {
 namespace {

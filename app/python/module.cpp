@@ -6,6 +6,7 @@
 
 #include "app/base/data_files.h"
 #include "app/python/bindings.h"
+#include "tyglab_version.h"
 
 namespace tyglab::python {
 namespace {

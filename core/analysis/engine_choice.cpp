@@ -12,6 +12,7 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
+#include "tyglab_version.h"
 
 namespace tyglab {
 namespace {

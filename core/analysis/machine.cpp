@@ -7,6 +7,7 @@
 #include "core/cloth/state.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/team.h"
+#include "tyglab_version.h"
 
 namespace tyglab {
 

@@ -21,7 +21,7 @@ int processors();
 /// "Release, GCC 12.2.0": how this program was built.
 std::string build_description();
 
-/// "AMD EPYC, 2 cores, AVX-512; tyglab 0.1.0, Release, GCC 12.2.0"
+/// "AMD EPYC, 2 cores, AVX-512; tyglab 0.2.0, Release, GCC 12.2.0"
 std::string machine_line();
 
 /// Nanoseconds to read and write `bytes` once, in place, by `threads` threads over a working set of that size: the time

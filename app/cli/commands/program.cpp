@@ -13,6 +13,7 @@
 #include "app/process/memory_limit.h"
 #include "app/process/process.h"
 #include "app/process/program_trial.h"
+#include "tyglab_version.h"
 
 namespace tyglab {
 

@@ -25,6 +25,7 @@
 #include "core/output/state_csv.h"
 #include "core/output/values_csv.h"
 #include "core/theory/advice.h"
+#include "tyglab_version.h"
 
 namespace tyglab {
 namespace fs = std::filesystem;
