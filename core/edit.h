@@ -11,18 +11,18 @@
 
 namespace tyglab::edit {
 
-/// Take these constants. The cloth is rebuilt only where rows, columns or kind differ; what counts at the start alone
-/// (x_0, v_0, tilt_deg, …) waits for the next restart unless no step has been made.
+/// Sets all constants. The cloth is rebuilt only if rows, columns or kind differ. Constants of the start (x_0, v_0,
+/// tilt_deg, …) take effect at the next restart, or at once if no step has been made.
 struct Change {
   Preset preset;
 };
-/// Back to the start with the present constants; tears are mended.
+/// Returns to the start with the present constants and mends tears.
 struct Restart {};
-/// The hand takes particle (i, j). Pinned particles cannot be taken.
+/// The hand grabs particle (i, j). Pinned particles cannot be grabbed.
 struct Grab {
   int i, j;
 };
-/// The hand goes to `to` (m), evenly over the next `steps` steps.
+/// The hand moves to `to` (m), evenly over the next `steps` steps.
 struct MoveHand {
   glm::dvec3 to;
   int steps;
@@ -32,8 +32,8 @@ struct Release {};
 struct Cut {
   std::vector<Pins::Site> sites;
 };
-/// These stretch springs go, and the bending springs over them, wherever the knife went. Sites that are none are
-/// passed over.
+/// Cuts these stretch springs and the bending springs over them, whatever the path of the knife. Sites outside the
+/// lattice are ignored.
 struct CutSprings {
   std::vector<SpringSite> springs;
 };

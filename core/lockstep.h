@@ -22,7 +22,7 @@ class Lockstep {
   static constexpr int largest = 256 * 256;    ///< particles of a cloth that is copied
   static constexpr double cost_settles = 0.5;  ///< s of simulated time over which a cost is smoothed
 
-  /// Seconds of computing (computing_seconds) that a simulated second takes, smoothed.
+  /// Computing time (computing_seconds) per simulated second, smoothed.
   class Cost {
    public:
     void add(double simulated_s, double computing_s);
@@ -39,9 +39,9 @@ class Lockstep {
     std::size_t seat = 0;  ///< below `most`, its own as long as it lives, whichever others go
   };
 
-  /// Adds a copy that goes on from where the original is. Every cloth is loaded again from its own state, so that equal
-  /// ones go on with equal bits; the hand lets go. Throws PresetError (a value is wrong, too many, too large, another
-  /// lattice), EngineError.
+  /// Adds a copy that continues from the original's state. Every cloth is loaded again from its own state, so equal
+  /// cloths continue with equal bits; the hand releases. Throws PresetError (a wrong value, too many copies, a cloth
+  /// that is too large, another lattice) and EngineError.
   void add(Simulation& original, std::vector<Difference> differences, int threads = 1);
   void remove(std::size_t n) { copies_.erase(copies_.begin() + std::ptrdiff_t(n)); }
   void clear() { copies_.clear(); }
@@ -50,16 +50,16 @@ class Lockstep {
   Copy& operator[](std::size_t n) { return copies_[n]; }
   const Copy& operator[](std::size_t n) const { return copies_[n]; }
 
-  /// What the original has just been given is given to every copy, each with its own differences. Returns a sentence
-  /// for every copy that could not follow and is therefore gone.
+  /// Applies an edit of the original to every copy, with the differences of each. Returns a sentence for every copy
+  /// that could not follow and was therefore removed.
   std::vector<std::string> apply(const Simulation& original, const Edit& edit);
-  /// The original is another one, or went back in time: every copy goes on from where it is. As apply().
+  /// Restarts every copy from the state of the original, which was replaced or went back in time. As apply().
   std::vector<std::string> resume(Simulation& original, int threads = 1);
-  /// Every copy makes the whole steps that end by `t`, s; one that has diverged stands still.
+  /// Every copy makes the whole steps that end by `t`, s; a diverged copy stands still.
   void follow(double t);
-  /// What the copies show now, to be looked at while another thread moves them (Simulation::stand_in).
+  /// The present moment of the copies, for reading while another thread moves them (Simulation::stand_in).
   Lockstep stand_in() const;
-  /// From now on follow() ends as soon as this says so, each copy with its last whole step; a later call goes on there.
+  /// From now on follow() ends as soon as `stop` returns true, after complete steps; a later call continues there.
   void stop_when(const Stop& stop);
   /// Whether a copy could still move.
   bool alive() const;
@@ -70,11 +70,11 @@ class Lockstep {
   std::vector<Copy> copies_;
 };
 
-/// Root of the mean squared distance between the particles of two cloths of one lattice, m. Where their times differ,
-/// by less than a dt, the first is carried to the second's time with its velocities: exact to ½ a Δt². Not a number
-/// where a cloth has diverged or lattices differ.
+/// Root of the mean squared distance between the particles of two cloths of one lattice, m. If their times differ, by
+/// less than a dt, the first is extrapolated to the second's time with its velocities: exact to ½ a Δt². Not a number
+/// if a cloth has diverged or the lattices differ.
 double rms_distance(Simulation& cloth, Simulation& from);
-/// The same of two states of one lattice, the first carried on by `ahead` seconds.
+/// This distance between two states of one lattice, the first extrapolated by `ahead` seconds.
 double rms_distance(const State& cloth, const State& from, double ahead = 0);
 
 /// The constants of a copy: the original's with the differences. Throws PresetError.

@@ -19,22 +19,22 @@
 
 namespace tyglab {
 
-/// Everything table B.1 says of one particle, N, m, m/s, m/s².
+/// The variables of table B.1 for one particle, in N, m, m/s, m/s².
 struct ParticleReadout {
   glm::dvec3 F{0}, F_s{0}, F_b{0}, F_d{0}, F_g{0}, F_wind{0}, F_int{0}, F_ext{0};
   glm::dvec3 x{0}, v{0}, a{0};
   bool pinned = false, held = false;
-  bool on_body = false;  ///< a body tolerates on it, which neither F nor a contains
+  bool on_body = false;  ///< a body pushes it, a force that neither F nor a contains
 };
 
-/// One number for the whole cloth a frame: what the plots' "sum" and "maximum" show. Magnitudes, N.
+/// Forces of the whole cloth for the plots' "sum" and "maximum": magnitudes, N.
 struct ForceSummary {
   double F_s = 0, F_b = 0, F_d = 0, F_g = 0, F_wind = 0, F_int = 0, F_ext = 0, F = 0;
 };
 enum class Reduction { sum, maximum };
 
-/// The cloth as it was at a moment: what it takes to go back there. With the constants and the engine of that moment
-/// the same motion follows, to the last bit; with others the method starts again from positions and velocities.
+/// A past moment of the cloth, complete enough to return to it. With the constants and the engine of that moment the
+/// motion repeats to the last bit; with others the method starts again from positions and velocities.
 struct Snapshot {
   Lattice lattice;
   Kind kind = Kind::cloth;
@@ -43,19 +43,19 @@ struct Snapshot {
   double t = 0;  ///< s
   std::int64_t steps = 0;
   std::optional<glm::dvec3> begun_with{};    ///< m/s, of every free particle, while no step has been made
-  Preset of{};                               ///< with which constants it moved: with these the same motion follows
-  std::shared_ptr<const HeldMotion> held{};  ///< as its engine had it; null: it goes on from `state`
+  Preset of{};                               ///< the constants of that moment, with which the motion repeats
+  std::shared_ptr<const HeldMotion> held{};  ///< the engine's own state; null: the motion continues from `state`
   std::int64_t steps_at_dt = 0;              ///< step at which the dt of that moment was set
   double time_at_dt = 0;                     ///< and the time then, s
   std::size_t bytes() const { return state.x.bytes() + state.v.bytes() + tears.bytes() + (held ? held->bytes() : 0); }
-  /// At least that much will it be.
+  /// A lower bound of bytes() for a lattice.
   static std::size_t bytes(const Lattice& lattice) { return 2 * sizeof(glm::dvec3) * lattice.size(); }
 };
 
 class Simulation {
  public:
-  /// Builds the cloth at its start; `threads`: at most that many, at least 1. Throws EngineError; the preset must be
-  /// valid (check_preset), but for dt: any above 0 will do.
+  /// Builds the cloth at its start, with at most `threads` threads (at least 1). Throws EngineError. The preset must be
+  /// valid (check_preset), except that dt may be any number above 0.
   explicit Simulation(const Preset& preset, int threads = 1);
   ~Simulation();
 
@@ -63,23 +63,23 @@ class Simulation {
   const Lattice& lattice() const { return lattice_; }
   const Tears& tears() const { return tears_; }
   double time() const;
-  /// The wind that blows now, N: W, or W in its gusts (gust.h).
+  /// The present wind, N: W, including gusts (gust.h).
   glm::dvec3 wind() const { return acting().W; }
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }
-  /// The constants with which it diverged; available only while divergence() holds one.
+  /// The constants at the divergence; available only while divergence() has a value.
   const Preset& diverged_preset() const {
     assert(divergence_);
     return diverged_preset_;
   }
   Engine& engine() { return *engine_; }
-  /// Goes on with what is made of the present engine: tests see one fail in this way.
+  /// Replaces the engine by a wrapper around it; tests use this to make engines fail.
   void wrap_engine(const std::function<std::unique_ptr<Engine>(std::unique_ptr<Engine>)>& wrap) {
     engine_ = wrap(std::move(engine_));
   }
   const Engine& engine() const { return *engine_; }
   PositionView positions() const { return engine_->positions(); }
-  /// Of one particle.
+  /// Position of one particle.
   glm::dvec3 position(int i, int j) const { return engine_->position(i, j); }
 
   bool pinned(int i, int j) const {
@@ -91,23 +91,23 @@ class Simulation {
   /// Free particles that overlapping bodies left inside one of them in the last step.
   int left_inside() const { return left_inside_; }
 
-  /// Whether an edit asks for new arrays: of a large cloth that takes longer than a frame.
+  /// Whether an edit requires new arrays, which for a large cloth takes longer than a frame.
   bool rebuilds(const Edit& edit) const;
-  /// A simulation as that edit (a Change or a Restart) would leave this one, which stays as it is. May run beside
-  /// other threads that only look at this one: positions(), read(), particle() and whatever else is const. Throws as
+  /// A new simulation with the result of an edit (a Change or a Restart); this one does not change. Other threads may
+  /// read this simulation meanwhile: positions(), read(), particle() and all const functions. Throws the exceptions of
   /// apply().
   std::unique_ptr<Simulation> rebuilt(const Edit& edit) const;
-  /// What this one shows now, with an engine that stands still: to be looked at while another thread moves this one.
-  /// Changes of what is only seen may be applied to it, nothing else.
+  /// A copy of the present moment with an engine that stands still, for reading while another thread moves this one.
+  /// Only edits of its appearance may be applied to it.
   std::unique_ptr<Simulation> stand_in() const;
-  /// Applies an edit. Throws PresetError, EngineError or std::bad_alloc and leaves everything as it was if it cannot be
-  /// done; but an engine whose device is lost.
+  /// Applies an edit. If that is impossible, throws PresetError, EngineError or std::bad_alloc and changes nothing,
+  /// unless the engine's device is lost.
   void apply(const Edit& edit);
-  /// Makes up to `steps` steps; fewer when the run diverges or is stopped. Does nothing once diverged. Throws
-  /// EngineError; std::bad_alloc, with the last whole step then being the present state, so that it can be called
+  /// Makes up to `steps` steps; fewer if the run diverges or is stopped. Does nothing after a divergence. Throws
+  /// EngineError; also std::bad_alloc, which leaves the state after the last complete step, so it can be called
   /// again.
   AdvanceResult advance(int steps);
-  /// From now on advance() ends with the last whole step as soon as this says so (Engine::stop_when).
+  /// From now on advance() ends with the last complete step as soon as `stop` returns true (Engine::stop_when).
   void stop_when(Stop stop);
   /// From now on a step of a method that can end early does so with what it has found once it has taken so long, s; 0:
   /// no limit (Engine::limit_steps). Motions are then not the same from run to run.
@@ -115,41 +115,41 @@ class Simulation {
   double step_limit() const { return step_limit_; }
 
   EnergyReading energy();
-  /// The energy of the motion and of the springs, over the most that start, springs, weight, wind, hand and bodies can
-  /// have given them (docs/model.md, "How fast and how far"). Above 1 no motion of the model goes: the method's errors
-  /// have added the rest. 0 where it is not known.
+  /// The kinetic and elastic energy, divided by the most that start, springs, weight, wind, hand and bodies can have
+  /// supplied (docs/model.md, "How fast and how far"). No exact motion exceeds 1: errors of the method have added the
+  /// rest. 0 if it is unknown.
   double excess();
-  /// Keeps the energy ledger from now on, or no longer. Every step is then looked at, which costs some times the step
-  /// itself and changes nothing about it, nor when the run diverges.
+  /// Turns the energy ledger on or off. With it every step is examined, which costs several times as much as the step
+  /// itself, but changes neither the motion nor the time of a divergence.
   void enable_ledger(bool on);
-  /// What the ledger says; none where none is kept.
+  /// The ledger, if it is on.
   std::optional<LedgerReading> ledger() const;
 
   Snapshot snapshot();
-  /// Whether the cloth still has the particles that the snapshot holds.
+  /// Whether the cloth still has the lattice of the snapshot.
   bool fits(const Snapshot& then) const { return then.lattice == lattice_ && then.kind == preset_.kind; }
-  /// Goes back to a snapshot that fits, with the present constants and pins; the hand lets go, a divergence is
-  /// forgotten.
+  /// Returns to a snapshot that fits, with the present constants and pins. The hand releases, and a divergence is
+  /// cleared.
   void restore(const Snapshot& then);
 
   /// Puts positions and full-step velocities in place of the present ones; time, tears and constants stay.
   void load(const State& state);
 
-  /// Of what it keeps for every particle beside the engine: masks, and the state once it has been read.
+  /// Size of the arrays outside the engine: masks, and the state once it has been read.
   std::size_t bytes() const;
 
   /// Full-step positions and velocities, dense.
   const State& read();
-  /// As the method holds them: what a state file shows.
+  /// Positions and velocities as the method stores them, for state files.
   State read_raw();
   ParticleReadout particle(int i, int j) const;
   ForceSummary forces(Reduction reduction);
-  /// Counts up whenever positions, tears or bodies changed: views compare it to know whether to upload.
+  /// Increases whenever positions, tears or bodies change; views compare it to know whether to upload.
   std::uint64_t revision() const { return revision_; }
   std::uint64_t tear_revision() const { return tear_revision_; }
 
  private:
-  /// A copy of all but the engine and what is read of it.
+  /// Copies everything except the engine and the state read from it.
   Simulation(const Simulation& from);
   Simulation& operator=(Simulation&& from) noexcept = default;
   void build(const Preset& next);
@@ -161,7 +161,7 @@ class Simulation {
   };
   std::unique_ptr<Engine> made_engine(const Preset& next, const Lattice& lattice, const Fixed& fixed,
                                       const StateRows& rows, const Tears& tears, double t) const;
-  /// The constants that act in this moment: the preset's, with the wind as it blows.
+  /// The present constants: those of the preset, with the present wind.
   const Preset& acting() const { return gusts(preset_) ? effective_preset_ : preset_; }
   void take_constants(const Preset& next);
   int update_gust();
@@ -187,7 +187,7 @@ class Simulation {
   void watch_edit(Ledger::Source source);
 
   Preset preset_;
-  Preset effective_preset_;  ///< the same with the wind of this moment, which the engine has; valid only while there
+  Preset effective_preset_;  ///< the engine's constants: the preset with the present wind; valid only while there
                              ///< are gusts
   int threads_;
   Stop stop_;

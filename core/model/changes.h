@@ -7,19 +7,19 @@
 
 namespace tyglab {
 
-/// How a scene is called and looks.
+/// The name and the appearance of a scene.
 inline constexpr EffectSet appearance{Effect::name, Effect::view, Effect::texture};
-/// What no motion depends on.
+/// Everything that does not affect the motion.
 inline constexpr EffectSet motionless = appearance | Effect::unused;
 
-/// What a change from one preset to the other asks for; empty where they are equal.
+/// The effects of a change from one preset to the other; empty if they are equal.
 EffectSet changes(const Preset& from, const Preset& to);
 
-/// What was changed from `before` to `after`, changed in `present`: field by field, bodies and pins as a whole. The
+/// Applies the changes between `before` and `after` to `present`: field by field, bodies and pins as a whole. The
 /// result may be invalid (pins outside a smaller cloth): check_preset.
 Preset merge(const Preset& before, const Preset& after, Preset present);
 
-/// With everything of these effects cleared: words are empty, the rest is as by default.
+/// Clears all fields with these effects: texts become empty, other fields get their defaults.
 Preset cleared(Preset preset, EffectSet effects);
 
 }  // namespace tyglab

@@ -5,23 +5,23 @@
 
 namespace tyglab {
 
-/// From what touches least to what touches most. Whoever asks whether two presets differ names effects, not constants.
+/// Ordered by how much must be redone. Code that compares two presets names effects, not constants.
 enum class Effect {
-  name,     ///< how the scene is called and described
-  view,     ///< how it is looked at
-  texture,  ///< the picture on the cloth
-  unused,   ///< nothing, as the preset is: a constant of the other kind, a device that the CPU engine does not ask for
-  start,    ///< where and how the cloth begins: counts at the next restart
-  bodies,   ///< counts once the cloth meets one
-  tearing,  ///< counts once a force is that large
-  tolerance,   ///< how far a method goes that chooses its own steps or iterates
-  force,       ///< masses, forces, rest lengths: counts from the next step
-  pins,        ///< which particles stay where they are
-  dt,          ///< counts from the next step; velocities are kept
-  integrator,  ///< the method's own vectors are made again; velocities are kept
+  name,        ///< the name and the description
+  view,        ///< the view
+  texture,     ///< the picture on the cloth
+  unused,      ///< nothing at present: a constant of the other kind, or a device while the CPU engine runs
+  start,       ///< the initial state: takes effect at the next restart
+  bodies,      ///< takes effect once the cloth touches a body
+  tearing,     ///< takes effect once a force is large enough
+  tolerance,   ///< accuracy of a method that chooses its own steps or iterates
+  force,       ///< masses, forces, rest lengths: takes effect with the next step
+  pins,        ///< the pinned particles
+  dt,          ///< takes effect with the next step; velocities are kept
+  integrator,  ///< the method's own vectors are computed again; velocities are kept
   precision,   ///< another engine takes over the state
-  device,      ///< the same, on another OpenCL device
-  engine,      ///< the same
+  device,      ///< an engine on another OpenCL device takes over the state
+  engine,      ///< another engine takes over the state
   rebuild      ///< the cloth is built again
 };
 
