@@ -114,12 +114,13 @@ void PresetArgument::add_to(CLI::App& command, bool required, Engines engines_th
   command
       .add_option(
           "--tolerance", tolerance,
-          "Choose --integrator and --dt, and --precision double if float is too coarse, so that the error of "
-          "positions\n"
-          "in the first second is at most M (m, root mean square). They are found by short trial runs of the scene,\n"
-          "which take a few seconds, at most about half a minute on an idle machine; Ctrl-C ends them. Where that\n"
-          "accuracy cannot be promised, as is often so with contact, nothing is run, and the message names the\n"
-          "tightest tolerance that can be. A method or a precision given as an option is kept")
+          "Choose --integrator, --dt and, if float is too coarse, --precision double, so that the error of positions "
+          "in\n"
+          "the first second is at most M (m, root mean square). Short trial runs of the scene take a few seconds, at\n"
+          "most about half a minute on an idle machine; Ctrl-C ends them. If this accuracy cannot be guaranteed, "
+          "which\n"
+          "is common with contact, nothing is run, and the message names the tightest possible tolerance. A method or\n"
+          "a precision given as an option is kept")
       ->type_name("M")
       ->transform(number_between(1e-12, 1, "m"));
   add_engine(command);

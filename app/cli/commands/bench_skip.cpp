@@ -186,7 +186,7 @@ int only(const SkipOptions& options) {
 
 void add_bench_skip(CLI::App& bench, Action& action) {
   CLI::App* command = bench.add_subcommand(
-      "skip", "What every feature costs when it is on, when it is off, and in an engine compiled without it");
+      "skip", "Cost of every feature when it is on, when it is off, and in an engine compiled without it");
   const auto options = std::make_shared<SkipOptions>();
   add_quick(*command, *options, "Fewer rounds");
   command->add_option("--side", options->side, "Particles per side of the cloth (default 128)")

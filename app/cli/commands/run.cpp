@@ -407,10 +407,11 @@ void add_run_command(CLI::App& program, Action& action) {
   add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
   add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
   command
-      ->add_option("--step-limit", options->step_limit_ms,
-                   "End a step of implicit Euler, projective dynamics or vertex block descent with what it has found\n"
-                   "once it has taken so long; the motion is then not the same from run to run. How many steps that\n"
-                   "were, and what they left, is told")
+      ->add_option(
+          "--step-limit", options->step_limit_ms,
+          "End a step of implicit Euler, projective dynamics or vertex block descent after this real time, and\n"
+          "keep its current result; the motion then differs from run to run. The final message reports how\n"
+          "many steps ended early, and their residual")
       ->type_name("MS")
       ->transform(number_between(0.01, 1e6, "ms"));
   command->add_option("--fps", options->fps, "Frames per second of simulated time (default 25)")
@@ -420,7 +421,7 @@ void add_run_command(CLI::App& program, Action& action) {
   command->footer(
       "Example: tyglab run denim --seconds 2 --set k_s=500 --state denim.csv --obj frames --fps 25\n"
       "- in place of F is standard output; messages then go to stderr.\n"
-      "An older file is replaced only by a whole one: what Ctrl-C or a full disk cuts short is called F.incomplete.\n"
+      "An older file is replaced only by a complete one; an incomplete output is kept as F.incomplete.\n"
       "Exit codes: 0 done, 2 wrong command line, 3 wrong preset, 4 diverged, 5 no such engine, 6 not writable, "
       "130 interrupted.");
   command->callback([options, &action] { action = [options] { return run(*options); }; });

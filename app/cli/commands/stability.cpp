@@ -3,8 +3,7 @@
 namespace tyglab {
 
 void add_stability_command(CLI::App& program, Action& action) {
-  CLI::App* stability =
-      program.add_subcommand("stability", "Experiments: where each method is stable, and for how long");
+  CLI::App* stability = program.add_subcommand("stability", "Experiments on the stability of each method");
   stability->require_subcommand(1);
   stability->footer("Example: tyglab stability boundary --quick");
   add_stability_boundary(*stability, action);

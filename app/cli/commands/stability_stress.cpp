@@ -197,8 +197,7 @@ void add_stability_stress(CLI::App& stability, Action& action) {
       ->excludes(quick)
       ->excludes("--cases")
       ->excludes(from);
-  command
-      ->add_option("--integrator", options->integrator, "Only this method, which no edit changes then (default: any)")
+  command->add_option("--integrator", options->integrator, "Use only this method (default: any)")
       ->type_name("NAME")
       ->check(CLI::Validator(
           [](const std::string& name) {
