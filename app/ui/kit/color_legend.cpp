@@ -86,7 +86,6 @@ void draw_grip(const PlotPaint& paint, const ColorLegend& legend, ImVec2 lo, ImV
 /// Name, colors, and room for the number at their end.
 LegendParts draw_line(const PlotPaint& paint, ImVec2 at, ImVec2 size, const ColorLegend& legend) {
   const Theme& theme = paint.theme;
-  const Tokens& c = theme.colors;
   const float middle = std::round(at.y + size.y / 2), baseline = baseline_at(paint.fonts, middle);
   const float pad = theme.px(10), half = theme.px(bar_height) / 2;
   const float from = std::round(draw_name(paint, at.x + pad, baseline, legend.field)) + pad;
