@@ -1,4 +1,4 @@
-// Tyglab's one binary.
+// The main function of the tyglab binary.
 #include "app/cli/commands/program.h"
 
 int main(int argc, char** argv) {

@@ -1,4 +1,4 @@
-// The simulation's energy ledger: kept only where somebody asks for it.
+// The energy ledger of a simulation, kept only on request.
 #include <utility>
 
 #include "core/simulation.h"

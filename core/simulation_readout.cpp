@@ -1,4 +1,4 @@
-// What is read of a simulation: the whole state, everything that table B.1 says of one particle, sums over the cloth.
+// Read-outs of a simulation: the whole state, the variables of table B.1 for one particle, sums over the cloth.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>

@@ -1,7 +1,7 @@
-// A band of rows a work-item, in vectors of WIDTH particles: for processors. As in the CPU engine (pair_sweep-inl.h)
-// every spring is computed once, by the particle that owns it; what it does to its right end is carried along the row,
-// what it does to rows below waits in a ring of three rows. The two rows above a band are computed again for what they
-// do to it. A sweep reads one set of arrays and writes another, so bands do not wait for each other.
+// One band of rows per work-item, in vectors of WIDTH particles, for processors. As in the CPU engine
+// (pair_sweep-inl.h) the particle that owns a spring computes it once; the force on its right end is carried along the
+// row, and forces on rows below wait in a ring of three rows. The two rows above a band are computed again for their
+// forces on it. A sweep reads one set of arrays and writes another, so bands do not wait for each other.
 #if WIDTH > 1
 
 /// Lanes moved up by n; the lowest come from the top of `before`.

@@ -1,5 +1,5 @@
-// Collision with fixed bodies, as core/forces/contact.cpp has it: one particle at a time, in double where the device
-// has it.
+// Collision with fixed bodies, as in core/forces/contact.cpp: one particle at a time, in double if the device supports
+// it.
 #ifdef BODIES
 #ifdef BODY_REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable

@@ -1,10 +1,10 @@
-// What all kernels share: numbers and vectors of WIDTH particles, constants, the formulas of forces.
+// Common to all kernels: numbers and vectors of WIDTH particles, constants, the formulas of forces.
 //
-// Assumes: vectors of particles lie as in row_field.h, each row as its x, its y and its z of `stride` numbers; two rows
-// above and three below the cloth are there too, and 16 numbers before. Masks have two rows of zeros above and below,
-// and 16 zeros on either side of a row, so that springs that would leave the cloth count as torn.
-// Build options: REAL (float or double, with REAL_IS_DOUBLE), WIDTH (1, 4, 8 or 16), and what the scene has: BENDING,
-// DAMPING, WIND, BODIES with BODY_REAL, ONE_WEIGHT. Constants are arguments.
+// Assumptions: vectors of particles have the layout of row_field.h, with x, y and z of each row, `stride` numbers each;
+// memory includes two rows above and three below the cloth, and 16 numbers before. Masks have two rows of zeros above
+// and below, and 16 zeros on either side of a row, so springs that would leave the cloth count as torn. Build options:
+// REAL (float or double, with REAL_IS_DOUBLE), WIDTH (1, 4, 8 or 16), and the features of the scene: BENDING, DAMPING,
+// WIND, BODIES with BODY_REAL, ONE_WEIGHT. Constants are arguments.
 #ifdef REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #define BITS ulong

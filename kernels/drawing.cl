@@ -1,7 +1,7 @@
-// What is drawn of a cloth, written where OpenGL draws it from: positions in float with their box, and normals.
+// Writes the drawn data of a cloth into OpenGL's buffers: positions in float with their bounding box, and normals.
 //
-// Assumes: `x` is a vector as in cloth.cl, in REAL. What is written lies row after row, each as its x, its y and its z of
-// `columns` numbers. Work-items come in groups of 32 columns and 4 rows; a row's may be fewer than its particles.
+// Assumptions: `x` is a vector as in cloth.cl, in REAL. The output is row after row, with x, y and z of each row,
+// `columns` numbers each. Work-items come in groups of 32 columns and 4 rows; a row may have fewer than its particles.
 // Build options: -D REAL=float or -D REAL=double -D REAL_IS_DOUBLE.
 #ifdef REAL_IS_DOUBLE
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable

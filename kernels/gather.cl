@@ -1,5 +1,5 @@
-// One particle a work-item, which gathers the forces on it from its twelve neighbors: for devices of many small
-// processors, where to compute a spring at both of its ends is quicker than to hand its force over.
+// One particle per work-item, which gathers the forces from its twelve neighbors, for devices with many small
+// processors: there, computing a spring at both of its ends is faster than passing on its force.
 #if WIDTH == 1
 /// The block of particles that a work-item looks at: pointers to its first one.
 typedef struct {

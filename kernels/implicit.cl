@@ -1,10 +1,10 @@
-// Implicit stages (core/engines/newton.h): the linearised force, conjugate gradients, the sums that Newton's method asks
-// for. No matrix is stored but what each spring resists with, four numbers a spring, and the blocks of the diagonal; a
-// particle's part of A p is gathered from its twelve springs, by vectors and by single particles alike.
+// Implicit stages (core/engines/newton.h): the linearized force, conjugate gradients, and the sums that Newton's method
+// requests. No matrix is stored, only four numbers per spring for its resistance, and the diagonal blocks. A particle
+// gathers its part of A p from its twelve springs, both in vectors and in single particles.
 //
-// Assumes: as cloth.cl. Coefficients lie as masks do, a row as its 24 parts (for each direction a.x, a.y, a.z, t) of
-// mask_pitch numbers with 16 zeros on either side; blocks likewise, 6 parts a row (xx, yy, zz, yz, zx, xy of the
-// inverse; 0 for a particle that is fixed). Vectors are 0 beyond the cloth.
+// Assumptions: as in cloth.cl. Coefficients have the layout of masks, each row as its 24 parts (for each direction a.x,
+// a.y, a.z, t) of mask_pitch numbers with 16 zeros on either side; blocks likewise, with 6 parts per row (xx, yy, zz,
+// yz, zx, xy of the inverse; 0 for a fixed particle). Vectors are 0 beyond the cloth.
 
 #define SUM BODY_REAL  // sums are made in double where the device has it
 typedef JOIN(BODY_REAL, 2) sum2;

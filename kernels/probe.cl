@@ -1,8 +1,8 @@
-// The probe of `tyglab devices`: the length of the vector from each particle to the next, as every spring needs it.
+// The test of `tyglab devices`: the length of the vector from each particle to the next, which every spring needs.
 //
-// Assumes: x holds all x, then all y, then all z of `count` particles; `lengths` has room for count - 1 numbers; one
-// work-item a particle, any number of them, of which those from count - 1 on do nothing.
-// Build options: -D REAL=float (the default) or -D REAL=double -D REAL_IS_DOUBLE, which needs cl_khr_fp64.
+// Assumptions: x has all x, then all y, then all z of `count` particles; `lengths` has room for count - 1 numbers; one
+// work-item per particle, any number of them, and those from count - 1 on do nothing. Build options: -D REAL=float (the
+// default) or -D REAL=double -D REAL_IS_DOUBLE, which requires cl_khr_fp64.
 #ifndef REAL
 #define REAL float
 #endif

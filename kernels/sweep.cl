@@ -1,5 +1,5 @@
-// What every sweep does beside its forces and its sums, which program_text.cpp writes for each method: where a
-// work-item's particles lie, what the hand feels, bodies, the watch over the largest way.
+// The common part of all sweeps, besides the forces and the sums that program_text.cpp writes for each method: the
+// position of a work-item's particles, the force on the hand, bodies, the check of the largest displacement.
 
 /// The bits of a number that is not negative, as a float not smaller than it; NaN and ∞ are larger than every number.
 INLINE uint float_bits(REAL a) {

@@ -1,4 +1,4 @@
-// Looks at every spring, by the particle that owns it (lattice.h): which are overloaded and tear, and whether one is so
+// Examines every spring, at the particle that owns it (lattice.h): which are overloaded and tear, and whether one is so
 // long that the motion has diverged.
 
 #ifdef BODY_REAL_IS_DOUBLE

@@ -1,4 +1,4 @@
-// What every stage of a frame knows; filled by app/render/cloth_renderer.cpp.
+// Data common to all stages of a frame, set by app/render/cloth_renderer.cpp.
 layout(std140) uniform Frame {
   mat4 clip_from_world;
   mat4 shadow_from_world;  // to 0..1 in each axis

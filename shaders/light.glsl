@@ -1,4 +1,4 @@
-// Light in linear color. Display values are squared and rooted (gamma 2), which is near sRGB and cheap.
+// Light in linear color. Display values are squared and rooted (gamma 2), which is close to sRGB and cheap.
 uniform sampler2DShadow shadow_map;
 
 vec3 linear(vec3 display) { return display * display; }

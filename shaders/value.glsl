@@ -1,4 +1,4 @@
-// The color of a value, sRGB: what a cloth that is colored by values has in place of its own.
+// The color of a value, sRGB, for a cloth that is colored by values instead of its texture.
 uniform sampler2D color_map;  // one row, from the least value to the greatest
 uniform vec3 value_range;     // the least; 1 / (greatest - least); 1 where colors follow the square root
 

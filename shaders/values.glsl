@@ -1,4 +1,4 @@
-// The value of the particle that a vertex is.
+// The value of a vertex's particle.
 uniform sampler2D values;  // a texel a particle
 uniform int stride;        // particles a row of the arrays
 

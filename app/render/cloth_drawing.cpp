@@ -1,4 +1,4 @@
-// What stands in a picture, one after the other: shadows, ground, bodies or a weight, and the cloth in its five views.
+// Draws the parts of a picture in order: shadows, ground, bodies or a weight, and the cloth in its five views.
 #include <algorithm>
 
 #include "app/render/cloth_renderer_parts.h"

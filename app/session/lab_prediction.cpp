@@ -1,4 +1,4 @@
-// What a student predicts: what is accepted, and whether it was right.
+// A student's prediction: its input, and whether it was right.
 #include <algorithm>
 #include <array>
 #include <cmath>

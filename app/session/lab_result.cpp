@@ -1,4 +1,4 @@
-// What a lab came to, told when it is left.
+// The result of a lab, reported when the student leaves it.
 #include <algorithm>
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-// The rows of Boost.Odeint in `tyglab bench accuracy`: what a user would reach for instead, driven by the engine's own
-// forces.
+// The rows of Boost.Odeint in `tyglab bench accuracy`: its integrators, the usual alternative, driven by the engine's
+// own forces.
 #include <algorithm>
 #include <boost/numeric/odeint.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Who reaches an error first: the summary of `tyglab bench accuracy`.
+// The summary of `tyglab bench accuracy`: the fastest method for each error.
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Verlet's method with the damping taken implicitly.
+// Verlet's method with implicit damping.
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {

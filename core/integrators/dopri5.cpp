@@ -1,5 +1,5 @@
-// Dormand and Prince's method for y = (x, v), written down with its accelerations alone: a stage's velocity is v and a
-// sum of them, so its position is x + c dt v and a sum of them too, and nothing else need be kept.
+// Dormand and Prince's method for y = (x, v), written in terms of its accelerations alone: the velocity of a stage is v
+// plus a sum of them, so its position is x + c dt v plus a sum of them too, and nothing else must be stored.
 #include <array>
 
 #include "core/integrators/scheme_rows.h"

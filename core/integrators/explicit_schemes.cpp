@@ -1,4 +1,4 @@
-// The explicit methods of fixed dt, a row each.
+// The explicit methods of fixed dt, one row each.
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-// The implicit methods, a row each.
+// The implicit methods, one row each.
 #include <numbers>
 
 #include "core/integrators/scheme_rows.h"

@@ -1,6 +1,6 @@
-// The method of Runge, Kutta and Chebyshev of second order, a table for each number of stages. A stage is kept as its
-// distance from the beginning of the step, D in position and W in velocity, so that in float no digit of a position is
-// lost in sums of large numbers.
+// The second-order Runge-Kutta-Chebyshev method, with a table for each number of stages. A stage is stored as its
+// distance from the beginning of the step, D in position and W in velocity, so no digit of a position is lost in sums
+// of large float numbers.
 #include <array>
 #include <cmath>
 

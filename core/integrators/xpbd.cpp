@@ -1,4 +1,4 @@
-// Extended position-based dynamics: gravity and wind move the particles first, then the springs draw them back.
+// Extended position-based dynamics: gravity and wind move the particles, and then the springs pull them back.
 #include "core/integrators/scheme_rows.h"
 
 namespace tyglab {

@@ -1,5 +1,5 @@
-// Names are UTF-8 everywhere in the program. The standard library turns them into paths by mbrtowc() of the C library,
-// which on Windows knows the code pages of countries alone; this one, which the linker puts in its place (--wrap),
+// Names are UTF-8 everywhere in the program. The standard library converts them to paths by mbrtowc() of the C library,
+// which on Windows supports only regional code pages. The linker replaces that function by this one (--wrap), which
 // reads UTF-8.
 #include <cerrno>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// `tyglab bench convergence`: the order that a method shows in a scene.
+// `tyglab bench convergence`: the measured order of a method in a scene.
 #include <array>
 #include <cmath>
 #include <cstdio>

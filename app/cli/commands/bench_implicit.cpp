@@ -1,4 +1,4 @@
-// `tyglab bench implicit`: a table row by row as it is measured.
+// `tyglab bench implicit`: a table, printed row by row during the measurement.
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// `tyglab bench one-weight`: figure 3.2 of the report again, with the error of every integrator.
+// `tyglab bench one-weight`: figure 3.2 of the report, with the error of every integrator.
 #include <algorithm>
 #include <array>
 #include <cmath>

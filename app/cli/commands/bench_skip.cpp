@@ -1,4 +1,4 @@
-// `tyglab bench skip`: what each feature costs when it is on, off, and not there at all.
+// `tyglab bench skip`: the cost of each feature when on, off, and absent.
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// `tyglab bench throughput`: a table row by row as it is measured.
+// `tyglab bench throughput`: a table, printed row by row during the measurement.
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -1,4 +1,4 @@
-// `tyglab stability boundary`: the dt and the k_s at which each explicit method breaks, predicted and measured.
+// `tyglab stability boundary`: the stability limits of dt and k_s for each explicit method, predicted and measured.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// `tyglab stability drift`: how every method keeps energy that nothing takes.
+// `tyglab stability drift`: the energy of every method over a long run without damping.
 #include <algorithm>
 #include <array>
 #include <cmath>

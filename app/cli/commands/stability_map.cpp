@@ -1,4 +1,4 @@
-// `tyglab stability map`: which stiffness and dt a method tolerates in a scene, by theory and by short runs.
+// `tyglab stability map`: the stiffnesses and dt that a method tolerates in a scene, by theory and by short runs.
 #include <algorithm>
 #include <array>
 #include <cmath>

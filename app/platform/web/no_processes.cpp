@@ -1,4 +1,4 @@
-// A page starts no processes: whoever asks for one is told so.
+// A page cannot start processes; requests for one end with an error.
 #include "app/process/child.h"
 #include "app/process/child_cases.h"
 #include "app/process/driver_probe.h"

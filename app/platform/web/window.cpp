@@ -1,4 +1,4 @@
-// A page's canvas as the window. What the browser tells comes from app/platform/web/library.js, at any time between
+// The canvas of a page as the window. Events of the browser come from app/platform/web/library.js, at any time between
 // frames; keys and buttons have GLFW's numbers.
 #include "app/platform/window.h"
 

@@ -1,6 +1,6 @@
-// The column of cards at the right: plots, and below them tools under headings, always in the same order. A tool that
-// is opened takes room from the plots as long as these can still be read; then the tools scroll, and where not even the
-// plots have room, the whole column. Plots without room for all of them take turns behind tabs.
+// The column of cards at the right: plots, and below them tools under headings, in a fixed order. An opened tool takes
+// room from the plots while these remain readable; after that the tools scroll, and if even the plots have no room, the
+// whole column scrolls. Plots without room for all of them share tabs.
 #include <algorithm>
 #include <array>
 #include <cmath>

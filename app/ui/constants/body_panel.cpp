@@ -1,4 +1,4 @@
-// Bodies (2.1.5) and what is shown of the cloth: the last sections of the constants.
+// Bodies (2.1.5) and the display options of the cloth: the last sections of the constants.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Every variable of table B.1, live, for the picked particle.
+// The variables of table B.1, live, for the picked particle.
 #include <array>
 #include <cmath>
 #include <cstdio>

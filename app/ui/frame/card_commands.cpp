@@ -1,4 +1,4 @@
-// The cards of the plots column, brought into sight.
+// Commands that open the cards of the plots column.
 #include <imgui.h>
 
 #include "app/ui/cards/cards.h"

@@ -1,4 +1,4 @@
-// The cloth in the viewport: where it is seen from, its colors, knife and wind.
+// Commands for the cloth in the viewport: camera, colors, knife and wind.
 #include "app/tools/wind_arrow.h"
 #include "app/ui/frame/commands.h"
 

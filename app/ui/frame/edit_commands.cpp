@@ -1,4 +1,4 @@
-// What was changed, taken back.
+// Commands for undo and redo.
 #include "app/session/document.h"
 #include "app/session/motion.h"
 #include "app/ui/frame/commands.h"

@@ -1,4 +1,4 @@
-// What the window writes to files: a row each.
+// Files that the window can export, one row each.
 #include <array>
 
 #include "app/session/recorded.h"

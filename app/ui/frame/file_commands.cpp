@@ -1,4 +1,4 @@
-// Presets, and what else goes in and out.
+// Commands for presets and other files.
 #include <imgui.h>
 
 #include "app/base/data_files.h"

@@ -1,4 +1,4 @@
-// Where things are explained, and labs.
+// Commands for help and labs.
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/dialogs.h"
 #include "app/ui/frame/palette.h"

@@ -1,4 +1,4 @@
-// F1: what mouse and keys do.
+// F1: the list of mouse actions and keys.
 #include <algorithm>
 #include <numeric>
 #include <span>

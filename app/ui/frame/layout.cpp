@@ -1,4 +1,4 @@
-// Where the regions are: top bar, constants, viewport, plots, status; the borders between them drag.
+// The regions of the window: top bar, constants, viewport, plots, status. Their borders can be dragged.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-// The application's menu: every command by its topic, and everything else that the palette finds.
+// The application menu: every command by topic, and everything else that the palette finds.
 #include <algorithm>
 #include <string_view>
 

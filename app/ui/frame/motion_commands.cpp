@@ -1,4 +1,4 @@
-// Time: running, stepping, going back, and who chooses dt and the engine.
+// Commands for time: run, step, rewind, and the automatic choice of dt and engine.
 #include "app/session/motion.h"
 #include "app/ui/frame/commands.h"
 

@@ -1,4 +1,4 @@
-// Presentation mode's few controls, below a large cloth: what a lecture needs at hand. All else is a key away.
+// The few controls of presentation mode, below a large cloth. Everything else needs one key.
 #include <algorithm>
 #include <string>
 #include <vector>

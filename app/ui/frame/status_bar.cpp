@@ -1,4 +1,4 @@
-// The strip below the viewport: what the mouse does here, and what the cloth is.
+// The strip below the viewport: the present actions of the mouse, and the size of the cloth.
 #include <algorithm>
 #include <cmath>
 #include <string>

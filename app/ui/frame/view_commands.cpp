@@ -1,4 +1,4 @@
-// The window: panels, text, theme.
+// Commands for the window: panels, text, theme.
 #include <algorithm>
 
 #include "app/session/lab_state.h"

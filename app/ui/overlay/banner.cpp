@@ -1,4 +1,4 @@
-// What must be decided now, over the viewport: the banner after a divergence.
+// The banner over the viewport after a divergence, with the decisions that it offers.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Which cloth a picture shows, at its foot, while there are copies.
+// The name of each cloth at the foot of its picture, while there are copies.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,4 +1,4 @@
-// What colors the cloth: the list to choose from, and the legend in the viewport's corner.
+// The coloring of the cloth: the list of quantities, and the legend in the viewport's corner.
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-// Why a copy has diverged, below the pictures, until it is closed.
+// The reason of a copy's divergence, below the pictures, until it is closed.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The hand's tools over the cloth: the wind's arrow, the knife's stroke and what it would cut.
+// The tools of the hand over the cloth: the arrow of the wind, the stroke of the knife and its cut.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>

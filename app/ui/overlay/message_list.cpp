@@ -1,4 +1,4 @@
-// What the program tells, over the cloth for a few seconds.
+// Messages over the cloth, shown for a few seconds.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// What is drawn over the cloth: what would be grabbed or cut, the picked particle with its forces.
+// Marks over the cloth: the particle to grab, the springs to cut, the picked particle with its forces.
 #include "app/ui/overlay/overlay.h"
 
 #include <algorithm>

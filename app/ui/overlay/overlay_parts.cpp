@@ -1,4 +1,4 @@
-// What all that is drawn over the cloth is made of.
+// The building blocks of all marks over the cloth.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// PAUSED, with the keys that go on; or REPLAY, with what is replayed and how slowly.
+// PAUSED, with the keys that continue; or REPLAY, with the replayed steps and their speed.
 #include <array>
 #include <cmath>
 #include <string>

@@ -1,4 +1,4 @@
-// Presentation mode's title: which scene is shown.
+// The name of the scene in presentation mode.
 #include <algorithm>
 #include <cmath>
 #include <string>

@@ -1,9 +1,9 @@
-// Methods that choose their own steps: dt covered with inner steps, each tried, checked and then accepted or thrown
-// away. Threads sweep together; the first one decides between two barriers.
+// Methods that choose their own steps: dt is divided into inner steps, each of which is tried, checked, and then
+// accepted or rejected. Threads sweep together; the first one decides between two barriers.
 //
-// All sweeps of a step are made into stage vectors, the last one measures every row as it passes (measure_row), one
-// thread decides (core/integrators/step_control.h, plain numbers), and only an accepted step writes x and v, in the
-// pass that also knows bodies and the divergence budget.
+// All sweeps of a step write stage vectors, and the last one measures every row as it passes (measure_row). One thread
+// decides (core/integrators/step_control.h, plain numbers), and only an accepted step writes x and v, in the pass that
+// also handles bodies and the divergence budget.
 #include <algorithm>
 #include <cmath>
 #include <limits>

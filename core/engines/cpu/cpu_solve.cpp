@@ -1,4 +1,5 @@
-// Implicit stages: led by one thread where a solver goes to the end, on all where each particle solves for itself.
+// Implicit stages: one thread leads solvers that run to convergence; all threads share methods in which each particle
+// solves for itself.
 #include "core/engines/cpu/cpu_engine.h"
 
 namespace tyglab::cpu {

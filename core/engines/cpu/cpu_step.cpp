@@ -1,4 +1,4 @@
-// Stepping: bands side by side or in waves, then what needs the whole cloth: tearing and the search for faults.
+// Steps: bands side by side or in waves, then the work on the whole cloth: tearing and the search for faults.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,5 @@
-// What a device has to do with OpenGL (cl_khr_gl_sharing). Only run against a double of such a device so far: no
-// graphics card was there to try it on.
+// The connection of a device to OpenGL (cl_khr_gl_sharing). So far tested only with a simulated device, since no
+// graphics card was available.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -1,4 +1,4 @@
-// What can be said of devices and methods without asking any device.
+// Facts about devices and methods that need no device.
 #include "core/engines/opencl/opencl_devices.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What the host reads of an OpenCL engine.
+// Everything that the host reads from an OpenCL engine.
 #include "core/engines/opencl/opencl_engine.h"
 
 namespace tyglab::opencl {

@@ -1,5 +1,5 @@
-// Stepping on a device: steps are queued in batches, as long as the guard expects none of them to need examining, and
-// checked by their reports.
+// Steps on a device: they are queued in batches, as long as the guard expects that none needs examining, and checked by
+// their reports.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,4 @@
-// How an OpenCL engine's positions reach OpenGL: in memory that both use, or in buffers that both open.
+// Brings an OpenCL engine's positions to OpenGL: in memory that both use, or in buffers that both open.
 #include "core/engines/opencl/arguments.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// Whether a device really computes: a small kernel is built, run and its result checked.
+// Tests whether a device really computes: builds and runs a small kernel and checks its result.
 #include <algorithm>
 #include <cmath>
 #include <limits>
