@@ -15,8 +15,7 @@ void main() {
   float fade = 1.0 - smoothstep(1.0, 8.5, away);
   fade *= fade;
   vec2 at = position.xz / grid.w;
-  float line = max(0.24 * lines(at, 1.0), 0.44 * lines(at / 5.0, 1.2)) * fade;
-  // A pool of light under the scene.
-  float pool = 0.22 / (1.0 + away * away * (1.0 + away * away));
-  color = vec4(grid.rgb * line + pool * background_top.rgb * (1.0 - background_top.rgb), line);
+  // Faint, since it must not look like a floor: a cloth falls through it.
+  float line = max(0.10 * lines(at, 1.0), 0.22 * lines(at / 5.0, 1.0)) * fade;
+  color = vec4(grid.rgb * line, line);
 }

@@ -85,9 +85,9 @@ float centered(std::span<const glm::vec2> points, float slope, float ahead) {
 
 }  // namespace
 
-void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered) {
+void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered, float below) {
   // The middle of what is free is a line from the eye that leans down: heights are taken from it.
-  const float tan_y = std::tan(fov_y / 2), lean = -covered * tan_y;
+  const float tan_y = std::tan(fov_y / 2), lean = (below - covered) * tan_y;
   std::vector<glm::vec2> across, upright;
   float nearest = 1e30f, farthest = -1e30f;
   for (const glm::vec3& p : points) {
@@ -97,16 +97,16 @@ void Camera::frame(std::span<const glm::vec3> points, float aspect, glm::vec2 pa
     nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
   }
   const float middle = (nearest + farthest) / 2;
-  const glm::vec2 slope = part * glm::vec2(tan_y * aspect, tan_y * (1 - covered));
+  const glm::vec2 slope = part * glm::vec2(tan_y * aspect, tan_y * (1 - covered - below));
   distance = std::clamp(middle - std::min(fit(across, slope.x).ahead, fit(upright, slope.y).ahead), 1e-3f, 1e6f);
   const float ahead = middle - distance;
   target = centered(across, slope.x, ahead) * right() + (centered(upright, slope.y, ahead) + lean * ahead) * up() +
            middle * forward();
 }
 
-void Camera::make_room(std::span<const glm::vec3> points, float aspect, float part, float covered) {
-  const float tan_y = std::tan(fov_y / 2), lean = -covered * tan_y;
-  const glm::vec2 slope = part * tan_y * glm::vec2(aspect, 1 - covered);
+void Camera::make_room(std::span<const glm::vec3> points, float aspect, float part, float covered, float below) {
+  const float tan_y = std::tan(fov_y / 2), lean = (below - covered) * tan_y;
+  const glm::vec2 slope = part * tan_y * glm::vec2(aspect, 1 - covered - below);
   float back = 0;
   for (const glm::vec3& p : points) {
     const glm::vec3 offset = p - target;

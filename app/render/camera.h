@@ -35,10 +35,10 @@ struct Camera {
   void zoom(float wheel_steps);
   /// Comes as near as it can while the points keep within that part of the picture's width and height; keeps the
   /// direction. The points then stand in the middle of the picture. Something covers that much of its height along the
-  /// upper edge (`covered`, 0 to 0.5): only what is left counts as the picture.
-  void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered = 0);
+  /// upper edge (`covered`, 0 to 0.5) and along the lower one (`below`): only what is left counts as the picture.
+  void frame(std::span<const glm::vec3> points, float aspect, glm::vec2 part, float covered = 0, float below = 0);
   /// Goes back along its direction, no further than it must, until the points keep within that part of the picture.
-  void make_room(std::span<const glm::vec3> points, float aspect, float part, float covered = 0);
+  void make_room(std::span<const glm::vec3> points, float aspect, float part, float covered = 0, float below = 0);
   /// Puts the box (corners lo, hi) into view; keeps the direction.
   void frame(glm::vec3 lo, glm::vec3 hi, float aspect);
 
@@ -80,11 +80,25 @@ struct Bounds {
 Bounds bounds(const PositionView& positions);
 /// The box of a preset's start and of where it will hang, with its spheres: what a first look should see.
 Bounds scene_bounds(const Preset& preset);
-/// A camera in the house's favorite direction that frames scene_bounds, below what covers that much of the picture's
-/// height along its upper edge.
-Camera scene_camera(const Preset& preset, float aspect, float covered = 0);
-/// Height of the drawn ground: that of the highest plane below the start if there is one, else a little below all that
-/// scene_bounds holds.
+/// A camera in the house's favorite direction that frames scene_bounds, between what covers those parts of the
+/// picture's height along its upper and lower edge.
+Camera scene_camera(const Preset& preset, float aspect, float covered = 0, float below = 0);
+/// The same camera as long as it shows the cloth well, whose particles are now within that box; otherwise it frames the
+/// box, with the spheres beside it. Of an empty box nothing is known.
+Camera present_camera(const Preset& preset, Bounds cloth, float aspect, float covered = 0, float below = 0);
+
+/// A part of a picture, 0 to 1 each way from the upper left corner; more than that lies outside.
+struct PicturePart {
+  glm::vec2 lo{0}, hi{0};
+  /// How much of it is in the picture, 0 to 1; all of it where it fills the picture.
+  float in_sight() const;
+};
+/// The part that holds a box; the whole picture where the box reaches behind the camera, none where all of it is there.
+std::optional<PicturePart> part_of_picture(const Camera& camera, const Bounds& box, float aspect);
+
+/// Height of the plane that a cloth lands on: the highest one below its start; none where it falls for ever.
+std::optional<double> floor_height(const Preset& preset);
+/// Height of the drawn ground: that plane's, or else a little below all that scene_bounds holds.
 double ground_height(const Preset& preset);
 
 }  // namespace tyglab

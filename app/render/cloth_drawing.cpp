@@ -45,26 +45,40 @@ void ClothRenderer::Parts::draw_background() {
   glDepthMask(GL_TRUE);
 }
 
-void ClothRenderer::Parts::draw_ground(const ViewOptions& options) {
+/// A square of the ground's height round the middle of the scene, for a program that is in use.
+void ClothRenderer::Parts::draw_square(const gl::Program& program, float half) {
   const glm::vec3 center = (framed.lo + framed.hi) / 2.0f;
-  // The lines have faded out before the square ends (ground.frag).
-  const float half = 8.6f * scene_radius();
+  program.set("area", glm::vec4(center.x - half, center.z - half, center.x + half, center.z + half));
   glEnable(GL_BLEND);
   glBindVertexArray(shared->nothing.id());
-  shared->ground.use();
-  shared->ground.set("area", glm::vec4(center.x - half, center.z - half, center.x + half, center.z + half));
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  if (options.shadows && !box.empty()) {
-    shared->ground_shadow.use();
-    shared->ground_shadow.set("shadow_map", shadow_unit);
-    shared->ground_shadow.set("area", shadow_area(box, to_light, ground_y));
-    // Upon the lines, not flickering through them.
-    glEnable(GL_POLYGON_OFFSET_FILL);
-    glPolygonOffset(-1, -4);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    glDisable(GL_POLYGON_OFFSET_FILL);
-  }
   glDisable(GL_BLEND);
+}
+
+/// A grid that nothing lands on: it hides nothing that has fallen below it, and there are no shadows on it.
+void ClothRenderer::Parts::draw_grid() {
+  shared->ground.use();
+  glDepthMask(GL_FALSE);
+  draw_square(shared->ground, 8.6f * scene_radius());  // the lines have faded out before it ends (ground.frag)
+  glDepthMask(GL_TRUE);
+}
+
+/// A disc that reaches some way beyond the cloth, with shadows. From below one sees through it.
+void ClothRenderer::Parts::draw_plane(const Camera& camera, const ViewOptions& options) {
+  constexpr float least = 2.2f, beyond = 0.7f, most = 40;  // of the scene's radius
+  const float radius = scene_radius();
+  const glm::vec3 center = (framed.lo + framed.hi) / 2.0f;
+  const auto apart = [&](glm::vec3 at) { return glm::length(glm::vec2(at.x - center.x, at.z - center.z)); };
+  const float reach = box.empty() ? 0 : std::max(apart(box.lo), apart(box.hi));
+  const float of_disc = std::max(least * radius, std::min(reach + beyond * radius, most * radius));
+  const bool above = camera.eye().y > ground_y;
+  shared->plane.use();
+  shared->plane.set("shadow_map", shadow_unit);
+  shared->plane.set("disc", glm::vec4(center.x, center.z, of_disc, above ? 1 : 0.2f));
+  shared->plane.set("ink", options.palette.plane);
+  glDepthMask(above ? GL_TRUE : GL_FALSE);
+  draw_square(shared->plane, 1.01f * of_disc);
+  glDepthMask(GL_TRUE);
 }
 
 void ClothRenderer::Parts::draw_solid(const SolidMesh& what, glm::vec4 placed, glm::vec3 base, float gloss) {

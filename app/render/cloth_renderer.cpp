@@ -146,6 +146,7 @@ void ClothRenderer::Parts::take_preset(const Preset& next) {
   preset = next;
   framed = scene_bounds(preset);
   ground_y = float(ground_height(preset));
+  has_plane = floor_height(preset).has_value();
   // Cloth that lies on a plane would flicker with the ground at the very same height.
   ground_y -= 0.004f * glm::length(framed.hi - framed.lo);
 }
@@ -203,7 +204,7 @@ void ClothRenderer::draw(const Camera& camera, const ViewOptions& options, int w
     p.values.bind(Parts::values_unit), p.shared->colored->map.bind(Parts::colors_unit);
   p.draw_opaque(options);
   p.draw_background();
-  if (options.ground) p.draw_ground(options);
+  if (options.ground) p.has_plane ? p.draw_plane(camera, options) : p.draw_grid();
   if (!p.one_weight()) p.draw_blended(options);
   for (const Ghost& ghost : ghosts) p.draw_ghost(*ghost.cloth->parts_, ghost.color, options.line_width);
   p.target.resolve();
@@ -221,6 +222,9 @@ unsigned ClothRenderer::texture_id() const {
 }
 double ClothRenderer::drawn_ms() {
   return parts_->timer.ms();
+}
+const Bounds& ClothRenderer::bounds() const {
+  return parts_->mesh.bounds();
 }
 RenderWork ClothRenderer::take_work() {
   return std::exchange(parts_->work, {});

@@ -32,6 +32,7 @@ struct Palette {
   glm::vec3 pins{0.902f, 0.624f, 0.0f};                 // #E69F00
   glm::vec3 highlight{1.0f, 1.0f, 1.0f};
   glm::vec3 body{0.565f, 0.584f, 0.624f};
+  glm::vec3 plane{0.247f, 0.271f, 0.318f};  // #3F4551
   bool operator==(const Palette&) const = default;
 };
 /// Of the light themes.
@@ -44,7 +45,8 @@ inline constexpr Palette light_palette{.background_top = {0.914f, 0.929f, 0.949f
                                        .points = {0.078f, 0.086f, 0.106f},             // #14161B
                                        .pins = {0.627f, 0.373f, 0.0f},                 // #A05F00
                                        .highlight = {0.0f, 0.0f, 0.0f},
-                                       .body = {0.545f, 0.569f, 0.608f}};
+                                       .body = {0.545f, 0.569f, 0.608f},
+                                       .plane = {0.925f, 0.929f, 0.937f}};  // #ECEDEF
 
 /// Which values the ends of the color map stand for, and whether the colors between them follow the square root.
 struct ValueRange {
@@ -155,6 +157,8 @@ class ClothRenderer {
   double drawn_ms();
   /// What was done since the last call.
   RenderWork take_work();
+  /// The box of the particles as they were updated last.
+  const Bounds& bounds() const;
   /// Of the buffers that grow with the cloth, and what is lent to siblings' engines too.
   std::size_t bytes() const;
   /// What was drawn last.

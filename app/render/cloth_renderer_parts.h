@@ -36,7 +36,7 @@ struct ColoredCloth {
 struct ClothRenderer::Shared {
   gl::Program background{{"background.vert", "background.frag"}};
   gl::Program ground{{"ground.vert", "ground.frag"}};
-  gl::Program ground_shadow{{"ground.vert", "ground_shadow.frag"}};
+  gl::Program plane{{"ground.vert", "plane.frag"}};
   gl::Program cloth{{"cloth.vert", "cloth.frag"}};
   gl::Program solid{{"solid.vert", "solid.frag"}};
   gl::Program lines{{"lines.vert", "lines.frag"}};
@@ -72,6 +72,7 @@ struct ClothRenderer::Parts {
   Bounds box;     ///< of all that casts shadows
   Bounds framed;  ///< scene_bounds of the preset, kept as long as it
   float ground_y = 0;
+  bool has_plane = false;  ///< at that height; otherwise there is nothing but a grid that shows where the scene ends
   bool shadow_stale = true;
   bool shadow_of_cloth = false;  ///< whether the cloth is in the shadow map: a net casts none
   RenderWork work;
@@ -89,7 +90,9 @@ struct ClothRenderer::Parts {
   void fill_frame(const Camera& camera, const ViewOptions& options, int width, int height);
   void draw_shadow(const ViewOptions& options);
   void draw_background();
-  void draw_ground(const ViewOptions& options);
+  void draw_square(const gl::Program& program, float half);
+  void draw_grid();
+  void draw_plane(const Camera& camera, const ViewOptions& options);
   void draw_solid(const SolidMesh& mesh, glm::vec4 placed, glm::vec3 base, float gloss);
   void draw_bodies(const ViewOptions& options);
   void draw_weight(const ViewOptions& options);

@@ -1,8 +1,9 @@
-// What a first look at a preset should hold.
+// What a first look at a preset should hold, and a later one at a cloth that is somewhere else by now.
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -176,7 +177,7 @@ Bounds scene_bounds(const Preset& p) {
   return b;
 }
 
-Camera scene_camera(const Preset& p, float aspect, float covered) {
+Camera scene_camera(const Preset& p, float aspect, float covered, float below) {
   Camera camera;
   if (p.kind == Kind::one_weight) {
     camera.yaw = 0, camera.pitch = 0.06f;
@@ -191,14 +192,67 @@ Camera scene_camera(const Preset& p, float aspect, float covered) {
   std::vector<glm::vec3> seen = start_points(p);
   const std::vector<glm::vec3> lasting = lasting_points(p);
   seen.insert(seen.end(), lasting.begin(), lasting.end());
-  camera.frame(seen, aspect, {0.98f, 0.92f}, covered);
-  camera.make_room(lasting, aspect, 0.84f, covered);
+  camera.frame(seen, aspect, {0.98f, 0.92f}, covered, below);
+  camera.make_room(lasting, aspect, 0.84f, covered, below);
   return camera;
 }
 
+float PicturePart::in_sight() const {
+  const auto along = [](float from, float to) {
+    const float common = std::min(to, 1.f) - std::max(from, 0.f), size = std::min(to - from, 1.f);
+    return common < 0 ? 0 : size > 0 ? common / size : 1;
+  };
+  return along(lo.x, hi.x) * along(lo.y, hi.y);
+}
+
+std::optional<PicturePart> part_of_picture(const Camera& camera, const Bounds& box, float aspect) {
+  const Projector project(camera, {aspect, 1});
+  std::vector<glm::vec3> corners;
+  add_corners(corners, box);
+  PicturePart part{glm::vec2(1e30f), glm::vec2(-1e30f)};
+  std::size_t before = 0;
+  for (const glm::vec3& corner : corners)
+    if (const auto at = project(glm::dvec3(corner))) {
+      const glm::vec2 there = *at / glm::vec2(aspect, 1);
+      part.lo = glm::min(part.lo, there), part.hi = glm::max(part.hi, there), ++before;
+    }
+  if (before == 0) return std::nullopt;
+  return before == corners.size() ? part : PicturePart{glm::vec2(0), glm::vec2(1)};
+}
+
+Camera present_camera(const Preset& p, Bounds cloth, float aspect, float covered, float below) {
+  constexpr float large_enough = 0.45f, near_enough = 0.15f, slack = 0.02f, room = 0.84f;
+  Camera camera = scene_camera(p, aspect, covered, below);
+  if (cloth.empty()) return camera;
+  if (p.kind == Kind::one_weight) cloth.add(weight_bounds(p));
+  if (const auto part = part_of_picture(camera, cloth, aspect)) {
+    const glm::vec2 from(0, covered), free(1, 1 - covered - below);  // of the picture
+    const glm::vec2 lo = (part->lo - from) / free, hi = (part->hi - from) / free, off = glm::abs(lo + hi - 1.f) / 2.f;
+    if (std::min(lo.x, lo.y) > -slack && std::max(hi.x, hi.y) < 1 + slack && std::max(off.x, off.y) < near_enough &&
+        std::max(hi.x - lo.x, hi.y - lo.y) > large_enough)
+      return camera;
+  }
+  const glm::vec3 size = cloth.hi - cloth.lo, reach = glm::vec3(glm::length(size) / 2);
+  std::vector<glm::vec3> seen;
+  add_corners(seen, cloth);
+  for (const Body& body : p.bodies) {
+    if (body.shape != Body::Shape::sphere) continue;
+    const Bounds sphere{glm::vec3(body.c) - float(body.r), glm::vec3(body.c) + float(body.r)};
+    if (glm::all(glm::lessThan(sphere.lo, cloth.hi + reach)) && glm::all(glm::lessThan(cloth.lo - reach, sphere.hi)))
+      add_corners(seen, sphere);
+  }
+  if (size.y < 0.2f * std::max(size.x, size.z)) camera.pitch = 0.45f;  // it lies flat
+  camera.frame(seen, aspect, glm::vec2(room), covered, below);
+  return camera;
+}
+
+std::optional<double> floor_height(const Preset& p) {
+  return plane_below(p, scene_bounds(p).hi.y);
+}
+
 double ground_height(const Preset& p) {
+  if (const auto plane = floor_height(p)) return *plane;
   const Bounds b = scene_bounds(p);
-  if (const auto plane = plane_below(p, b.hi.y)) return *plane;
   return b.lo.y - 0.1 * glm::length(b.hi - b.lo);
 }
 

@@ -16,15 +16,4 @@ float grid_spacing(float radius) {
   return decade * (part < 2 ? 1.0f : part < 5 ? 2.0f : 5.0f);
 }
 
-glm::vec4 shadow_area(const Bounds& box, glm::vec3 to_light, float ground) {
-  Bounds shadow;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y,
-                      corner & 4 ? box.hi.z : box.lo.z);
-    shadow.add(p - to_light * ((p.y - ground) / to_light.y));
-  }
-  const glm::vec3 margin = 0.05f * (box.hi - box.lo);
-  return {shadow.lo.x - margin.x, shadow.lo.z - margin.z, shadow.hi.x + margin.x, shadow.hi.z + margin.z};
-}
-
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "app/render/drawn_cloth.h"
 #include "app/scene/scene.h"
@@ -93,11 +94,41 @@ double ClothViews::draw_picture(Scene& scene, int tile, glm::ivec2 size, bool gh
   return std::max(1e3 * took.wall_s, its.drawn_ms());
 }
 
-void ClothViews::frame_scene(Scene& scene, glm::vec2 shown) {
-  const glm::vec3 now(shown, scene.viewport.buttons);
+std::optional<glm::vec2> ClothViews::way_to_cloth(const Scene& scene, int tile) const {
+  constexpr float a_trace = 0.03f;  // of the box, whose corners reach beyond the cloth
+  const Simulation& cloth = cloth_in_tile(scene, tile);
+  const glm::vec2 shown = scene.viewport.size();
+  if (cloth.divergence() || shown.x <= 1 || shown.y <= 1) return std::nullopt;
+  const ClothRenderer* its = tile == 0                             ? scene.renderer.get()
+                             : std::size_t(tile) <= copies_.size() ? copies_[std::size_t(tile - 1)].get()
+                                                                   : nullptr;
+  const Bounds box = its != nullptr ? its->bounds() : bounds(cloth.positions());
+  if (box.empty()) return std::nullopt;
+  const auto part = part_of_picture(scene.camera, box, shown.x / shown.y);
+  if (part && part->in_sight() > a_trace) return std::nullopt;
+  const glm::vec3 from = (box.lo + box.hi) / 2.f - scene.camera.eye();
+  const glm::vec2 behind(glm::dot(from, scene.camera.right()), -glm::dot(from, scene.camera.up()));
+  const glm::vec2 way = part ? ((part->lo + part->hi) / 2.f - 0.5f) * shown : behind;
+  return glm::length(way) > 0 ? way : glm::vec2(0, 1);
+}
+
+void ClothViews::frame_cloths(Scene& scene, glm::vec2 shown) {
+  constexpr float most_below = 0.2f;
+  const glm::vec4 now(shown, scene.viewport.buttons, scene.viewport.foot);
   const bool due = scene.wants_framing || (!scene.camera_by_hand && now != framed_);
   if (!due || shown.x <= 1 || shown.y <= 1) return;
-  scene.camera = scene_camera(scene.session.preset(), shown.x / shown.y, std::min(now.z / shown.y, most_covered));
+  // At the start of a scene its camera also knows where the cloth will go. Another thread may be reading the cloth.
+  const bool away = scene.wants_framing ? scene.session.simulation->time() > 0 : framed_away_;
+  Bounds cloths;
+  if (away && !scene.session.rebuild.holds_present())
+    for (int tile = 0; tile < scene.session.copies.tiles(); ++tile)
+      if (const Simulation& cloth = cloth_in_tile(scene, tile); !cloth.divergence())
+        cloths.add(bounds(cloth.positions()));
+  const Preset& preset = scene.session.preset();
+  const float aspect = shown.x / shown.y, above = std::min(now.z / shown.y, most_covered),
+              below = std::min(now.w / shown.y, most_below);
+  scene.camera = present_camera(preset, cloths, aspect, above, below);
+  framed_away_ = !(scene.camera == scene_camera(preset, aspect, above, below));
   scene.wants_framing = scene.camera_by_hand = false;
   framed_ = now;
 }
@@ -106,7 +137,7 @@ void ClothViews::draw(Scene& scene, glm::vec2 magnified) {
   const glm::vec2 shown = scene.viewport.size();
   if (shown.x < 1) return;  // the layout has not been made yet
   const glm::ivec2 size = glm::max(glm::ivec2(glm::round(shown * magnified)), glm::ivec2(1));
-  frame_scene(scene, shown);
+  frame_cloths(scene, shown);
   const int tiles = scene.session.copies.tiles();
   drawn_.resize(std::size_t(tiles));
   copies_.resize(std::min(copies_.size(), scene.session.copies.lockstep.size()));

@@ -1,7 +1,9 @@
 // The pictures of the cloth and its copies, redrawn only where something has changed.
 #pragma once
 
+#include <glm/vec4.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/render/camera.h"
@@ -20,6 +22,8 @@ class ClothViews {
   void forget_copies() { copies_.clear(); }
   /// The texture with the n-th picture of the viewport; 0 where there is no OpenGL context to draw it in.
   unsigned picture(const Scene& scene, int tile) const;
+  /// The direction, pixels of the screen, in which the cloth of that picture has left it; none while it is seen there.
+  std::optional<glm::vec2> way_to_cloth(const Scene& scene, int tile) const;
 
  private:
   /// What a picture shows.
@@ -32,8 +36,8 @@ class ClothViews {
     std::uint64_t values = 0;  ///< ClothColors::version
     bool operator==(const Drawn&) const = default;
   };
-  /// Frames the scene where that is asked for, and, until the camera is taken in hand, for each new size of a picture.
-  void frame_scene(Scene& scene, glm::vec2 shown);
+  /// Frames the cloths where that is asked for, and, until the camera is taken in hand, for each new size of a picture.
+  void frame_cloths(Scene& scene, glm::vec2 shown);
   bool take_ghosts(Scene& scene, glm::ivec2 size);
   /// Returns what it took, ms; 0 where the last picture stays.
   double draw_picture(Scene& scene, int tile, glm::ivec2 size, bool ghosts_moved);
@@ -43,8 +47,9 @@ class ClothViews {
   std::vector<Drawn> drawn_;                            ///< by picture
   std::vector<Ghost> ghosts_;
   std::vector<std::uint64_t> ghost_revisions_;
-  glm::ivec2 size_{0};   ///< of a picture
-  glm::vec3 framed_{0};  ///< width, height of a picture and what the buttons cover of it, as it was framed last, pixels
+  glm::ivec2 size_{0};        ///< of a picture
+  glm::vec4 framed_{0};       ///< width, height of a picture and what is covered of it, as it was framed last, pixels
+  bool framed_away_ = false;  ///< a cloth was framed then that was not where the scene's camera looks
 };
 
 }  // namespace tyglab

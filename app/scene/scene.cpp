@@ -16,6 +16,7 @@ void Scene::follow() {
   if (now.documents != seen_.documents) wants_framing = true;
   if (now.lattices != seen_.lattices && extent(session.preset()) != extent_) wants_framing = true;
   extent_ = extent(session.preset());
+  follow_restart();
   if (now.copies != seen_.copies) views.forget_copies();
   if (now.labs_begun != seen_.labs_begun) {
     const auto field = colors.chosen ? std::optional(colors.chosen->field) : std::nullopt;
@@ -37,6 +38,19 @@ void Scene::follow() {
   }
   if (now.cloths != seen_.cloths) redraw = true;
   seen_ = now;
+}
+
+/// A restart brings the cloth back to where the scene's camera looks. Who looks at a part of it from a place of their
+/// own goes on doing so.
+void Scene::follow_restart() {
+  constexpr float well = 0.5f;
+  const double t = session.simulation->time();
+  const bool restarted = t == 0 && seen_time_ > 0;
+  seen_time_ = t;
+  const glm::vec2 shown = viewport.size();
+  if (!restarted || shown.x <= 1 || shown.y <= 1) return;
+  const auto part = part_of_picture(camera, bounds(session.simulation->positions()), shown.x / shown.y);
+  if (!camera_by_hand || !part || part->in_sight() < well) wants_framing = true;
 }
 
 void Scene::draw(glm::vec2 magnified) {

@@ -38,7 +38,9 @@ struct Scene {
   void draw(glm::vec2 magnified);
 
  private:
+  void follow_restart();
   SessionCounts seen_;
+  double seen_time_ = 0;     ///< of the cloth, s
   glm::dvec2 extent_{0};     ///< of the cloth that was seen last, m
   bool lab_colors_ = false;  ///< a step of a lab has colored the cloth
   /// How the user's experiment was seen when a lab took its place.

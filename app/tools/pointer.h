@@ -44,6 +44,7 @@ struct Tool {
   unsigned knife_gesture = 0;  ///< each stroke likewise
   unsigned wind_gesture = 0;   ///< each drag of the wind's arrow is undone by itself
   glm::dvec3 wind{0};          ///< N, as its arrow was pressed
+  glm::vec2 wind_foot{0};      ///< where that arrow begins, pixels in the first picture
   int body = -1;
   glm::dvec3 body_plane{0}, body_offset{0};
   std::optional<Pins::Site> site;  ///< under the right press

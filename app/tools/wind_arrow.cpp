@@ -1,27 +1,21 @@
 #include "app/tools/wind_arrow.h"
 
-#include "app/base/glfw_keys.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <optional>
 
+#include "app/base/glfw_keys.h"
 #include "app/tools/tools.h"
 
 namespace tyglab {
 namespace {
 
-constexpr float usual = 80, longest = 140, handle = 14, calm = 8;  // pixels at scale 1
+constexpr float usual = 80, longest = 140, handle = 14, margin = 20, calm = 8;  // pixels at scale 1
 constexpr float from_right = 132, from_below = 120;
 constexpr double most = 1e3;                    // N, of a component
 constexpr unsigned first_gesture = 0x77000000;  // apart from those of sliders and bodies
-
-glm::dvec3 place(const Tools& tools) {
-  const glm::vec2 size = tools.scene.viewport.size(), away{tools.px(from_right), tools.px(from_below)};
-  return tools.scene.camera.unproject_in_camera_plane(glm::max(size - away, size / 2.0f),
-                                                      glm::dvec3(tools.scene.camera.target), size);
-}
 
 /// N: what an arrow of the usual length stands for.
 double unit_of(const Tools& tools) {
@@ -49,6 +43,39 @@ glm::dvec3 tidy(const glm::dvec3& W) {
   return glm::clamp(glm::round(W * digits) / digits, -most, most);
 }
 
+/// How far a place lies beyond the part of the first picture in which the tip can be seen and taken, px; none behind
+/// the camera.
+std::optional<glm::vec2> beyond(const Tools& tools, const glm::dvec3& place) {
+  const glm::vec2 size = tools.scene.viewport.size(), edge = glm::min(glm::vec2(tools.px(margin)), size / 2.f);
+  const auto at = tools.scene.camera.project(place, size);
+  if (!at) return std::nullopt;
+  return *at - glm::clamp(*at, edge, size - edge);
+}
+
+/// An arrow from that pixel, as long as the wind asks for.
+WindArrow arrow_from(const Tools& tools, glm::vec2 foot, const glm::dvec3& W) {
+  const glm::vec2 size = tools.scene.viewport.size();
+  const glm::dvec3 base =
+      tools.scene.camera.unproject_in_camera_plane(foot, glm::dvec3(tools.scene.camera.target), size);
+  const double per_pixel = tools.scene.camera.metres_per_pixel(base, size.y);
+  const double per_newton = tools.px(usual) * per_pixel / unit_of(tools);
+  const double length = glm::length(W) * per_newton, room = tools.px(longest) * per_pixel;
+  return {base, base + W * per_newton * (length > room ? room / length : 1), per_newton};
+}
+
+/// Where the arrow begins: near the lower right corner, moved by as much as the tip would lie outside. While its tip is
+/// dragged it stays.
+glm::vec2 foot_of(const Tools& tools) {
+  if (tools.tool.kind == Tool::Kind::wind) return tools.tool.wind_foot;
+  const glm::vec2 size = tools.scene.viewport.size(), away{tools.px(from_right), tools.px(from_below)};
+  const glm::vec2 edge = glm::min(glm::vec2(tools.px(margin)), size / 2.f);
+  glm::vec2 foot = glm::max(size - away, size / 2.f);
+  for (int n = 0; n < 3; ++n)  // in perspective the arrow's length changes a little as it moves
+    if (const auto over = beyond(tools, arrow_from(tools, foot, tools.session.requested_preset().W).tip))
+      foot = glm::clamp(foot - *over, edge, size - edge);
+  return foot;
+}
+
 }  // namespace
 
 bool wind_arrow_shown(const Tools& tools) {
@@ -57,11 +84,16 @@ bool wind_arrow_shown(const Tools& tools) {
 }
 
 WindArrow wind_arrow(const Tools& tools, const glm::dvec3& W) {
-  const glm::dvec3 base = place(tools);
-  const double per_pixel = tools.scene.camera.metres_per_pixel(base, tools.scene.viewport.size().y);
-  const double per_newton = tools.px(usual) * per_pixel / unit_of(tools);
-  const double length = glm::length(W) * per_newton, room = tools.px(longest) * per_pixel;
-  return {base, base + W * per_newton * (length > room ? room / length : 1), per_newton};
+  WindArrow arrow = arrow_from(tools, foot_of(tools), W);
+  const auto seen = [&](double part) {
+    const auto over = beyond(tools, glm::mix(arrow.base, arrow.tip, part));
+    return over && glm::length(*over) < 1;
+  };
+  if (seen(1)) return arrow;
+  double least = 0, most = 1;  // of its length
+  for (int n = 0; n < 20; ++n) (seen((least + most) / 2) ? least : most) = (least + most) / 2;
+  arrow.tip = glm::mix(arrow.base, arrow.tip, least);
+  return arrow;
 }
 
 bool on_wind_tip(const Tools& tools, glm::vec2 at) {
@@ -73,6 +105,7 @@ bool on_wind_tip(const Tools& tools, glm::vec2 at) {
 
 void take_wind(Tools& tools) {
   Tool& tool = tools.tool;
+  tool.wind_foot = foot_of(tools);
   tool.kind = Tool::Kind::wind;
   tool.wind = tools.session.requested_preset().W;
   tool.wind_gesture = std::max(tool.wind_gesture + 1, first_gesture);

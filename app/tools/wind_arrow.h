@@ -17,7 +17,7 @@ struct WindArrow {
 /// Whether the arrow is shown: while there is wind, or as it was asked for.
 bool wind_arrow_shown(const Tools& tools);
 /// The arrow of a wind W, N: as long as 80 pixels for the wind of the preset as it was opened, or, where that has
-/// none, for the weight of a particle.
+/// none, for the weight of a particle; shorter where it would leave the picture.
 WindArrow wind_arrow(const Tools& tools, const glm::dvec3& W);
 /// Whether a press at that pixel of the first picture takes the tip.
 bool on_wind_tip(const Tools& tools, glm::vec2 at);

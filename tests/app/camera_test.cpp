@@ -80,6 +80,51 @@ TEST_CASE("framing leaves free what is covered along the upper edge, and centers
   }
 }
 
+TEST_CASE("framing leaves free what is covered along both edges") {
+  const std::vector<glm::vec3> points{{-0.2f, 0, 0.3f}, {0.2f, 0, -0.3f}, {0, 1, 0.1f}};
+  Camera camera;
+  constexpr float above = 0.3f, below = 0.15f;
+  camera.frame(points, size.x / size.y, glm::vec2(1), above, below);
+  camera.make_room(points, size.x / size.y, 1, above, below);
+  glm::vec2 ends(1e9f, -1e9f);
+  for (const glm::vec3& point : points) {
+    const auto pixel = camera.project(glm::dvec3(point), size);
+    REQUIRE(pixel.has_value());
+    ends = {std::min(ends.x, pixel->y), std::max(ends.y, pixel->y)};
+  }
+  CHECK(ends.x == doctest::Approx(above * size.y).epsilon(0.01));
+  CHECK(ends.y == doctest::Approx((1 - below) * size.y).epsilon(0.01));
+}
+
+TEST_CASE(
+    "a cloth that has gone somewhere else is framed there; one that is where it should be keeps the scene's view") {
+  const Preset preset = test::cloth(12, 12);
+  const float aspect = size.x / size.y;
+  const Camera first = scene_camera(preset, aspect);
+  CHECK(present_camera(preset, {}, aspect) == first);
+  CHECK(present_camera(preset, bounds(Simulation(preset).positions()), aspect) == first);
+  const glm::vec3 side(float(11 * preset.L));
+  for (const glm::vec3 at : {glm::vec3(0, -30, 0), glm::vec3(4, 1, -2), glm::vec3(0, 0.4f, 90)}) {
+    CAPTURE(at.y);
+    for (const glm::vec3 shape : {glm::vec3(1), glm::vec3(1, 0.02f, 1), glm::vec3(0.3f, 0.1f, 0.3f)}) {
+      const Bounds box{at - side * shape / 2.f, at + side * shape / 2.f};
+      const auto before = part_of_picture(first, box, aspect);
+      CHECK((!before || before->in_sight() == 0));
+      const auto part = part_of_picture(present_camera(preset, box, aspect), box, aspect);
+      REQUIRE(part.has_value());
+      CHECK(part->in_sight() == 1);
+      CHECK(std::min({part->lo.x, part->lo.y, 1 - part->hi.x, 1 - part->hi.y}) > 0.05f);
+      CHECK(std::max(part->hi.x - part->lo.x, part->hi.y - part->lo.y) > 0.6f);
+    }
+  }
+  // Small, in a corner of the scene's view: seen, but not well.
+  const Bounds heap{glm::vec3(0.1f, 0.6f, 0), glm::vec3(0.15f, 0.62f, 0.05f)};
+  CHECK_FALSE(present_camera(preset, heap, aspect) == first);
+  CHECK(part_of_picture(first, {glm::vec3(-1000), glm::vec3(1000)}, aspect)->in_sight() == 1);
+  CHECK_FALSE(part_of_picture(
+      first, {first.eye() - 20.f * first.forward() - 1.f, first.eye() - 20.f * first.forward() + 1.f}, aspect));
+}
+
 TEST_CASE("panning keeps the point under the pointer there") {
   Camera camera;
   const glm::vec2 from(300, 200), drag(57, -33);

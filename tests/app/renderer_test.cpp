@@ -44,14 +44,14 @@ class Stage {
   Camera camera_;
 };
 
-/// Pixels that clearly differ.
-int difference(const Image& a, const Image& b) {
+/// Pixels that clearly differ: by more than that in one of their colors.
+int difference(const Image& a, const Image& b, int threshold = 12) {
   REQUIRE(a.rgb.size() == b.rgb.size());
   int count = 0;
   for (std::size_t p = 0; p < a.rgb.size(); p += 3) {
     int most = 0;
     for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(int(a.rgb[p + c]) - int(b.rgb[p + c])));
-    count += most > 12 ? 1 : 0;
+    count += most > threshold ? 1 : 0;
   }
   return count;
 }
@@ -254,6 +254,66 @@ TEST_CASE("a texture shows, and a bad file gives a message and keeps the old one
     REQUIRE(problem.has_value());
     CHECK(problem->find(file.filename().string()) != std::string::npos);
     CHECK(difference(grid, stage.draw(simulation, 1)) == 0);
+  }
+}
+
+TEST_CASE("a plane is a disc with shadows, darker where the cloth is near it; a bare grid is faint and hides nothing") {
+  const HeadlessContext context;
+  ClothRenderer renderer;
+  ViewOptions options;
+  options.samples = 1;
+  Camera camera;
+  const auto draw = [&](Simulation& simulation, bool ground, int mode, glm::vec3 target, float distance,
+                        float pitch = 0.5f) {
+    options.ground = ground, options.mode = mode;
+    camera.yaw = 0, camera.pitch = pitch, camera.target = target, camera.distance = distance;
+    renderer.update(simulation, options);
+    renderer.draw(camera, options, width, height);
+    return renderer.pixels();
+  };
+  Preset flat = hanging();
+  flat.tilt_deg = 0, flat.x_0 = {0, 0.6, 0};
+  Simulation in_the_air(flat);
+  const glm::vec3 middle(0, 0.4f, 0);
+  const Image empty = draw(in_the_air, false, 1, middle, 2.5f), grid = draw(in_the_air, true, 1, middle, 2.5f);
+  int largest = 0;
+  for (std::size_t p = 0; p < grid.rgb.size(); ++p) largest = std::max(largest, std::abs(grid.rgb[p] - empty.rgb[p]));
+  CHECK(largest > 3);
+  CHECK(largest < 24);  // of 255: faint lines, no shadow
+  // Brightness of a place of the plane in the shadow of a cloth that is that high above it, and of one in the light.
+  flat.bodies.resize(1);
+  flat.bodies[0].shape = Body::Shape::plane;
+  flat.bodies[0].y = 0.2;
+  const auto brightness = [&](double above, double in_shadow) {
+    Preset preset = flat;
+    preset.x_0.y = 0.2 + above;
+    Simulation simulation(preset);
+    const double edge = 4 * preset.L;
+    const glm::dvec3 at(edge + in_shadow * above * 0.66 / 0.86, 0.2, edge - above * 0.60 / 0.86);
+    const Image image = draw(simulation, true, 1, glm::vec3(at), 0.4f);
+    const auto pixel = camera.project(at, {width, height});
+    REQUIRE(pixel.has_value());
+    const std::uint8_t* rgb = image.rgb.data() + 3 * (int(pixel->y) * width + int(pixel->x));
+    return rgb[0] + rgb[1] + rgb[2];
+  };
+  const int lit = brightness(0.06, 2), far = brightness(0.06, 0.6), near = brightness(0.008, 0.6);
+  CHECK(far < 0.75 * lit);
+  CHECK(near < 0.9 * far);
+  Simulation over_plane(flat);
+  CHECK(difference(draw(over_plane, true, 1, middle, 1), draw(over_plane, false, 1, middle, 1)) > width * height / 5);
+  // A cloth that has fallen below the grid is still seen, as lines too.
+  Preset falls = flat;
+  falls.bodies.clear(), falls.g = 9.82;
+  Simulation fallen(falls);
+  fallen.advance(int(0.6 / falls.dt));
+  for (const int mode : {1, 2, 4, 5}) {
+    CAPTURE(mode);
+    const glm::vec3 there(fallen.position(4, 4));
+    CHECK(there.y < -1);
+    const Image through_grid = draw(fallen, true, mode, there, 3, 1.2f),
+                alone = draw(fallen, false, mode, there, 3, 1.2f);
+    CHECK(camera.eye().y > 0.5f);                     // above the grid
+    CHECK(difference(through_grid, alone, 30) < 20);  // more than a line of the grid
   }
 }
 

@@ -120,6 +120,178 @@ TEST_CASE("a cut with the left button removes springs, while the cloth moves and
   CHECK(window.steps() == 0);
 }
 
+/// How much of the n-th picture's cloth is in it, 0 to 1.
+float in_sight(test::NullUi& window, int tile = 0) {
+  const glm::vec2 size = window.ui.viewport.size();
+  const auto part =
+      part_of_picture(window.scene.camera, bounds(cloth_in_tile(window.scene, tile).positions()), size.x / size.y);
+  return part ? part->in_sight() : 0;
+}
+
+TEST_CASE(
+    "an arrow at the edge says where a fallen cloth is and frames it, as F does; a restart comes back to its start") {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(900, 600)}) {
+    CAPTURE(size.x);
+    test::NullUi window({.with = [](Preset& preset) { preset.pins.mode = Pins::Mode::none; }, .size = size});
+    window.frames(3);
+    CHECK_FALSE(window.sees("viewport.way_to_cloth"));
+    const Camera first = window.scene.camera;
+    fall(window, 1.2);
+    window.pause();
+    window.rest();
+    window.frames(3);
+    REQUIRE(in_sight(window) == 0);
+    const auto arrow = window.control("viewport.way_to_cloth");
+    const Viewport::Box& view = window.ui.viewport.box;
+    CHECK(arrow.lo.y > (view.lo.y + view.hi.y) / 2);  // below
+    CHECK(view.contains(arrow.lo));
+    CHECK(view.contains(arrow.hi));
+    window.click("viewport.way_to_cloth");
+    window.frames(3);
+    CHECK(in_sight(window) == 1);
+    CHECK_FALSE(window.sees("viewport.way_to_cloth"));
+    CHECK(window.torn() == 0);
+    window.resize(size - 60);  // the cloth stays framed
+    window.frames(3);
+    CHECK(in_sight(window) == 1);
+    window.resize(size);
+    window.key(GLFW_KEY_R);
+    window.frames(3);
+    CHECK(in_sight(window) > 0.9f);
+    CHECK(window.scene.camera == first);
+    window.key(GLFW_KEY_SPACE);
+    fall(window, 1.2);
+    window.pause();
+    window.key(GLFW_KEY_F);
+    window.frames(1);
+    CHECK(in_sight(window) == 1);
+  }
+}
+
+TEST_CASE("a restart keeps a camera that was turned by hand and sees the cloth") {
+  test::NullUi window;
+  fall(window, 0.3);
+  const glm::vec2 from = (window.ui.viewport.box.lo + window.ui.viewport.box.hi) / 2.f;
+  window.move(from);
+  for (int n = 0; n < 6; ++n) window.wheel(1);
+  window.drag({from, from + glm::vec2(40, 10), from + glm::vec2(80, 20)}, middle_button);
+  const Camera by_hand = window.scene.camera;
+  window.key(GLFW_KEY_R);
+  window.frames(3);
+  CHECK(window.scene.camera == by_hand);
+  window.input.mods = GLFW_MOD_SHIFT;  // pans away
+  for (int n = 0; n < 12; ++n) window.drag({from, from + glm::vec2(150, 0), from + glm::vec2(300, 0)}, middle_button);
+  window.input.mods = 0;
+  fall(window, 0.3);
+  CHECK(window.sees("viewport.way_to_cloth"));
+  window.key(GLFW_KEY_R);
+  window.frames(3);
+  CHECK(in_sight(window) > 0.9f);
+}
+
+TEST_CASE("a body that is added is in view, and its constants in sight; a plane is not slippery") {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(1280, 500)}) {
+    CAPTURE(size.y);
+    test::NullUi window({.size = size});
+    fall(window, 0.6);
+    window.pause();
+    window.scroll_to("constants.Add_sphere", "constants.k_s.slider");
+    window.click("constants.Add_sphere");
+    window.rest();
+    window.frames(6);
+    REQUIRE(window.preset().bodies.size() == 1);
+    const Body& sphere = window.preset().bodies[0];
+    const glm::vec2 view = window.ui.viewport.size();
+    const auto part = part_of_picture(window.scene.camera,
+                                      {glm::vec3(sphere.c) - float(sphere.r), glm::vec3(sphere.c) + float(sphere.r)},
+                                      view.x / view.y);
+    REQUIRE(part.has_value());
+    CHECK(part->in_sight() == 1);
+    for (const char* key : {"c.x", "r.slider", "friction.slider", "restitution.slider"})
+      CHECK(window.sees(std::string("constants.bodies[0].") + key));
+    const Bounds cloth = bounds(window.cloth().positions());
+    CHECK(sphere.c.y + sphere.r < cloth.lo.y);  // it starts no contact
+    window.click("constants.Add_plane");
+    window.frames(6);
+    REQUIRE(window.preset().bodies.size() == 2);
+    const Body& plane = window.preset().bodies[1];
+    CHECK(plane.friction == 0.5);
+    CHECK(plane.y < sphere.c.y - sphere.r);
+    CHECK(window.sees("constants.bodies[1].y.slider"));
+    CHECK(window.sees("constants.bodies[1].restitution.slider"));
+    const glm::vec2 at = pixel(window, {0, plane.y, 0});
+    CHECK(window.ui.viewport.box.contains(at));
+  }
+  // Over a cloth that lies on a plane.
+  test::NullUi window({.with = [](Preset& preset) {
+    preset.pins.mode = Pins::Mode::none, preset.tilt_deg = 0;
+    preset.bodies.resize(1);
+    preset.bodies[0].shape = Body::Shape::plane;
+    preset.bodies[0].y = 0.5;
+  }});
+  fall(window, 1);
+  window.pause();
+  window.scroll_to("constants.Add_sphere", "constants.k_s.slider");
+  window.click("constants.Add_sphere");
+  window.frames(6);
+  REQUIRE(window.preset().bodies.size() == 2);
+  CHECK(window.preset().bodies[1].c.y - window.preset().bodies[1].r > 0.5);
+}
+
+TEST_CASE("every picture of several shows its cloth once they are framed, above its name") {
+  test::NullUi window({.with = [](Preset& preset) { preset.pins.mode = Pins::Mode::none; }});
+  fall(window, 0.2);
+  window.click("plots.Copies");
+  window.add_copy("dt_2_5e_4_s");
+  window.frames(2);
+  REQUIRE(window.session.copies.tiles() == 2);
+  fall(window, 1.5);
+  window.pause();
+  window.frames(2);
+  CHECK(window.sees("viewport.way_to_cloth"));
+  CHECK(window.sees("viewport.way_to_cloth1"));
+  window.key(GLFW_KEY_F);
+  window.frames(2);
+  for (int tile = 0; tile < 2; ++tile) {
+    CHECK(in_sight(window, tile) == 1);
+    const auto* name = window.ui.placing.find("name " + std::to_string(tile));
+    REQUIRE(name != nullptr);
+    const Lattice& lattice = window.cloth().lattice();
+    for (const int i : {0, lattice.rows - 1})
+      for (const int j : {0, lattice.columns - 1}) {
+        const glm::dvec3 x = cloth_in_tile(window.scene, tile).position(i, j);
+        CHECK(window.scene.camera.project(x, window.ui.viewport.size())->y + window.ui.viewport.origin(tile).y <
+              name->lo.y);
+      }
+  }
+}
+
+TEST_CASE("the wind's arrow has its tip in the picture, whatever the wind and the picture's size, and is taken there") {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(900, 600), glm::ivec2(600, 400)}) {
+    test::NullUi window({.preset = "flag", .size = size});
+    window.frames(3);
+    const double strength = glm::length(window.preset().W);
+    for (const glm::dvec3 way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0), glm::dvec3(1, -1, 1),
+                                 glm::dvec3(0.3, -0.1, 1), glm::dvec3(-1, 1, -1)})
+      for (const double times : {1.0, 1.7, 30.0}) {
+        Preset next = window.preset();
+        next.W = times * strength * glm::normalize(way);
+        window.session.propose(next);
+        window.frames(2);
+        CAPTURE(size.x);
+        CAPTURE(way.x);
+        CAPTURE(way.y);
+        CAPTURE(way.z);
+        CAPTURE(times);
+        const glm::vec2 view = window.ui.viewport.size();
+        const auto tip = window.scene.camera.project(wind_arrow(window.tools, next.W).tip, view);
+        REQUIRE(tip.has_value());
+        CHECK(std::min({tip->x, tip->y, view.x - tip->x, view.y - tip->y}) > 14);
+        CHECK(on_wind_tip(window.tools, *tip));
+      }
+  }
+}
+
 TEST_CASE("the wind's arrow is dragged by its tip, and one undo takes it back; W shows and hides it") {
   test::NullUi window({.preset = "flag"});
   fall(window, 0.5);

@@ -23,15 +23,39 @@ bool belongs(const BodyRow& row, Body::Shape shape) {
   return true;
 }
 
+bool seen_whole(const Ui& ui, const Bounds& box) {
+  const glm::vec2 size = ui.viewport.size();
+  const auto part = size.x > 1 && size.y > 1 ? part_of_picture(ui.scene.camera, box, size.x / size.y) : std::nullopt;
+  return part && part->lo.x >= 0 && part->lo.y >= 0 && part->hi.x <= 1 && part->hi.y <= 1;
+}
+
+/// Puts a sphere under the cloth, or over a cloth that lies on a plane; a plane under all that the scene holds. The
+/// camera and the column of constants show it.
 void add_body(Ui& ui, Body::Shape shape) {
+  constexpr double farthest = 1e3, friction_of_plane = 0.5;  // m, of c and y
   Preset next = ui.session.requested_preset();
+  const bool readable = !ui.session.rebuild.holds_present() && !ui.session.simulation->divergence();
+  const Bounds scene = scene_bounds(next), cloth = readable ? bounds(ui.session.simulation->positions()) : scene;
+  const double size = std::max(next.rows - 1, next.columns - 1) * next.L * next.initial_stretch;
+  const glm::dvec3 middle = glm::dvec3(cloth.lo + cloth.hi) / 2.0;
   Body body;
   body.shape = shape;
-  // Below the middle of the cloth, where it will be met.
-  const double size = std::max(next.rows - 1, next.columns - 1) * next.L * next.initial_stretch;
-  body.c = next.x_0 - glm::dvec3(0, 1.2 * size, 0);
-  body.r = std::clamp(0.25 * size, 1e-3, 100.0);
-  body.y = next.x_0.y - 1.6 * size;
+  Bounds shown;
+  if (shape == Body::Shape::sphere) {
+    body.r = std::clamp(0.25 * size, 1e-3, 100.0);
+    const double clear = 1.3 * body.r;
+    const auto floor = floor_height(next);
+    const bool lies = floor && cloth.lo.y - clear - body.r < *floor;
+    body.c =
+        glm::clamp(glm::dvec3(middle.x, lies ? cloth.hi.y + clear : cloth.lo.y - clear, middle.z), -farthest, farthest);
+    shown = {glm::vec3(body.c) - float(body.r), glm::vec3(body.c) + float(body.r)};
+  } else {
+    body.y = std::clamp(std::min(scene.lo.y, cloth.lo.y) - 0.05 * size, -farthest, farthest);
+    body.friction = friction_of_plane;
+    shown.add(glm::vec3(middle.x, body.y, middle.z));
+  }
+  if (!seen_whole(ui, shown)) ui.scene.wants_framing = true;
+  ui.slider.shown_key = "bodies[" + std::to_string(next.bodies.size()) + "]." + std::string(body_notation().back().key);
   next.bodies.push_back(body);
   ui.session.propose(std::move(next));
 }

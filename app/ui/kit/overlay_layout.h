@@ -2,10 +2,10 @@
 // is left.
 //
 // A mark requests the nearest free place in a corner, or the first free one of several, and receives its place. View
-// buttons come first, then the names of copies, the scales of arrows, PAUSED, the banner and the legend. Labels of
-// arrows come last, and are left out if there is no space; they and the scales make room for a tooltip. PAUSED and the
-// legend also avoid the cloth, and stay where they are while nothing comes under them. tests/ui/marks_test.cpp checks
-// that no two marks overlap.
+// buttons come first, then the names of copies, the scales of arrows, PAUSED, the banner and the legend. The arrow to a
+// cloth that is out of view and the labels of arrows come last, and are left out if there is no space; they and the
+// scales make room for a tooltip. PAUSED and the legend also avoid the cloth, and stay where they are while nothing
+// comes under them. tests/ui/marks_test.cpp checks that no two marks overlap.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -102,6 +102,16 @@ float names_above_height(const Ui& ui) {
   return sum;
 }
 
+float names_below_height(const Ui& ui) {
+  const Copies& copies = ui.session.copies;
+  if (copies.lockstep.empty() || copies.overlaid) return 0;
+  const NameStyle style = name_style(ui);
+  float most = 0;
+  for (int n = Copies::original; n < int(copies.lockstep.size()); ++n)
+    most = std::max(most, height_of(style, words_of(ui, style, n)));
+  return most + style.edge;
+}
+
 void cloth_names(Ui& ui, ImDrawList& draw) {
   const Copies& copies = ui.session.copies;
   if (copies.lockstep.empty()) return;

@@ -72,12 +72,10 @@ void wind_overlay(Ui& ui, ImDrawList& draw) {
     const auto now = on_screen(ui, 0, wind_arrow(ui.tools, ui.session.simulation->wind()).tip);
     if (now) draw_arrow(ui, draw, *base, *now, {faded(c.sky, 0.5f), LineStyle::solid, 2});
   }
-  ImVec2 end = *tip;
-  const bool shortened = keep_in_picture(ui, 0, *base, end) ||
-                         glm::length(arrow.tip - arrow.base) < 0.999 * glm::length(W) * arrow.metres_per_newton;
-  draw_arrow(ui, draw, *base, end, {c.sky, LineStyle::solid, 2}, shortened);
+  const bool shortened = glm::length(arrow.tip - arrow.base) < 0.999 * glm::length(W) * arrow.metres_per_newton;
+  draw_arrow(ui, draw, *base, *tip, {c.sky, LineStyle::solid, 2}, shortened);
   draw.AddCircleFilled(*base, ui.theme.px(3), c.sky, 16);
-  ring(ui, draw, end, 8, taken || near ? c.accent : faded(c.sky, 0.7f), taken || near ? 2.5f : 1.5f);
+  ring(ui, draw, *tip, 8, taken || near ? c.accent : faded(c.sky, 0.7f), taken || near ? 2.5f : 1.5f);
   wind_label(ui, draw, {base->x, base->y}, W);
 }
 

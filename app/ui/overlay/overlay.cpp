@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <string>
 #include <vector>
 
 #include "app/ui/kit/curves.h"
+#include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/viewport_panel.h"
@@ -103,6 +106,55 @@ void picked_overlay(Ui& ui, ImDrawList& draw) {
     if (ui.arrows && !cloth_in_tile(ui.scene, tile).divergence()) particle_arrows(ui, draw, tile, *at);
     ring(ui, draw, *at, 7, ui.theme.colors.text, 2);
     draw.PopClipRect();
+  }
+}
+
+namespace {
+
+/// Where a mark of that size stands at the edge of a picture: on the way from its middle, or beside that.
+std::optional<Box> place_at_edge(const Ui& ui, int tile, glm::vec2 way, glm::vec2 size) {
+  const float margin = ui.theme.px(10);
+  const glm::vec2 lo = ui.viewport.origin(tile) + margin, hi = lo + ui.viewport.size() - 2 * margin - size;
+  if (hi.x < lo.x || hi.y < lo.y) return std::nullopt;
+  const glm::vec2 half = (hi - lo) / 2.f, share = glm::abs(way) / glm::max(half, glm::vec2(1));
+  const glm::vec2 at = (lo + hi) / 2.f + way / std::max({share.x, share.y, 1e-6f});
+  const glm::vec2 along = share.x > share.y ? glm::vec2(0, size.y) : glm::vec2(size.x, 0);
+  std::vector<Box> places;
+  for (const float k : {0.f, 1.f, -1.f, 2.f, -2.f, 3.f, -3.f, 4.f, -4.f}) {
+    const glm::vec2 place = glm::round(glm::clamp(at + k * along, lo, hi));
+    places.push_back({place, place + size});
+  }
+  return ui.placing.first_free(places);
+}
+
+}  // namespace
+
+void ways_to_cloth(Ui& ui, ImDrawList& draw) {
+  const ImFont& font = *ui.fonts.text;
+  const char* what = ui.session.preset().kind == Kind::cloth ? "Cloth" : "Mass";
+  const float pad = ui.theme.px(8), tip = ui.theme.px(7);
+  const glm::vec2 size = glm::ceil(glm::vec2(text_width(font, what) + 3 * pad + 2 * tip, font.FontSize + pad));
+  for (int tile = 0; tile < ui.session.copies.tiles(); ++tile) {
+    const auto way = ui.scene.views.way_to_cloth(ui.scene, tile);
+    const auto box = way ? place_at_edge(ui, tile, *way, size) : std::nullopt;
+    if (!box) continue;
+    const std::string name = "way_to_cloth" + (tile == 0 ? "" : std::to_string(tile));
+    ui.placing.take(name, *box);
+    cover_viewport(ui, vec(box->lo), vec(box->hi));
+    ImGui::SetCursorScreenPos(vec(box->lo));
+    if (gui::press_area(name.c_str(), vec(size))) ui.command("frame_cloth");
+    report_control(ui, name);
+    const Tokens& c = ui.theme.colors;
+    const bool hovered = ImGui::IsItemHovered();
+    if (hovered) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    tooltip(ui, gui::item_id(), "Out of view. Click to frame it.", ui.keys_of("frame_cloth"));
+    draw.AddRectFilled(vec(box->lo), vec(box->hi), hovered ? c.field_hover : c.panel, ui.theme.px(6));
+    draw.AddRect(vec(box->lo), vec(box->hi), c.accent, ui.theme.px(6), 0, std::max(1.f, ui.theme.px(1)));
+    const glm::vec2 ahead = glm::normalize(*way), across(-ahead.y, ahead.x),
+                    middle(box->lo.x + pad + tip, (box->lo.y + box->hi.y) / 2);
+    draw.AddTriangleFilled(vec(middle + tip * ahead), vec(middle - tip * 0.6f * ahead + tip * 0.8f * across),
+                           vec(middle - tip * 0.6f * ahead - tip * 0.8f * across), c.accent);
+    draw_text(draw, font, {box->lo.x + 2 * pad + 2 * tip, std::round(middle.y - font.FontSize / 2)}, c.text, what);
   }
 }
 

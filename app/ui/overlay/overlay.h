@@ -48,6 +48,10 @@ void pause_mark(Ui& ui, ImDrawList& draw, const Box& row);
 void cloth_names(Ui& ui, ImDrawList& draw);
 /// Height that they take above overlaid cloths, px; 0 where they stand at the foot.
 float names_above_height(const Ui& ui);
+/// Height that they take at the foot of each picture of several, px; 0 where there is but one.
+float names_below_height(const Ui& ui);
+/// At the edge of each picture that its cloth has left: an arrow to where it is, which frames it.
+void ways_to_cloth(Ui& ui, ImDrawList& draw);
 /// Height of the strip below the pictures that a copy's details have in a region, px; 0 where there are none, or where
 /// they would leave the pictures too little and stand over them.
 float copy_details_strip(Ui& ui, glm::vec2 region);

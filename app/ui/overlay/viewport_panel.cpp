@@ -154,7 +154,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     draw.ChannelsSetCurrent(fixed);
   }
   draw.ChannelsSetCurrent(arrows);
-  if (!bare) wind_overlay(ui, draw), picked_overlay(ui, draw), divergence_mark(ui, draw);
+  if (!bare) wind_overlay(ui, draw), picked_overlay(ui, draw), divergence_mark(ui, draw), ways_to_cloth(ui, draw);
   draw.ChannelsMerge();
 }
 
@@ -176,6 +176,7 @@ void viewport_panel(Ui& ui, const Region& region) {
   ui.viewport.buttons = above || !buttons ? 0 : ui.theme.px(buttons_above);
   if ((buttons || ui.presenting) && ui.session.copies.tiles() == 1)
     ui.viewport.buttons += marks_height(ui, ui.viewport.size().x, !above) + names_above_height(ui);
+  ui.viewport.foot = names_below_height(ui);
   ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.covers.clear();
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
