@@ -17,6 +17,7 @@ struct Viewport {
   int columns = 1, rows = 1;  ///< pictures of one camera side by side: the cloth's, then its copies', row by row
   float buttons = 0;          ///< that much of each picture's height is left to buttons and marks, pixels
   float foot = 0;             ///< and that much at its lower edge to the name of its cloth
+  float filled = 0.84f;       ///< the part of what is left that framing gives to the cloth
   std::vector<Box> covers;    ///< buttons and banners over it: presses there are theirs
   bool blocked = false;       ///< a menu or dialog is open: every press is its own
   glm::vec2 whole() const { return box.hi - box.lo; }

@@ -81,11 +81,12 @@ Bounds bounds(const PositionView& positions);
 /// The box of a preset's start and of where it will hang, with its spheres: what a first look should see.
 Bounds scene_bounds(const Preset& preset);
 /// A camera in the house's favorite direction that frames scene_bounds, between what covers those parts of the
-/// picture's height along its upper and lower edge.
-Camera scene_camera(const Preset& preset, float aspect, float covered = 0, float below = 0);
+/// picture's height along its upper and lower edge, so that the cloth takes that part of what is left.
+Camera scene_camera(const Preset& preset, float aspect, float covered = 0, float below = 0, float filled = 0.84f);
 /// The same camera as long as it shows the cloth well, whose particles are now within that box; otherwise it frames the
 /// box, with the spheres beside it. Of an empty box nothing is known.
-Camera present_camera(const Preset& preset, Bounds cloth, float aspect, float covered = 0, float below = 0);
+Camera present_camera(const Preset& preset, Bounds cloth, float aspect, float covered = 0, float below = 0,
+                      float filled = 0.84f);
 
 /// A part of a picture, 0 to 1 each way from the upper left corner; more than that lies outside.
 struct PicturePart {

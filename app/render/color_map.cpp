@@ -14,9 +14,8 @@ struct Oklab {
 
 using Anchors = std::array<Oklab, 3>;
 
-constexpr Anchors magnitude{{{0.32, 0.01, -0.12}, {0.60, -0.10, 0.01}, {0.90, -0.02, 0.13}}};
-// A cloth must be seen before its ground: lightness keeps away from the ground's at the end that is near it.
-constexpr Anchors magnitude_on_dark{{{0.44, 0.00, -0.14}, {0.68, -0.11, 0.01}, {0.92, -0.02, 0.13}}};
+// Lightness keeps away from the ground's at the end that is near it: 3 to 1 at least for blue on dark grounds.
+constexpr Anchors magnitude_on_dark{{{0.54, -0.02, -0.14}, {0.745, -0.12, 0.02}, {0.95, -0.03, 0.12}}};
 constexpr Anchors magnitude_on_light{{{0.28, 0.01, -0.11}, {0.56, -0.09, 0.01}, {0.84, -0.02, 0.14}}};
 // Blue against vermilion is what every kind of color blindness tells apart.
 constexpr Anchors diverging_on_dark{{{0.52, -0.03, -0.15}, {0.90, 0.00, 0.005}, {0.52, 0.14, 0.09}}};
@@ -47,10 +46,6 @@ ImU32 between(const Anchors& anchors, double part) {
 }
 
 }  // namespace
-
-ImU32 magnitude_color(double part) {
-  return between(magnitude, part);
-}
 
 ImU32 map_color(const ColorMap& map, double part) {
   if (map.diverging) return between(map.on_light ? diverging_on_light : diverging_on_dark, part);

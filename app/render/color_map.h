@@ -8,13 +8,12 @@
 
 namespace tyglab {
 
-/// From dark blue (0) over green to pale yellow (1), lightness rising evenly.
-ImU32 magnitude_color(double part);
-
-/// Which colors a cloth has by its values.
+/// Which colors stand for values.
 struct ColorMap {
-  bool diverging = false;  ///< from blue over a pale middle to vermilion, both ends equally dark; else as a magnitude
-  bool on_light = false;   ///< made to be seen before a light ground: the pale end is less pale, the dark one darker
+  /// From blue over a pale middle to vermilion, both ends equally dark; otherwise from blue over green to pale yellow,
+  /// lightness rising evenly.
+  bool diverging = false;
+  bool on_light = false;  ///< made to be seen before a light ground: the pale end is less pale, the dark one darker
   bool operator==(const ColorMap&) const = default;
 };
 ImU32 map_color(const ColorMap& map, double part);

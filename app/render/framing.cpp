@@ -177,7 +177,7 @@ Bounds scene_bounds(const Preset& p) {
   return b;
 }
 
-Camera scene_camera(const Preset& p, float aspect, float covered, float below) {
+Camera scene_camera(const Preset& p, float aspect, float covered, float below, float filled) {
   Camera camera;
   if (p.kind == Kind::one_weight) {
     camera.yaw = 0, camera.pitch = 0.06f;
@@ -192,8 +192,8 @@ Camera scene_camera(const Preset& p, float aspect, float covered, float below) {
   std::vector<glm::vec3> seen = start_points(p);
   const std::vector<glm::vec3> lasting = lasting_points(p);
   seen.insert(seen.end(), lasting.begin(), lasting.end());
-  camera.frame(seen, aspect, {0.98f, 0.92f}, covered, below);
-  camera.make_room(lasting, aspect, 0.84f, covered, below);
+  camera.frame(seen, aspect, {0.98f, std::max(0.92f, filled)}, covered, below);
+  camera.make_room(lasting, aspect, filled, covered, below);
   return camera;
 }
 
@@ -220,9 +220,9 @@ std::optional<PicturePart> part_of_picture(const Camera& camera, const Bounds& b
   return before == corners.size() ? part : PicturePart{glm::vec2(0), glm::vec2(1)};
 }
 
-Camera present_camera(const Preset& p, Bounds cloth, float aspect, float covered, float below) {
-  constexpr float large_enough = 0.45f, near_enough = 0.15f, slack = 0.02f, room = 0.84f;
-  Camera camera = scene_camera(p, aspect, covered, below);
+Camera present_camera(const Preset& p, Bounds cloth, float aspect, float covered, float below, float filled) {
+  constexpr float large_enough = 0.45f, near_enough = 0.15f, slack = 0.02f;
+  Camera camera = scene_camera(p, aspect, covered, below, filled);
   if (cloth.empty()) return camera;
   if (p.kind == Kind::one_weight) cloth.add(weight_bounds(p));
   if (const auto part = part_of_picture(camera, cloth, aspect)) {
@@ -242,7 +242,7 @@ Camera present_camera(const Preset& p, Bounds cloth, float aspect, float covered
       add_corners(seen, sphere);
   }
   if (size.y < 0.2f * std::max(size.x, size.z)) camera.pitch = 0.45f;  // it lies flat
-  camera.frame(seen, aspect, glm::vec2(room), covered, below);
+  camera.frame(seen, aspect, glm::vec2(filled), covered, below);
   return camera;
 }
 

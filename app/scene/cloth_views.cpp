@@ -127,8 +127,8 @@ void ClothViews::frame_cloths(Scene& scene, glm::vec2 shown) {
   const Preset& preset = scene.session.preset();
   const float aspect = shown.x / shown.y, above = std::min(now.z / shown.y, most_covered),
               below = std::min(now.w / shown.y, most_below);
-  scene.camera = present_camera(preset, cloths, aspect, above, below);
-  framed_away_ = !(scene.camera == scene_camera(preset, aspect, above, below));
+  scene.camera = present_camera(preset, cloths, aspect, above, below, scene.viewport.filled);
+  framed_away_ = !(scene.camera == scene_camera(preset, aspect, above, below, scene.viewport.filled));
   scene.wants_framing = scene.camera_by_hand = false;
   framed_ = now;
 }

@@ -272,7 +272,7 @@ void Sandbox::take_dropped_files() {
 void Sandbox::rescale() {
   if (!take_look(ui_, window_.content_scale())) return;
   const bool first = ui_.fonts.text == nullptr;
-  ui_.fonts = build_fonts(ui_.theme.scale);
+  ui_.fonts = build_fonts(ui_.theme.scale, ui_.theme.axis_text);
   if (!first) gui_.fonts_changed();
   if (first)
     for (const std::string& note : ui_.fonts.notes) std::cerr << "tyglab: " + note + '\n';

@@ -1,12 +1,15 @@
 // Pictures of charts, drawn without a display.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 
+#include "app/platform/headless_context.h"
 #include "app/render/image.h"
 #include "app/ui/kit/chart.h"
+#include "app/ui/kit/picture_gui.h"
 
 namespace tyglab::chart_test {
 
@@ -78,6 +81,41 @@ TEST_CASE("nothing to draw, and what is not finite, make a picture all the same"
   const Image empty = picture({one({}, {}, true), one({1, 2, 3}, {nan, -1, INFINITY}, true), one({1}, {1}, false)});
   CHECK(empty.width == 1280);
   CHECK(empty.height == 800);
+}
+
+TEST_CASE("names stand beside the ends of curves, below each other where the curves end together") {
+  const HeadlessContext context;
+  Theme theme;
+  const PictureGui gui({300, 200}, theme);
+  const PlotPaint paint{gui.draw(), theme, gui.fonts()};
+  paint.draw.AddRectFilled({0, 0}, {300, 200}, IM_COL32(0, 0, 0, 255));
+  const std::vector<double> x{0, 1}, together{0.5, 0.5}, low{0.1, 0};
+  const std::array<ImU32, 3> inks{red, IM_COL32(0, 255, 0, 255), IM_COL32(0, 0, 255, 255)};
+  std::vector<PlotCurve> curves;
+  for (std::size_t k = 0; k < inks.size(); ++k)
+    curves.push_back({k == 2 ? "Euler" : "F_s", {inks[k], LineStyle::solid, 2}, x, k == 2 ? low : together});
+  const float names = end_labels_width(paint, curves);
+  CHECK(names > 20);
+  const PlotAxes axes{{20, 10}, {300 - names, 190}, {0, 1}, {0, 1}};
+  draw_end_labels(paint, axes, curves, 0, 2, 300);
+  const Image image = gui.pixels();
+  std::array<int, 3> top{200, 200, 200}, bottom{-1, -1, -1};
+  for (int y = 0; y < image.height; ++y)
+    for (int at = int(axes.hi.x); at < image.width; ++at) {
+      const std::uint8_t* p = &image.rgb[3 * (std::size_t(y) * std::size_t(image.width) + std::size_t(at))];
+      for (std::size_t k = 0; k < 3; ++k)
+        if (p[k] > 200 && p[(k + 1) % 3] < 60 && p[(k + 2) % 3] < 60)
+          top[k] = std::min(top[k], y), bottom[k] = std::max(bottom[k], y);
+    }
+  for (std::size_t k = 0; k < 3; ++k) CHECK(bottom[k] >= top[k]);  // each has a stroke of its curve's color
+  CHECK(std::abs(top[0] - top[1]) > 12);
+  CHECK(std::abs((top[0] + top[1]) / 2 - 100) < 14);
+  CHECK(bottom[2] > 165);
+  CHECK(bottom[2] < 190);
+  // Where there is no room for all there are none.
+  const Image before = gui.pixels();
+  draw_end_labels(paint, {{20, 10}, {300 - names, 30}, {0, 1}, {0, 1}}, curves, 0, 2, 300);
+  CHECK(gui.pixels().rgb == before.rgb);
 }
 
 }  // namespace tyglab::chart_test

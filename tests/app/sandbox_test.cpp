@@ -261,4 +261,25 @@ TEST_CASE("a plot's scale survives blow-ups, constants and nothing at all") {
   }
 }
 
+TEST_CASE("a plot's axis has more than two ticks, and a twentieth of it is free above the curves") {
+  for (const bool log : {false, true})
+    for (const bool from_zero : {false, true})
+      for (const double most : {1e-9, 0.001, 0.0011, 0.002, 0.0021, 0.0049, 0.005, 0.00501, 0.0099, 0.01, 1.0, 3.7e5})
+        for (const double part : {0.0, 0.05, 0.3, 0.8, 0.98}) {
+          CAPTURE(log);
+          CAPTURE(from_zero);
+          CAPTURE(most);
+          CAPTURE(part);
+          const std::vector<double> x{0, 1, 2, 3}, y{part * most, most, most, most};
+          const PlotRange range = plot_range(std::vector<PlotCurve>{{"F", {}, x, y}}, {0, 4, log, from_zero, "N", ""});
+          const PlotScale scale{range.lo, range.hi, log};
+          CHECK(scale.at(most) <= 0.9500001);
+          if (!log) CHECK(scale.at(most) > 0.3);
+          int seen = 0;
+          for (const double tick : range.ticks) seen += scale.at(tick) > -1e-9 && scale.at(tick) < 1 + 1e-9;
+          CHECK(seen > 2);
+          if (from_zero && !log) CHECK(range.lo == 0);
+        }
+}
+
 }  // namespace tyglab::sandbox_test

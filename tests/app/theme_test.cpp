@@ -10,7 +10,9 @@
 
 #include "app/ui/cards/accuracy_card.h"
 #include "app/ui/constants/zones.h"
+#include "app/ui/kit/curve_plot.h"
 #include "app/ui/kit/curves.h"
+#include "app/ui/kit/map_chart.h"
 #include "app/ui/kit/theme.h"
 #include "core/integrators/names.h"
 
@@ -47,6 +49,31 @@ TEST_CASE("text of every theme has 4.5 to 1 at least on all grounds, curves and 
       CHECK(contrast(signs[n], c.panel) > 3);
     }
   }
+}
+
+TEST_CASE("in every theme the map's cells are told from the ground, and hidden curves can be read in a legend") {
+  for (const Look& look : looks()) {
+    CAPTURE(std::string(look.name));
+    const Tokens c = look.tokens();
+    const Preset preset;
+    MapCell calm;
+    calm.share = 1e-6;
+    const Chart chart = map_chart(c, preset, MapGrid{}, {}, std::vector{calm});
+    REQUIRE(chart.cells.size() == 1);
+    CHECK(contrast(chart.cells[0].color, c.ground) >= 3);
+    CHECK(contrast(chart.cells[0].color, c.panel) >= 3);
+    for (const bool hovered : {false, true}) {
+      const LegendInk ink = legend_ink(c, curve_style(c, "F_ext"), true, hovered);
+      for (const ImU32 ground : {c.ground, c.panel}) {
+        CHECK(contrast(ink.name, ground) >= 4.5);
+        CHECK(contrast(ink.sample.color, ground) >= 4.5);
+      }
+      CHECK((ink.name >> 24) == 255);
+      CHECK((ink.sample.color >> 24) == 255);
+    }
+  }
+  // A colored cloth is told from a dark ground too.
+  CHECK(contrast(map_color({}, 0), dark_tokens().ground) >= 3);
 }
 
 using Color = std::array<double, 3>;

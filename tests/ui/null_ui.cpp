@@ -33,13 +33,13 @@ struct BuiltFonts {
   std::map<std::pair<float, float>, ImWchar> letters;  ///< by a corner of their picture in the atlas
 };
 
-const BuiltFonts& fonts_of(float scale) {
-  static std::map<float, BuiltFonts> built;
-  const auto [it, fresh] = built.try_emplace(scale);
+const BuiltFonts& fonts_of(const Theme& theme) {
+  static std::map<std::pair<float, float>, BuiltFonts> built;
+  const auto [it, fresh] = built.try_emplace({theme.scale, theme.axis_text});
   BuiltFonts& out = it->second;
   ImGui::GetIO().Fonts = out.atlas.get();
   if (!fresh) return out;
-  out.fonts = build_fonts(scale);
+  out.fonts = build_fonts(theme.scale, theme.axis_text);
   unsigned char* pixels = nullptr;
   int width = 0, height = 0;
   out.atlas->GetTexDataAsAlpha8(&pixels, &width, &height);
@@ -120,7 +120,7 @@ NullUi::~NullUi() {
 void NullUi::frame() {
   const auto begun = std::chrono::steady_clock::now();
   ui.now = tools.now = ui.now + frame_time;
-  if (take_look(ui, 1)) ui.fonts = fonts_of(ui.theme.scale).fonts;
+  if (take_look(ui, 1)) ui.fonts = fonts_of(ui.theme).fonts;
   act_on_events(ui, frame_time, frame_time);
   scene.draw({1, 1});
   gui_input_.feed(input);
@@ -335,7 +335,7 @@ std::optional<DrawnLetter> letter_at(const ImDrawList& list, const BuiltFonts& f
 
 std::vector<std::string> NullUi::cut_texts() const {
   std::vector<std::string> cut;
-  const BuiltFonts& fonts = fonts_of(ui.theme.scale);
+  const BuiltFonts& fonts = fonts_of(ui.theme);
   const ImDrawData& data = *ImGui::GetDrawData();
   constexpr float seen = 0.6f;  // pixels of a letter's edge, which is smoothed
   for (int n = 0; n < data.CmdListsCount; ++n) {
@@ -397,7 +397,7 @@ void NullUi::pause() {
 
 /// Letters are told by their corner in the atlas; blanks are not drawn.
 std::string NullUi::drawn_text() const {
-  const auto& letters = fonts_of(ui.theme.scale).letters;
+  const auto& letters = fonts_of(ui.theme).letters;
   std::string out;
   const ImDrawData& data = *ImGui::GetDrawData();
   for (int n = 0; n < data.CmdListsCount; ++n)

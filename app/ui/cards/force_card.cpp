@@ -57,14 +57,13 @@ void legend(Ui& ui, ImVec2 corner, const LegendPlaces& places) {
     ImGui::PushID(int(k));
     if (gui::press_area("curve", {places.width[k], line})) plots.hidden[k] = !plots.hidden[k];
     report_control(ui, "curve." + std::string(force_keys[k]));
-    const float opacity = plots.hidden[k] ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
-    CurveStyle style = curve_style(ui.theme.colors, force_keys[k]);
-    style.color = faded(style.color, opacity);
-    const float middle = std::round(lo.y + line / 2);
+    const LegendInk ink = legend_ink(ui.theme.colors, curve_style(ui.theme.colors, force_keys[k]), plots.hidden[k],
+                                     ImGui::IsItemHovered());
+    const float middle = std::round(lo.y + line / 2), left = lo.x + sample + ui.theme.px(6);
     const ImVec2 ends[2] = {{lo.x, middle}, {lo.x + sample, middle}};
-    draw_styled_line(draw, ends, 2, style, ui.theme.scale);
-    draw_symbol(draw, ui.fonts, {lo.x + sample + ui.theme.px(6), baseline_at(ui.fonts, middle)}, force_keys[k],
-                faded(ui.theme.colors.text, opacity));
+    draw_styled_line(draw, ends, 2, ink.sample, ui.theme.scale);
+    draw_symbol(draw, ui.fonts, {left, baseline_at(ui.fonts, middle)}, force_keys[k], ink.name);
+    if (plots.hidden[k]) strike_out({draw, ui.theme, ui.fonts}, {left, middle}, symbol_width(ui.fonts, force_keys[k]));
     tooltip(ui, gui::item_id(),
             std::string(variable(force_keys[k]).quantity) + " · " + std::string(variable(force_keys[k]).storhet),
             plots.hidden[k] ? "Click to show" : "Click to hide");
@@ -146,8 +145,8 @@ void force_card(Ui& ui, float height) {
   Plots& plots = ui.plots;
   const PlotCard card(ui, "forces", force_title(ui, plot_card_inner_width(ui, ImGui::GetContentRegionAvail().x)),
                       ui.session.recorded.paused ? "held"
-                      : plots.log                ? "N, log"
-                                                 : "N",
+                      : plots.log                ? "log"
+                                                 : "",
                       height);
   const Region& inner = card.inner();
   force_controls(ui, inner);

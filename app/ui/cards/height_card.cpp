@@ -76,15 +76,14 @@ void figure_legend(Ui& ui, const Region& place) {
     bool* const hidden = entry.curve ? &plots.figure_hidden[*entry.curve] : nullptr;
     if (gui::press_area("figure", {width, line}) && hidden != nullptr) *hidden = !*hidden;
     report_control(ui, entry.title);
-    const float opacity = hidden != nullptr && *hidden ? (ImGui::IsItemHovered() ? 0.6f : 0.35f) : 1;
-    CurveStyle style = integrator_style(c, entry.method);
-    if (entry.method == ui.session.preset().integrator) style.width = own_width;
-    style.color = faded(style.color, opacity);
-    const float middle = std::round(y + line / 2);
+    const bool struck = hidden != nullptr && *hidden;
+    LegendInk ink = legend_ink(c, integrator_style(c, entry.method), struck, ImGui::IsItemHovered());
+    if (entry.method == ui.session.preset().integrator) ink.sample.width = own_width;
+    const float middle = std::round(y + line / 2), left = x + sample + ui.theme.px(sample_gap_at_1);
     const ImVec2 ends[2] = {{x, middle}, {x + sample, middle}};
-    draw_styled_line(draw, ends, 2, style, ui.theme.scale);
-    draw_on_baseline(draw, font, {x + sample + ui.theme.px(sample_gap_at_1), baseline_at(ui.fonts, middle)},
-                     faded(c.text, opacity), entry.title);
+    draw_styled_line(draw, ends, 2, ink.sample, ui.theme.scale);
+    draw_on_baseline(draw, font, {left, baseline_at(ui.fonts, middle)}, ink.name, entry.title);
+    if (struck) strike_out({draw, ui.theme, ui.fonts}, {left, middle}, text_width(font, entry.title));
     if (hidden == nullptr) {
       tooltip(ui, gui::item_id(), "The mass itself, moved by this method");
     } else {
@@ -104,7 +103,7 @@ float height_card_least(const Ui& ui, float width) {
 
 void height_card(Ui& ui, float height) {
   Plots& plots = ui.plots;
-  const PlotCard card(ui, "height", "Height of the mass, y(t)", "m", height);
+  const PlotCard card(ui, "height", "Height of the mass, y(t)", "", height);
   const Region& inner = card.inner();
   const float side = ui.theme.px(height_legend_at_1);
   ImGui::SetCursorScreenPos({inner.at.x + inner.size.x - side, inner.at.y});

@@ -36,7 +36,7 @@ constexpr float least_tools_at_1 = 160;                                 // lower
 void copies_plot_card(Ui& ui, float height) {
   const bool energy = ui.session.copies.plotted == Copies::Quantity::energy;
   const PlotCard card(ui, "copies plot", energy ? "Energy of the copies" : "Distance of the copies",
-                      energy ? "J" : "m, log", height, 1);
+                      energy ? "" : "log", height, 1);
   if (card.head_button(ui, 0, "csv_copies", icon::download, "CSV", "Export the plot as CSV…"))
     ui.command("export_copies");
   copies_plot(ui, card.inner().size);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double gesture_end = 0.6;  // s without a change
 constexpr float text_scale_least = 0.5f, text_scale_most = 6;
+constexpr float presented_axis_text = 0.025f;  // of the window's height: read from the last row of a lecture hall
 
 /// Overlaid copies have the colors of their curves.
 void color_copies(Ui& ui) {
@@ -32,6 +33,8 @@ void follow_session(Ui& ui) {
 
 bool take_look(Ui& ui, float content_scale) {
   if (ui.input.scale_changed) ui.scale_changed = true;
+  const float axis_text = ui.presenting ? std::ceil(presented_axis_text * ImGui::GetIO().DisplaySize.y) : 0;
+  if (std::exchange(ui.theme.axis_text, axis_text) != axis_text) ui.scale_changed = true;
   if (!ui.scale_changed) return false;
   ui.scale_changed = false;
   const Look& look = tyglab::look(ui.settings.theme);

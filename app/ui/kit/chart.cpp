@@ -15,7 +15,8 @@ struct Range {
   std::vector<PlotTick> ticks;
 };
 
-Range range_of(const ChartAxis& axis, const std::vector<ChartSeries>& all, std::vector<double> ChartSeries::*values) {
+Range range_of(const ChartAxis& axis, const std::vector<ChartSeries>& all, std::vector<double> ChartSeries::*values,
+               bool upright) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
   for (const ChartSeries& series : all)
     for (const double v : series.*values)
@@ -32,7 +33,8 @@ Range range_of(const ChartAxis& axis, const std::vector<ChartSeries>& all, std::
   }
   if (least > most) least = 0.1, most = 1;
   if (axis.span) std::tie(least, most) = *axis.span;
-  const PlotRange range = axis.log ? log_range(least, most, 16) : linear_range(least, most, axis.from_zero);
+  PlotRange range = axis.log ? log_range(least, most, 16) : linear_range(least, most, axis.from_zero);
+  if (upright) add_headroom(range, least, most, axis.log);
   std::vector<double> ticks = range.ticks;
   if (axis.log) std::reverse(ticks.begin(), ticks.end());
   if (!axis.span) return {{range.lo, range.hi, axis.log}, labeled(ticks)};
@@ -96,21 +98,21 @@ PlotAxes draw_chart(const PlotPaint& paint, ImVec2 at, ImVec2 size, const Chart&
   float top = lo.y + (chart.title.empty() ? 0 : fonts.title->FontSize + theme.px(2));
   draw_text(paint.draw, *fonts.small, {lo.x, top}, c.quiet, chart.note);
   top += (chart.note.empty() ? 0 : fonts.small->FontSize) + theme.px(chart.title.empty() ? 0 : 10);
-  draw_text(paint.draw, *fonts.small, {lo.x, top}, c.text, chart.y.title);
-  top += (chart.y.title.empty() ? 0 : fonts.small->FontSize) + theme.px(8);
+  draw_text(paint.draw, *fonts.axis, {lo.x, top}, c.text, chart.y.title);
+  top += (chart.y.title.empty() ? 0 : fonts.axis->FontSize) + theme.px(8);
 
-  const Range x = range_of(chart.x, chart.series, &ChartSeries::x),
-              y = range_of(chart.y, chart.series, &ChartSeries::y);
+  const Range x = range_of(chart.x, chart.series, &ChartSeries::x, false),
+              y = range_of(chart.y, chart.series, &ChartSeries::y, true);
   float labels = 0;
-  for (const PlotTick& tick : y.ticks) labels = std::max(labels, text_width(*fonts.small, tick.label) + theme.px(7));
+  for (const PlotTick& tick : y.ticks) labels = std::max(labels, text_width(*fonts.axis, tick.label) + theme.px(7));
   const float legend_height = legend(paint, lo, hi.x - lo.x, chart, false);
-  const float below = 2 * fonts.small->FontSize + theme.px(14) + legend_height;
+  const float below = 2 * fonts.axis->FontSize + theme.px(14) + legend_height;
   const PlotAxes axes{{lo.x + labels, top}, {hi.x, hi.y - below}, x.scale, y.scale};
   draw_ground(paint, axes, y.ticks);
   draw_x_ticks(paint, axes, x.ticks);
-  const float title_width = text_width(*fonts.small, chart.x.title);
-  draw_text(paint.draw, *fonts.small,
-            {std::round((axes.lo.x + axes.hi.x - title_width) / 2), axes.hi.y + fonts.small->FontSize + theme.px(6)},
+  const float title_width = text_width(*fonts.axis, chart.x.title);
+  draw_text(paint.draw, *fonts.axis,
+            {std::round((axes.lo.x + axes.hi.x - title_width) / 2), axes.hi.y + fonts.axis->FontSize + theme.px(6)},
             c.text, chart.x.title);
   paint.draw.PushClipRect({axes.lo.x - theme.px(4), axes.lo.y - theme.px(4)},
                           {axes.hi.x + theme.px(4), axes.hi.y + theme.px(4)}, true);

@@ -82,34 +82,117 @@ void draw_mark(const PlotPaint& paint, ImVec2 at, float radius, ImU32 color, boo
 
 void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> y_ticks) {
   const Tokens& c = paint.theme.colors;
-  const ImFont& font = *paint.fonts.small;
+  const ImFont& font = *paint.fonts.axis;
   paint.draw.AddRectFilled(axes.lo, axes.hi, c.ground, paint.theme.px(3));
-  float last = -1e9f;
-  for (const auto& [tick, label] : y_ticks) {
-    const float y = std::round(axes.py(tick));
-    paint.draw.AddLine({axes.lo.x, y}, {axes.hi.x, y}, faded(c.line, tick == 0 ? 1.f : 0.7f));
+  std::vector<float> taken;
+  const auto label_at = [&](const PlotTick& tick) {
+    const float y = std::round(axes.py(tick.at));
     const float top =
         std::max(std::min(y - font.FontSize / 2, axes.hi.y - font.FontSize + 2), axes.lo.y - font.FontSize / 2);
-    if (std::abs(top - last) < font.FontSize) continue;
-    last = top;
-    draw_text(paint.draw, font, {axes.lo.x - paint.theme.px(6) - text_width(font, label), std::round(top)}, c.quiet,
-              label);
+    for (const float other : taken)
+      if (std::abs(top - other) < font.FontSize) return;
+    taken.push_back(top);
+    draw_text(paint.draw, font, {axes.lo.x - paint.theme.px(6) - text_width(font, tick.label), std::round(top)},
+              c.quiet, tick.label);
+  };
+  for (const PlotTick& tick : y_ticks) {
+    const float y = std::round(axes.py(tick.at));
+    paint.draw.AddLine({axes.lo.x, y}, {axes.hi.x, y}, faded(c.line, tick.at == 0 ? 1.f : 0.7f));
   }
+  if (y_ticks.empty()) return;
+  label_at(y_ticks.back()), label_at(y_ticks.front());  // the ends first: one of them has the unit
+  for (const PlotTick& tick : y_ticks) label_at(tick);
 }
 
-void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> ticks) {
+void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> ticks,
+                  std::string_view unit) {
   const Tokens& c = paint.theme.colors;
-  const ImFont& font = *paint.fonts.small;
+  const ImFont& font = *paint.fonts.axis;
+  const float top = axes.hi.y + paint.theme.px(4), gap = paint.theme.px(10);
+  const std::string end(unit);
+  const float of_unit = text_width(font, end), last = axes.hi.x - (unit.empty() ? 0 : of_unit + paint.theme.px(4));
+  if (!unit.empty()) draw_text(paint.draw, font, {axes.hi.x - of_unit, top}, c.quiet, end);
   float free_from = -1e9f;
   for (const auto& [tick, label] : ticks) {
     const float x = std::round(axes.px(tick)), width = text_width(font, label);
     paint.draw.AddLine({x, axes.lo.y}, {x, axes.hi.y}, faded(c.line, 0.7f));
     // The last one stays within the plot: beyond it a card may end.
-    const float left = std::round(std::min(x - width / 2, axes.hi.x - width));
+    const float left = std::round(std::max(std::min(x - width / 2, last - width), axes.lo.x - width / 2));
     if (left < free_from) continue;
-    draw_text(paint.draw, font, {left, axes.hi.y + paint.theme.px(4)}, c.quiet, label);
-    free_from = left + width + paint.theme.px(10);
+    draw_text(paint.draw, font, {left, top}, c.quiet, label);
+    free_from = left + width + gap;
   }
+}
+
+namespace {
+
+constexpr float end_gap_at_1 = 5, end_stroke_at_1 = 6;  // px: before the stroke, and its length
+
+/// Whether it is a word rather than a symbol such as F_s.
+bool is_word(std::string_view name) {
+  return name.size() > 3 && name.find('_') == std::string_view::npos;
+}
+
+float name_width(const PlotPaint& paint, std::string_view name) {
+  return is_word(name) ? text_width(*paint.fonts.small, name) : symbol_width(paint.fonts, name);
+}
+
+}  // namespace
+
+float end_labels_width(const PlotPaint& paint, std::span<const PlotCurve> curves) {
+  float widest = 0;
+  for (const PlotCurve& curve : curves) widest = std::max(widest, name_width(paint, curve.symbol));
+  return curves.empty() ? 0 : std::ceil(widest) + paint.theme.px(2 * end_gap_at_1 + end_stroke_at_1);
+}
+
+void draw_end_labels(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotCurve> curves, std::size_t first,
+                     std::size_t last, float right) {
+  struct Label {
+    const PlotCurve* curve;
+    float x, y;  ///< of the curve's end
+  };
+  std::vector<Label> labels;
+  for (const PlotCurve& curve : curves)
+    for (std::size_t n = std::min({last, curve.to, curve.x.size()}); n > std::max(first, curve.from); --n) {
+      if (!axes.x.drawable(curve.x[n - 1]) || !axes.y.drawable(curve.y[n - 1])) continue;
+      const float y = std::clamp(axes.py(curve.y[n - 1]), axes.lo.y, axes.hi.y);
+      labels.push_back({&curve, std::min(axes.px(curve.x[n - 1]), axes.hi.x), y});
+      break;
+    }
+  const float line = std::round(paint.fonts.symbol->FontSize * 0.92f);
+  const float lowest = axes.hi.y - line / 2, highest = axes.lo.y + line / 2;
+  if (float(labels.size()) * line > axes.hi.y - axes.lo.y) return;
+  std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
+  // From the top down no higher than its curve's end, then from the bottom up as low as there is room.
+  std::vector<float> at;
+  for (const Label& label : labels)
+    at.push_back(std::max(std::max(label.y, highest), at.empty() ? -1e9f : at.back() + line));
+  for (std::size_t k = at.size(); k-- > 0;) at[k] = std::min(at[k], k + 1 < at.size() ? at[k + 1] - line : lowest);
+  const float gap = paint.theme.px(end_gap_at_1), stroke = paint.theme.px(end_stroke_at_1);
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const auto& [curve, x, y] = labels[k];
+    const float width = name_width(paint, curve->symbol);
+    const float left = std::round(std::min(x + gap, right - width - stroke - gap)), middle = std::round(at[k]);
+    paint.draw.AddRectFilled({left - gap / 2, middle - line / 2}, {left + stroke + gap + width, middle + line / 2},
+                             faded(paint.theme.colors.ground, 0.8f), paint.theme.px(2));
+    paint.draw.AddLine({left, middle}, {left + stroke, middle}, curve->style.color, 3 * paint.theme.scale);
+    const ImVec2 foot{left + stroke + gap / 2, baseline_at(paint.fonts, middle)};
+    is_word(curve->symbol)
+        ? draw_on_baseline(paint.draw, *paint.fonts.small, foot, paint.theme.colors.text, curve->symbol)
+        : draw_symbol(paint.draw, paint.fonts, foot, curve->symbol, paint.theme.colors.text);
+  }
+}
+
+LegendInk legend_ink(const Tokens& c, const CurveStyle& style, bool hidden, bool hovered) {
+  if (!hidden) return {c.text, style};
+  CurveStyle quiet = style;
+  quiet.color = c.quiet;
+  return {hovered ? c.text : c.quiet, quiet};
+}
+
+void strike_out(const PlotPaint& paint, ImVec2 lo, float length) {
+  const float thick = std::max(1.f, paint.theme.px(1));
+  paint.draw.AddLine({lo.x - thick, lo.y}, {lo.x + length + thick, lo.y}, paint.theme.colors.quiet, thick);
 }
 
 void draw_curve(const PlotPaint& paint, const PlotAxes& axes, const PlotCurve& curve, std::size_t first,

@@ -69,6 +69,8 @@ struct PlotRange {
 PlotRange log_range(double least, double most, int most_decades = 6);
 /// Round steps that hold the least and the most; 0 too if `from_zero`.
 PlotRange linear_range(double least, double most, bool from_zero);
+/// Leaves a twentieth of the axis free above the most, and below the least where the axis does not begin at 0.
+void add_headroom(PlotRange& range, double least, double most, bool log);
 /// With labels as short as they can be.
 std::vector<PlotTick> labeled(std::span<const double> ticks);
 
@@ -76,8 +78,24 @@ std::vector<PlotTick> labeled(std::span<const double> ticks);
 void draw_mark(const PlotPaint& paint, ImVec2 at, float radius, ImU32 color, bool hollow);
 /// Ground and horizontal lines, their labels to the left of it.
 void draw_ground(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> y_ticks);
-/// Vertical lines with labels below; those that would touch the one before go without.
-void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> ticks);
+/// Vertical lines with labels below, the unit after the last; labels that would touch the one before are left out.
+void draw_x_ticks(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotTick> ticks,
+                  std::string_view unit = {});
+/// Ink of a name in a legend, and of its sample: quiet where the curve is hidden.
+struct LegendInk {
+  ImU32 name;
+  CurveStyle sample;
+};
+LegendInk legend_ink(const Tokens& colors, const CurveStyle& style, bool hidden, bool hovered);
+/// A stroke through the name of a curve that is hidden, from `lo` on, as long as that.
+void strike_out(const PlotPaint& paint, ImVec2 lo, float length);
+
+/// The width that the names of the curves need beside their ends, px.
+float end_labels_width(const PlotPaint& paint, std::span<const PlotCurve> curves);
+/// Draws the names beside the ends of the samples [first, last), each with a stroke of its curve's color, up to x =
+/// `right`; in a plot too low for all of them, none.
+void draw_end_labels(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotCurve> curves, std::size_t first,
+                     std::size_t last, float right);
 /// The points [first, last) of a curve. What is not finite interrupts it; where it leaves the scale stands a flag.
 void draw_curve(const PlotPaint& paint, const PlotAxes& axes, const PlotCurve& curve, std::size_t first,
                 std::size_t last);

@@ -123,7 +123,7 @@ class Builder {
 
 }  // namespace
 
-Fonts build_fonts(float scale) {
+Fonts build_fonts(float scale, float axis) {
   Fonts fonts;
   Builder builder(scale, fonts);
   fonts.text = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 14, text_glyphs, true);
@@ -133,6 +133,9 @@ Fonts build_fonts(float scale) {
   fonts.large_icons = builder.load("Inter-Regular.otf", "DejaVuSans.ttf", 18, plain_glyphs, true);
   fonts.symbol = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 19, symbol_glyphs);
   fonts.subscript = builder.load("STIXGeneral-Italic.otf", "DejaVuSans.ttf", 13, symbol_glyphs);
+  fonts.axis = axis > fonts.small->FontSize
+                   ? builder.load("Inter-Regular.otf", "DejaVuSans.ttf", axis / scale, number_glyphs)
+                   : fonts.small;
   fonts.mono = builder.load("JetBrainsMono-Regular.ttf", "DejaVuSansMono.ttf", 13, number_glyphs);
   if (!builder.has("forkawesome-webfont.ttf"))
     fonts.notes.push_back(

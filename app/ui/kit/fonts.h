@@ -17,13 +17,15 @@ struct Fonts {
   ImFont* symbol = nullptr;        ///< 19, italic
   ImFont* subscript = nullptr;     ///< 13, italic
   ImFont* mono = nullptr;          ///< 13
+  ImFont* axis = nullptr;          ///< numbers at the axes of plots: small, or larger for an audience
   bool icons = false;              ///< whether the icon font was found
   std::vector<std::string> notes;  ///< what was missing, and what stands in for it
 };
 
 /// Fills Dear ImGui's atlas again at exact sizes; the atlas' texture must be made again afterwards. Missing fonts fall
 /// back to DejaVu, then to Dear ImGui's own.
-Fonts build_fonts(float scale);
+/// `axis`: the least size of numbers at axes, px.
+Fonts build_fonts(float scale, float axis = 0);
 
 /// Icons of Fork Awesome by their meaning.
 namespace icon {

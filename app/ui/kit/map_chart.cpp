@@ -19,14 +19,20 @@ double part_of(double share) {
   return std::log(size / least_share) / std::log(most_share / least_share);
 }
 
+ImU32 color_of_share(const Tokens& c, double share) {
+  return map_color({false, c.light}, part_of(share));
+}
+
 ImU32 color_of(const Tokens& c, const MapCell& cell) {
-  return cell.diverged ? mixed(c.ground, c.danger, 0.75f) : magnitude_color(part_of(cell.share));
+  return cell.diverged ? mixed(c.ground, c.danger, 0.75f) : color_of_share(c, cell.share);
 }
 
 /// Where each zone ends, by theory; what lies between the lines depends on the shape.
 void add_borders(Chart& chart, const Tokens& c, Kind kind, const MapBoundary& boundary) {
   if (boundary.dt.empty()) return;
   const auto name = [&](Zone zone, const char* side) { return std::string(zone_name(zone, kind)) + " " + side; };
+  const CurveStyle rim{c.ground, LineStyle::solid, 5};  // a line of the text's color is lost on pale cells
+  chart.series.push_back({"", rim, true, 0, boundary.stiffness, boundary.dt});
   chart.series.push_back(
       {name(Zone::stable, "below"), {c.text, LineStyle::solid, 2}, true, 0, boundary.stiffness, boundary.dt});
   if (kind == Kind::one_weight) return;
@@ -34,7 +40,9 @@ void add_borders(Chart& chart, const Tokens& c, Kind kind, const MapBoundary& bo
   for (std::size_t n = 0; n < boundary.every.size(); ++n)
     if (std::isfinite(boundary.every[n]))
       every.x.push_back(boundary.stiffness[n]), every.y.push_back(boundary.every[n]);
-  if (!every.x.empty()) chart.series.push_back(std::move(every));
+  if (every.x.empty()) return;
+  chart.series.push_back({"", rim, true, 0, every.x, every.y});
+  chart.series.push_back(std::move(every));
 }
 
 /// A name in the legend with a disc of its color, and nothing in the plot.
@@ -54,11 +62,12 @@ Chart map_chart(const Tokens& c, const Preset& preset, const MapGrid& grid, cons
     chart.cells.push_back({grid.stiffness(cell.column), grid.stiffness(cell.column + 1), grid.dt(cell.row),
                            grid.dt(cell.row + 1), color_of(c, cell), cell.diverged});
   add_borders(chart, c, preset.kind, boundary);
+  chart.series.push_back({"", {c.ground, LineStyle::solid, 1}, false, 8, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back({"now", {c.sky, LineStyle::solid, 1}, false, 6, {stiffness_of(preset)}, {preset.dt}});
   chart.series.push_back(key("diverged", color_of(c, {.diverged = true})));
-  chart.series.push_back(key("energy error 1e-6", magnitude_color(part_of(1e-6))));
-  chart.series.push_back(key("error 1e-3", magnitude_color(part_of(1e-3))));
-  chart.series.push_back(key("error 1", magnitude_color(part_of(1))));
+  chart.series.push_back(key("energy error 1e-6", color_of_share(c, 1e-6)));
+  chart.series.push_back(key("error 1e-3", color_of_share(c, 1e-3)));
+  chart.series.push_back(key("error 1", color_of_share(c, 1)));
   return chart;
 }
 

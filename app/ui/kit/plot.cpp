@@ -46,24 +46,23 @@ double quantile(const std::vector<double>& sorted, double q) {
 void name_unit(std::vector<PlotTick>& ticks, std::string_view unit) {
   const auto by_value = [](const PlotTick& a, const PlotTick& b) { return a.at < b.at; };
   const auto top = std::max_element(ticks.begin(), ticks.end(), by_value);
-  if (top != ticks.end()) top->label += " " + std::string(unit);
+  if (top != ticks.end() && !unit.empty()) top->label += " " + std::string(unit);
 }
 
 float label_width(UiContext& ui, std::span<const PlotTick> ticks) {
   float width = ui.theme.px(38);
-  for (const PlotTick& tick : ticks) width = std::max(width, text_width(*ui.fonts.small, tick.label) + ui.theme.px(7));
+  for (const PlotTick& tick : ticks) width = std::max(width, text_width(*ui.fonts.axis, tick.label) + ui.theme.px(7));
   return width;
 }
 
-/// The times at both ends, below.
-void draw_times(const PlotPaint& paint, const PlotAxes& axes) {
-  const ImFont& font = *paint.fonts.small;
-  const float below = axes.hi.y + paint.theme.px(4);
-  const int digits = digits_apart(axes.x.lo, axes.x.hi);
-  const auto time = [&](double t) { return short_number(rounded(t, digits), digits) + " s"; };
-  const std::string from = time(axes.x.lo), to = time(axes.x.hi);
-  draw_text(paint.draw, font, {axes.lo.x, below}, paint.theme.colors.quiet, from);
-  draw_text(paint.draw, font, {axes.hi.x - text_width(font, to), below}, paint.theme.colors.quiet, to);
+/// Round times, with as many digits as tell them apart.
+std::vector<PlotTick> time_ticks(double from, double to) {
+  std::vector<PlotTick> ticks;
+  const std::vector<double> times = linear_range(from, to, false).ticks;
+  const int digits = digits_apart(times[times.size() - 2], times.back());
+  for (const double t : times)
+    if (t >= from && t <= to) ticks.push_back({t, short_number(rounded(t, digits), digits)});
+  return ticks;
 }
 
 void read_out(UiContext& ui, ImDrawList& draw, const PlotAxes& axes, std::span<const PlotCurve> curves,
@@ -104,21 +103,43 @@ void read_out(UiContext& ui, ImDrawList& draw, const PlotAxes& axes, std::span<c
   end_tooltip(ui);
 }
 
+/// Whether the names of the curves leave the curves most of a width, px.
+bool names_fit(const PlotPaint& paint, std::span<const PlotCurve> curves, float width) {
+  constexpr float most = 0.34f;
+  return end_labels_width(paint, curves) < most * width;
+}
+
+/// How much of that width, px, the axes leave to names beside the ends of the curves: nothing while the curves end so
+/// early that the names have room in the plot.
+float room_for_names(const PlotPaint& paint, std::span<const PlotCurve> curves, const PlotFrame& frame, float width) {
+  if (!names_fit(paint, curves, width)) return 0;
+  const double end = std::min(curves.front().x.back(), frame.x_max), names = end_labels_width(paint, curves);
+  const double part = std::max((end - frame.x_min) / (frame.x_max - frame.x_min), 1e-3);
+  return std::ceil(float(std::clamp(width - (width - names) / part, 0.0, names)));
+}
+
 }  // namespace
 
 PlotRange plot_range(std::span<const PlotCurve> curves, const PlotFrame& frame) {
   const std::vector<double> values = values_in(curves, frame);
   if (values.empty()) return frame.log ? log_range(1e-3, 1) : linear_range(0, 1, true);
+  const auto with_headroom = [&](PlotRange range, double least, double most) {
+    add_headroom(range, least, most, frame.log);
+    return range;
+  };
   // Nearly all of the values count; beyond three times their spread begins what leaves the scale.
   const double low = quantile(values, 0.02), high = quantile(values, 0.97);
-  if (frame.log) return log_range(std::max(values.front(), low * 1e-2), std::min(values.back(), high * 1e3));
+  if (frame.log) {
+    const double least = std::max(values.front(), low * 1e-2), most = std::min(values.back(), high * 1e3);
+    return with_headroom(log_range(least, most), least, most);
+  }
   const double reach = 3 * std::max(high - low, 0.1 * std::abs(high));
   double least = values.front(), most = values.back();
   if (reach > 0) least = std::max(least, low - reach), most = std::min(most, high + reach);
   // What differs in no digit of the labels is one value: rounding would look like motion.
   constexpr double least_span = 1e-3;
   if (most - least < least_span * std::abs(least)) least = most = (least + most) / 2;
-  return linear_range(least, most, frame.from_zero);
+  return with_headroom(linear_range(least, most, frame.from_zero), least, most);
 }
 
 float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const PlotCurve> curves, const PlotFrame& frame) {
@@ -128,26 +149,30 @@ float draw_plot(UiContext& ui, const char* id, ImVec2 size, std::span<const Plot
   const PlotPaint paint{*ImGui::GetWindowDrawList(), ui.theme, ui.fonts};
   const PlotRange range = plot_range(curves, frame);
   std::vector<PlotTick> ticks = labeled(range.ticks);
-  if (ui.unit_on_axis) name_unit(ticks, frame.unit);
-  const ImFont& font = *ui.fonts.small;
-  const PlotAxes axes{{lo.x + label_width(ui, ticks), lo.y + std::round(font.FontSize / 2)},
-                      {hi.x, hi.y - font.FontSize - ui.theme.px(6)},
+  name_unit(ticks, frame.unit);
+  const ImFont& font = *ui.fonts.axis;
+  const bool empty = curves.empty() || curves.front().x.empty() || curves.front().x.back() < frame.x_min;
+  const float left = lo.x + label_width(ui, ticks);
+  const float names = empty ? 0 : room_for_names(paint, curves, frame, hi.x - left);
+  const PlotAxes axes{{left, lo.y + std::round(font.FontSize / 2)},
+                      {hi.x - names, hi.y - font.FontSize - ui.theme.px(6)},
                       {frame.x_min, frame.x_max},
                       {range.lo, range.hi, frame.log}};
   if (axes.hi.x - axes.lo.x < 8 || axes.hi.y - axes.lo.y < 8) return 0;
   draw_ground(paint, axes, ticks);
-  draw_times(paint, axes);
-  if (curves.empty() || curves.front().x.empty() || curves.front().x.back() < frame.x_min) {
-    const float width = text_width(font, frame.when_empty);
-    draw_text(paint.draw, font,
-              {std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)},
-              ui.theme.colors.quiet, frame.when_empty);
+  draw_x_ticks(paint, axes, time_ticks(frame.x_min, frame.x_max), "s");
+  if (empty) {
+    const float width = text_width(font, frame.when_empty), pad = ui.theme.px(6);
+    const ImVec2 at{std::round((axes.lo.x + axes.hi.x - width) / 2), std::round((axes.lo.y + axes.hi.y) / 2)};
+    paint.draw.AddRectFilled({at.x - pad, at.y}, {at.x + width + pad, at.y + font.FontSize}, ui.theme.colors.ground);
+    draw_text(paint.draw, font, at, ui.theme.colors.quiet, frame.when_empty);
     return 0;
   }
   const auto [first, last] = window_of(curves.front().x, frame);
   paint.draw.PushClipRect(axes.lo, axes.hi, true);
   for (const PlotCurve& curve : curves) draw_curve(paint, axes, curve, first, last);
   paint.draw.PopClipRect();
+  if (names_fit(paint, curves, hi.x - left)) draw_end_labels(paint, axes, curves, first, last, hi.x);
   if (!hovered) return 0;
   if (ImGui::GetIO().MousePos.x >= axes.lo.x) read_out(ui, paint.draw, axes, curves, frame);
   const bool scrolls = ui.wheel_scrolls && !ImGui::GetIO().KeyCtrl;

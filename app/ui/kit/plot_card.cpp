@@ -27,8 +27,8 @@ PlotCard::PlotCard(UiContext& ui, const char* id, std::string_view title, std::s
   draw_text(draw, *ui.fonts.title, {lo.x + padding, top}, c.text, shown);
   const ImFont& small = *ui.fonts.small;
   const float note_x = lo.x + width - padding - heads - text_width(small, note);
-  ui.unit_on_axis = note_x <= lo.x + 2 * padding + text_width(*ui.fonts.title, shown);
-  if (!ui.unit_on_axis) draw_text(draw, small, {note_x, top + ui.fonts.title->Ascent - small.Ascent}, c.quiet, note);
+  if (note_x > lo.x + 2 * padding + text_width(*ui.fonts.title, shown))
+    draw_text(draw, small, {note_x, top + ui.fonts.title->Ascent - small.Ascent}, c.quiet, note);
   const float title_height = ui.theme.px(plot_card_title_at_1);
   inner_ = {{lo.x + padding, top + title_height}, {width - 2 * padding, height - 2 * padding - title_height}};
   ImGui::SetCursorScreenPos(inner_.at);

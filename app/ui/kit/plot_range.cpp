@@ -18,7 +18,12 @@ PlotRange log_range(double least, double most, int most_decades) {
   double bottom = std::floor(std::log10(least) + 1e-9);
   bottom = std::clamp(bottom, top - most_decades, top - 1);
   const double step = std::max(1.0, std::ceil((top - bottom) / 4));
-  for (double decade = top; decade >= bottom; decade -= step) range.ticks.push_back(std::pow(10, decade));
+  for (double decade = top; decade >= bottom; decade -= step) {
+    range.ticks.push_back(std::pow(10, decade));
+    // A single decade has but two ends.
+    if (top - bottom < 1.5 && decade > bottom)
+      for (const double part : {0.5, 0.2}) range.ticks.push_back(part * std::pow(10, decade));
+  }
   range.lo = std::pow(10, bottom), range.hi = std::pow(10, top);
   return range;
 }
@@ -39,6 +44,17 @@ PlotRange linear_range(double least, double most, bool from_zero) {
     range.ticks.push_back(std::abs(tick) < step * 1e-6 ? 0 : tick);
   }
   return range;
+}
+
+void add_headroom(PlotRange& range, double least, double most, bool log) {
+  constexpr double headroom = 0.05, share = headroom / (1 - headroom);
+  if (log) {
+    const double bottom = std::log10(range.lo), top = std::log10(most);
+    range.hi = std::max(range.hi, std::pow(10, top + share * (top - bottom)));
+    return;
+  }
+  if (range.lo != 0) range.lo = std::min(range.lo, least - share * (range.hi - least));
+  range.hi = std::max(range.hi, most + share * (most - range.lo));
 }
 
 }  // namespace tyglab

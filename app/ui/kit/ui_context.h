@@ -84,7 +84,6 @@ struct UiContext {
   bool close_lists = false;      ///< Esc was pressed: open menus and combo boxes close in this frame
   bool covered = false;          ///< something lies over everything: no tooltips
   bool wheel_scrolls = false;    ///< the wheel scrolls the column of plots, and zooms a plot only with Ctrl
-  bool unit_on_axis = false;     ///< the head of the plot's card had no room for the unit
   float row_width = 0;           ///< of what is laid out in rows, pixels
   std::string refusal;           ///< said of the number that was refused last; empty once one has been accepted
 

@@ -95,17 +95,19 @@ void ring(Ui& ui, ImDrawList& draw, ImVec2 at, float radius, ImU32 color, float 
 bool draw_arrow(Ui& ui, ImDrawList& draw, ImVec2 from, ImVec2 to, const CurveStyle& style, bool cut_short) {
   const float dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
   if (length < ui.theme.px(10)) return false;
-  const float ux = dx / length, uy = dy / length, head = ui.theme.px(9);
+  // Twice as thick for an audience, as far as the arrow is long enough for its head.
+  const float weight = ui.presenting ? std::min(2.f, length / ui.theme.px(12)) : 1;
+  const float ux = dx / length, uy = dy / length, head = ui.theme.px(9 * weight);
   const ImVec2 neck{to.x - ux * head, to.y - uy * head};
-  draw.AddLine(from, neck, faded(ui.theme.colors.ground, 0.55f), ui.theme.px(5));
+  draw.AddLine(from, neck, faded(ui.theme.colors.ground, 0.55f), ui.theme.px(2.6f * weight + 2.4f));
   const ImVec2 line[2] = {from, neck};
   CurveStyle thick = style;
-  thick.width = 2.6f;
+  thick.width = 2.6f * weight;
   draw_styled_line(draw, line, 2, thick, ui.theme.scale);
   const ImVec2 left{neck.x - uy * head * 0.5f, neck.y + ux * head * 0.5f},
       right{neck.x + uy * head * 0.5f, neck.y - ux * head * 0.5f};
   if (cut_short)
-    draw.AddTriangle(to, left, right, style.color, std::max(1.f, ui.theme.px(1.5f)));
+    draw.AddTriangle(to, left, right, style.color, std::max(1.f, ui.theme.px(1.5f * weight)));
   else
     draw.AddTriangleFilled(to, left, right, style.color);
   return true;

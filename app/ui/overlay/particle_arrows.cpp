@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,13 +57,21 @@ std::vector<Box> label_places(const Ui& ui, int tile, glm::vec2 head, glm::vec2 
   for (const float back : {0.f, 12.f, 24.f})
     for (const float side : {1.f, -1.f})
       add(head - along * ui.theme.px(back) + across * side * (glm::length(size * across) / 2 + ui.theme.px(12)));
+  if (!ui.presenting) return places;
+  // An audience cannot point at an arrow to see what it is: every one is labeled, if need be farther away.
+  constexpr int directions = 16;
+  for (float away = 30; away <= 180; away += 15)
+    for (int k = 0; k < directions; ++k) {
+      const float angle = 2 * std::numbers::pi_v<float> * float(k) / directions;
+      add(head + ui.theme.px(away) * (std::cos(angle) * along + std::sin(angle) * across));
+    }
   return places;
 }
 
 /// The symbol beside an arrow's head, where there is room for it.
 void arrow_label(Ui& ui, ImDrawList& draw, int tile, ImVec2 from, ImVec2 to, std::string_view symbol) {
   const glm::vec2 head(to.x, to.y), way = head - glm::vec2(from.x, from.y);
-  if (glm::length(way) < ui.theme.px(24)) return;
+  if (glm::length(way) < ui.theme.px(24) && !ui.presenting) return;
   const float pad = ui.theme.px(7), height = ui.theme.px(24);
   const glm::vec2 size(std::ceil(symbol_width(ui.fonts, symbol)) + 2 * pad, height);
   std::vector<Box> places = label_places(ui, tile, head, glm::normalize(way), size);

@@ -177,6 +177,8 @@ void viewport_panel(Ui& ui, const Region& region) {
   if ((buttons || ui.presenting) && ui.session.copies.tiles() == 1)
     ui.viewport.buttons += marks_height(ui, ui.viewport.size().x, !above) + names_above_height(ui);
   ui.viewport.foot = names_below_height(ui);
+  constexpr float usual = 0.84f, presented = 0.94f;
+  ui.viewport.filled = ui.presenting ? presented : usual;
   ui.notes_from = ui.viewport.box.lo.y + ui.theme.px(above || ui.presenting ? 12 : 52);
   ui.viewport.covers.clear();
   if (!begin_region("viewport", region, ui.theme.colors.ground, {0, 0})) return end_region();
