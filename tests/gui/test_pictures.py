@@ -154,7 +154,7 @@ def saved(stage):
 @case
 def effects(stage):
     """few effects are drawn where that is wished, and all where that is"""
-    few = stage.start("hanging", effects="few")
+    few = stage.start("sphere", effects="few")  # with a plane for shadows to fall on
     report = few.wait(lambda r: r["t"] > 0.3, "the cloth to fall a little")
     check(report["effects_left_out"] == 3, "three effects are left out")
     few.key("space")

@@ -79,6 +79,7 @@ TEST_CASE("the window tells of energy that errors of the method have added; in a
   test::NullUi student({.preset = "hanging"});
   begin_lab(student.session, "02_euler");
   student.frames(4);
+  student.click("lab.prediction"), student.type("3"), student.key(GLFW_KEY_ENTER);  // the motion waits for it
   student.session.pacing.playing = true, student.session.pacing.speed = 0.2;  // so that there are many looks
   student.until([&] { return student.cloth().excess() > 1.5; }, "Euler to add energy");
   student.session.updates_unlooked = 0;
@@ -90,6 +91,8 @@ TEST_CASE("the window tells of energy that errors of the method have added; in a
 TEST_CASE("in a small window with a lab the details scroll, stand over all else, and fold again") {
   test::NullUi window({.preset = "hanging", .size = {900, 600}});
   begin_lab(window.session, "03_stiffness");
+  window.frames(4);
+  window.click("lab.prediction"), window.type("200"), window.key(GLFW_KEY_ENTER);  // the motion waits for it
   window.type_value("k_s", "100000");
   window.session.pacing.playing = true;
   explode(window);

@@ -220,7 +220,7 @@ TEST_CASE("a lab begins without the copies that were there, and says so") {
   window.frames(2);
   CHECK(window.session.labs.run.has_value());
   CHECK(window.session.copies.lockstep.empty());
-  CHECK(window.said("removed"));
+  CHECK(window.said("Your copies come back when you leave it."));
   CHECK(window.ui.viewport.columns * window.ui.viewport.rows == 1);
 }
 
