@@ -123,17 +123,35 @@ const gl::Program& ClothRenderer::Parts::use(const gl::Program& plain, const gl:
   return program;
 }
 
-void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
+/// What both programs need that draw the cloth's surface (cloth.frag).
+void ClothRenderer::Parts::set_surface(const gl::Program& program, const ViewOptions& options) {
   const Lattice& lattice = mesh.lattice();
   const glm::vec2 steps(std::max(lattice.columns - 1, 1), std::max(lattice.rows - 1, 1));
-  const gl::Program& cloth = use(shared->cloth, shared->colored ? &shared->colored->cloth : nullptr, options);
-  cloth.set("cloth", texture_unit);
-  cloth.set("shadow_map", shadow_unit);
-  cloth.set("stride", mesh.stride());
-  cloth.set("texture_step", 1.0f / steps);
-  cloth.set("hem", options.palette.hem);
-  cloth.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
+  program.set("cloth", texture_unit);
+  program.set("shadow_map", shadow_unit);
+  program.set("stride", mesh.stride());
+  program.set("texture_step", 1.0f / steps);
+  program.set("hem", options.palette.hem);
+  program.set("hem_width", hem_part * std::min(steps.x, steps.y) / steps);
+}
+
+void ClothRenderer::Parts::draw_triangles(const ViewOptions& options) {
+  set_surface(use(shared->cloth, shared->colored ? &shared->colored->cloth : nullptr, options), options);
   mesh.draw(ClothMesh::List::triangles, GL_TRIANGLES);
+}
+
+/// The edges of tears, over the background, since threads cover it only in part.
+void ClothRenderer::Parts::draw_frayed(const ViewOptions& options) {
+  const gl::Program& frayed = use(shared->frayed, shared->colored ? &shared->colored->frayed : nullptr, options);
+  set_surface(frayed, options);
+  frayed.set("positions", positions_unit);
+  frayed.set("normals", normals_unit);
+  frayed.set("pieces", lines_unit);
+  frayed.set("component", mesh.stride() / 3);
+  frayed.set("spacing", spacing());
+  glEnable(GL_BLEND);
+  mesh.draw_frayed(positions_unit, normals_unit, lines_unit);
+  glDisable(GL_BLEND);
 }
 
 void ClothRenderer::Parts::draw_lines_of(const ClothMesh& of, const gl::Program& lines, ClothMesh::List list) {
@@ -219,6 +237,7 @@ void ClothRenderer::Parts::draw_opaque(const ViewOptions& options) {
 
 void ClothRenderer::Parts::draw_blended(const ViewOptions& options) {
   const float width = options.line_width;
+  if (options.lit()) draw_frayed(options);
   switch (options.mode) {
     case 2:
       draw_lines(ClothMesh::List::diagonal, options, options.colored ? 0.8f : 0.5f, 0.7f * width);

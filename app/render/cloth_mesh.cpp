@@ -11,6 +11,7 @@ using List = ClothMesh::List;
 bool needs(const ViewOptions& options, List list) {
   switch (list) {
     case List::triangles:
+    case List::frayed:
       return options.lit();
     case List::straight:
     case List::diagonal:
@@ -31,7 +32,8 @@ bool needs(const ViewOptions& options, List list) {
   return false;
 }
 
-bool of_lines(List list) {
+/// Whether its vertices find their positions in a texture themselves.
+bool of_texels(List list) {
   return list != List::triangles && list != List::particles && list != List::pins;
 }
 
@@ -62,15 +64,19 @@ void ClothMesh::update(const ClothScene& scene, const ViewOptions& options, bool
   work.vertex_path = vertex_path_;
   normals_ready_ = needs_normals || (normals_ready_ && !moved);
   const Stopwatch watch(work.index_lists);
-  bool lines = false;
+  bool texels = false;
   for (int list = 0; list < int(List::count); ++list) {
     if (!needs(options, List(list))) continue;
     prepare(List(list), scene);
-    lines |= of_lines(List(list));
+    texels |= of_texels(List(list)) && lists_[std::size_t(list)].count > 0;
   }
-  if (lines && !position_texels_ready_) {
+  if (texels && !position_texels_ready_) {
     position_texels_.take(position_source_, floats_.size());
     position_texels_ready_ = true;
+  }
+  if (options.lit() && lists_[int(List::frayed)].count > 0 && !normal_texels_ready_) {
+    normal_texels_.take(normal_source_, floats_.size());
+    normal_texels_ready_ = true;
   }
   glBindVertexArray(0);
 }
@@ -84,7 +90,7 @@ void ClothMesh::take(const ClothScene& scene, bool moved, bool normals, RenderWo
     vertex_path_ = lent ? VertexPath::shared_memory : VertexPath::copied;
     set_positions(lent ? *lent : copied(position_buffer_, floats_.data, work));
   }
-  if (normals) set_attributes(3, make_normals(scene, work));
+  if (normals) set_normals(make_normals(scene, work));
 }
 
 void ClothMesh::take_positions(const PositionView& view, bool moved, RenderWork& work) {
@@ -118,7 +124,7 @@ void ClothMesh::have_written(const ClothScene& scene, bool moved, bool normals, 
   mapped_normals_.free();
   vertex_path_ = VertexPath::shared_buffer;
   set_positions(written_.positions());
-  if (normals) set_attributes(3, written_.normals());
+  if (normals) set_normals(written_.normals());
 }
 
 /// Computes them where they are drawn, or else copies them there.
@@ -149,7 +155,7 @@ std::size_t ClothMesh::bytes() const {
   for (const gl::Buffer* buffer : {&position_buffer_, &normal_buffer_}) total += std::size_t(buffer->bytes());
   for (const IndexList& list : lists_)
     total += std::size_t(list.buffer.bytes()) + (list.texels ? list.texels->bytes() : 0);
-  return total + mapped_normals_.bytes() + written_.bytes() + position_texels_.bytes();
+  return total + mapped_normals_.bytes() + written_.bytes() + position_texels_.bytes() + normal_texels_.bytes();
 }
 
 /// Copies a vector of every particle.
@@ -164,6 +170,12 @@ void ClothMesh::set_positions(const VertexSource& source) {
   set_attributes(0, source);
   position_source_ = source;
   position_texels_ready_ = false;
+}
+
+void ClothMesh::set_normals(const VertexSource& source) {
+  set_attributes(3, source);
+  normal_source_ = source;
+  normal_texels_ready_ = false;
 }
 
 /// Names the components of a vector of every particle `first` to `first` + 2 for the shaders.
@@ -183,6 +195,9 @@ void ClothMesh::prepare(List list, const ClothScene& scene) {
   switch (list) {
     case List::triangles:
       indices = triangle_indices(lattice_, stride_, scene.tears);
+      break;
+    case List::frayed:
+      if (longest_edge_ == 0) indices = frayed_indices(lattice_, stride_, scene.tears);
       break;
     case List::straight:
       indices = spring_indices(lattice_, stride_, scene.tears, 0, 2);
@@ -208,9 +223,9 @@ void ClothMesh::prepare(List list, const ClothScene& scene) {
     case List::count:
       break;
   }
-  if (longest_edge_ > 0 && (of_lines(list) || list == List::triangles))
+  if (longest_edge_ > 0 && (of_texels(list) || list == List::triangles))
     remove_long(indices, list == List::triangles ? 3 : 2, floats_, longest_edge_);
-  if (of_lines(list)) {
+  if (of_texels(list)) {
     if (!target.texels) target.texels.emplace(TexelArray::Of::index_pairs);
     target.texels->take(indices.data(), indices.size() / 2);
   } else {
@@ -230,12 +245,22 @@ void ClothMesh::draw(List list, GLenum primitive) const {
 }
 
 void ClothMesh::draw_lines(List list, int positions_unit, int lines_unit) const {
+  draw_pieces(list, 2, positions_unit, lines_unit);
+}
+
+void ClothMesh::draw_frayed(int positions_unit, int normals_unit, int pieces_unit) const {
+  normal_texels_.bind(normals_unit);
+  draw_pieces(List::frayed, 4, positions_unit, pieces_unit);
+}
+
+/// Two triangles for each piece of so many indices.
+void ClothMesh::draw_pieces(List list, int indices, int positions_unit, int indices_unit) const {
   const IndexList& source = lists_[int(list)];
   if (source.count == 0) return;
   position_texels_.bind(positions_unit);
-  source.texels->bind(lines_unit);
+  source.texels->bind(indices_unit);
   glBindVertexArray(no_attributes_.id());
-  glDrawArrays(GL_TRIANGLES, 0, 6 * (source.count / 2));
+  glDrawArrays(GL_TRIANGLES, 0, 6 * (source.count / indices));
   glBindVertexArray(0);
 }
 

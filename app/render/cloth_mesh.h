@@ -23,7 +23,7 @@ class ClothMesh {
   explicit ClothMesh(std::shared_ptr<PositionLoans> loans) : lent_(std::move(loans)) {}
 
   /// The index lists, each made when a view first needs it and thrown away with the topology.
-  enum class List { triangles, straight, diagonal, bending, outlines, connections, particles, pins, count };
+  enum class List { triangles, frayed, straight, diagonal, bending, outlines, connections, particles, pins, count };
 
   /// Lends an engine memory to keep its positions in, so that they need not be copied.
   void lend(Engine& engine) { lent_.lend(engine); }
@@ -39,6 +39,8 @@ class ClothMesh {
   void draw(List list, GLenum primitive) const;
   /// Draws a list of lines with a program (lines.vert) in use that finds positions and lines in those texture units.
   void draw_lines(List list, int positions_unit, int lines_unit) const;
+  /// Draws the edges of tears with a program (fray.vert) in use, likewise.
+  void draw_frayed(int positions_unit, int normals_unit, int pieces_unit) const;
   /// Draws one particle as a point.
   void draw_particle(int i, int j) const;
   /// All that is drawn of this picture has been.
@@ -53,7 +55,7 @@ class ClothMesh {
  private:
   struct IndexList {
     gl::Buffer buffer;
-    std::optional<TexelArray> texels;  ///< in its place, of lines
+    std::optional<TexelArray> texels;  ///< in its place, of what finds its positions itself
     GLsizei count = 0;
     bool ready = false;
   };
@@ -62,8 +64,10 @@ class ClothMesh {
   void have_written(const ClothScene& scene, bool moved, bool normals, RenderWork& work);
   VertexSource make_normals(const ClothScene& scene, RenderWork& work);
   void prepare(List list, const ClothScene& scene);
+  void draw_pieces(List list, int indices, int positions_unit, int indices_unit) const;
   VertexSource copied(gl::Buffer& to, const float* data, RenderWork& work) const;
   void set_positions(const VertexSource& source);
+  void set_normals(const VertexSource& source);
   void set_attributes(GLuint first, const VertexSource& source) const;
 
   gl::VertexArray array_, no_attributes_;
@@ -71,15 +75,15 @@ class ClothMesh {
   LentPositions lent_;
   MappedNormals mapped_normals_;
   WrittenVertices written_;
-  VertexSource position_source_;  ///< of what is drawn
-  TexelArray position_texels_{TexelArray::Of::floats};
+  VertexSource position_source_, normal_source_;  ///< of what is drawn
+  TexelArray position_texels_{TexelArray::Of::floats}, normal_texels_{TexelArray::Of::floats};
   VertexPath vertex_path_ = VertexPath::copied;
   std::array<IndexList, int(List::count)> lists_;
   std::vector<float> converted_;  ///< of a solver in double
   FloatRows floats_;              ///< valid during update() alone; without data where they are written
   std::vector<float> normals_;
   std::optional<std::vector<std::uint32_t>> beside_tears_;
-  bool normals_ready_ = false, position_texels_ready_ = false;
+  bool normals_ready_ = false, position_texels_ready_ = false, normal_texels_ready_ = false;
   float longest_edge_ = 0;
   Lattice lattice_;
   int stride_ = 0;

@@ -27,6 +27,7 @@ namespace tyglab {
 /// What only a cloth needs that is colored by values.
 struct ColoredCloth {
   gl::Program cloth{{"cloth.vert", "cloth.frag", "COLORED"}};
+  gl::Program frayed{{"fray.vert", "fray.frag", "COLORED"}};
   gl::Program lines{{"lines.vert", "lines.frag", "COLORED"}};
   gl::Program points{{"points.vert", "points.frag", "COLORED"}};
   ValueTexture map{GL_LINEAR};
@@ -38,6 +39,7 @@ struct ClothRenderer::Shared {
   gl::Program ground{{"ground.vert", "ground.frag"}};
   gl::Program plane{{"ground.vert", "plane.frag"}};
   gl::Program cloth{{"cloth.vert", "cloth.frag"}};
+  gl::Program frayed{{"fray.vert", "fray.frag"}};
   gl::Program solid{{"solid.vert", "solid.frag"}};
   gl::Program lines{{"lines.vert", "lines.frag"}};
   gl::Program points{{"points.vert", "points.frag"}};
@@ -54,7 +56,7 @@ struct ClothRenderer::Shared {
 struct ClothRenderer::Parts {
   /// Where each texture is bound while the cloth is drawn.
   static constexpr int texture_unit = 0, shadow_unit = 1, values_unit = 2, colors_unit = 3, positions_unit = 4,
-                       lines_unit = 5;
+                       lines_unit = 5, normals_unit = 6;
   static inline const glm::vec3 to_light = glm::normalize(glm::vec3(-0.66f, 0.86f, 0.60f));
 
   std::shared_ptr<Shared> shared;
@@ -96,7 +98,9 @@ struct ClothRenderer::Parts {
   void draw_solid(const SolidMesh& mesh, glm::vec4 placed, glm::vec3 base, float gloss);
   void draw_bodies(const ViewOptions& options);
   void draw_weight(const ViewOptions& options);
+  void set_surface(const gl::Program& program, const ViewOptions& options);
   void draw_triangles(const ViewOptions& options);
+  void draw_frayed(const ViewOptions& options);
   const gl::Program& use(const gl::Program& plain, const gl::Program* colored, const ViewOptions& options);
   void draw_lines(ClothMesh::List list, const ViewOptions& options, float opacity, float width);
   static void draw_lines_of(const ClothMesh& of, const gl::Program& lines, ClothMesh::List list);

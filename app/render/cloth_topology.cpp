@@ -110,6 +110,54 @@ Indices connection_indices(const Lattice& lattice, int stride, const Tears& tear
   return edges.indices(stride, [&](int direction, int i, int j) { return tears.whole(direction, i, j); });
 }
 
+Indices frayed_indices(const Lattice& lattice, int stride, const Tears& tears) {
+  if (tears.untorn()) return {};
+  Indices list;
+  const auto whole = [&](Corner a, Corner b) {
+    const Edge e = edge_between(a, b, 0, 0);
+    return tears.whole(e.direction, e.i, e.j);
+  };
+  const auto all_whole = [&](Corner a, Corner b, Corner c) { return whole(a, b) && whole(b, c) && whole(c, a); };
+  const auto add = [&](Corner a, Corner b, Corner c, Corner d) {
+    for (const Corner& at : {a, b, c, d}) list.push_back(std::uint32_t(at.di * stride + at.dj));
+  };
+  const auto add_quad = [&](int i, int j) {
+    const auto placed = [&](const std::array<Corner, 3>& of, int k) { return Corner{i + of[k].di, j + of[k].dj}; };
+    const auto fourth = [&](Corner a, Corner b, Corner c) {
+      return Corner{4 * i + 2 - a.di - b.di - c.di, 4 * j + 2 - a.dj - b.dj - c.dj};
+    };
+    const auto other_whole = [&](int which) {
+      const auto& of = corners_of(i, j + 1, which);
+      return all_whole(placed(of, 0), placed(of, 1), placed(of, 2));
+    };
+    // Where both are whole the quad has lost its diagonal alone, and the hole must be seen.
+    const bool first = other_whole(0), second = other_whole(1), closed = first != second;
+    for (int k = 0; closed && k < 3; ++k) {
+      const auto& of = corners_of(i, j + 1, first ? 0 : 1);
+      const Corner a = placed(of, k), b = placed(of, (k + 1) % 3), c = placed(of, (k + 2) % 3);
+      if (a.di == b.di || a.dj == b.dj) continue;
+      add(a, b, c, a);
+      add(b, a, c, fourth(a, b, c));
+    }
+    for (int which = 0; which < 2; ++which) {
+      if (tears.triangle_whole(i, j, which)) continue;
+      for (int k = 0; k < 3; ++k) {
+        const auto& of = corners_of(i, j, which);
+        const Corner a = placed(of, k), b = placed(of, (k + 1) % 3), d = placed(of, (k + 2) % 3), e = fourth(a, b, d);
+        // The triangle beyond an edge is the mirror image of this one: in this quad beyond the diagonal.
+        const bool along = a.di == b.di, down = a.dj == b.dj;
+        const Corner c = along ? Corner{2 * a.di - d.di, d.dj} : down ? Corner{d.di, 2 * a.dj - d.dj} : e;
+        const bool covered = (along || down) && closed && all_whole(e, a, b);
+        if (!covered && lattice.contains(c.di, c.dj) && all_whole(c, a, b)) add(a, b, c, d);
+      }
+    }
+  };
+  for (int i = 0; i + 1 < lattice.rows; ++i)
+    for (int j = 0; j + 1 < lattice.columns; ++j)
+      if (!tears.triangle_whole(i, j, 0) || !tears.triangle_whole(i, j, 1)) add_quad(i, j);
+  return list;
+}
+
 Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted) {
   Indices list;
   for (int i = 0; i < lattice.rows; ++i)

@@ -21,6 +21,11 @@ Indices spring_indices(const Lattice& lattice, int stride, const Tears& tears, i
 Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears);
 /// Two indices for each whole stretch spring in a quad that has lost a triangle.
 Indices connection_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// What closes the edges of a torn cloth, four indices a piece. A quad that has lost triangles shows one of its other
+/// diagonal, if that is whole and its counterpart is not: a, b, c, a, counter-clockwise seen from the front. Beyond
+/// each edge (a, b) of what is shown, threads end where a triangle is missing: c is the corner on this side, d the one
+/// beyond.
+Indices frayed_indices(const Lattice& lattice, int stride, const Tears& tears);
 /// An index for each particle for which `wanted` holds.
 Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted);
 /// Takes out what has an edge longer than `longest` m or not finite; `corners` indices stand for each triangle or line.

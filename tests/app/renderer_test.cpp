@@ -7,6 +7,7 @@
 #include "app/platform/headless_context.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_topology.h"
+#include "app/render/color_map.h"
 #include "app/render/drawn_cloth.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"
@@ -36,6 +37,7 @@ class Stage {
   }
   ClothRenderer& renderer() { return renderer_; }
   ViewOptions& options() { return options_; }
+  Camera& camera() { return camera_; }
 
  private:
   HeadlessContext context_;
@@ -134,13 +136,68 @@ TEST_CASE("torn triangles are not drawn in view 1, and are threads in view 3; a 
   std::vector<Pins::Site> row;
   for (int j = 0; j < 9; ++j) row.push_back({4, j});
   simulation.apply(edit::Cut{row});
-  for (int mode = 1; mode <= 4; ++mode) after[mode] = difference(stage.draw(simulation, mode), empty);
+  stage.options().longest_edge = 10;  // draws no threads at the edges
   // One of eight rows of quads is gone.
-  CHECK(after[1] == doctest::Approx(before[1] * 7 / 8.0).epsilon(0.03));
+  const int triangles = difference(stage.draw(simulation, 1), empty);
+  CHECK(triangles == doctest::Approx(before[1] * 7 / 8.0).epsilon(0.03));
+  stage.options().longest_edge = 0;
+  for (int mode = 1; mode <= 4; ++mode) after[mode] = difference(stage.draw(simulation, mode), empty);
+  CHECK(after[1] > triangles + before[1] / 8 / 5);  // the edges are frayed,
+  CHECK(after[1] < triangles + before[1] / 8 / 2);  // and the cut is seen
+  stage.renderer().set_color_map(map_colors({}, 16));
+  stage.renderer().set_values(std::vector<float>(81, 1.0f), 9, 9);
+  stage.options().colored = ValueRange{};
+  CHECK(difference(stage.draw(simulation, 1), empty) == doctest::Approx(after[1]).epsilon(0.03));
   CHECK(after[2] < before[2]);
   CHECK(after[4] < before[4]);
   CHECK(after[3] <= after[1] + 400);  // the springs along the edges of the cut are whole, and lie on them
   CHECK(after[3] >= after[1]);
+}
+
+TEST_CASE("a torn edge has threads, and is closed along the other diagonal of a quad") {
+  constexpr int stride = 10;
+  constexpr std::uint32_t upper_left = 0, upper_right = 1, lower_left = 10, lower_right = 11;
+  const Lattice quad{2, 2};
+  Tears tears(quad);
+  CHECK(frayed_indices(quad, stride, tears).empty());
+  tears.tear(0, 0, 0);  // the upper edge
+  const Indices triangle{upper_right, lower_left, lower_right, upper_right},
+      its_threads{lower_left, upper_right, lower_right, upper_left},
+      threads{upper_left, lower_right, lower_left, upper_right};
+  Indices expected = triangle;
+  for (const Indices& more : {its_threads, threads}) expected.insert(expected.end(), more.begin(), more.end());
+  CHECK(frayed_indices(quad, stride, tears) == expected);
+  Tears crossing(quad);
+  crossing.tear(2, 0, 0);  // the diagonal alone: the hole stays open
+  CHECK(frayed_indices(quad, stride, crossing).empty());
+  // Around that hole, in a cloth with neighbors on all sides, threads of the four edges end.
+  const Lattice cloth{4, 4};
+  Tears hole(cloth);
+  hole.tear(2, 1, 1);
+  const Indices round = frayed_indices(cloth, stride, hole);
+  CHECK(round.size() == 4 * 4);
+  for (std::size_t k = 0; k < round.size(); k += 4) CHECK(round[k] != round[k + 3]);
+}
+
+TEST_CASE("the back of a cloth has a tint of its own, whatever its texture") {
+  Stage stage;
+  Simulation simulation(hanging());
+  // The part of each color in what is in the middle of the picture.
+  const auto tint = [&](float yaw) {
+    stage.camera().yaw = yaw;
+    const Image picture = stage.draw(simulation, 1);
+    glm::vec3 sum(0);
+    for (int y = height / 4; y < height * 3 / 4; ++y)
+      for (int x = width * 3 / 8; x < width * 5 / 8; ++x)
+        for (int c = 0; c < 3; ++c) sum[c] += float(picture.rgb[std::size_t(3 * (y * width + x) + c)]);
+    return sum / (sum.x + sum.y + sum.z);
+  };
+  for (const char* texture : {"linen", "denim", "flag", "rubber"}) {
+    CAPTURE(texture);
+    REQUIRE_FALSE(stage.renderer().set_texture(std::string(test::source_dir) + "/textures/" + texture + ".png"));
+    const glm::vec3 front = tint(0), back = tint(3.14f);
+    CHECK(glm::length(front - back) > 0.04f);
+  }
 }
 
 TEST_CASE("a cloth finer than the picture is drawn from a part of its rows and columns") {

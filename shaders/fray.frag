@@ -1,0 +1,3 @@
+// The cloth's surface at the edges of tears (fray.vert).
+#define FRAYED
+#include "cloth.frag"
