@@ -77,58 +77,68 @@ def thread_tables(seed, count, wander, length=SIZE):
     return tables
 
 
-def roundness(texel, width):
-    """Shade across a thread: 1 in its middle, less at its sides."""
-    across = 2 * (texel % width + 0.5) / width - 1
-    return math.sqrt(1 - 0.8 * across * across)
-
-
 # ---- the cloths -----------------------------------------------------------------------------------------------------
+
+
+def fibers(along, across, thread):
+    """The twisted fibers of a yarn, -1 to 1: fine lines at a slant, none as bright as the next."""
+    strand = math.floor(0.62 * across + 0.30 * along)
+    return 2 * noise(strand, thread, 61) - 1
+
+
+def yarn(along, across, half_length, half_width):
+    """Shade of a yarn where it lies on top: 1 on its crown, 0 at the edge of what is seen of it and beyond."""
+    inside = 1 - (along / half_length) ** 2 - (across / half_width) ** 2
+    return math.sqrt(inside) if inside > 0 else 0.0
 
 
 def denim():
     """A 3/1 twill: indigo warp over three pale weft threads, under one, which rises to the right."""
-    width, steps = 4, 48
-    warp_colors = ramp((13, 27, 66), (84, 124, 192), steps)
-    weft_colors = ramp((48, 72, 124), (158, 178, 212), steps)
-    threads = FINE // width
-    warp, weft = thread_tables(11, threads, 90, FINE), thread_tables(12, threads, 50, FINE)
+    width, steps = 6, 26
+    warp_colors = ramp((10, 22, 56), (92, 132, 200), steps)
+    weft_colors = ramp((24, 40, 86), (122, 146, 192), steps)
+    threads = FINE // width + 1
+    warp, weft = thread_tables(11, threads, 110, FINE), thread_tables(12, threads, 60, FINE)
     rows = []
     for y in range(FINE):
-        b = y // width
+        b, v = y // width, y % width + 0.5 - width / 2
         row = bytearray()
         for x in range(FINE):
-            a = x // width
+            a, u = x // width, x % width + 0.5 - width / 2
             phase = (a + b) % 4
-            # The floats of neighboring threads join into ridges that run up to the right.
-            ridge = math.cos(2 * math.pi * (x + y - 2.5 * width) / (4 * width))
-            if phase:
-                # A float of the warp spans three weft threads, and is highest over the middle one.
-                along = (phase - 2 + (y % width + 0.5) / width - 0.5) / 1.5
-                shade = 0.34 + 0.17 * warp[a][y] + 0.16 * roundness(x, width) + 0.16 * ridge - 0.06 * along * along
-                row.append(index(shade, steps))
-            else:
-                shade = 0.10 + 0.20 * weft[b][x] + 0.36 * roundness(y, width) * roundness(x, width)
+            # The weft is seen between the ends of two floats of the warp, which reach in from above and below.
+            dot = yarn(u, v + 0.3 * u, 0.68 * width, 0.42 * width) if phase == 0 else 0.0
+            if dot > 0.25:
+                shade = 0.12 + 0.62 * dot + 0.14 * weft[b][x] + 0.08 * fibers(x, v, b)
                 row.append(steps + index(shade, steps))
+            else:
+                # A float of the warp spans three weft threads, and is highest over the middle one.
+                along = v + width * ((phase if phase else 4 if v < 0 else 0) - 2)
+                crown = yarn(along, u, 2.05 * width, 0.56 * width)
+                shade = 0.04 + 0.58 * crown + 0.16 * warp[a][y] + 0.09 * fibers(y, u, threads + a)
+                row.append(index(shade, steps))
         rows.append(bytes(row))
     return warp_colors + weft_colors, rows
 
 
 def linen():
     """Plain weave of uneven natural threads with slubs."""
-    width, steps = 5, 64
-    colors = ramp((112, 98, 76), (236, 226, 204), steps)
-    warp, weft = thread_tables(21, FINE // width + 1, 120, FINE), thread_tables(22, FINE // width + 1, 70, FINE)
+    width, steps = 6, 32
+    colors = ramp((84, 72, 54), (242, 233, 214), steps)
+    threads = FINE // width + 1
+    warp, weft = thread_tables(21, threads, 150, FINE), thread_tables(22, threads, 90, FINE)
     rows = []
     for y in range(FINE):
-        b = y // width
+        b, v = y // width, y % width + 0.5 - width / 2
         row = bytearray()
         for x in range(FINE):
-            a = x // width
-            over = (a + b) % 2 == 0
-            tone, along, across = (warp[a][y], y, x) if over else (weft[b][x], x, y)
-            crown = roundness(along, width) * roundness(across, width)
-            shade = 0.34 + 0.30 * tone + 0.36 * crown + (0.04 if over else 0.0)
+            a, u = x // width, x % width + 0.5 - width / 2
+            if (a + b) % 2 == 0:
+                tone, along, across, place, thread = warp[a][y], v, u, y, a
+            else:
+                tone, along, across, place, thread = weft[b][x], u, v, x, threads + b
+            crown = yarn(along, across, 0.86 * width, (0.50 + 0.10 * tone) * width)
+            shade = 0.20 + 0.46 * crown + 0.20 * tone + 0.08 * fibers(place, across, thread)
             row.append(index(shade, steps))
         rows.append(bytes(row))
     return colors, rows
