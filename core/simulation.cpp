@@ -98,7 +98,7 @@ Simulation::Simulation(const Simulation& from)
       steps_(from.steps_),
       steps_at_dt_(from.steps_at_dt_),
       time_at_dt_(from.time_at_dt_),
-      initial_velocity_(from.initial_velocity_),
+      untouched_(from.untouched_),
       divergence_(from.divergence_),
       diverged_preset_(from.diverged_preset_),
       revision_(from.revision_),
@@ -112,7 +112,7 @@ void Simulation::build(const Preset& next) {
   pinned_ = particles_in(pinned_mask_);
   engine_ = made_engine(next, lattice_, {pinned_, {}}, start_rows(next), tears_, 0);
   preset_ = next, effective_preset_ = in_gusts(next, 0);
-  initial_velocity_ = starting_velocity(next);
+  untouched_ = true;
   ++revision_, ++tear_revision_;
 }
 
@@ -150,8 +150,19 @@ void Simulation::rebase_time() {
 
 /// Another particle in the hand, or another velocity of it.
 void Simulation::hold(const Held& held) {
-  engine_->set_fixed(pinned_, held);
+  fix(pinned_, held);
   held_ = held;
+}
+
+/// Tells the engine which particles are fixed from now on, unless they are fixed in the same way already.
+void Simulation::fix(std::span<const int> pinned, const Held& held) {
+  const bool others =
+      held.particle != held_.particle || !std::equal(pinned.begin(), pinned.end(), pinned_.begin(), pinned_.end());
+  if (!others && held.velocity == held_.velocity) return;
+  engine_->prepare(pinned.size());
+  // Only damping depends on the velocity of the hand.
+  if (others || preset_.k_d > 0) engine_->synchronize(tears_);
+  engine_->set_fixed(pinned, held);
 }
 
 void Simulation::apply(const Edit& edit) {
@@ -176,39 +187,32 @@ void Simulation::change(const Preset& next) {
   if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
   const EffectSet changed = changes(preset_, next);
   const bool moves = !changed.within(motionless), pins = changed.touches(Effect::pins);
-  Preset own = next, acts = moves ? in_gusts(next, time()) : merge(preset_, next, effective_preset_);
+  // The wind of the coming step is set when the step begins, or by an edit of what it depends on.
+  const bool blows = changed.touches(Effect::force | Effect::dt);
+  Preset own = next, acts = blows ? in_gusts(next, time()) : merge(preset_, next, acting());
   std::vector<std::uint8_t> pinned_mask = pins ? pinned_particles(next) : std::vector<std::uint8_t>();
   std::vector<int> pinned = particles_in(pinned_mask);
   if (pins) engine_->prepare(pinned.size());
-  if (moves) {
-    engine_->set_preset(acts, tears_);
-    rebase_time();
-  }
+  if (moves) engine_->set_preset(acts, tears_);
+  if (next.dt != preset_.dt) rebase_time();
   if (pins) {
-    if (held_.particle >= 0 && pinned_mask[held_.particle]) held_ = {};
-    pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
-    engine_->set_fixed(pinned_, held_);
+    const Held held = held_.particle >= 0 && pinned_mask[held_.particle] ? Held{} : held_;
+    fix(pinned, held);
+    held_ = held, pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
   }
   preset_ = std::move(own), effective_preset_ = std::move(acts);
 }
 
-/// Whether a change is a fresh start: before the first step, where what differs has a part in it. Who asks for the same
-/// again asks for one.
+/// Whether a change is a fresh start: while nothing has moved the cloth, where what differs has a part in it. Who asks
+/// for the same again asks for one.
 bool Simulation::restarts(EffectSet changed) const {
-  return steps_ == 0 && (changed.empty() || !changed.within(met_later));
+  return untouched_ && (changed.empty() || !changed.within(met_later));
 }
 
 void Simulation::take_engine(const Preset& next, const State& state) {
   engine_ = made_engine(next, lattice_, {pinned_, held_}, rows_of(state, lattice_.columns), tears_, time());
-  rebase_time();
+  if (next.dt != preset_.dt) rebase_time();
   preset_ = next, effective_preset_ = in_gusts(next, time());
-}
-
-/// Constants that the engine takes as it goes.
-void Simulation::take_constants(const Preset& next) {
-  Preset own = next, gusty = in_gusts(next, time());
-  engine_->set_preset(gusty, tears_);
-  preset_ = std::move(own), effective_preset_ = std::move(gusty);
 }
 
 /// The wind of the steps that come, where it blows in gusts. Returns for how many of them it stays as it is.
@@ -254,7 +258,7 @@ std::unique_ptr<Simulation> Simulation::rebuilt(const Edit& edit) const {
     return fresh;
   }
   std::unique_ptr<Simulation> other(new Simulation(*this));
-  if (steps_ == 0) {
+  if (untouched_) {
     other->restart_untouched(next);
   } else {
     State state;
@@ -284,7 +288,6 @@ void Simulation::restart_untouched(const Preset& next) {
   const Fixed fixed{particles_in(pinned_mask), held};
   engine_ = made_engine(next, lattice_, fixed, start_rows(next), tears_, time());
   preset_ = next, effective_preset_ = in_gusts(next, time());
-  initial_velocity_ = starting_velocity(next);
   divergence_.reset();
   pinned_mask_ = std::move(pinned_mask);
   pinned_ = fixed.pinned;
@@ -303,7 +306,6 @@ void Simulation::move_hand(const edit::MoveHand& e) {
   const auto site = *held();
   hold({held_.particle, (e.to - position(site.i, site.j)) / (e.steps * preset_.dt)});
   hand_steps_left_ = e.steps;
-  initial_velocity_.reset();  // what the hand lets go keeps its velocity
 }
 
 void Simulation::release() {
@@ -313,18 +315,22 @@ void Simulation::release() {
 }
 
 void Simulation::cut(const edit::Cut& e) {
+  edit::CutSprings all;
   for (const auto [i, j] : e.sites) {
-    tears_.tear(2, i - 1, j - 1);  // to (i-1, j-1): owned by that particle, direction SE
-    tears_.tear(1, i - 1, j);      // S
-    tears_.tear(3, i - 1, j + 1);  // SW
+    all.springs.push_back({2, i - 1, j - 1});  // to (i-1, j-1): owned by that particle, direction SE
+    all.springs.push_back({1, i - 1, j});      // S
+    all.springs.push_back({3, i - 1, j + 1});  // SW
   }
-  ++tear_revision_;
+  cut_springs(all);
 }
 
 void Simulation::cut_springs(const edit::CutSprings& e) {
+  Tears tears = tears_;
   for (const SpringSite& spring : e.springs)
     if (spring.direction >= 0 && spring.direction < stretch_directions)
-      tears_.tear(spring.direction, spring.i, spring.j);
+      tears.tear(spring.direction, spring.i, spring.j);
+  if (tears.torn_count() != tears_.torn_count()) engine_->synchronize(tears_);
+  tears_ = std::move(tears);
   ++tear_revision_;
 }
 
@@ -339,9 +345,8 @@ void Simulation::pin(const edit::Pin& e) {
   list.reserve(pinned.size());
   for (const int n : pinned) list.push_back({n / lattice_.columns, n % lattice_.columns});
   const bool lets_go = held_.particle == p;
-  engine_->set_fixed(pinned, lets_go ? Held{} : held_);
+  fix(pinned, lets_go ? Held{} : held_);
   if (lets_go) held_ = {}, hand_force_ = {};
-  if (initial_velocity_ != glm::dvec3(0)) initial_velocity_.reset();  // what is let go begins at rest
   pinned_mask_ = std::move(pinned_mask), pinned_ = std::move(pinned);
   preset_.pins.mode = Pins::Mode::list, preset_.pins.list = std::move(list);
 }
@@ -354,8 +359,7 @@ void Simulation::move_body(const edit::MoveBody& e) {
     body.y = e.c.y;
   else
     body.c = e.c;
-  if (const auto problem = check_preset(next); !problem.empty()) throw PresetError(problem);
-  take_constants(next);
+  change(next);
 }
 
 void Simulation::limit_steps(double seconds) {
@@ -388,7 +392,7 @@ AdvanceResult Simulation::advance_part(int steps) {
   if (watch_) watch_->before_step(preset_, tears_);
   AdvanceResult part = engine_->advance(steps, tears_);
   steps_ += part.steps;
-  if (part.steps > 0) initial_velocity_.reset(), ++revision_;
+  if (part.steps > 0) untouched_ = false, ++revision_;
   left_inside_ = part.left_inside;
   if (part.torn > 0) ++tear_revision_;
   if (held_.particle >= 0) hand_force_ = part.hand_force;
@@ -440,7 +444,7 @@ void Simulation::diverge(const AdvanceResult& part) {
 }
 
 Snapshot Simulation::snapshot() {
-  return {lattice_, preset_.kind,           read(),       tears_,     time(), steps_, initial_velocity_,
+  return {lattice_, preset_.kind,           read(),       tears_,     time(), steps_, untouched_,
           preset_,  engine_->held_motion(), steps_at_dt_, time_at_dt_};
 }
 
@@ -452,7 +456,8 @@ void Simulation::restore(const Snapshot& then) {
   engine_->prepare(pinned_.size());
   if (watch_) energy();
   if (gusts(preset_)) engine_->set_preset(gusty, tears_);
-  hold({});
+  engine_->set_fixed(pinned_, {});
+  held_ = {};
   tears_ = std::move(tears), effective_preset_ = std::move(gusty);
   hand_steps_left_ = 0;
   hand_force_ = {};
@@ -460,7 +465,7 @@ void Simulation::restore(const Snapshot& then) {
   divergence_.reset();
   steps_ = steps_at_dt_ = then.steps;
   time_at_dt_ = then.t;
-  initial_velocity_ = then.begun_with;
+  untouched_ = then.untouched;
   engine_->load(then.state, tears_);
   if (then.held && changes(then.of, preset_).within(motionless)) {
     engine_->go_on_from(*then.held);
@@ -472,7 +477,7 @@ void Simulation::restore(const Snapshot& then) {
 
 void Simulation::load(const State& state) {
   engine_->load(state, tears_);
-  initial_velocity_.reset();
+  untouched_ = false;
   ++revision_;
 }
 

@@ -42,7 +42,7 @@ struct Snapshot {
   Tears tears;
   double t = 0;  ///< s
   std::int64_t steps = 0;
-  std::optional<glm::dvec3> begun_with{};    ///< m/s, of every free particle, while no step has been made
+  bool untouched = false;                    ///< nothing has moved or replaced the state since the cloth was built
   Preset of{};                               ///< the constants of that moment, with which the motion repeats
   std::shared_ptr<const HeldMotion> held{};  ///< the engine's own state; null: the motion continues from `state`
   std::int64_t steps_at_dt = 0;              ///< step at which the dt of that moment was set
@@ -163,12 +163,10 @@ class Simulation {
                                       const StateRows& rows, const Tears& tears, double t) const;
   /// The present constants: those of the preset, with the present wind.
   const Preset& acting() const { return gusts(preset_) ? effective_preset_ : preset_; }
-  void take_constants(const Preset& next);
   int update_gust();
   bool restarts(EffectSet changed) const;
   void take_engine(const Preset& next, const State& state);
   void take_pins();
-  bool fixed(int i, int j) const { return pinned(i, j) || held_.particle == i * lattice_.columns + j; }
   glm::dvec3 velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const;
   void change(const Preset& preset);
   void restart_untouched(const Preset& preset);
@@ -181,6 +179,7 @@ class Simulation {
   void move_body(const edit::MoveBody& edit);
   void rebase_time();
   void hold(const Held& held);
+  void fix(std::span<const int> pinned, const Held& held);
   void diverge(const AdvanceResult& part);
   AdvanceResult advance_part(int steps);
   void watch_step();
@@ -204,9 +203,7 @@ class Simulation {
   std::int64_t steps_ = 0;
   std::int64_t steps_at_dt_ = 0;  ///< step at which the present dt was set
   double time_at_dt_ = 0;         ///< and the time then
-  /// The velocity of every free particle, while no step has been made since the start. What a method holds then need
-  /// not give it back: Verlet's start sees damping by v_0, its read-out by the velocity of half a step ago.
-  std::optional<glm::dvec3> initial_velocity_;
+  bool untouched_ = true;         ///< no step has been made, and no state loaded, since the cloth was built
   std::optional<Divergence> divergence_;
   Preset diverged_preset_;
   State state_;

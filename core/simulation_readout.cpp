@@ -19,16 +19,8 @@ double rounding_unit(Precision precision) {
 
 const State& Simulation::read() {
   if (state_revision_ == revision_) return state_;
-  {
-    const std::lock_guard lock(*reading_);
-    engine_->read(state_, tears_), state_revision_ = revision_;
-  }
-  if (!initial_velocity_) return state_;
-  for (int i = 0, p = 0; i < lattice_.rows; ++i)
-    for (int j = 0; j < lattice_.columns; ++j, ++p)
-      if (!fixed(i, j))
-        state_.v.x[p] = initial_velocity_->x, state_.v.y[p] = initial_velocity_->y,
-        state_.v.z[p] = initial_velocity_->z;
+  const std::lock_guard lock(*reading_);
+  engine_->read(state_, tears_), state_revision_ = revision_;
   return state_;
 }
 
@@ -41,9 +33,7 @@ State Simulation::read_raw() {
 
 /// The velocity that belongs to the position of a particle; `near` holds the velocities that damping sees.
 glm::dvec3 Simulation::velocity_at(const Neighborhood& near, const StoredParticle& stored, int i, int j) const {
-  if (fixed(i, j)) return stored.v;
-  if (initial_velocity_) return *initial_velocity_;
-  if (stored.lag == 0) return stored.v;
+  if (stored.lag == 0 || pinned(i, j) || held_.particle == i * lattice_.columns + j) return stored.v;
   const ParticleForces forces = forces_on_particle(acting(), tears_, near, i, j);
   return stored.v + stored.lag / preset_.m * (forces.F_int() + forces.F_ext());
 }

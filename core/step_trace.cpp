@@ -9,7 +9,8 @@
 namespace tyglab {
 namespace {
 
-/// The state vectors round a particle, as far as its step can reach: two rows a sweep by springs, one more by wind.
+/// The state vectors round a particle where its next step begins, as far as that step can reach: two rows a sweep by
+/// springs, one more by wind.
 class Patch {
  public:
   Patch(const Simulation& simulation, int i, int j);
@@ -44,7 +45,8 @@ Patch::Patch(const Simulation& simulation, int i, int j)
       i_(i),
       j_(j) {
   const Lattice& lattice = simulation.lattice();
-  const int reach = 2 * int(method_.sweeps.size()) + Neighborhood::reach;
+  const bool starts = !method_.start.empty() && simulation.engine().stored(i, j).lag == 0;
+  const int reach = 2 * int(method_.sweeps.size() + starts) + Neighborhood::reach;
   top_ = std::max(i - reach, 0), bottom_ = std::min(i + reach, lattice.rows - 1);
   left_ = std::max(j - reach, 0), right_ = std::min(j + reach, lattice.columns - 1);
   vectors_.assign(std::size_t(std::max(method_.vectors, 2)),
@@ -56,9 +58,11 @@ Patch::Patch(const Simulation& simulation, int i, int j)
     for (int nj = left_; nj <= right_; ++nj) {
       const StoredParticle stored = simulation.engine().stored(ni, nj);
       at(vector_x, ni, nj) = stored.x;
-      at(vector_v, ni, nj) = method_.keeps_displacement ? dt * stored.v : stored.v;
+      at(vector_v, ni, nj) = method_.keeps_displacement && !starts ? dt * stored.v : stored.v;
       if (seen != vector_v) at(seen, ni, nj) = stored.v_seen * std::pow(dt, -power);
     }
+  // What the next step begins with where the method starts with it.
+  if (starts) sweep({vector_x, vector_v, 0, method_.start});
 }
 
 bool Patch::fixed(int i, int j) const {

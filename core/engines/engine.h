@@ -91,7 +91,7 @@ struct PositionView {
 struct StoredParticle {
   glm::dvec3 x{0}, v{0};
   glm::dvec3 v_seen{0};  ///< velocity that damping uses at the start of a step
-  double lag = 0;        ///< s; v + lag · a is the velocity at the time of x
+  double lag = 0;        ///< s; v + lag · a is the velocity at the time of x; 0: v itself is (Engine::synchronize)
 };
 
 /// Part of a step that only some scenes need.
@@ -115,24 +115,30 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// Replaces the state by positions and (full-step) velocities, from which the method derives what it starts with.
+  /// Replaces the state by positions and (full-step) velocities, from which the method starts with the next step.
   virtual void load(const StateRows& rows, const Tears& tears) = 0;
   void load(const State& state, const Tears& tears) {
     const PositionView view = positions();
     assert(state.x.x.size() == std::size_t(view.rows) * std::size_t(view.columns));
     load(rows_of(state, view.columns), tears);
   }
-  /// Changes constants, dt and bodies, and keeps the velocities. The lattice, the precision and the method must be the
-  /// same as before.
+  /// Where the method keeps velocities of another time, such as half a step ago, replaces them by those of the present,
+  /// from which it starts again with the next step. Every edit that changes accelerations needs this first, with the
+  /// tears before the edit: otherwise the edit would act on the last half step too, and kick the particles. Does
+  /// nothing for a state that has just been loaded or synchronized.
+  virtual void synchronize(const Tears& tears) = 0;
+  /// Changes constants, dt and bodies; synchronizes where that changes accelerations. The lattice, the precision and
+  /// the method must be the same as before.
   virtual void set_preset(const Preset& preset, const Tears& tears) = 0;
   /// Whether set_preset() would be quick. Otherwise it builds a program for the preset, which takes seconds unless an
   /// earlier one was kept.
   virtual bool ready_for(const Preset&) const { return true; }
   /// The same for note_contacts(true).
   virtual bool ready_for_contacts() const { return true; }
+  /// Fixes these particles from now on, after synchronize() if others are to be fixed.
   virtual void set_fixed(std::span<const int> pinned, Held held) = 0;
-  /// Takes the memory that set_fixed() with as many particles and load() need, so that these do not run out of it where
-  /// they are parts of a larger change.
+  /// Takes the memory that set_fixed() with as many particles, synchronize() and load() need, so that these do not run
+  /// out of it where they are parts of a larger change.
   virtual void prepare([[maybe_unused]] std::size_t fixed) {}
   /// Makes up to `steps` steps; stops early on divergence, when the hand lets go, when stop_when() says so, and where
   /// memory fails after some of them: it is thrown that it does where not even one is made. Updates `tears` as springs

@@ -8,7 +8,7 @@ namespace tyglab {
 
 StillEngine::StillEngine(Engine& of, const Preset& preset, const Lattice& lattice, const Tears& tears)
     : lattice_(lattice),
-      lag_(scheme(preset.integrator).keeps_displacement ? preset.dt / 2 : 0),
+      lag_(scheme(preset.integrator).keeps_displacement ? of.stored(0, 0).lag : 0),
       stride_(simd::row_stride<double>(lattice.columns)),
       bytes_(of.bytes()),
       threads_(of.threads()),
@@ -40,8 +40,9 @@ PositionView StillEngine::positions() const {
 
 StoredParticle StillEngine::stored(int i, int j) const {
   const std::size_t p = std::size_t(i) * lattice_.columns + j;
-  const glm::dvec3 v(raw_.v.x[p], raw_.v.y[p], raw_.v.z[p]);
-  return {{raw_.x.x[p], raw_.x.y[p], raw_.x.z[p]}, v, v, lag_};
+  const VectorField<double>& from = lag_ == 0 ? state_.v : raw_.v;
+  const glm::dvec3 v(from.x[p], from.y[p], from.z[p]);
+  return {{state_.x.x[p], state_.x.y[p], state_.x.z[p]}, v, v, lag_};
 }
 
 }  // namespace tyglab

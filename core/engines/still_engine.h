@@ -15,6 +15,7 @@ class StillEngine final : public Engine {
 
   /// Nothing here can be changed or moved: that is for the engine itself.
   void load(const StateRows&, const Tears&) override {}
+  void synchronize(const Tears&) override {}
   void set_preset(const Preset&, const Tears&) override {}
   void set_fixed(std::span<const int>, Held) override {}
   AdvanceResult advance(int, Tears&) override;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double spans_in_a_period = 64;
 constexpr double most_steps = 1e9;
-constexpr double rounding = 1e-9;  // of a step: times are sums of steps
+constexpr double rounding = 1e-6;  // of a step: times are sums of steps
 
 }  // namespace
 
@@ -19,12 +19,14 @@ double gust_wave(double t, double period) {
 }
 
 GustSpan gust_span(const Preset& preset, double t) {
-  const double dt = preset.dt, length = preset.gust_period / spans_in_a_period, middle = t + dt / 2;
-  if (dt >= length) return {1 + preset.gust * gust_wave(middle, preset.gust_period), 1};
-  const double n = std::floor(middle / length + rounding);
-  // Steps whose middle lies in the span.
-  const double left = std::ceil(((n + 1) * length - middle) / dt - rounding);
-  return {1 + preset.gust * gust_wave((n + 0.5) * length, preset.gust_period), int(std::clamp(left, 1.0, most_steps))};
+  const double dt = preset.dt, length = preset.gust_period / spans_in_a_period;
+  const auto factor = [&](double at) { return 1 + preset.gust * gust_wave(at, preset.gust_period); };
+  if (dt >= length) return {factor(t + dt / 2), 1};
+  const double n = std::floor((t + rounding * dt) / length), middle = (n + 0.5) * length;
+  const double left = ((n + 1) * length - t) / dt;  // steps, in this span
+  if (const double whole = std::floor(left + rounding); whole >= 1)
+    return {factor(middle), int(std::min(whole, most_steps))};
+  return {left * factor(middle) + (1 - left) * factor(middle + length), 1};
 }
 
 Preset in_gusts(Preset preset, double t) {

@@ -25,7 +25,8 @@ struct GustSpan {
   int steps = 1;      ///< of dt for which the factor holds, at least 1
 };
 /// At time t (s). The wave is sampled in the middle of each 64th of a period, or of a step if dt is longer than that,
-/// so that cloths of different dt have the same gusts.
+/// so that cloths of different dt have the same gusts. A step over the border of two such spans gets the mean of the
+/// wind over the step.
 GustSpan gust_span(const Preset& preset, double t);
 
 /// The preset with W as it is at time t (s); unchanged if there are no gusts.

@@ -14,6 +14,7 @@ class LostEngine final : public Engine {
   LostEngine(std::unique_ptr<Engine> engine, int calls) : engine_(std::move(engine)), left_(calls) {}
   using Engine::load;
   void load(const StateRows& rows, const Tears& tears) override { engine_->load(rows, tears); }
+  void synchronize(const Tears& tears) override { engine_->synchronize(tears); }
   void set_preset(const Preset& preset, const Tears& tears) override { engine_->set_preset(preset, tears); }
   void set_fixed(std::span<const int> pinned, Held held) override { engine_->set_fixed(pinned, held); }
   AdvanceResult advance(int steps, Tears& tears) override {

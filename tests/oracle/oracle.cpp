@@ -91,6 +91,9 @@ Cloth::Cloth(const Preset& preset) : p_(preset), particles_(std::size_t(preset.r
 }
 
 void Cloth::start() {
+  if (held_ >= 0) particles_[held_].v = hand_;
+  full_step_.clear();
+  for (const Particle& particle : particles_) full_step_.push_back(particle.v);
   const auto blowing = wind();
   for (int i = 0; i < p_.rows; ++i) {
     for (int j = 0; j < p_.columns; ++j) {
@@ -208,11 +211,23 @@ Vec Cloth::acceleration(int i, int j, const std::vector<Vec>& wind) const {
 }
 
 Vec Cloth::velocity(int i, int j) const {
+  if (!full_step_.empty()) return full_step_[index(i, j)];
   if (p_.integrator != "verlet") return at(i, j).v;
   return at(i, j).v + p_.dt / 2 * acceleration(i, j, wind());
 }
 
+void Cloth::edit(const std::function<void()>& what) {
+  std::vector<Vec> v;
+  for (int i = 0; i < p_.rows; ++i) {
+    for (int j = 0; j < p_.columns; ++j) v.push_back(is_held(i, j) ? hand_ : velocity(i, j));
+  }
+  what();
+  for (std::size_t p = 0; p < v.size(); ++p) particles_[p].v = v[p];
+  start();
+}
+
 void Cloth::step() {
+  full_step_.clear();
   if (held_ >= 0) {
     particles_[held_].v = hand_;
     particles_[held_].d = p_.dt * hand_;
@@ -230,8 +245,8 @@ void Cloth::step() {
       move(particles_[p], a[p]);
     }
   }
-  if (hand_steps_ > 0 && --hand_steps_ == 0) hand_ = Vec(0);
   if (p_.F_max > 0) tear();
+  if (hand_steps_ > 0 && --hand_steps_ == 0) edit([&] { hand_ = Vec(0); });
 }
 
 void Cloth::advance(int steps) {
@@ -315,39 +330,25 @@ void Cloth::tear() {
 }
 
 void Cloth::set_dt(double dt) {
-  if (p_.integrator == "verlet") {
-    const auto blowing = wind();
-    std::vector<Vec> d;
-    for (int i = 0; i < p_.rows; ++i) {
-      for (int j = 0; j < p_.columns; ++j) {
-        d.push_back(dt * (at(i, j).d / p_.dt + 0.5 * (p_.dt - dt) * acceleration(i, j, blowing)));
-      }
-    }
-    for (std::size_t p = 0; p < d.size(); ++p) {
-      particles_[p].d = d[p];
-      particles_[p].v = d[p] / dt;
-    }
-  }
-  p_.dt = dt;
+  edit([&] { p_.dt = dt; });
 }
 
 void Cloth::grab(int i, int j) {
-  held_ = index(i, j);
-  hand_ = Vec(0);
-  hand_steps_ = 0;
+  edit([&] { held_ = index(i, j), hand_ = Vec(0), hand_steps_ = 0; });
 }
 
 void Cloth::move_hand(Vec to, int steps) {
-  hand_ = (to - particles_[held_].x) / (steps * p_.dt);
-  hand_steps_ = steps;
+  edit([&] { hand_ = (to - particles_[held_].x) / (steps * p_.dt), hand_steps_ = steps; });
 }
 
 void Cloth::release() {
-  held_ = -1;
+  edit([&] { held_ = -1; });
 }
 
 void Cloth::cut(int i, int j) {
-  for (int k = 0; k < 3; ++k) break_spring(i, j, k);
+  edit([&] {
+    for (int k = 0; k < 3; ++k) break_spring(i, j, k);
+  });
 }
 
 Weight::Weight(const Preset& preset) : y(preset.x_0.y + preset.offset), v(preset.v_0.y), d(0), p_(preset) {

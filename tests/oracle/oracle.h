@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -50,9 +51,9 @@ class Cloth {
   void advance(int steps);
   /// Forces on particle (i, j) at the present positions and velocities.
   Forces forces(int i, int j) const;
-  /// The velocity that belongs to x[n]: v, and v + dt/2 a for verlet.
+  /// The velocity that belongs to x[n]: v, and v + dt/2 a for verlet, but at a start the velocity that it starts from.
   Vec velocity(int i, int j) const;
-  /// Changes dt and keeps that velocity.
+  /// Each edit keeps that velocity and starts the method again.
   void set_dt(double dt);
 
   void grab(int i, int j);
@@ -66,6 +67,7 @@ class Cloth {
  private:
   int index(int i, int j) const { return i * p_.columns + j; }
   bool contains(int i, int j) const { return i >= 0 && i < p_.rows && j >= 0 && j < p_.columns; }
+  void edit(const std::function<void()>& what);
   bool is_held(int i, int j) const { return index(i, j) == held_; }
   bool guarded(int i, int j) const;
   void break_spring(int i, int j, int k);
@@ -84,6 +86,7 @@ class Cloth {
   int held_ = -1;
   Vec hand_{0};  ///< velocity of the hand, m/s
   int hand_steps_ = 0;
+  std::vector<Vec> full_step_;  ///< velocities that belong to x[n], from a start to the next step; else empty
 };
 
 /// The one weight on a two-sided spring (figure 3.2): height y and velocity v as the method holds it.

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <glm/geometric.hpp>
 #include <map>
 #include <sstream>
 
@@ -199,7 +200,7 @@ void check_change(const Preset& preset, const Preset& next, int steps) {
   Simulation simulation(preset), same(preset);
   simulation.advance(steps), same.advance(steps);
   REQUIRE_FALSE(same.divergence().has_value());
-  const State before = simulation.read_raw();
+  const State before = simulation.read_raw(), now = simulation.read();
   const double t = simulation.time();
   const edit::Change edit{next};
   const bool anew = what.touches(rebuild), taken_over = what.touches({integrator, precision, engine, device});
@@ -217,7 +218,13 @@ void check_change(const Preset& preset, const Preset& next, int steps) {
   }
   CHECK(simulation.steps() == steps);
   CHECK(simulation.time() == doctest::Approx(t).epsilon(1e-14));
-  if (!taken_over && !what.touches(dt)) CHECK(test::identical(simulation.read_raw(), before));
+  if (!taken_over && !what.touches({force, pins, dt})) CHECK(test::identical(simulation.read_raw(), before));
+  for (std::size_t p = 0; p < now.x.x.size(); ++p) {
+    const double digits = what.touches(precision) ? 1e-6 : 1e-12;
+    CHECK(glm::length(test::position(simulation.read(), p) - test::position(now, p)) <= digits);
+    if (!what.touches(pins))
+      CHECK(glm::length(test::velocity(simulation.read(), p) - test::velocity(now, p)) <= digits);
+  }
   if (what.within(motionless)) CHECK(simulation.time() == t);
   simulation.advance(60), same.advance(60);
   const bool alike = test::identical(simulation.read_raw(), same.read_raw());

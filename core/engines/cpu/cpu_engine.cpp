@@ -103,8 +103,7 @@ void CpuEngine<R, Present>::scale(const Assignment& assignment, ResolvedSweep::R
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::resolve() {
   scheme_ = &scheme(cloth_.preset.integrator);
-  cloth_.keeps_displacement = scheme_->keeps_displacement;
-  cloth_.seen_velocity = seen_velocity(*scheme_);
+  set_synchronized(synchronized_);
   set_dt(cloth_.preset.dt);
   cloth_.vectors.resize(std::size_t(scheme_->vectors));
   // What a method that chooses its own steps keeps beside x and v follows from them.
@@ -144,7 +143,7 @@ void CpuEngine<R, Present>::swap(Resolved& other) {
 }
 
 template <class R, unsigned Present>
-Preset CpuEngine<R, Present>::exchange(const Preset& preset) {
+void CpuEngine<R, Present>::exchange(const Preset& preset) {
   Preset other = preset;
   Resolved before;
   swap(before), std::swap(cloth_.preset, other);
@@ -155,7 +154,6 @@ Preset CpuEngine<R, Present>::exchange(const Preset& preset) {
     swap(before), std::swap(cloth_.preset, other);
     throw;
   }
-  return other;
 }
 
 template <class R, unsigned Present>
@@ -228,17 +226,55 @@ void CpuEngine<R, Present>::load(const StateRows& rows, const Tears& tears) {
   });
   guard_.begin(motion_of(cloth_.preset, cloth_.lattice, tears, view(), 1));
   rows_ = Array<double>();
-  if (!scheme_->start.empty()) {
-    // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
-    team_->run([&](int number) {
-      bands_[std::size_t(number)]->copy_halo(start_);
-      team_->barrier();
-      bands_[std::size_t(number)]->sweep(start_, tears, false);
-    });
-  }
+  set_synchronized(true);
   write_fixed_velocities();
   springs_changed_ = true;
   restart_control();
+  guard_.invalidate();
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::set_synchronized(bool yes) {
+  synchronized_ = yes;
+  cloth_.keeps_displacement = !yes && scheme_->keeps_displacement;
+  cloth_.seen_velocity = yes ? vector_v : seen_velocity(*scheme_);
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::start(const Tears& tears) {
+  assert(synchronized_ && !scheme_->start.empty());
+  // Its a sees v itself, so the sweep's velocity takes no power of dt.
+  team_->run([&](int number) {
+    bands_[std::size_t(number)]->copy_halo(start_);
+    team_->barrier();
+    bands_[std::size_t(number)]->sweep(start_, tears, false);
+  });
+  set_synchronized(false);
+  write_fixed_velocities();
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::find_lagging_a(const Tears& tears) {
+  accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
+  if (!solves_damping(*scheme_)) return;
+  prepare_damping(tears);
+  constant_.solve(acceleration_, 0, cloth_.lattice.rows, [] {});
+}
+
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::synchronize(const Tears& tears) {
+  if (synchronized_) return;
+  find_lagging_a(tears);
+  add_lag(scheme_->lag * cloth_.preset.dt, cloth_.velocity_scale());
+}
+
+/// Turns the stored velocities, which are `scale` times velocities, into those of `lag` seconds later.
+template <class R, unsigned Present>
+void CpuEngine<R, Present>::add_lag(double lag, double scale) {
+  const std::span<R> v = cloth_.vector(vector_v).all(), a = acceleration_.all();
+  for (std::size_t n = 0; n < v.size(); ++n) v[n] = R(double(v[n]) / scale + lag * double(a[n]));  // as read() has them
+  set_synchronized(true);
+  write_fixed_velocities();
   guard_.invalidate();
 }
 
@@ -247,24 +283,14 @@ void CpuEngine<R, Present>::set_preset(const Preset& preset, const Tears& tears)
   assert(lattice_of(preset) == cloth_.lattice && preset.precision == cloth_.preset.precision &&
          preset.integrator == cloth_.preset.integrator);
   const EffectSet changed = changes(cloth_.preset, preset);
-  // What lags depends on dt, and the velocity must stay. All that takes memory comes first.
-  const bool shifts = scheme_->lag != 0 && changed.touches(Effect::dt);
-  State state;
-  if (shifts && scheme_->keeps_displacement)
-    accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
-  else if (shifts)
-    read(state, tears), prepare(pinned_.size());
+  // All that takes memory comes first.
+  const bool restarts = !synchronized_ && changed.touches(Effect::force | Effect::dt);
+  const double lag = this->lag(), scale = cloth_.velocity_scale();
+  if (restarts) find_lagging_a(tears);
   guard_.accept_changes(cloth_.preset, preset);
-  const Preset before = exchange(preset);
-  if (!changed.within(motionless | Effect::start)) restart_control();  // nothing else moves a cloth that is under way
-  if (shifts && scheme_->keeps_displacement) {
-    // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
-    const R keep = R(preset.dt / before.dt), add = R(preset.dt * 0.5 * (before.dt - preset.dt));
-    const std::span<R> d = cloth_.vector(vector_v).all();
-    for (std::size_t n = 0; n < d.size(); ++n) d[n] = keep * d[n] + add * acceleration_.all()[n];
-  } else if (shifts) {
-    load(state, tears);
-  }
+  exchange(preset);
+  if (changed.touches({Effect::force, Effect::dt, Effect::tolerance})) restart_control();
+  if (restarts) add_lag(lag, scale);
 }
 
 template <class R, unsigned Present>
@@ -273,6 +299,7 @@ void CpuEngine<R, Present>::prepare(std::size_t fixed) {
   cloth_.fixed.reserve(std::size_t(cloth_.lattice.size()) + widest_vector);
   guards_.reserve(std::size_t(cloth_.lattice.size()));
   rows_.resize(6 * std::size_t(team_->capacity()) * cloth_.lattice.columns);
+  if (!scheme_->start.empty() && acceleration_.empty()) acceleration_.resize(array_rows(), cloth_.stride);
 }
 
 template <class R, unsigned Present>
@@ -318,7 +345,7 @@ void CpuEngine<R, Present>::write_fixed_velocities() {
   for (const int p : all_fixed_) {
     const int i = p / cloth_.lattice.columns, j = p % cloth_.lattice.columns;
     const glm::dvec3 v = p == cloth_.held.particle ? cloth_.held.velocity : glm::dvec3(0);
-    for (const int vector : {vector_v, seen_velocity(*scheme_)})
+    for (const int vector : {vector_v, cloth_.seen_velocity})
       for (int c = 0; c < 3; ++c) cloth_.row(vector, i, c)[j] = R(v[c] * cloth_.velocity_scale());
   }
 }
@@ -350,13 +377,9 @@ std::vector<Contact> CpuEngine<R, Present>::contacts() const {
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
   read_stored(state);
-  if (scheme_->lag == 0) return;
-  accelerations(vector_x, cloth_.seen_velocity, tears, acceleration_);
-  if (solves_damping(*scheme_)) {
-    prepare_damping(tears);
-    constant_.solve(acceleration_, 0, cloth_.lattice.rows, [] {});
-  }
-  const double lag = scheme_->lag * cloth_.preset.dt;  // s; in double: what a float would lose is shown in plots
+  const double lag = this->lag();  // in double: what a float would lose is shown in plots
+  if (lag == 0) return;
+  find_lagging_a(tears);
   for (int i = 0; i < cloth_.lattice.rows; ++i)
     for (int j = 0; j < cloth_.lattice.columns; ++j) {
       const std::size_t to = std::size_t(i) * cloth_.lattice.columns + j;
@@ -368,10 +391,14 @@ void CpuEngine<R, Present>::read(State& state, const Tears& tears) {
 
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::read_raw(State& state, const Tears& tears) {
-  if (scheme_->keeps_displacement)
-    read_stored(state);
-  else
-    read(state, tears);
+  if (!scheme_->keeps_displacement) return read(state, tears);
+  if (!synchronized_) return read_stored(state);
+  // As the method will start, but the state stays synchronized.
+  const Field v = cloth_.vector(vector_v);
+  start(tears);
+  read_stored(state);
+  cloth_.vector(vector_v) = v;
+  set_synchronized(true);
 }
 
 template <class R, unsigned Present>
@@ -379,7 +406,6 @@ void CpuEngine<R, Present>::read_stored(State& state) const {
   const std::size_t n = std::size_t(cloth_.lattice.size());
   // The last array that gets its memory: where an earlier call ran out of it, others may have theirs.
   if (state.v.z.size() != n) state.x.resize(n), state.v.resize(n);
-  const double per_dt = scheme_->keeps_displacement ? cloth_.preset.dt : 1;
   const auto copy = [&](int vector, VectorField<double>& to, double divisor) {
     Array<double>* components[] = {&to.x, &to.y, &to.z};
     for (int c = 0; c < 3; ++c)
@@ -387,13 +413,13 @@ void CpuEngine<R, Present>::read_stored(State& state) const {
         for (int j = 0; j < cloth_.lattice.columns; ++j)
           (*components[c])[std::size_t(i) * cloth_.lattice.columns + j] = double(cloth_.row(vector, i, c)[j]) / divisor;
   };
-  copy(vector_x, state.x, 1), copy(vector_v, state.v, per_dt);
+  copy(vector_x, state.x, 1), copy(vector_v, state.v, cloth_.velocity_scale());
 }
 
 template <class R, unsigned Present>
 std::shared_ptr<const HeldMotion> CpuEngine<R, Present>::held_motion() const {
   auto held = std::make_shared<CpuMotion<R>>();
-  held->method = scheme_->name;
+  held->method = scheme_->name, held->synchronized = synchronized_;
   held->vectors.assign(cloth_.vectors.begin(), cloth_.vectors.begin() + std::ptrdiff_t(backup_.size()));
   held->control = control_, held->given = guard_.given();
   return held;
@@ -406,6 +432,7 @@ void CpuEngine<R, Present>::go_on_from(const HeldMotion& then) {
   assert(held->vectors.size() == backup_.size() &&
          held->vectors.front().all().size() == cloth_.vector(vector_x).all().size());
   for (std::size_t n = 0; n < held->vectors.size(); ++n) cloth_.vectors[n] = held->vectors[n];
+  set_synchronized(held->synchronized);
   control_ = held->control, knows_first_a_ = false;
   guard_.resume(held->given, cloth_.preset, cloth_.lattice, cloth_.held);
 }
@@ -429,7 +456,7 @@ StoredParticle CpuEngine<R, Present>::stored(int i, int j) const {
     return glm::dvec3(cloth_.row(vector, i, 0)[j], cloth_.row(vector, i, 1)[j], cloth_.row(vector, i, 2)[j]);
   };
   const double scale = cloth_.velocity_scale();
-  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lag * cloth_.preset.dt};
+  return {at(vector_x), at(vector_v) / scale, at(cloth_.seen_velocity) / scale, lag()};
 }
 
 template <class R, unsigned Present>

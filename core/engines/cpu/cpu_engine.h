@@ -47,6 +47,7 @@ namespace tyglab::cpu {
 template <class R>
 struct CpuMotion final : HeldMotion {
   std::string_view method;  ///< Scheme::name
+  bool synchronized = true;
   std::vector<RowField<R>> vectors;
   StepControl control;
   StepGuard::Given given;
@@ -65,6 +66,7 @@ class CpuEngine final : public Engine, private GuardedSteps {
 
   using Engine::load;
   void load(const StateRows& rows, const Tears& tears) override;
+  void synchronize(const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   void set_fixed(std::span<const int> pinned, Held held) override;
   void prepare(std::size_t fixed) override;
@@ -109,8 +111,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   };
   void swap(Resolved& other);
   void resolve();
-  /// Takes other constants, but where memory fails. Returns those before.
-  Preset exchange(const Preset& preset);
+  /// Takes other constants, but where memory fails.
+  void exchange(const Preset& preset);
   void resolve_estimate();
   /// Each number of stages of a stabilized method that steps may take.
   void resolve_tables();
@@ -119,6 +121,15 @@ class CpuEngine final : public Engine, private GuardedSteps {
     return is_stabilized(*scheme_) ? scheme_->tables[table_].sweeps : scheme_->sweeps;
   }
   void write_fixed_velocities();
+  void set_synchronized(bool yes);
+  /// The method's own start from a synchronized state.
+  void start(const Tears& tears);
+  /// The a (or, of a method that solves for the damping, the slope) that read() and synchronize() add to velocities
+  /// that lag behind; into acceleration_.
+  void find_lagging_a(const Tears& tears);
+  void add_lag(double lag, double scale);
+  /// How far velocities lag behind positions, s.
+  double lag() const { return synchronized_ ? 0 : scheme_->lag * cloth_.preset.dt; }
   void make_waves();
   /// Whether a step may take so long that it asks to be stopped within, which costs a backup before it.
   bool stops_within_steps() const;
@@ -209,6 +220,8 @@ class CpuEngine final : public Engine, private GuardedSteps {
   std::vector<ResolvedSweep::ResolvedAssignment> accepting_;   ///< of its last sweep, made once the step is accepted
   double left_of_dt_ = 0;                                      ///< that inner steps have yet to cover, s
   bool knows_first_a_ = false, accepted_ = false;
+  bool synchronized_ = true;  ///< vectors 0 and 1 hold positions and velocities of one time, others nothing
+  bool synchronized_backup_ = true;
   std::vector<std::vector<ResolvedSweep>> tables_;  ///< sweeps by the number of stages; those in use are in sweeps_
   std::size_t table_ = 0;                           ///< that is in use
   Spectrum spectrum_;

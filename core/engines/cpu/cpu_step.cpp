@@ -208,6 +208,7 @@ BatchResult CpuEngine<R, Present>::run_together(int steps, Tears& tears, Fault& 
     made_ = {made_.count + judged.count, judged.end};
   };
   plan();
+  if (together_ > 0 && synchronized_ && !scheme_->start.empty()) start(tears);
   team_->run([&](int number) {
     while (together_ > 0) {
       if (together_ > 1) {
@@ -267,7 +268,7 @@ BatchResult CpuEngine<R, Present>::make_steps(int most, Tears& tears, Fault& fau
 template <class R, unsigned Present>
 void CpuEngine<R, Present>::keep_backup() {
   for (std::size_t n = 0; n < backup_.size(); ++n) backup_[n] = cloth_.vectors[n];
-  control_backup_ = control_;
+  control_backup_ = control_, synchronized_backup_ = synchronized_;
 }
 
 /// Without waves, which would overwrite states that are to be examined.
@@ -275,6 +276,7 @@ template <class R, unsigned Present>
 void CpuEngine<R, Present>::repeat(int steps, Tears& tears) {
   for (std::size_t n = 0; n < backup_.size(); ++n) cloth_.vectors[n] = backup_[n];
   control_ = control_backup_, knows_first_a_ = false;
+  set_synchronized(synchronized_backup_);
   Fault known{};
   repeating_ = true;
   try {

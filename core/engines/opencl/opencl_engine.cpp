@@ -229,9 +229,9 @@ bool OpenClEngine<R>::solve(const Resolved& resolved, int slot) {
 template <class R>
 void OpenClEngine<R>::accelerations() const {
   if (!acceleration_) acceleration_ = state_.field();
-  const cl_mem x = state_.vector(vector_x), v = state_.vector(seen_velocity(*scheme_)), out = acceleration_.get();
+  const cl_mem x = state_.vector(vector_x), v = state_.vector(seen()), out = acceleration_.get();
   Sweep sweep = readout();
-  sweep.velocity_dt_power = scheme_->keeps_displacement ? -1 : 0;
+  sweep.velocity_dt_power = scheme_->keeps_displacement && !synchronized_ ? -1 : 0;
   const int at = set_arguments(kernels_.accelerations, 0, x, x, v, v, out, out);
   launch_sweep(kernels_.accelerations, at, constants(preset_, sweep), idle_slot, 1);
 }
@@ -257,11 +257,34 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
   state_.unmap(state_.vector(vector_x), x), state_.unmap(state_.vector(vector_v), v);
   upload_masks(tears);
   guard_.accept_cuts(tears);
-  if (!scheme_->start.empty()) {
-    // The method's own start. Its a sees v itself, so the sweep's velocity takes no power of dt.
-    const Sweep start{vector_x, vector_v, 0, scheme_->start};
-    enqueue_sweep(kernels_.start, {&start, constants(preset_, start)}, idle_slot);
-  }
+  synchronized_ = true;
+  write_fixed_velocities();
+  guard_.invalidate();
+}
+
+template <class R>
+void OpenClEngine<R>::start() {
+  assert(synchronized_ && !scheme_->start.empty());
+  // Its a sees v itself, so the sweep's velocity takes no power of dt.
+  const Sweep start{vector_x, vector_v, 0, scheme_->start};
+  enqueue_sweep(kernels_.start, {&start, constants(preset_, start)}, idle_slot);
+  synchronized_ = false;
+  write_fixed_velocities();
+}
+
+template <class R>
+void OpenClEngine<R>::synchronize(const Tears& tears) {
+  if (synchronized_) return;
+  state_.end_views();
+  accept_changes(tears);
+  accelerations();
+  const cl_mem v = state_.vector(vector_v), a = acceleration_.get();
+  set_arguments(kernels_.combine, 0, v, a, R(1 / velocity_scale()), R(lag()));
+  const std::size_t numbers = state_.numbers();
+  check(clEnqueueNDRangeKernel(device_->queue(), kernels_.combine.get(), 1, nullptr, &numbers, nullptr, 0, nullptr,
+                               nullptr),
+        "starting a kernel");
+  synchronized_ = true;
   write_fixed_velocities();
   guard_.invalidate();
 }
@@ -269,30 +292,16 @@ void OpenClEngine<R>::load(const StateRows& rows, const Tears& tears) {
 template <class R>
 void OpenClEngine<R>::set_preset(const Preset& preset, const Tears& tears) {
   assert(lattice_of(preset) == lattice_ && preset.precision == preset_.precision);
-  const bool shifts = scheme_->lag != 0 && changes(preset_, preset).touches(Effect::dt);
   const std::string wanted = options(preset, notes_contacts_);
   Kernels next;
   if (wanted != options_) next = make_kernels(preset, notes_contacts_);
+  if (changes(preset_, preset).touches(Effect::force | Effect::dt)) synchronize(tears);
   state_.end_views();
   accept_changes(tears);
-  State kept;
-  // What lags depends on dt, and the velocity must stay.
-  if (shifts && !scheme_->keeps_displacement) read(kept, tears);
-  if (shifts && scheme_->keeps_displacement) {
-    // d becomes dt_new (d/dt_old + ½ (dt_old − dt_new) a): the velocity half a step back stays on the same motion.
-    accelerations();
-    const cl_mem d = state_.vector(vector_v), a = acceleration_.get();
-    set_arguments(kernels_.combine, 0, d, a, R(preset.dt / preset_.dt), R(preset.dt * 0.5 * (preset_.dt - preset.dt)));
-    const std::size_t numbers = state_.numbers();
-    check(clEnqueueNDRangeKernel(device_->queue(), kernels_.combine.get(), 1, nullptr, &numbers, nullptr, 0, nullptr,
-                                 nullptr),
-          "starting a kernel");
-  }
   if (wanted != options_) kernels_ = std::move(next), options_ = wanted, noted_run_ = false;
   guard_.accept_changes(preset_, preset);
   preset_ = preset;
   resolve();
-  if (!kept.x.x.empty()) Engine::load(kept, tears);
 }
 
 template <class R>
@@ -346,7 +355,7 @@ template <class R>
 void OpenClEngine<R>::write_fixed_velocities() {
   if (pinned_.empty() && held_.particle < 0) return;
   state_.end_views();
-  const cl_mem v = state_.vector(vector_v), seen = state_.vector(seen_velocity(*scheme_)), list = fixed_list_.get();
+  const cl_mem v = state_.vector(vector_v), seen = state_.vector(this->seen()), list = fixed_list_.get();
   const glm::dvec3 hand = held_.velocity * velocity_scale();
   set_arguments(kernels_.set_fixed, 0, v, seen, list, cl_int(pinned_.size()), cl_int(held_.particle), R(hand.x),
                 R(hand.y), R(hand.z), cl_int(state_.stride()), cl_int(lattice_.columns));

@@ -52,6 +52,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
 
   using Engine::load;
   void load(const StateRows& rows, const Tears& tears) override;
+  void synchronize(const Tears& tears) override;
   void set_preset(const Preset& preset, const Tears& tears) override;
   bool ready_for(const Preset& preset) const override;
   bool ready_for_contacts() const override;
@@ -102,7 +103,13 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::string copy_reason() const override;
 
   bool tears_watched() const { return preset_.F_max > 0 && preset_.k_s > 0 && preset_.kind == Kind::cloth; }
-  double velocity_scale() const { return scheme_->keeps_displacement ? preset_.dt : 1; }
+  double velocity_scale() const { return scheme_->keeps_displacement && !synchronized_ ? preset_.dt : 1; }
+  /// How far velocities lag behind positions, s.
+  double lag() const { return synchronized_ ? 0 : scheme_->lag * preset_.dt; }
+  /// The vector that damping uses at the start of a step.
+  int seen() const { return synchronized_ ? vector_v : seen_velocity(*scheme_); }
+  /// The method's own start from a synchronized state.
+  void start();
   std::string options(const Preset& preset, bool contacts) const;
   /// The name under which the device knows the kernels for such a preset.
   std::string program_name(const Preset& preset, const std::string& options) const;
@@ -132,6 +139,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   void accept_changes(const Tears& tears);
   void upload_masks(const Tears& tears);
   void read_stored(State& state) const;
+  void add_accelerations(State& state, double times);
   StateView<R> view() const { return {state_.host(vector_x), state_.host(vector_v), state_.stride()}; }
 
   // What the guard asks for.
@@ -141,7 +149,7 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   bool find_fault(Tears& tears, Fault& fault, double& divergence_budget) override;
   bool find_runaway(const MotionLimit& limit, Fault& fault) override;
   Motion motion(const Tears& tears) override;
-  void keep_backup() override { state_.keep_backup(); }
+  void keep_backup() override { state_.keep_backup(), synchronized_backup_ = synchronized_; }
   void repeat(int steps, Tears& tears) override;
 
   /// Makes that many steps, and reads their reports. `tear_each`: each breaks overloaded springs. Returns false where a
@@ -177,6 +185,8 @@ class OpenClEngine final : public Engine, private VertexSharing, private Guarded
   std::vector<int> pinned_;
   Held held_;
   bool masks_stale_ = true, notes_contacts_ = false;
+  bool synchronized_ = true;  ///< vectors 0 and 1 hold positions and velocities of one time, others nothing
+  bool synchronized_backup_ = true;
   bool memory_settled_ = false;  ///< positions are in lent memory, or cannot be
   bool noted_run_ = false;       ///< the device knows that the present kernels have made steps
   std::vector<Contact> contacts_;

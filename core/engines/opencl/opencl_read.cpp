@@ -20,30 +20,36 @@ void OpenClEngine<R>::read_stored(State& state) const {
   copy(vector_x, state.x, 1), copy(vector_v, state.v, velocity_scale());
 }
 
+/// Adds `times`·a to the velocities: in double, since what a float would lose is shown in plots.
 template <class R>
-void OpenClEngine<R>::read(State& state, const Tears& tears) {
-  accept_changes(tears);
-  read_stored(state);
-  if (scheme_->lag == 0) return;
+void OpenClEngine<R>::add_accelerations(State& state, double times) {
   accelerations();
   R* const a = state_.map(acceleration_.get(), CL_MAP_READ);
-  const double lag = scheme_->lag * preset_.dt;  // s; in double: what a float would lose is shown in plots
   Array<double>* components[] = {&state.v.x, &state.v.y, &state.v.z};
   for (int i = 0; i < lattice_.rows; ++i)
     for (int c = 0; c < 3; ++c) {
       const R* row = StateView<R>::row(a, state_.stride(), i, c);
       double* v = components[c]->data() + std::size_t(i) * lattice_.columns;
-      for (int j = 0; j < lattice_.columns; ++j) v[j] += lag * row[j];
+      for (int j = 0; j < lattice_.columns; ++j) v[j] += times * row[j];
     }
   state_.unmap(acceleration_.get(), a);
 }
 
 template <class R>
+void OpenClEngine<R>::read(State& state, const Tears& tears) {
+  accept_changes(tears);
+  read_stored(state);
+  if (lag() != 0) add_accelerations(state, lag());
+}
+
+template <class R>
 void OpenClEngine<R>::read_raw(State& state, const Tears& tears) {
-  if (scheme_->keeps_displacement)
-    read_stored(state);
-  else
-    read(state, tears);
+  if (!scheme_->keeps_displacement) return read(state, tears);
+  read_stored(state);
+  if (!synchronized_) return;
+  // As the method will start.
+  accept_changes(tears);
+  add_accelerations(state, -scheme_->lag * preset_.dt);
 }
 
 template <class R>
@@ -63,7 +69,7 @@ template <class R>
 StoredParticle OpenClEngine<R>::stored(int i, int j) const {
   const auto at = [&](int vector) { return state_.at(vector, i, j); };
   const double scale = velocity_scale();
-  return {at(vector_x), at(vector_v) / scale, at(seen_velocity(*scheme_)) / scale, scheme_->lag * preset_.dt};
+  return {at(vector_x), at(vector_v) / scale, at(seen()) / scale, lag()};
 }
 
 template <class R>

@@ -39,6 +39,7 @@ bool OpenClEngine<R>::run(int count, bool tear_each) {
   const std::size_t bytes = std::size_t(count) * sizeof(DeviceStepMeasures);
   check(clEnqueueFillBuffer(device_->queue(), reports_.get(), &zero, sizeof zero, 0, bytes, 0, nullptr, nullptr),
         "clearing a buffer");
+  if (synchronized_ && !scheme_->start.empty()) start();
   const int most = tear_each ? 1 : levels_;
   for (int n = 0, levels = 1; n < count; n += levels) {
     levels = std::min(most, count - n);
@@ -172,6 +173,7 @@ template <class R>
 void OpenClEngine<R>::repeat(int steps, Tears& tears) {
   const bool watched = tears_watched();
   state_.restore();
+  synchronized_ = synchronized_backup_;
   if (watched) upload_masks(tears);
   if (steps > 0) {
     repeating_ = true;
