@@ -4,15 +4,10 @@ set(TYGLAB_WEB_LIBRARIES "" CACHE PATH "Folder with include/, imgui/, highway/ a
 if(NOT EXISTS ${TYGLAB_WEB_LIBRARIES}/imgui/imgui.h)
   message(FATAL_ERROR "TYGLAB_WEB_LIBRARIES is to name the folder of libraries that app/run web makes. Build the page with: app/run web")
 endif()
-option(TYGLAB_WEB_THREADS "Build the program for pages that a browser lets share memory among threads" OFF)
-add_compile_options(-msimd128 -fwasm-exceptions)
+# Objects compiled for threads also link without them, so both programs are linked from one set of objects: one program for
+# pages whose server allows shared memory, one for all others.
+add_compile_options(-msimd128 -fwasm-exceptions -pthread)
 add_link_options(-fwasm-exceptions)
-if(TYGLAB_WEB_THREADS)
-  add_compile_options(-pthread)
-  # Memory that grows costs JavaScript a check at each use, which the emulated files alone make.
-  add_link_options(-pthread -Wno-pthreads-mem-growth)
-  set(jpeg_flags -DCMAKE_C_FLAGS=-pthread)
-endif()
 
 foreach(header glm json cli11 boost stb)
   add_library(tyglab::${header} INTERFACE IMPORTED GLOBAL)
@@ -46,15 +41,8 @@ target_compile_definitions(tyglab_imgui PUBLIC IMGUI_IMPL_OPENGL_ES3 IMGUI_DISAB
 target_compile_options(tyglab_imgui PRIVATE -O2)
 add_library(tyglab::imgui ALIAS tyglab_imgui)
 
-include(ExternalProject)
-set(jpeg_dir ${PROJECT_BINARY_DIR}/jpeg)
-ExternalProject_Add(jpeg_build SOURCE_DIR ${TYGLAB_WEB_LIBRARIES}/libjpeg-turbo BINARY_DIR ${jpeg_dir}
-  CMAKE_ARGS -DCMAKE_TOOLCHAIN_FILE=${CMAKE_TOOLCHAIN_FILE} -DCMAKE_BUILD_TYPE=Release -DWITH_SIMD=OFF -DENABLE_SHARED=OFF
-             -DWITH_TURBOJPEG=OFF -DCMAKE_POLICY_VERSION_MINIMUM=3.5 ${jpeg_flags} -G Ninja
-  BUILD_COMMAND ${CMAKE_COMMAND} --build <BINARY_DIR> --target jpeg-static
-  BUILD_BYPRODUCTS ${jpeg_dir}/libjpeg.a INSTALL_COMMAND "")
+# cmake/web/build builds this library next to its sources, once per machine.
 add_library(tyglab_jpeg INTERFACE)
-add_dependencies(tyglab_jpeg jpeg_build)
-target_include_directories(tyglab_jpeg SYSTEM INTERFACE ${TYGLAB_WEB_LIBRARIES}/libjpeg-turbo ${jpeg_dir})
-target_link_libraries(tyglab_jpeg INTERFACE ${jpeg_dir}/libjpeg.a)
+target_include_directories(tyglab_jpeg SYSTEM INTERFACE ${TYGLAB_WEB_LIBRARIES}/libjpeg-turbo ${TYGLAB_WEB_LIBRARIES}/jpeg-build)
+target_link_libraries(tyglab_jpeg INTERFACE ${TYGLAB_WEB_LIBRARIES}/jpeg-build/libjpeg.a)
 add_library(tyglab::jpeg ALIAS tyglab_jpeg)
