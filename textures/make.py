@@ -124,7 +124,7 @@ def denim():
 def linen():
     """Plain weave of uneven natural threads with slubs."""
     width, steps = 6, 32
-    colors = ramp((84, 72, 54), (242, 233, 214), steps)
+    colors = ramp((98, 86, 66), (246, 238, 220), steps)
     threads = FINE // width + 1
     warp, weft = thread_tables(21, threads, 150, FINE), thread_tables(22, threads, 90, FINE)
     rows = []
@@ -138,7 +138,7 @@ def linen():
             else:
                 tone, along, across, place, thread = weft[b][x], u, v, x, threads + b
             crown = yarn(along, across, 0.86 * width, (0.50 + 0.10 * tone) * width)
-            shade = 0.20 + 0.46 * crown + 0.20 * tone + 0.08 * fibers(place, across, thread)
+            shade = 0.27 + 0.45 * crown + 0.19 * tone + 0.08 * fibers(place, across, thread)
             row.append(index(shade, steps))
         rows.append(bytes(row))
     return colors, rows

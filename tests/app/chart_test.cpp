@@ -36,7 +36,7 @@ struct Box {
 /// Where the red pixels lie above the legend.
 Box red_box(const Image& image) {
   Box box;
-  for (int y = 0; y < 330; ++y)
+  for (int y = 0; y < std::min(330, image.height); ++y)
     for (int x = 0; x < image.width; ++x)
       if (is_red(image, x, y))
         box = {std::min(box.left, x), std::max(box.right, x), std::min(box.top, y), std::max(box.bottom, y)};
@@ -116,6 +116,22 @@ TEST_CASE("names stand beside the ends of curves, below each other where the cur
   const Image before = gui.pixels();
   draw_end_labels(paint, {{20, 10}, {300 - names, 30}, {0, 1}, {0, 1}}, curves, 0, 2, 300);
   CHECK(gui.pixels().rgb == before.rgb);
+}
+
+TEST_CASE("the name of a curve that leaves the scale stands below its flags, and beside names further on") {
+  const HeadlessContext context;
+  Theme theme;
+  const PictureGui gui({300, 200}, theme);
+  const PlotPaint paint{gui.draw(), theme, gui.fonts()};
+  paint.draw.AddRectFilled({0, 0}, {300, 200}, IM_COL32(0, 0, 0, 255));
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::vector<double> x{0, 0.1, 0.2, 0.9}, leaves{0.5, 0.98, infinite, infinite}, stays{0.5, 0.5, 0.5, 0.95};
+  const std::vector<PlotCurve> curves{{"F_s", {red, LineStyle::solid, 2}, x, leaves},
+                                      {"F_b", {IM_COL32(0, 255, 0, 255), LineStyle::solid, 2}, x, stays}};
+  draw_end_labels(paint, {{20, 10}, {200, 190}, {0, 1}, {0, 1}}, curves, 0, 4, 300);
+  const Box box = red_box(gui.pixels());
+  CHECK(box.top > 10 + 8);
+  CHECK(box.top < 10 + 8 + 14);  // not pushed down by the other
 }
 
 }  // namespace tyglab::chart_test

@@ -62,6 +62,10 @@ TEST_CASE("an audience reads the axes, every arrow has its symbol, and the cloth
     CHECK(window.ui.fonts.axis->FontSize >= 0.025f * float(size.y));
     const glm::vec2 view = window.ui.viewport.size();
     CHECK(view.x >= 0.65f * float(size.x));
+    const Box* bar = window.ui.placing.find("scale N");
+    REQUIRE(bar != nullptr);
+    CHECK(bar->hi.y - bar->lo.y >= window.ui.fonts.axis->FontSize);
+    CHECK(bar->hi.y < window.ui.viewport.box.hi.y);
     const auto part = part_of_picture(window.scene.camera, bounds(window.cloth().positions()), view.x / view.y);
     REQUIRE(part.has_value());
     CHECK(part->hi.y - part->lo.y > 0.75f);

@@ -147,34 +147,43 @@ float end_labels_width(const PlotPaint& paint, std::span<const PlotCurve> curves
 
 void draw_end_labels(const PlotPaint& paint, const PlotAxes& axes, std::span<const PlotCurve> curves, std::size_t first,
                      std::size_t last, float right) {
+  const float gap = paint.theme.px(end_gap_at_1), stroke = paint.theme.px(end_stroke_at_1);
+  const float line = std::round(paint.fonts.symbol->FontSize * 0.92f);
+  const float lowest = axes.hi.y - line / 2, highest = axes.lo.y + line / 2, below_flags = highest + paint.theme.px(8);
   struct Label {
     const PlotCurve* curve;
-    float x, y;  ///< of the curve's end
+    float left, right, y;
+    bool beside(const Label& other) const { return right <= other.left || left >= other.right; }
   };
   std::vector<Label> labels;
-  for (const PlotCurve& curve : curves)
-    for (std::size_t n = std::min({last, curve.to, curve.x.size()}); n > std::max(first, curve.from); --n) {
+  for (const PlotCurve& curve : curves) {
+    const std::size_t end = std::min({last, curve.to, curve.x.size()});
+    for (std::size_t n = end; n > std::max(first, curve.from); --n) {
       if (!axes.x.drawable(curve.x[n - 1]) || !axes.y.drawable(curve.y[n - 1])) continue;
-      const float y = std::clamp(axes.py(curve.y[n - 1]), axes.lo.y, axes.hi.y);
-      labels.push_back({&curve, std::min(axes.px(curve.x[n - 1]), axes.hi.x), y});
+      const float x = std::min(axes.px(curve.x[n - 1]), axes.hi.x), y = axes.py(curve.y[n - 1]);
+      const float width = stroke + gap + name_width(paint, curve.symbol);
+      const float left = std::round(std::min(x + gap, right - width));
+      // Flags along the upper edge show where it goes on (draw_curve).
+      const bool flagged = y < axes.lo.y || !std::isfinite(curve.y[end - 1]);
+      labels.push_back({&curve, left - gap / 2, left + width, std::max(y, flagged ? below_flags : highest)});
       break;
     }
-  const float line = std::round(paint.fonts.symbol->FontSize * 0.92f);
-  const float lowest = axes.hi.y - line / 2, highest = axes.lo.y + line / 2;
+  }
   if (float(labels.size()) * line > axes.hi.y - axes.lo.y) return;
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
   // From the top down no higher than its curve's end, then from the bottom up as low as there is room.
-  std::vector<float> at;
-  for (const Label& label : labels)
-    at.push_back(std::max(std::max(label.y, highest), at.empty() ? -1e9f : at.back() + line));
-  for (std::size_t k = at.size(); k-- > 0;) at[k] = std::min(at[k], k + 1 < at.size() ? at[k + 1] - line : lowest);
-  const float gap = paint.theme.px(end_gap_at_1), stroke = paint.theme.px(end_stroke_at_1);
-  for (std::size_t k = 0; k < labels.size(); ++k) {
-    const auto& [curve, x, y] = labels[k];
-    const float width = name_width(paint, curve->symbol);
-    const float left = std::round(std::min(x + gap, right - width - stroke - gap)), middle = std::round(at[k]);
-    paint.draw.AddRectFilled({left - gap / 2, middle - line / 2}, {left + stroke + gap + width, middle + line / 2},
-                             faded(paint.theme.colors.ground, 0.8f), paint.theme.px(2));
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    for (std::size_t above = 0; above < k; ++above)
+      if (!labels[k].beside(labels[above])) labels[k].y = std::max(labels[k].y, labels[above].y + line);
+  for (std::size_t k = labels.size(); k-- > 0;) {
+    labels[k].y = std::min(labels[k].y, lowest);
+    for (std::size_t below = k + 1; below < labels.size(); ++below)
+      if (!labels[k].beside(labels[below])) labels[k].y = std::min(labels[k].y, labels[below].y - line);
+  }
+  for (const auto& [curve, from, to, y] : labels) {
+    const float left = from + gap / 2, middle = std::round(y);
+    paint.draw.AddRectFilled({from, middle - line / 2}, {to, middle + line / 2}, faded(paint.theme.colors.ground, 0.8f),
+                             paint.theme.px(2));
     paint.draw.AddLine({left, middle}, {left + stroke, middle}, curve->style.color, 3 * paint.theme.scale);
     const ImVec2 foot{left + stroke + gap / 2, baseline_at(paint.fonts, middle)};
     is_word(curve->symbol)

@@ -105,7 +105,7 @@ void read_out(UiContext& ui, ImDrawList& draw, const PlotAxes& axes, std::span<c
 
 /// Whether the names of the curves leave the curves most of a width, px.
 bool names_fit(const PlotPaint& paint, std::span<const PlotCurve> curves, float width) {
-  constexpr float most = 0.34f;
+  constexpr float most = 0.42f;
   return end_labels_width(paint, curves) < most * width;
 }
 

@@ -96,7 +96,7 @@ void follow(Ui& ui, double& scale, double longest) {
 /// next one begins.
 float scale_bar(Ui& ui, ImDrawList& draw, ImVec2 at, double scale, std::string_view unit) {
   const Tokens& c = ui.theme.colors;
-  const ImFont& font = *ui.fonts.small;
+  const ImFont& font = *ui.fonts.axis;
   const double value = round_below(scale);
   const float length = std::round(float(value / scale) * ui.theme.px(longest_px)), tick = ui.theme.px(3),
               pad = ui.theme.px(6);
@@ -129,7 +129,8 @@ ImVec2 place_of_bars(const Ui& ui) {
     if (mark.name.starts_with("name ") && mark.box.lo.x < lo.x + ui.theme.px(32) && mark.box.hi.y > lo.y &&
         mark.box.lo.y < hi.y)
       foot = std::min(foot, mark.box.lo.y - ui.theme.px(8));
-  return {lo.x + ui.theme.px(22), std::round(foot - ui.theme.px(10))};
+  return {lo.x + ui.theme.px(22),
+          std::round(foot - std::max(ui.theme.px(10), ui.fonts.axis->FontSize / 2 + ui.theme.px(3)))};
 }
 
 struct DrawnArrow {
