@@ -43,13 +43,13 @@ double step_budget(const FrameCosts& costs, double frame_time) {
 
 bool Session::idle() const {
   const bool over = simulation->divergence().has_value() && !copies.lockstep.alive();
-  return (!pacing.playing || over || asleep()) && !rebuild.busy() && !background_steps.busy() &&
+  return (!pacing.playing || behind_page || over || asleep()) && !rebuild.busy() && !background_steps.busy() &&
          !studies.engine.busy() && !copies.awaited && requests.empty();
 }
 
 StudyMoment Session::study_moment() const {
   StudyMoment moment{*simulation, now, last_change, !rebuild.holds_present()};
-  moment.moving = pacing.playing && !simulation->divergence() && !sleep.asleep(*simulation);
+  moment.moving = pacing.playing && !behind_page && !simulation->divergence() && !sleep.asleep(*simulation);
   moment.document = counts.documents;
   return moment;
 }
@@ -104,7 +104,7 @@ void Session::step(double real_seconds, const SessionInput& input) {
   sleep.begin(*simulation);
   if (const bool wanted = wants.ledger || auto_dt; wanted != simulation->ledger().has_value())
     if (!wanted || rebuild.ledger_ready(*this)) simulation->enable_ledger(wanted);
-  if (!pacing.playing || asleep() || rebuild.holds_present() || studies.engine.busy()) return;
+  if (!pacing.playing || behind_page || asleep() || rebuild.holds_present() || studies.engine.busy()) return;
   const double dt = preset().dt;
   pacing.slow(input.slow_motion ? Pacing::slow_motion : 1);
   if (simulation->divergence()) {

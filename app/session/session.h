@@ -57,8 +57,9 @@ struct SessionCounts {
 
 struct Session {
   std::shared_ptr<Simulation> simulation;
-  int threads = 1;        ///< of the CPU engine, at most
-  bool scripted = false;  ///< everything is done at once, so that the same frames come on every machine
+  int threads = 1;           ///< of the CPU engine, at most
+  bool behind_page = false;  ///< the start page is open: the motion waits
+  bool scripted = false;     ///< everything is done at once, so that the same frames come on every machine
   Document document;
   History history;
   BackgroundRebuild rebuild;

@@ -132,6 +132,32 @@ TEST_CASE("the start page has scenes and labs with pictures, narrowed by what is
   CHECK(window.settings.recent.size() == 1);  // a lab's cloth is no work of the user's
 }
 
+TEST_CASE("the scene waits behind the start page, and starts where it stands once that is closed or something chosen") {
+  test::NullUi window;
+  window.key(GLFW_KEY_R);
+  window.pause();
+  window.key(GLFW_KEY_R);
+  window.ui.command("start_page");
+  window.key(GLFW_KEY_SPACE);
+  window.frames(60);
+  REQUIRE(window.ui.dialog.kind == Kind::start);
+  CHECK(window.t() == 0);
+  CHECK(window.session.idle());  // no frame is drawn for it
+  window.key(GLFW_KEY_ESCAPE);
+  window.frames(3);
+  CHECK(window.t() > 0);
+  CHECK(window.t() < 0.1);
+
+  window.ui.command("start_page");
+  window.frames(2);
+  window.click("dialog.entry.denim");
+  window.until([&] { return window.session.document.label == "denim"; }, "the scene");
+  window.frames(3);
+  CHECK_FALSE(window.paused());
+  CHECK(window.t() > 0);
+  CHECK(window.t() < 0.2);
+}
+
 TEST_CASE("what went wrong at the start is said on the start page, and for as long as that is open") {
   test::NullUi window;
   window.session.messages.warning("settings.json is damaged. The defaults are used.");

@@ -57,6 +57,7 @@ void act_on_events(Ui& ui, double elapsed, double frame_time) {
   follow_session(ui);
   handle_pointer(ui.tools);
   ui.session.wants = layout_wants(ui, ImGui::GetIO().DisplaySize);
+  ui.session.behind_page = ui.dialog.kind == Dialog::Kind::start;
   SessionInput input = ui.tools.session_input();
   input.dragging = ui.slider.dragged != 0;
   input.frame_time = frame_time;
