@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/io/preset_io.h"
-#include "core/model/changes.h"
-#include "core/model/clocks.h"
-#include "core/model/readable.h"
+#include "core/model/effect.h"
+#include "core/model/notation.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 namespace {

@@ -1,7 +1,7 @@
 #include "core/engines/engine.h"
 
 #include "core/engines/cpu/cpu_engine.h"
-#include "core/engines/opencl/make_opencl_engine.h"
+#include "core/engines/opencl/opencl_devices.h"
 
 namespace tyglab {
 

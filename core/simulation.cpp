@@ -6,13 +6,13 @@
 #include <iostream>
 #include <utility>
 
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 #include "core/engines/still_engine.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
-#include "core/io/text.h"
-#include "core/model/changes.h"
-#include "core/model/readable.h"
+#include "core/io/terminal.h"
+#include "core/model/effect.h"
+#include "core/model/notation.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {

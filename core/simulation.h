@@ -6,13 +6,11 @@
 #include <mutex>
 #include <optional>
 
-#include "core/cloth/start.h"
 #include "core/cloth/state.h"
-#include "core/cloth/tears.h"
 #include "core/edit.h"
-#include "core/energy/energy_watch.h"
+#include "core/energy/ledger.h"
 #include "core/engines/engine.h"
-#include "core/forces/gust.h"
+#include "core/forces/contact.h"
 #include "core/forces/readout.h"
 #include "core/model/effect.h"
 #include "core/model/preset.h"
@@ -63,7 +61,7 @@ class Simulation {
   const Lattice& lattice() const { return lattice_; }
   const Tears& tears() const { return tears_; }
   double time() const;
-  /// The present wind, N: W, including gusts (gust.h).
+  /// The present wind, N: W, including gusts (contact.h).
   glm::dvec3 wind() const { return acting().W; }
   std::int64_t steps() const { return steps_; }
   const std::optional<Divergence>& divergence() const { return divergence_; }

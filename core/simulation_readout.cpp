@@ -1,7 +1,9 @@
 // Read-outs of a simulation: the whole state, the variables of table B.1 for one particle, sums over the cloth.
+
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/forces/contact.h"
 #include "core/forces/readout.h"
@@ -84,6 +86,35 @@ ForceSummary Simulation::forces(Reduction reduction) {
       add(sum.F_int, f.F_int()), add(sum.F_ext, f.F_ext()), add(sum.F, f.F_int() + f.F_ext());
     }
   return sum;
+}
+
+// The energy ledger of a simulation, kept only on request.
+
+EnergyReading Simulation::energy() {
+  return read_energy(acting(), tears_, read(), held_);
+}
+
+void Simulation::enable_ledger(bool on) {
+  std::optional<EnergyWatch> watch;
+  if (on) watch.emplace().begin(preset_, energy(), time());
+  engine_->note_contacts(on);
+  watch_ = std::move(watch);
+}
+
+std::optional<LedgerReading> Simulation::ledger() const {
+  if (!watch_) return std::nullopt;
+  return watch_->ledger().reading();
+}
+
+void Simulation::watch_edit(Ledger::Source source) {
+  if (!watch_) return;
+  ++revision_;
+  watch_->edited(energy(), source);
+}
+
+void Simulation::watch_step() {
+  ++revision_;
+  watch_->after_step(acting(), tears_, read(), held_, engine_->contacts());
 }
 
 }  // namespace tyglab

@@ -53,7 +53,7 @@ static float3 crossed(float3 a, float3 b) {
   return (float3)(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/// Normals as compute_normals() has them (app/render/vertex_normals.h): down × along.
+/// Normals as compute_normals() has them (app/render/cloth_mesh.h): down × along.
 kernel void write_normals(global const float* x, global float* n, int rows, int columns) {
   const int i = (int)get_global_id(1);
   if (i >= rows) return;

@@ -1,7 +1,7 @@
 #include "frame.glsl"
 // What closes the edges of a torn cloth: triangles of the other diagonal, and strips in which threads end. Six vertices
 // are the corners of a piece's two triangles; there are no attributes.
-uniform highp usampler2D pieces;  // four particles each, two a texel: app/render/cloth_topology.h, frayed_indices
+uniform highp usampler2D pieces;  // four particles each, two a texel: app/render/cloth_mesh.h, frayed_indices
 uniform sampler2D positions;      // as in lines.vert
 uniform sampler2D normals;        // likewise
 uniform int component;
@@ -58,7 +58,7 @@ void main() {
     position += from_eye * (0.1 * spacing / max(length(from_eye), spacing));
   }
   across = site * texture_step;
-  // A particle without a triangle of its own has (0, 0, 1) (app/render/vertex_normals.h).
+  // A particle without a triangle of its own has (0, 0, 1) (app/render/cloth_mesh.h).
   normal = vector_of(normals, nearest);
   if (normal == vec3(0.0, 0.0, 1.0)) normal = ab.x == cd.y ? cross(b - a, c - a) : cross(c - a, b - a);
   normal = normalize(normal);

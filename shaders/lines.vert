@@ -1,7 +1,7 @@
 #include "frame.glsl"
 // A line as a rectangle on the screen: thick lines are no part of OpenGL's core profile. Six vertices are the corners of
 // its two triangles; there are no attributes.
-uniform highp usampler2D lines;  // two particles, by their vertex index, for each; as positions: app/render/texel_array.h
+uniform highp usampler2D lines;  // two particles, by their vertex index, for each; as positions: app/render/field_colors.h
 uniform sampler2D positions;     // the vertex buffer: x, y and z of a row of particles one after the other
 uniform int component;           // from x to y and from y to z
 uniform float spacing;           // m between lines

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/base/program.h"
+#include "app/base/settings.h"
 #include "tyglab_version.h"
 
 namespace tyglab {

@@ -1,12 +1,11 @@
-#include "app/base/link.h"
+#include "app/base/text.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdio>
 
-#include "app/base/data_files.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 

@@ -1,11 +1,11 @@
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "core/model/parsed_number.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-#include "app/base/program.h"
+#include "app/base/settings.h"
 
 namespace tyglab {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <system_error>
 
-#include "app/base/program.h"
+#include "app/base/settings.h"
 
 namespace tyglab {
 

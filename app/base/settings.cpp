@@ -4,12 +4,10 @@
 #include <concepts>
 #include <nlohmann/json.hpp>
 
-#include "core/io/files.h"
-#include "core/io/input_file.h"
 #include "core/io/json_tree.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
-#include "core/io/user_folders.h"
+#include "core/io/system_files.h"
 
 namespace tyglab {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 
 #include <algorithm>
 #include <array>

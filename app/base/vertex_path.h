@@ -10,7 +10,7 @@
 // refuses, the device gets an ordinary context, stores the reason (Device::gl_problem) and copies.
 //
 // shared_memory, on processors: a vertex buffer stays mapped (ARB_buffer_storage) and is lent to the engine as three
-// slots of plain memory (core/engines/position_memory.h), from which it makes OpenCL buffers. One slot is being drawn
+// slots of plain memory (core/engines/engine.h), from which it makes OpenCL buffers. One slot is being drawn
 // and is never written; the other two are enough for any number of launches. A slot is free again once another is shown
 // and OpenGL has passed the fence after the last drawing from it. Normals are computed directly into a second such
 // buffer. In double, the state stays in the engine's own arrays, and a kernel writes it as float into the lent memory

@@ -1,4 +1,4 @@
-#include "app/cli/accuracy_report.h"
+#include "app/cli/bench_output.h"
 
 #include <algorithm>
 #include <array>
@@ -6,14 +6,12 @@
 #include <cstdio>
 #include <iostream>
 
-#include "app/cli/bench_output.h"
-#include "app/ui/kit/curves.h"
+#include "app/ui/kit/chart.h"
 #include "core/analysis/machine.h"
-#include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
-#include "core/io/destination.h"
-#include "core/io/text.h"
-#include "core/model/readable.h"
+#include "core/io/output_file.h"
+#include "core/io/terminal.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {

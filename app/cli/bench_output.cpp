@@ -8,8 +8,8 @@
 #include "app/cli/command_line.h"
 #include "app/process/interrupt.h"
 #include "core/analysis/machine.h"
-#include "core/io/destination.h"
-#include "core/model/readable.h"
+#include "core/io/output_file.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 #include "tyglab_version.h"
 

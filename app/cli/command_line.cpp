@@ -1,27 +1,28 @@
+
 #include "app/cli/command_line.h"
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <new>
 #include <optional>
 #include <sstream>
 
-#include "app/base/data_files.h"
+#include "app/base/files.h"
 #include "app/cli/preset_argument.h"
 #include "app/process/interrupt.h"
-#include "app/process/memory_limit.h"
-#include "app/render/graphics_error.h"
+#include "app/process/process.h"
+#include "app/render/gl_objects.h"
 #include "app/session/lab.h"
 #include "core/engines/engine.h"
-#include "core/io/destination.h"
-#include "core/io/files.h"
+#include "core/fields/particle_field.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
+#include "core/io/system_files.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
-#include "core/model/parsed_number.h"
-#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -194,6 +195,61 @@ CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest) {
 
 CLI::Validator not_empty() {
   return {[](std::string& text) { return text.empty() ? std::string("must not be empty") : std::string(); }, ""};
+}
+
+void add_color_option(CLI::App& command, std::string& name, bool copies) {
+  std::vector<std::string> names;
+  for (const FieldInfo& field : particle_fields()) {
+    if (field.field == ParticleField::distance && !copies) continue;
+    names.emplace_back(field.name);
+  }
+  command.add_option("--color", name, "Colors the cloth by a value of each particle, with a legend")
+      ->type_name(joined(names, "|"))
+      ->check(CLI::IsMember(names).description(""));
+}
+
+PictureSize parse_size(const std::string& text, PictureSize least) {
+  constexpr int most = 8192;
+  PictureSize size;
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.width);
+  const bool cross = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+  const auto height = std::from_chars(cross ? width.ptr + 1 : end, end, size.height);
+  const bool whole = cross && height.ec == std::errc{} && height.ptr == end;
+  if (!whole || size.width < least.width || size.height < least.height || std::max(size.width, size.height) > most)
+    throw UsageError("--size " + text + ": must be WIDTHxHEIGHT in pixels, such as 1280x720; at least " +
+                     std::to_string(least.width) + "x" + std::to_string(least.height) + ", and each at most " +
+                     std::to_string(most));
+  return size;
+}
+
+Progress::Progress(const std::string& what)
+    : what_(in_one_line(what)), terminal_(os::is_terminal(os::standard_error)) {}
+
+void Progress::clear() {
+  if (shown_) cursor_output() << '\r' << std::string(what_.size() + 40, ' ') << '\r' << std::flush;
+  shown_ = false;
+}
+
+void Progress::update(double done) {
+  if (!terminal_) return;
+  const auto now = Clock::now();
+  if (now - last_ < std::chrono::milliseconds(200)) return;
+  last_ = now;
+  const double passed = std::chrono::duration<double>(now - start_).count();
+  std::string line = what_ + ": " + std::to_string(static_cast<int>(100 * done)) + " %";
+  if (done > 0) line += ", " + duration_text(passed * (1 - done) / done) + " left";
+  line.resize(what_.size() + 40, ' ');
+  cursor_output() << '\r' << line << std::flush;
+  shown_ = true;
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  const auto text = [](long long n, const char* unit) { return std::to_string(n) + ' ' + unit; };
+  if (whole < 60) return text(whole, "s");
+  if (whole < 3600) return text(whole / 60, "min") + ' ' + text(whole % 60, "s");
+  return text(whole / 3600, "h") + ' ' + text(whole % 3600 / 60, "min");
 }
 
 }  // namespace tyglab

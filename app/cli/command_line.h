@@ -2,12 +2,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "app/cli/film.h"
 
 namespace tyglab {
 
@@ -50,5 +53,41 @@ CLI::Validator number_between(double lowest, double highest, const std::string& 
 CLI::Validator whole_number_between(std::int64_t lowest, std::int64_t highest);
 /// Checks that an option's text is not empty, as it is where a script's variable was never set.
 CLI::Validator not_empty();
+
+// --color: the quantity that colors the cloth in pictures and in the window.
+
+/// Adds --color, whose text is the name of a ParticleField (field_called), or empty. `copies`: there may be some, which
+/// the distance from a reference needs.
+void add_color_option(CLI::App& command, std::string& name, bool copies);
+
+// --size WxH: the size of pictures and of the window.
+
+/// "1280x720". Throws UsageError naming the option unless it is at least that large, and no side over 8192 pixels.
+PictureSize parse_size(const std::string& text, PictureSize least);
+
+// Progress of long work with the time left: one line on stderr that is overwritten, on a terminal only.
+
+class Progress {
+ public:
+  explicit Progress(const std::string& what);
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// `done` of the work, 0 to 1. Shown at most five times a second.
+  void update(double done);
+  /// Clears the line, for other output.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool terminal_;
+  bool shown_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+/// "5 s", "2 min 5 s", "1 h 2 min": a duration for people.
+std::string duration_text(double seconds);
 
 }  // namespace tyglab

@@ -4,11 +4,11 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "app/base/data_files.h"
-#include "app/render/drawn_cloth.h"
+#include "app/base/files.h"
+#include "app/render/cloth_renderer.h"
 #include "app/render/image.h"
 #include "app/ui/kit/color_legend.h"
-#include "app/ui/kit/picture_gui.h"
+#include "app/ui/kit/scene_picture.h"
 #include "core/io/terminal.h"
 
 namespace tyglab {

@@ -3,12 +3,14 @@
 
 #include <filesystem>
 #include <future>
+#include <iosfwd>
 
-#include "app/platform/headless_context.h"
+#include "app/platform/platform.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_texture.h"
 #include "app/render/field_colors.h"
+#include "app/shell/sandbox.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -37,5 +39,12 @@ class Film {
   Camera camera_;
   std::optional<FieldColors> colors_;
 };
+
+// The replacement of the sandbox on a machine without a display.
+
+/// Simulates the preset and writes pictures of it and its last state into a new folder ./tyglab-out, or tyglab-out-2
+/// and so on where there is one: nothing is replaced. The screenshot and the time report too, where they are asked for.
+/// Shows progress and names the files on `out`. Returns the exit code.
+int run_headless(const SandboxOptions& options, std::ostream& out);
 
 }  // namespace tyglab

@@ -1,14 +1,12 @@
-#include "app/cli/headless.h"
+#include "app/cli/film.h"
 
 #include <iostream>
 
 #include "app/base/frame_costs.h"
 #include "app/cli/command_line.h"
-#include "app/cli/film.h"
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
-#include "core/io/destination.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/terminal.h"
 #include "core/output/obj.h"
 #include "core/output/state_csv.h"

@@ -5,8 +5,6 @@
 #include <set>
 
 #include "app/cli/command_line.h"
-#include "core/io/destination.h"
-#include "core/io/files.h"
 #include "core/io/output_file.h"
 #include "core/io/system_files.h"
 #include "core/io/terminal.h"

@@ -6,22 +6,18 @@
 #include <iostream>
 #include <system_error>
 
-#include "app/base/data_files.h"
-#include "app/base/link.h"
-#include "app/base/numbers.h"
+#include "app/base/files.h"
+#include "app/base/text.h"
 #include "app/cli/command_line.h"
-#include "app/cli/progress.h"
 #include "app/render/image.h"
-#include "core/analysis/engine_choice.h"
 #include "core/analysis/machine.h"
+#include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
 #include "core/energy/auto_step.h"
-#include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/cli/outputs.h"
 #include "core/io/preset_io.h"
 #include "core/model/preset.h"

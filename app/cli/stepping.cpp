@@ -9,8 +9,8 @@
 #include "app/cli/command_line.h"
 #include "app/process/interrupt.h"
 #include "core/integrators/scheme.h"
-#include "core/io/text.h"
-#include "core/model/readable.h"
+#include "core/io/terminal.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/progress.h"
+#include "app/cli/command_line.h"
 #include "core/energy/auto_step.h"
 #include "core/simulation.h"
 

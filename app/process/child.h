@@ -3,15 +3,27 @@
 #pragma once
 
 #include <sys/types.h>
-
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 #include <string>
 
-#include "app/process/child_exit.h"
+// How a part of the program that ran separately ended.
 
 namespace tyglab {
+
+/// How a child process ended.
+struct ChildExit {
+  std::string result;      ///< of its function; empty unless it returned and all of the result arrived
+  int code = 0;            ///< exit code: 0 unless the function threw or the result could not be sent
+  int signal = 0;          ///< that ended it; 0: none
+  bool timed_out = false;  ///< it was killed for taking too long
+  double seconds = 0;      ///< from its start to its end
+};
+
+/// "Segmentation fault": a signal in words; on Windows an exception by its number.
+std::string signal_words(int signal);
 
 /// No child process could be created. `what()` says why.
 class ChildError : public std::runtime_error {
@@ -60,5 +72,33 @@ class Child {
 
 /// Runs a function in a child process and waits for its end. Throws ChildError.
 ChildExit run_in_child(const Child::Work& work, const ChildOptions& options = {});
+
+// Runs numbered cases in separate processes, so a crash or hang is an ordinary result; on Windows in threads of this
+// process.
+
+struct ChildCases {
+  std::int64_t from = 0, count = 0;
+  int at_a_time = 1;
+  double most_processor_seconds = 60;                              ///< for one case; of real time ten times as long
+  std::function<std::string(std::int64_t)> work = {};              ///< in the case's own process, or thread
+  std::function<void(std::int64_t, const ChildExit&)> ended = {};  ///< in this one, in the order of the numbers
+  std::function<bool()> stop = {};  ///< once this holds no case is started, and those that run in processes are ended
+};
+
+/// Runs them. This process must have no other threads. Throws ChildError if no process can be created.
+void run_child_cases(const ChildCases& cases);
+
+// Finds out in a child process, where these exist, whether an OpenCL driver crashes when asked for its devices.
+
+/// Has core ask the drivers in a child process first (set_driver_probe()). On Windows they are asked in this
+/// process.
+void probe_drivers_in_child();
+
+// Prints answers of drivers, which may crash.
+
+/// Prints in a process of its own, since a driver that aborts takes its process along; what the driver prints by itself
+/// goes to driver_log(). On Windows in this one. Returns how that ended, or nothing if it came to its end. Throws
+/// OutputError if not all that it printed arrived.
+std::string print_in_child(void (*print)());
 
 }  // namespace tyglab

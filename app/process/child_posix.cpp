@@ -13,7 +13,7 @@
 #include <ctime>
 #include <utility>
 
-#include "app/process/memory_limit.h"
+#include "app/process/process.h"
 
 namespace tyglab {
 namespace {

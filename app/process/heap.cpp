@@ -1,4 +1,4 @@
-#include "app/process/heap.h"
+#include "app/process/process.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>

@@ -1,17 +1,18 @@
+
 #include "app/process/process.h"
 
 #include <fcntl.h>
 #include <io.h>
-#include <windows.h>
-// Last, since it needs the other.
 #include <shellapi.h>
-
+#include <windows.h>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <sstream>
+
+// Last, since it needs the other.
 
 namespace tyglab {
 
@@ -71,5 +72,15 @@ void end_at_once(std::string_view sentence, int exit_code) {
   ::TerminateProcess(::GetCurrentProcess(), unsigned(exit_code));
   std::terminate();
 }
+
+// There is no such limit.
+std::string memory_limit_words() {
+  return {};
+}
+
+CrashExplainer::CrashExplainer() = default;
+CrashExplainer::~CrashExplainer() = default;
+
+void leave_crashes_to_parent() {}
 
 }  // namespace tyglab

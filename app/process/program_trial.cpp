@@ -1,18 +1,17 @@
-#include "app/process/program_trial.h"
+#include "app/process/program_run.h"
 
 #include <algorithm>
 #include <string>
 #include <string_view>
 
-#include "app/base/program.h"
-#include "app/process/child_exit.h"
-#include "app/process/program_run.h"
-#include "core/engines/opencl/disk_cache.h"
-#include "core/engines/opencl/driver_loader.h"
+#include "app/base/settings.h"
+#include "app/process/child.h"
+#include "core/engines/opencl/device.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/opencl/program_text.h"
 #include "core/engines/vertex_sharing.h"
 #include "core/integrators/scheme.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/simulation.h"
 

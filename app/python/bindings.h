@@ -6,7 +6,6 @@
 
 #include "core/engines/engine.h"
 #include "core/model/preset.h"
-#include "core/model/stop.h"
 
 namespace tyglab::python {
 

@@ -1,10 +1,9 @@
-#include "app/base/data_files.h"
+#include "app/base/files.h"
 #include "app/python/bindings.h"
 #include "core/analysis/reference.h"
 #include "core/analysis/tolerance.h"
 #include "core/engines/engine.h"
-#include "core/io/destination.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 
 namespace tyglab::python {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "app/base/data_files.h"
+#include "app/base/files.h"
 #include "app/python/bindings.h"
 #include "tyglab_version.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/python/bindings.h"
 #include "core/io/preset_io.h"
 #include "core/model/fields.h"

@@ -16,7 +16,7 @@
 #include "app/python/bindings.h"
 #include "core/analysis/frequency.h"
 #include "core/integrators/scheme.h"
-#include "core/io/destination.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/output/state_csv.h"
 #include "core/theory/modes.h"

@@ -3,19 +3,73 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "app/render/camera.h"
 #include "app/render/cloth_renderer.h"
-#include "app/render/cloth_topology.h"
+#include "app/render/field_colors.h"
 #include "app/render/gl_objects.h"
-#include "app/render/texel_array.h"
 #include "app/render/vertex_memory.h"
-#include "app/render/vertex_normals.h"
 #include "app/render/written_vertices.h"
+#include "core/cloth/lattice.h"
+#include "core/cloth/state.h"
+
+// Normals for smooth shading, and the bounding box, of a cloth's vertices.
 
 namespace tyglab {
+
+/// A vector of every particle as the solver lays it out and the buffers hold it: row after row, each as its x, its y
+/// and its z. Component c of particle (i, j) stands at i·stride() + j + c·component.
+struct FloatRows {
+  int rows = 0, columns = 0;
+  int component = 0;  ///< from a row's x to its y and from its y to its z
+  const float* data = nullptr;
+  int stride() const { return 3 * component; }
+  std::size_t size() const { return std::size_t(rows) * std::size_t(stride()); }
+  const float* row(int i, int c) const { return data + std::size_t(i) * stride() + std::size_t(c) * component; }
+};
+
+/// Of the eight triangles in the four quads round particle (i, j) those that are whole and have it as a corner: bit
+/// ((row − i + 1)·2 + column − j + 1)·2 + which, by the quad's upper left corner and its triangle (quad_triangles).
+std::uint32_t whole_triangles(const Lattice& lattice, const Tears& tears, int i, int j);
+
+/// Normals on the front side, not of unit length: the cross product of the differences to the neighbors down and along
+/// the row. Those of `beside_tears` are the sum over their whole triangles instead, so that the other side of a tear
+/// does not count; without a whole triangle (0, 0, 1). `normals` are laid out as the positions are, and only written.
+void compute_normals(const FloatRows& positions, const Tears& tears, std::span<const std::uint32_t> beside_tears,
+                     float* normals);
+
+/// The box of all finite components.
+Bounds finite_bounds(const FloatRows& positions);
+
+// Connections between particles in a view: lists of vertex indices, where particle (i, j) is vertex i·stride + j.
+
+using Indices = std::vector<std::uint32_t>;
+
+/// Three indices for each whole triangle, counter-clockwise seen from the front.
+Indices triangle_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// Two indices for each whole spring of the directions `first` to `last` (lattice.h), `last` not included.
+Indices spring_indices(const Lattice& lattice, int stride, const Tears& tears, int first, int last);
+/// Two indices for each edge of a whole triangle, each edge once.
+Indices outline_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// Two indices for each whole stretch spring in a quad that has lost a triangle.
+Indices connection_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// What closes the edges of a torn cloth, four indices a piece. A quad that has lost triangles shows one of its other
+/// diagonal, if that is whole and its counterpart is not: a, b, c, a, counter-clockwise seen from the front. Beyond
+/// each edge (a, b) of what is shown, threads end where a triangle is missing: c is the corner on this side, d the one
+/// beyond.
+Indices frayed_indices(const Lattice& lattice, int stride, const Tears& tears);
+/// An index for each particle for which `wanted` holds.
+Indices particle_indices(const Lattice& lattice, int stride, const std::function<bool(int, int)>& wanted);
+/// Takes out what has an edge longer than `longest` m or not finite; `corners` indices stand for each triangle or line.
+void remove_long(Indices& indices, int corners, const FloatRows& positions, float longest);
+/// Particles, each once, that are a corner of a triangle that is not whole.
+std::vector<std::uint32_t> particles_beside_tears(const Lattice& lattice, int stride, const Tears& tears);
 
 class ClothMesh {
  public:

@@ -12,15 +12,10 @@
 #include "app/render/cloth_mesh.h"
 #include "app/render/cloth_renderer.h"
 #include "app/render/cloth_texture.h"
-#include "app/render/draw_timer.h"
-#include "app/render/drawn_cloth.h"
+#include "app/render/field_colors.h"
 #include "app/render/gl_objects.h"
 #include "app/render/render_target.h"
-#include "app/render/shadow_map.h"
 #include "app/render/solid_mesh.h"
-#include "app/render/staging.h"
-#include "app/render/value_texture.h"
-#include "app/render/weight_model.h"
 
 namespace tyglab {
 

@@ -1,4 +1,4 @@
-#include "app/render/cloth_topology.h"
+#include "app/render/cloth_mesh.h"
 
 #include <algorithm>
 #include <utility>

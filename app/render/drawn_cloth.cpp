@@ -1,4 +1,4 @@
-#include "app/render/drawn_cloth.h"
+#include "app/render/cloth_renderer.h"
 
 #include <algorithm>
 #include <cmath>

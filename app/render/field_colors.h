@@ -1,14 +1,34 @@
 // The scale of a colored cloth: the values that its colors represent.
 #pragma once
 
+#include <imgui.h>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "app/render/cloth_renderer.h"
-#include "app/render/color_map.h"
+#include "app/render/gl_objects.h"
+#include "app/render/vertex_memory.h"
 #include "core/fields/particle_field.h"
 
+// Color scales for values: perceptually uniform, and distinguishable with color blindness. All are interpolated in
+// Oklab (B. Ottosson 2020).
+
 namespace tyglab {
+
+/// Which colors stand for values.
+struct ColorMap {
+  /// From blue over a pale middle to vermilion, both ends equally dark; otherwise from blue over green to pale yellow,
+  /// lightness rising evenly.
+  bool diverging = false;
+  bool on_light = false;  ///< made to be seen before a light ground: the pale end is less pale, the dark one darker
+  bool operator==(const ColorMap&) const = default;
+};
+ImU32 map_color(const ColorMap& map, double part);
+/// That many of them, from the least to the greatest.
+std::vector<ImU32> map_colors(const ColorMap& map, int count);
 
 /// The top of a scale that follows a quantity and does not flicker: a round number (1, 2, 3 or 5 times a power of ten)
 /// that grows at once, and shrinks once it was not needed for that many looks, to what they needed.
@@ -53,5 +73,52 @@ struct FieldColors {
 
 /// Of the renderer's color map.
 inline constexpr int map_size = 256;
+
+// Numbers for shaders: a value of every particle, and the colors of values.
+
+/// Lets a texture be looked up with that filter, without a repetition beyond its edges.
+void set_up_texture(const gl::Texture& texture, GLint filter);
+
+class ValueTexture {
+ public:
+  /// `filter`: GL_NEAREST, or GL_LINEAR between neighbors.
+  explicit ValueTexture(GLint filter);
+  /// Rows of numbers.
+  void take(std::span<const float> values, int rows, int columns);
+  /// One row of colors, as bytes red, green, blue, opacity.
+  void take(std::span<const std::uint32_t> colors);
+  /// Binds it to a texture unit.
+  void bind(int unit) const;
+  std::size_t bytes() const { return 4 * std::size_t(rows_) * std::size_t(columns_); }
+
+ private:
+  void write(GLint format, GLenum layout, GLenum type, const void* data, int rows, int columns);
+
+  gl::Texture texture_;
+  int rows_ = 0, columns_ = 0;
+};
+
+// A long list of numbers that shaders look up by index: the equivalent of a buffer texture, which OpenGL ES lacks.
+
+class TexelArray {
+ public:
+  enum class Of { floats, index_pairs };
+  explicit TexelArray(Of what);
+  /// Takes that many texels from memory.
+  void take(const void* data, std::size_t texels);
+  /// Takes them from a vertex buffer; they stay on their side of the bus.
+  void take(const VertexSource& source, std::size_t texels);
+  /// Binds it to a texture unit. Texel k is at (k & 4095, k >> 12).
+  void bind(int unit) const;
+  std::size_t bytes() const;
+
+ private:
+  static constexpr std::size_t widest = 4096;  ///< which all graphics cards have that run OpenGL 3.3
+  void write(const std::byte* from, std::size_t texels);
+
+  Of of_;
+  gl::Texture texture_;
+  int width_ = 0, height_ = 0;
+};
 
 }  // namespace tyglab

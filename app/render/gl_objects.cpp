@@ -1,11 +1,14 @@
+
 #include "app/render/gl_objects.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <glm/gtc/type_ptr.hpp>
 #include <sstream>
 #include <string>
 
-#include "app/base/data_files.h"
+#include "app/base/files.h"
 #include "app/platform/gl/dialect.h"
 
 namespace tyglab::gl {
@@ -99,3 +102,40 @@ void Program::set(const char* name, const glm::mat4& value) const {
 }
 
 }  // namespace tyglab::gl
+
+namespace tyglab {
+
+float drawn_radius(const Body& sphere, double L) {
+  const double r = sphere.r;
+  return float(std::max(0.99 * r - L * L / (3 * r), 0.8 * r));
+}
+
+float grid_spacing(float radius) {
+  const float wish = radius / 5, decade = std::pow(10.0f, std::floor(std::log10(wish)));
+  const float part = wish / decade;
+  return decade * (part < 2 ? 1.0f : part < 5 ? 2.0f : 5.0f);
+}
+
+void DrawTimer::begin() {
+  if (asked_ || !drawing_can_be_timed()) return;
+  glBeginQuery(GL_TIME_ELAPSED, query_.id());
+  running_ = true;
+}
+
+void DrawTimer::end() {
+  if (!running_) return;
+  glEndQuery(GL_TIME_ELAPSED);
+  running_ = false, asked_ = true;
+}
+
+double DrawTimer::ms() {
+  GLint there = 0;
+  if (asked_) glGetQueryObjectiv(query_.id(), GL_QUERY_RESULT_AVAILABLE, &there);
+  if (there == 0) return ms_;
+  GLuint nanoseconds = 0;
+  glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &nanoseconds);
+  asked_ = false;
+  return ms_ = 1e-6 * nanoseconds;
+}
+
+}  // namespace tyglab

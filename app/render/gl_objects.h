@@ -2,17 +2,27 @@
 #pragma once
 
 #include <glad/gl.h>
-
 #include <cassert>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "app/render/graphics_error.h"
+#include "core/model/preset.h"
+
+namespace tyglab {
+
+/// OpenGL (or EGL) cannot do what is asked. `what()` says what and how to fix it; a shader's log is in it.
+class GraphicsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace tyglab
 
 namespace tyglab::gl {
 
@@ -99,3 +109,30 @@ class Program {
 };
 
 }  // namespace tyglab::gl
+
+// Sizes and positions of objects around the cloth.
+
+namespace tyglab {
+
+/// Drawn spheres stay inside the computed ones, so that the flat triangles between particles on them do not cut in.
+float drawn_radius(const Body& sphere, double L);
+/// A round distance between the ground's lines for a scene of that radius, m: 1, 2 or 5 times a power of ten.
+float grid_spacing(float radius);
+
+// Measures how long the graphics card takes to draw, without waiting for it.
+
+class DrawTimer {
+ public:
+  /// What is drawn between these two is measured, unless an earlier drawing still is.
+  void begin();
+  void end();
+  /// Of the last drawing that is known, ms; 0 before the first.
+  double ms();
+
+ private:
+  gl::Query query_;
+  bool running_ = false, asked_ = false;
+  double ms_ = 0;
+};
+
+}  // namespace tyglab

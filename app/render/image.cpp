@@ -12,9 +12,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/render/jpeg.h"
-#include "core/io/destination.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 namespace {
@@ -86,7 +84,7 @@ thread_local EncoderMemory* EncoderMemory::present_ = nullptr;
 #pragma GCC diagnostic ignored "-Wunused-function"
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-#define STBI_NO_JPEG  // that of Debian 12 writes out of bounds: jpeg.h
+#define STBI_NO_JPEG  // that of Debian 12 writes out of bounds: image.h
 #define STBI_ONLY_PNG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA

@@ -1,4 +1,4 @@
-#include "app/render/jpeg.h"
+#include "app/render/image.h"
 
 #include <algorithm>
 #include <array>

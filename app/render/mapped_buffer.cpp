@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/engines/position_memory.h"
+#include "core/engines/engine.h"
 
 namespace tyglab::gl {
 

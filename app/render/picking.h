@@ -4,9 +4,11 @@
 #include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "app/render/camera.h"
+#include "core/cloth/state.h"
 #include "core/engines/engine.h"
 #include "core/model/preset.h"
 
@@ -32,5 +34,18 @@ std::optional<double> sphere_surface(glm::dvec3 eye, glm::dvec3 ray, glm::dvec3 
 
 /// Index of the sphere under the pixel that is nearest to the eye. Planes cannot be dragged and are never met.
 std::optional<int> body_under(const std::vector<Body>& bodies, const Camera& camera, glm::vec2 pixel, glm::vec2 size);
+
+// Finds the springs that a stroke across the picture crosses.
+
+/// A way across the picture, pixels.
+struct Stroke {
+  glm::vec2 from, to;
+};
+
+/// The whole stretch springs, edges of triangles among them, whose pictures one of the ways crosses: through all layers
+/// of the cloth, as scissors go, but not through what a sphere hides. A spring that meets the end of one way and the
+/// beginning of the next is crossed by one of them. Each stands once, in the order of their owners.
+std::vector<SpringSite> springs_across(const PositionView& positions, const Tears& tears, const Camera& camera,
+                                       std::span<const Body> bodies, std::span<const Stroke> strokes, glm::vec2 size);
 
 }  // namespace tyglab

@@ -1,8 +1,10 @@
 // The target of a frame: a multisampled picture with depth, and the plain texture into which it is resolved.
 #pragma once
 
+#include <glm/mat4x4.hpp>
 #include <optional>
 
+#include "app/render/camera.h"
 #include "app/render/gl_objects.h"
 #include "app/render/image.h"
 
@@ -46,6 +48,27 @@ class SavedTarget {
 
  private:
   GLint draw_ = 0, read_ = 0, viewport_[4] = {};
+};
+
+// The shadow of the key light: a depth picture from the direction of the light that fits the scene closely.
+
+class ShadowMap {
+ public:
+  static constexpr int size = 1024;  ///< texels a side
+
+  ShadowMap();
+  /// From world to 0..1 in each axis, for a box seen along the light.
+  static glm::mat4 fit(const Bounds& box, glm::vec3 to_light);
+  /// Binds it for drawing, cleared.
+  void begin();
+  /// Ends drawing; the framebuffer is left for the next one to bind.
+  void end();
+  /// Binds it to a texture unit, for a sampler2DShadow.
+  void bind(int unit) const;
+
+ private:
+  gl::Texture depth_;
+  gl::Framebuffer framebuffer_;
 };
 
 }  // namespace tyglab

@@ -1,4 +1,4 @@
-#include "app/render/vertex_normals.h"
+#include "app/render/cloth_mesh.h"
 
 #include <algorithm>
 #include <cmath>

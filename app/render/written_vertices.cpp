@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/render/vertex_normals.h"
+#include "app/render/cloth_mesh.h"
 
 namespace tyglab {
 

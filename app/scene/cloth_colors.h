@@ -6,9 +6,9 @@
 // or type its end. A replay starts with a separate scale, which grows with the values; the scale of its end would leave
 // all but the last steps pale. Values beyond the scale have the color of its end, and the ends of the legend are then
 // arrows. A texture stores the values, one float per particle; fragments interpolate values, not colors, and look them
-// up in 256 colors that are evenly spaced in Oklab (app/render/color_map.h). The shaders are the usual files, compiled
-// a second time with COLORED once a cloth is colored. The choice of the quantity is stored in the settings, not in
-// presets.
+// up in 256 colors that are evenly spaced in Oklab (app/render/field_colors.h). The shaders are the usual files,
+// compiled a second time with COLORED once a cloth is colored. The choice of the quantity is stored in the settings,
+// not in presets.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -4,7 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/render/drawn_cloth.h"
+#include "app/render/cloth_renderer.h"
 #include "app/scene/scene.h"
 
 namespace tyglab {

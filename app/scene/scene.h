@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 
-#include "app/base/viewport.h"
+#include "app/base/input.h"
 #include "app/render/camera.h"
 #include "app/render/cloth_renderer.h"
 #include "app/scene/cloth_colors.h"

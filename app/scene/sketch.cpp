@@ -8,7 +8,7 @@
 
 #include "app/render/camera.h"
 #include "core/model/notation.h"
-#include "core/model/resolution.h"
+#include "core/model/preset.h"
 #include "core/simulation.h"
 
 namespace tyglab {

@@ -10,7 +10,6 @@
 
 #include "app/studies/job.h"
 #include "core/model/preset.h"
-#include "core/model/stop.h"
 
 namespace tyglab {
 

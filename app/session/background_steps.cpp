@@ -3,10 +3,9 @@
 #include <new>
 #include <utility>
 
-#include "app/session/engine_fallback.h"
 #include "app/session/session.h"
 #include "core/integrators/scheme.h"
-#include "core/model/clocks.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
-#include "core/model/changes.h"
-#include "core/model/readable.h"
+#include "core/model/effect.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {

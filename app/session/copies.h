@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session/series.h"
+#include "app/session/recorded.h"
 #include "app/studies/job.h"
 #include "core/lockstep.h"
 

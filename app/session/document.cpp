@@ -1,14 +1,14 @@
 #include "app/session/document.h"
 
-#include "app/base/link.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/base/settings.h"
-#include "app/platform/files.h"
-#include "app/session/edits.h"
+#include "app/base/text.h"
+#include "app/platform/platform.h"
 #include "app/session/session.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
-#include "core/model/readable.h"
+#include "core/model/effect.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {
@@ -52,7 +52,7 @@ void take_built(Session& session, std::unique_ptr<Simulation> simulation, BuildO
   const Preset before = session.preset();
   swap_in(session, std::move(simulation));
   if (order.document) return begin_document(session, std::move(*order.document));
-  follow_up(session, before);
+  follow_up(session, before, changes(before, session.preset()));
   if (!order.fresh) return;
   session.recorded.clear();
   session.pacing.restart_measure();

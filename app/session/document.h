@@ -16,7 +16,7 @@ struct Session;
 /// Opens a preset, with these settings made in it; what goes wrong becomes a message and leaves everything as it was.
 void open_document(Session& session, const std::filesystem::path& file, bool shipped,
                    const std::vector<std::string>& settings = {});
-/// Asks for the preset that a link names (app/base/link.h), with its settings.
+/// Asks for the preset that a link names (app/base/text.h), with its settings.
 void open_link(Session& session, const std::string& link);
 /// Opens these constants, which may differ from what the document has saved, beside the frames where that takes long.
 /// Throws as Simulation does.

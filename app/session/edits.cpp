@@ -1,15 +1,15 @@
-#include "app/session/edits.h"
+#include "app/session/session.h"
 
 #include <new>
 #include <optional>
 #include <utility>
 
 #include "app/session/document.h"
-#include "app/session/session.h"
-#include "core/cloth/start.h"
+#include "app/session/requests.h"
+#include "core/cloth/state.h"
 #include "core/io/preset_io.h"
-#include "core/model/changes.h"
-#include "core/model/resolution.h"
+#include "core/model/effect.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 namespace {
@@ -28,20 +28,39 @@ void spell_pins_as_saved(Session& session) {
   }
 }
 
-/// A new texture for the cloth, if the edit brings one. False if it is unusable.
-bool take_texture(Session& session, const Edit& edit) {
-  const auto* change = std::get_if<edit::Change>(&edit);
-  if (change == nullptr || !changes(session.requested_preset(), change->preset).touches(Effect::texture)) return true;
-  if (!session.show_texture) return true;
-  const auto problem = session.show_texture(change->preset.texture);
-  if (problem) session.messages.error(*problem);
-  return !problem;
+/// What an edit asks for, worked out once before it is made.
+struct Plan {
+  const Edit& edit;
+  const edit::Change* change;  ///< null: an edit of the cloth itself
+  EffectSet document;          ///< what it changes in the constants that are shown
+  EffectSet cloth;             ///< and in those of the cloth that moves, which differ while another one is being built
+  bool restarts, rebuilds;
+  bool grabs, cuts;  ///< a hand or a knife in the cloth
+  bool constants;    ///< it changes constants, at once
+};
+
+Plan plan_of(const Session& session, const Edit& edit) {
+  Plan plan{.edit = edit, .change = std::get_if<edit::Change>(&edit)};
+  if (plan.change != nullptr) {
+    plan.document = changes(session.requested_preset(), plan.change->preset);
+    plan.cloth =
+        session.rebuild.requested_preset() == nullptr ? plan.document : changes(session.preset(), plan.change->preset);
+  }
+  plan.restarts = std::holds_alternative<edit::Restart>(edit);
+  plan.rebuilds = session.simulation->rebuilds(edit);
+  plan.grabs = std::holds_alternative<edit::Grab>(edit);
+  plan.cuts = std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit);
+  plan.constants =
+      plan.change != nullptr || std::holds_alternative<edit::Pin>(edit) || std::holds_alternative<edit::MoveBody>(edit);
+  return plan;
 }
 
-/// Whether a stand-in of the cloth may take that edit.
-bool only_seen(const Session& session, const Edit& edit) {
-  const auto* change = std::get_if<edit::Change>(&edit);
-  return change != nullptr && changes(session.requested_preset(), change->preset).within(motionless);
+/// A new texture for the cloth, if the edit brings one. False if it is unusable.
+bool take_texture(Session& session, const Plan& plan) {
+  if (!plan.document.touches(Effect::texture) || !session.show_texture) return true;
+  const auto problem = session.show_texture(plan.change->preset.texture);
+  if (problem) session.messages.error(*problem);
+  return !problem;
 }
 
 /// How an edit is called where the constants do not say it.
@@ -58,35 +77,17 @@ std::string name_of(const Session& session, const Edit& edit) {
   return "";
 }
 
-void record(Session& session, const Preset& before, const Preset& now, const std::string& what, unsigned gesture) {
-  if (changes(before, now).within(Effect::view)) return;
-  session.history.record({before, session.simulation->time(), what}, gesture);
-}
-
-bool changes_constants(const Edit& edit) {
-  return std::holds_alternative<edit::Change>(edit) || std::holds_alternative<edit::Pin>(edit) ||
-         std::holds_alternative<edit::MoveBody>(edit);
-}
-
 /// Whether an edit may change the motion itself, so that undoing it brings the cloth of that moment back.
-bool changes_motion(const Session& session, const Edit& edit) {
+bool changes_motion(const Session& session, const Plan& plan) {
   if (session.simulation->divergence()) return false;  // nobody wants that back
-  if (std::holds_alternative<edit::Restart>(edit)) return session.simulation->steps() > 0;
-  return std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit) ||
-         std::holds_alternative<edit::Grab>(edit);
-}
-
-/// Whether it is a hand or a knife in the cloth.
-bool touches(const Edit& edit) {
-  return std::holds_alternative<edit::Grab>(edit) || std::holds_alternative<edit::Cut>(edit) ||
-         std::holds_alternative<edit::CutSprings>(edit);
+  return plan.restarts ? session.simulation->steps() > 0 : plan.grabs || plan.cuts;
 }
 
 /// What stands before an edit that changes the motion; none of others, and where the gesture has its entry already.
-std::optional<HistoryEntry> before_motion(Session& session, const Edit& edit, unsigned gesture) {
-  if (!changes_motion(session, edit) || !session.history.begins(gesture) || session.rebuild.holds_present())
+std::optional<HistoryEntry> before_motion(Session& session, const Plan& plan, unsigned gesture) {
+  if (!changes_motion(session, plan) || !session.history.begins(gesture) || session.rebuild.holds_present())
     return std::nullopt;
-  return motion_entry(session, name_of(session, edit));
+  return motion_entry(session, name_of(session, plan.edit));
 }
 
 /// What changes while another cloth is being built is felt at once where that is quick.
@@ -94,9 +95,7 @@ void change_present(Session& session, const Preset& before, const Preset& next) 
   const edit::Change change{merge(before, next, session.preset())};
   if (session.rebuild.holds_present() || change.preset == session.preset()) return;
   if (session.simulation->rebuilds(change) || needs_programs(session, change.preset)) return;
-  const Preset old = session.preset();
-  apply_to_all(session, change);
-  follow_up(session, old);
+  change_and_follow(session, change);
 }
 
 /// What becomes of an edit of the cloth itself while its state is being read for another one: whether it is taken.
@@ -108,38 +107,36 @@ bool defer(Session& session, const Edit& edit) {
 }
 
 /// Whether an edit of all constants is to be made beside the frames, together with what is running there.
-bool goes_beside(const Session& session, const Edit& edit) {
+bool goes_beside(const Session& session, const Plan& plan) {
   const BackgroundRebuild& rebuild = session.rebuild;
+  const Preset& next = plan.change != nullptr ? plan.change->preset : session.preset();
   if (rebuild.holds_present()) return true;
-  if (rebuild.requested_preset() == nullptr) return takes_long(session, edit);
-  const auto* change = std::get_if<edit::Change>(&edit);
-  return rebuild.restarts() || session.simulation->rebuilds(edit) ||
-         (change != nullptr && needs_programs(session, change->preset));
+  if (rebuild.requested_preset() == nullptr && plan.rebuilds) return takes_long(session, next);
+  return rebuild.restarts() || plan.rebuilds || (plan.change != nullptr && needs_programs(session, next));
 }
 
 /// Handles an edit that takes long, or that comes while another cloth is being built: says whether it was. Nothing:
 /// it is to be made here and now.
-std::optional<bool> build_beside(Session& session, const Edit& edit, unsigned gesture) {
+std::optional<bool> build_beside(Session& session, const Plan& plan, unsigned gesture) {
   BackgroundRebuild& rebuild = session.rebuild;
-  const bool restarts = std::holds_alternative<edit::Restart>(edit);
-  const auto* change = std::get_if<edit::Change>(&edit);
-  if (change == nullptr && !restarts) {
+  if (plan.change == nullptr && !plan.restarts) {
     if (!rebuild.holds_present()) return std::nullopt;
-    return defer(session, edit);
+    return defer(session, plan.edit);
   }
-  if (!goes_beside(session, edit)) {
+  if (!goes_beside(session, plan)) {
     if (rebuild.requested_preset() != nullptr) rebuild.drop();
     return std::nullopt;
   }
-  const Preset before = session.requested_preset(), next = change != nullptr ? change->preset : before;
+  const Preset before = session.requested_preset(), next = plan.change != nullptr ? plan.change->preset : before;
   const History history = session.history;
-  record(session, before, next, name_of(session, edit), gesture);
+  if (!plan.document.within(Effect::view))
+    session.history.record({before, session.simulation->time(), name_of(session, plan.edit)}, gesture);
   if (rebuild.requested_preset() != nullptr) change_present(session, before, next);
   BuildOrder order;
   order.target = next;
-  order.restarts = restarts || rebuild.restarts();
-  order.programs = !order.restarts && !session.simulation->rebuilds(edit);
-  order.fresh = order.programs || order.restarts || changes(session.preset(), next).touches(Effect::rebuild);
+  order.restarts = plan.restarts || rebuild.restarts();
+  order.programs = !order.restarts && !plan.rebuilds;
+  order.fresh = order.programs || order.restarts || plan.cloth.touches(Effect::rebuild);
   rebuild.order(session, std::move(order), history);
   return true;
 }
@@ -153,13 +150,13 @@ HistoryEntry motion_entry(Session& session, std::string what) {
   return entry;
 }
 
-void follow_up(Session& session, const Preset& before) {
+void follow_up(Session& session, const Preset& before, EffectSet effects) {
   const Preset& now = session.preset();
   const Lattice& lattice = session.simulation->lattice();
   // Another resolution has L changed with it (with_resolution); rows or columns alone are literal, and keep the index.
   if (session.picked && before.L != now.L) session.picked = site_in_resolution(*session.picked, before, now);
   if (session.picked && !lattice.contains(session.picked->i, session.picked->j)) session.picked.reset();
-  if (changes(before, now).touches(Effect::rebuild)) {
+  if (effects.touches(Effect::rebuild)) {
     ++session.counts.lattices;
     session.recorded.clear();
   }
@@ -171,24 +168,31 @@ void apply_to_all(Session& session, const Edit& edit) {
   copies_apply(session, edit);
 }
 
+void change_and_follow(Session& session, const edit::Change& change) {
+  const Preset before = session.preset();
+  apply_to_all(session, change);
+  follow_up(session, before, changes(before, change.preset));
+}
+
 bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
   try {
     if (const auto* change = std::get_if<edit::Change>(&edit))
       if (const std::string wrong = check_preset(change->preset); !wrong.empty()) throw PresetError(wrong);
-    if (!take_texture(session, edit)) return false;
-    if (!only_seen(session, edit)) settle(session);
-    std::optional<HistoryEntry> motion = before_motion(session, edit, gesture);
+    const Plan plan = plan_of(session, edit);
+    if (!take_texture(session, plan)) return false;
+    const bool only_seen = plan.change != nullptr && plan.document.within(motionless);
+    if (!only_seen) settle(session);  // a stand-in of the cloth takes no others
+    std::optional<HistoryEntry> motion = before_motion(session, plan, gesture);
     const auto torn = session.simulation->tears().torn_count();
-    if (const auto taken = build_beside(session, edit, gesture)) {
-      if (*taken && motion && std::holds_alternative<edit::Restart>(edit))
-        session.history.record(*std::move(motion), gesture);
+    if (const auto taken = build_beside(session, plan, gesture)) {
+      if (*taken && motion && plan.restarts) session.history.record(*std::move(motion), gesture);
       return *taken;
     }
     const Preset before = session.preset();
     // The entry takes its memory before the edit is made.
     const bool moves = motion.has_value();
     History recorded;
-    if (moves || changes_constants(edit)) {
+    if (moves || plan.constants) {
       recorded = session.history;
       recorded.record(
           moves ? *std::move(motion) : HistoryEntry{before, session.simulation->time(), name_of(session, edit)},
@@ -196,14 +200,13 @@ bool apply_edit(Session& session, const Edit& edit, unsigned gesture) {
     }
     apply_to_all(session, edit);
     if (std::holds_alternative<edit::Pin>(edit)) spell_pins_as_saved(session);
-    session.counts.touches += touches(edit);
+    session.counts.touches += plan.grabs || plan.cuts;
+    const EffectSet effects = plan.change != nullptr ? plan.cloth : changes(before, session.preset());
     // A knife may have gone through nothing.
-    const bool cuts = std::holds_alternative<edit::Cut>(edit) || std::holds_alternative<edit::CutSprings>(edit);
-    const bool moved = moves && !(cuts && session.simulation->tears().torn_count() == torn);
-    if (moved || !changes(before, session.preset()).within(Effect::view)) session.history = std::move(recorded);
-    if (moved || !same_model(before, session.preset())) session.rewind.note_change();
-    if (before == session.preset()) return true;
-    follow_up(session, before);
+    const bool moved = moves && !(plan.cuts && session.simulation->tears().torn_count() == torn);
+    if (moved || !effects.within(Effect::view)) session.history = std::move(recorded);
+    if (moved || !effects.within(beside_model)) session.rewind.note_change();
+    if (!effects.empty()) follow_up(session, before, effects);
     return true;
   } catch (const std::bad_alloc&) {
     session.messages.error(

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "core/integrators/scheme.h"
 #include "core/model/fields.h"
 #include "core/model/words.h"

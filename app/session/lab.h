@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
@@ -106,5 +107,49 @@ Lab load_lab(const std::filesystem::path& file);
 std::string words_of(const Condition& condition);
 /// The same without what it asks for: "The value of k_s when the cloth diverges", "Diverged?".
 std::string subject_of(const Condition& condition);
+
+// The conditions of checks and answers, as a lab writes them. words_of() (lab.h) puts them into words.
+
+/// Reads "k_s >= 180 N/m throughout", "integrator = euler", "error < 0.3 * before.error", "F_max < 0.1 N when torn >
+/// 0". In the first step nothing can be asked of the one before. Throws LabError, which does not name the place.
+Condition parse_condition(std::string_view value, bool first_step);
+
+/// Reads "0.098 m within 10 %", "dt_crit within 0.0001" into a prediction: the answer, its unit and how far a number
+/// may be off. Throws as parse_condition does.
+void parse_answer(std::string_view value, bool first_step, Prediction& given);
+
+/// "diverged = yes": a moment that has a verb of its own.
+bool asks_divergence(const Condition& condition);
+
+/// What a quantity is called on the card: "k_s", "Integrator".
+std::string label_of(std::string_view name);
+
+/// A word of an observable as people read it: "Verlet" for "verlet", "CPU" for "cpu".
+std::string shown_word(std::string_view name, std::string_view word);
+
+// Words, numbers and paragraphs of a lab's text.
+
+/// Without the spaces before and behind it.
+std::string_view trimmed(std::string_view text);
+
+/// As the card sets it: in one piece, whatever its lines are in the file, without Markdown's `code` and **strong**.
+std::string card_text(std::string_view text);
+
+std::vector<std::string> words_in(std::string_view text);
+
+/// None where it is no number, or none that is finite ("nan").
+std::optional<double> plain_number(std::string_view text);
+
+/// Lines are gathered into paragraphs: an empty line or a "- " begins a new one.
+class Gathered {
+ public:
+  void add(std::string_view line);
+  /// What has been gathered, as the card sets it; begins again.
+  Paragraphs take();
+
+ private:
+  Paragraphs paragraphs_;
+  bool open_ = false;
+};
 
 }  // namespace tyglab

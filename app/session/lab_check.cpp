@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "app/base/numbers.h"
-#include "app/session/lab_condition.h"
+#include "app/base/text.h"
+#include "app/session/lab.h"
 #include "app/session/observables.h"
 #include "app/session/session.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 #include "core/model/fields.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"

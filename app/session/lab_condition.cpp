@@ -1,14 +1,12 @@
-#include "app/session/lab_condition.h"
+#include "app/session/lab.h"
 
 #include <algorithm>
 #include <array>
 #include <span>
 
-#include "app/session/lab_text.h"
 #include "app/session/observables.h"
 #include "core/integrators/scheme.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {

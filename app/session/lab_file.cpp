@@ -6,16 +6,11 @@
 #include <span>
 #include <utility>
 
-#include "app/base/data_files.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/session/lab.h"
-#include "app/session/lab_condition.h"
-#include "app/session/lab_text.h"
 #include "core/fields/particle_field.h"
-#include "core/io/input_file.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {

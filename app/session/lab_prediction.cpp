@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/session/lab_check.h"
 #include "app/session/lab_state.h"
 #include "app/session/session.h"

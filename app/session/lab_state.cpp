@@ -5,19 +5,16 @@
 #include <cmath>
 #include <utility>
 
-#include "app/base/data_files.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/base/settings.h"
 #include "app/session/background_steps.h"
 #include "app/session/document.h"
-#include "app/session/edits.h"
 #include "app/session/observables.h"
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/io/preset_io.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 
 namespace tyglab {
 namespace {

@@ -1,11 +1,11 @@
-#include "app/session/lab_text.h"
+#include "app/session/lab.h"
 
 #include <cmath>
 #include <sstream>
 #include <utility>
 
-#include "app/base/text_lines.h"
-#include "core/model/parsed_number.h"
+#include "app/base/text.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

@@ -1,7 +1,7 @@
 #include "app/session/motion.h"
 
-#include "app/base/numbers.h"
-#include "app/session/edits.h"
+#include "app/base/text.h"
+#include "app/session/session.h"
 
 namespace tyglab {
 namespace {

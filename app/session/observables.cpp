@@ -9,8 +9,8 @@
 #include "app/session/lab_check.h"
 #include "app/session/session.h"
 #include "core/cloth/lattice.h"
-#include "core/integrators/names.h"
-#include "core/model/changes.h"
+#include "core/integrators/scheme.h"
+#include "core/model/effect.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 

@@ -3,11 +3,10 @@
 #include <utility>
 
 #include "app/session/document.h"
-#include "app/session/edits.h"
 #include "app/session/session.h"
 #include "core/io/preset_io.h"
-#include "core/model/changes.h"
-#include "core/model/readable.h"
+#include "core/model/effect.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {
@@ -45,13 +44,6 @@ bool needs_programs(const Session& session, const Preset& preset) {
 
 bool takes_long(const Session& session, const Preset& preset) {
   return !session.scripted && (particles(preset) >= many_particles || needs_programs(session, preset));
-}
-
-bool takes_long(const Session& session, const Edit& edit) {
-  const auto* change = std::get_if<edit::Change>(&edit);
-  const Preset& preset = change != nullptr ? change->preset : session.preset();
-  return session.simulation->rebuilds(edit) ? takes_long(session, preset)
-                                            : change != nullptr && needs_programs(session, preset);
 }
 
 void swap_in(Session& session, std::shared_ptr<Simulation> simulation) {
@@ -158,9 +150,7 @@ void BackgroundRebuild::finish(Session& session, BuiltCloth made) {
 void BackgroundRebuild::take(Session& session, BuiltCloth made, BuildOrder order) {
   edit::Change change{order.target};
   if (order.programs) {
-    const Preset before = session.preset();
-    apply_to_all(session, change);
-    follow_up(session, before);
+    change_and_follow(session, change);
     return;
   }
   change.preset.engine = made.simulation->preset().engine;  // the CPU's, where the device failed
@@ -177,9 +167,7 @@ void BackgroundRebuild::continue_with_next(Session& session) {
   next_->fresh = next_->programs;
   if (!next_->programs || needs_programs(session, change.preset)) return start(session);
   next_.reset();
-  const Preset before = session.preset();
-  apply_to_all(session, change);
-  follow_up(session, before);
+  change_and_follow(session, change);
 }
 
 bool BackgroundRebuild::ledger_ready(const Session& session) {

@@ -7,7 +7,7 @@
 // request is built next, and useless results are discarded, since a thread cannot be stopped halfway. A new cloth that
 // needs the state of the old one (another precision during motion) is read from the old one, which stands still until
 // then; cuts, pins and releases are stored and made afterward. With --frames everything is built at once, so every
-// machine shows identical frames. A child process builds the programs of OpenCL devices (app/process/program_trial.h),
+// machine shows identical frames. A child process builds the programs of OpenCL devices (app/process/program_run.h),
 // also for small cloths: a feature takes effect once its program is ready, and a preset on a device opens once it can
 // run. If the device fails, the CPU engine opens the preset.
 #pragma once
@@ -111,9 +111,7 @@ class BackgroundRebuild {
 double particles(const Preset& preset);
 /// Whether an OpenCL device must build programs before the present cloth has these constants.
 bool needs_programs(const Session& session, const Preset& preset);
-/// Whether an edit takes so long that it is to be built beside the frames.
-bool takes_long(const Session& session, const Edit& edit);
-/// The same of a preset that is opened.
+/// Whether the cloth of a preset takes so long to build that it is built beside the frames.
 bool takes_long(const Session& session, const Preset& preset);
 /// Takes a simulation in place of the present one.
 void swap_in(Session& session, std::shared_ptr<Simulation> simulation);

@@ -1,12 +1,17 @@
+
 #include "app/session/recorded.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "app/session/session.h"
+#include "core/analysis/one_weight.h"
+#include "core/io/terminal.h"
 
 namespace tyglab {
 namespace {
@@ -106,6 +111,111 @@ int steps_between_samples(const Session& session) {
   const bool cheap = session.preset().engine == EngineKind::cpu && session.copies.lockstep.empty();
   if (session.recorded.paused || !cheap || !(particle || wants.height)) return std::numeric_limits<int>::max();
   return int(std::clamp(std::round(apart / session.preset().dt), 1.0, 1e9));
+}
+
+void Series::add(double t, std::span<const double> values) {
+  assert(values.size() == columns_.size());
+  if (!t_.empty() && t <= t_.back()) {
+    if (t == t_.back()) return;
+    clear();
+  }
+  if (t_.size() >= most) {
+    // Half at a time, so that the cost of moving is spread over many samples.
+    const auto half = std::ptrdiff_t(most / 2);
+    t_.erase(t_.begin(), t_.begin() + half);
+    for (auto& column : columns_) column.erase(column.begin(), column.begin() + half);
+    std::erase_if(gaps_, [](std::size_t gap) { return gap <= most / 2; });
+    for (std::size_t& gap : gaps_) gap -= most / 2;
+  }
+  if (std::exchange(interrupted_, false)) gaps_.push_back(t_.size());
+  t_.push_back(t);
+  for (std::size_t k = 0; k < columns_.size(); ++k) columns_[k].push_back(values[k]);
+}
+
+void Series::clear() {
+  t_.clear(), gaps_.clear();
+  interrupted_ = false;
+  for (auto& column : columns_) column.clear();
+}
+
+std::string Series::csv(std::span<const std::string> names, std::string_view comment) const {
+  assert(names.size() == columns_.size());
+  std::string text = "# " + std::string(comment) + "\nt";
+  for (const std::string& name : names) text += "," + name;
+  text += '\n';
+  for (std::size_t n = 0; n < t_.size(); ++n) {
+    append_number(text, t_[n], 17);
+    for (const auto& column : columns_) {
+      text += ',';
+      append_number(text, column[n], 9);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+namespace {
+
+/// The constants with a start at y (m) and v (m/s).
+Preset starting_at(Preset preset, double y, double v) {
+  preset.offset = y - preset.x_0.y;
+  preset.v_0.y = v;
+  return preset;
+}
+
+}  // namespace
+
+void ReferenceCurves::begin(const Simulation& weight, double y, double v, double t) {
+  of_ = weight.preset();
+  exact_ = starting_at(of_, y, v);
+  exact_t_ = t_ = t;
+  for (std::size_t n = 0; n < companions_.size(); ++n) {
+    Preset own = of_;
+    own.integrator = curves[n], own.precision = Precision::double_;
+    companions_[n] = std::make_unique<Simulation>(own);
+    if (exact_ == of_) continue;
+    // A weight may have come to where no preset lets it start.
+    State state = companions_[n]->read();
+    state.x.y[0] = y, state.v.y[0] = v;
+    companions_[n]->load(state);
+  }
+}
+
+/// What counts while the weight moves; each companion keeps its method.
+void ReferenceCurves::take_constants(const Preset& preset) {
+  const WeightMotion now = exact_weight(exact_, t_ - exact_t_);
+  exact_ = starting_at(preset, now.y, now.v);
+  exact_t_ = t_;
+  for (const auto& companion : companions_) {
+    Preset own = companion->preset();
+    own.m = preset.m, own.k = preset.k, own.k_d = preset.k_d, own.g = preset.g, own.dt = preset.dt;
+    own.x_0 = preset.x_0;
+    if (own != companion->preset()) companion->apply(edit::Change{own});
+  }
+  of_ = preset;
+}
+
+ReferenceCurves::Heights ReferenceCurves::follow(Simulation& weight, std::int64_t steps) {
+  const bool from_start = weight.steps() == steps;
+  const bool unseen = companions_[0] == nullptr || weight.steps() != steps_ + steps;
+  if (from_start) {
+    begin(weight, weight.preset().x_0.y + weight.preset().offset, weight.preset().v_0.y, 0);
+  } else if (unseen) {
+    const State& state = weight.read();
+    begin(weight, state.x.y[0], state.v.y[0], weight.time());
+    steps = 0;
+  }
+  if (of_ != weight.preset()) take_constants(weight.preset());
+  Heights y;
+  y.fill(std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t n = 0; n < companions_.size(); ++n) {
+    Simulation& companion = *companions_[n];
+    companion.advance(int(steps));
+    if (!companion.divergence()) y[n] = companion.position(0, 0).y;
+  }
+  steps_ = weight.steps(), t_ = weight.time();
+  y.back() = exact_weight(exact_, t_ - exact_t_).y;
+  return y;
 }
 
 }  // namespace tyglab

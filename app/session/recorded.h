@@ -3,16 +3,46 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "app/session/series.h"
 #include "core/model/notation.h"
 #include "core/simulation.h"
 
+// Samples over simulated time, for plots and their CSV files.
+
 namespace tyglab {
+
+class Series {
+ public:
+  explicit Series(std::size_t columns = 0) : columns_(columns) {}
+  bool empty() const { return t_.empty(); }
+  std::size_t size() const { return t_.size(); }
+  std::span<const double> t() const { return t_; }
+  std::span<const double> column(std::size_t k) const { return columns_[k]; }
+  /// One value a column. Samples that do not come after the last one start a new series.
+  void add(double t, std::span<const double> values);
+  /// Steps pass of which there are no samples: a curve has a gap before the next one.
+  void interrupt() { interrupted_ = !t_.empty(); }
+  /// Samples before which there is a gap, ascending.
+  std::span<const std::size_t> gaps() const { return gaps_; }
+  void clear();
+  std::size_t bytes() const { return t_.capacity() * sizeof(double) * (1 + columns_.size()); }
+  /// Text of a CSV file like those of `tyglab run --series`: a comment, a header with t and these names ("F_s [N]"),
+  /// rows with nine significant digits, t with 17.
+  std::string csv(std::span<const std::string> names, std::string_view comment) const;
+
+ private:
+  static constexpr std::size_t most = 40000;
+  std::vector<double> t_;
+  std::vector<std::vector<double>> columns_;
+  std::vector<std::size_t> gaps_;
+  bool interrupted_ = false;
+};
 
 /// What the force plot follows.
 enum class Source { particle, sum, maximum };
@@ -48,5 +78,32 @@ void sample(Session& session);
 /// How many steps apart samples are taken within a frame, so that what is plotted does not depend on how often pictures
 /// are drawn; more than there are in a frame where a sample costs much, as on a device or of a sum over the cloth.
 int steps_between_samples(const Session& session);
+
+// Figure 3.2 live: companions of the mass on a spring that use the report's other methods, and its exact motion.
+
+class ReferenceCurves {
+ public:
+  /// The curves, in the colors of figure 3.2; the last is the closed form.
+  static constexpr std::array<std::string_view, 4> curves{"euler", "improved_euler", "verlet", "exact"};
+  static constexpr std::array<std::string_view, 4> titles{"Euler", "improved Euler", "Verlet", "exact"};
+  using Heights = std::array<double, curves.size()>;
+
+  /// Makes the `steps` that the weight has just made, with its constants and dt, from where it began; returns y by each
+  /// curve, m: not a number once a companion has diverged. Where the weight has moved unseen, its constants may have
+  /// changed on the way: all begin again from where it is, or from its start where it has made no other steps.
+  Heights follow(Simulation& weight, std::int64_t steps);
+  void clear() { companions_ = {}; }
+
+ private:
+  void begin(const Simulation& weight, double y, double v, double t);
+  void take_constants(const Preset& preset);
+
+  std::array<std::unique_ptr<Simulation>, curves.size() - 1> companions_;
+  Preset of_;  ///< the weight's constants as they were last seen
+  std::int64_t steps_ = 0;
+  double t_ = 0;        ///< s, of the last call
+  Preset exact_;        ///< whose start is the exact motion's last start
+  double exact_t_ = 0;  ///< s, when that was
+};
 
 }  // namespace tyglab

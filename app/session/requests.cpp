@@ -1,14 +1,13 @@
 #include "app/session/requests.h"
 
-#include "app/base/numbers.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
+#include "app/base/text.h"
 #include "app/session/document.h"
-#include "app/session/edits.h"
 #include "app/session/motion.h"
 #include "app/session/session.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 namespace tyglab {
 namespace {
@@ -125,7 +124,7 @@ bool changed_since_divergence(const Session& session) {
 }
 
 bool same_model(const Preset& a, const Preset& b) {
-  return changes(a, b).within(motionless | Effect::engine | Effect::device | Effect::precision);
+  return changes(a, b).within(beside_model);
 }
 
 void apply_requests(Session& session) {

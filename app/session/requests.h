@@ -10,6 +10,7 @@
 
 #include "core/edit.h"
 #include "core/model/difference.h"
+#include "core/model/effect.h"
 
 namespace tyglab {
 
@@ -72,6 +73,8 @@ void apply_requests(Session& session);
 bool unsaved(const Session& session);
 /// Whether the motion has diverged, and constants of its model have been changed since.
 bool changed_since_divergence(const Session& session);
+/// Effects of changes that leave the model of the motion as it is.
+inline constexpr EffectSet beside_model = motionless | Effect::engine | Effect::device | Effect::precision;
 /// Whether both say the same of the motion: they may differ in name, picture, engine and precision.
 bool same_model(const Preset& a, const Preset& b);
 

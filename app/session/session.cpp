@@ -1,14 +1,15 @@
+
 #include "app/session/session.h"
 
 #include <algorithm>
 #include <chrono>
 #include <new>
 
-#include "app/session/edits.h"
-#include "app/session/engine_fallback.h"
+#include "app/base/text.h"
 #include "app/session/motion.h"
-#include "core/model/changes.h"
-#include "core/model/clocks.h"
+#include "app/session/rebuild.h"
+#include "core/model/effect.h"
+#include "core/model/preset.h"
 #include "core/theory/advice.h"
 
 namespace tyglab {
@@ -192,6 +193,19 @@ void Session::warn_of(const AdvanceResult& advance) {
     if (!excess.empty()) messages.warning(std::move(excess)), energy_warning_preset = preset();
   }
   if (advance.released) messages.note("The hand let go: its force exceeded F_release.");
+}
+
+void fall_back(Session& session, const std::string& why) {
+  Preset next = session.preset();
+  if (next.engine == EngineKind::cpu) throw EngineError(why);
+  next.engine = EngineKind::cpu;
+  auto simulation = std::make_unique<Simulation>(next, session.threads);
+  if (const Snapshot* then = session.rewind.before(*simulation, session.simulation->time(), 0))
+    simulation->restore(*then);
+  session.messages.error(why + " The CPU engine continues from t = " + time_number(simulation->time(), next.dt) +
+                         " s.");
+  ++session.counts.hands;
+  swap_in(session, std::move(simulation));
 }
 
 }  // namespace tyglab

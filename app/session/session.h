@@ -19,14 +19,13 @@
 #include "app/session/lab_state.h"
 #include "app/session/pacing.h"
 #include "app/session/recorded.h"
-#include "app/session/reference_curves.h"
-#include "app/session/replay.h"
 #include "app/session/requests.h"
 #include "app/session/rewind.h"
 #include "app/session/sleep.h"
-#include "app/session/step_inspector.h"
 #include "app/studies/studies.h"
+#include "core/edit.h"
 #include "core/energy/auto_step.h"
+#include "core/model/effect.h"
 #include "core/simulation.h"
 
 namespace tyglab {
@@ -127,5 +126,30 @@ struct Session {
   void made_steps(int steps, double seconds, double dt);
   void warn_of(const AdvanceResult& advance);
 };
+
+// The only place that changes the cloth and its copies in the sandbox: edits, and their consequences in the
+// window.
+
+struct Session;
+
+/// Applies one edit at once, or beside the frames where it takes long. Edits of one gesture (a drag of a slider) are
+/// undone together; 0 stands alone. Returns whether it was taken; what speaks against it becomes a message.
+bool apply_edit(Session& session, const Edit& edit, unsigned gesture = 0);
+/// Gives an edit to the cloth and its copies, with no more checks or traces than they make themselves. Throws as
+/// Simulation::apply.
+void apply_to_all(Session& session, const Edit& edit);
+/// What stands now, to be brought back when an action is undone that changes the motion itself.
+HistoryEntry motion_entry(Session& session, std::string what);
+/// Applies a change of constants to the cloth and its copies, with its consequences.
+void change_and_follow(Session& session, const edit::Change& change);
+/// The consequences for the session where the cloth of the constants `before` has been replaced by the present one.
+/// `effects`: what has changed.
+void follow_up(Session& session, const Preset& before, EffectSet effects);
+
+// Replaces the engine if its device is lost during the run.
+
+/// The device is gone, for that reason: the CPU engine goes on from the last state that is kept, or from the start
+/// where none is, and a message says so. Throws EngineError where the CPU engine itself is at fault.
+void fall_back(Session& session, const std::string& why);
 
 }  // namespace tyglab

@@ -1,4 +1,4 @@
-#include "app/shell/gui.h"
+#include "app/shell/sandbox.h"
 
 #include "app/platform/gl/dialect.h"
 #include "app/ui/kit/imgui_compat.h"

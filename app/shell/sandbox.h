@@ -2,10 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 
+#include "app/base/messages.h"
+#include "app/base/settings.h"
+#include "app/platform/platform.h"
 #include "app/scene/effects.h"
+#include "app/studies/job.h"
+#include "app/ui/frame/frame.h"
 #include "core/fields/particle_field.h"
 #include "core/model/preset.h"
 
@@ -32,5 +39,51 @@ struct SandboxOptions {
 /// Runs until the window is closed or the frames are done. Returns an exit code: 0; 5 without a display or OpenGL 3.3;
 /// 6 if the screenshot or a report could not be written; 130 when interrupted.
 int run_sandbox(const SandboxOptions& options);
+
+// Dear ImGui in the window, as an owning type.
+
+/// Dear ImGui's context with the platform's backend and OpenGL's.
+class Gui {
+ public:
+  explicit Gui(Window& window);
+  ~Gui();
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+  /// Shows it what the queue holds.
+  void begin_frame(InputQueue& input);
+  /// Ends the frame and draws it.
+  void draw();
+  /// The font atlas was filled again.
+  void fonts_changed();
+
+ private:
+  GuiInput input_;
+  std::optional<GuiBackend> backend_;
+};
+
+// Writes settings to disk while the window is open, so nothing is lost however the window ends.
+
+/// Writes settings beside the frames, within a second of a change.
+class SettingsWriter {
+ public:
+  /// `known`: what this program has read from the file.
+  explicit SettingsWriter(Settings known) : known_(std::move(known)) {}
+  /// To be called often; `now` is in s. Begins to write what `present` returns where that has changed. Returns
+  /// whether there is a message, once, that it cannot be written.
+  bool update(double now, const std::function<Settings()>& present, Messages& messages);
+  /// Writes the last ones. Throws OutputError.
+  void finish(const Settings& last);
+
+ private:
+  using Written = std::variant<Settings, std::string>;  ///< what stands in the file now, or why it does not
+
+  /// Takes the outcome of the work, waiting for it; why it failed, or nothing.
+  std::string take();
+
+  Settings known_;  ///< as this program read or wrote it last
+  Job<Written> job_;
+  double next_ = 0;  ///< s, not before which it looks again
+  std::string problem_;
+};
 
 }  // namespace tyglab

@@ -1,9 +1,9 @@
-#include "app/shell/settings_writer.h"
+#include "app/shell/sandbox.h"
 
 #include <utility>
 
-#include "app/platform/files.h"
-#include "core/io/files.h"
+#include "app/platform/platform.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 namespace {

@@ -1,10 +1,10 @@
 #include "app/shell/start.h"
 
-#include "app/base/data_files.h"
-#include "app/process/program_trial.h"
+#include "app/base/files.h"
+#include "app/process/program_run.h"
 #include "app/session/document.h"
 #include "core/engines/opencl/opencl_devices.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <variant>
 
-#include "app/base/file_stamp.h"
+#include "app/base/files.h"
 #include "app/base/settings.h"
 #include "app/render/cloth_texture.h"
 #include "app/shell/sandbox.h"

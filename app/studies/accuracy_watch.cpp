@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/integrators/scheme.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 namespace tyglab {
 namespace {

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/error_study.h"

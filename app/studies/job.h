@@ -1,6 +1,6 @@
 // Background work: one thread, a result or an error at its end, and a way to stop it. All background work
 // is a Job. The work reports its own progress: a Study in its findings, a step through its engine.
-// Without threads, a copy of the program does long work (app/platform/copies.h), if its result can be
+// Without threads, a copy of the program does long work (app/platform/platform.h), if its result can be
 // sent back.
 #pragma once
 
@@ -21,8 +21,11 @@
 #include <utility>
 #include <variant>
 
-#include "app/platform/copies.h"
+#include "app/platform/platform.h"
 #include "app/studies/transfer.h"
+#include "core/analysis/convergence.h"
+#include "core/analysis/settings_search.h"
+#include "core/analysis/stability_map.h"
 
 namespace tyglab {
 
@@ -289,5 +292,36 @@ class Study {
   std::shared_ptr<Shared> shared_;
   Job<std::monostate> job_;
 };
+
+// The parts of the results of core's studies, for app/studies/transfer.h.
+
+template <class Visit>
+void visit_parts(Visit&& visit, ErrorPoint& point) {
+  auto& [integrator, precision, dt, tolerance, error, cost, resolved, converged, given_up] = point;
+  visit(integrator, precision, dt, tolerance, error, cost, resolved, converged, given_up);
+}
+template <class Visit>
+void visit_parts(Visit&& visit, StudyReference& reference) {
+  auto& [seconds, track, agreement, method, dt, over, blow] = reference;
+  track.clear();  // for the study alone
+  visit(seconds, agreement, method, dt, over, blow);
+}
+template <class Visit>
+void visit_parts(Visit&& visit, Convergence& study) {
+  auto& [of, t, seconds, reference, referenced, points, torn, done, problem] = study;
+  visit(of, t, seconds, reference, referenced, points, torn, done, problem);
+}
+template <class Visit>
+void visit_parts(Visit&& visit, MapBoundary& boundary) {
+  auto& [stiffness, dt, every] = boundary;
+  visit(stiffness, dt, every);
+}
+template <class Visit>
+void visit_parts(Visit&& visit, SettingsSearch& search) {
+  auto& [of, t, goal, seconds, rough, part, agreement, references, present, points, methods, methods_done, done,
+         problem] = search;
+  visit(of, t, goal, seconds, rough, part, agreement, references, present, points, methods, methods_done, done,
+        problem);
+}
 
 }  // namespace tyglab

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/stability_map.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 namespace tyglab {
 

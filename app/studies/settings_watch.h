@@ -4,7 +4,6 @@
 
 #include <optional>
 
-#include "app/studies/findings.h"
 #include "app/studies/job.h"
 #include "app/studies/moment.h"
 #include "core/analysis/settings_search.h"

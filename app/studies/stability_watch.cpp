@@ -7,9 +7,9 @@
 
 #include "core/analysis/frequency.h"
 #include "core/integrators/scheme.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 #include "core/model/notation.h"
-#include "core/theory/amplification.h"
+#include "core/theory/modes.h"
 
 namespace tyglab {
 namespace {

@@ -1,4 +1,4 @@
-// Sends the results of studies as bytes from a copy of the program to the program itself (app/platform/copies.h).
+// Sends the results of studies as bytes from a copy of the program to the program itself (app/platform/platform.h).
 //
 // A type that is not plain memory lists its parts in visit_parts(visit, object), which calls visit(part, …) once with
 // all of them; structured bindings turn a forgotten part into a compiler error.

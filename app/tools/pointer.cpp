@@ -8,10 +8,8 @@
 
 #include "app/base/glfw_keys.h"
 #include "app/render/picking.h"
-#include "app/session/edits.h"
-#include "app/tools/knife.h"
+#include "app/session/session.h"
 #include "app/tools/tools.h"
-#include "app/tools/wind_arrow.h"
 #include "core/engines/vertex_sharing.h"
 
 namespace tyglab {

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
+#include <vector>
 
 #include "app/base/input.h"
 #include "app/base/settings.h"
 #include "app/scene/scene.h"
 #include "app/tools/pointer.h"
+#include "core/cloth/lattice.h"
 
 namespace tyglab {
 
@@ -34,5 +38,43 @@ struct Tools {
  private:
   SessionCounts seen_;
 };
+
+// The knife: dragging with the left button cuts upward, as in the report (2.3.4), or along the pointer's path.
+//
+// An upward cut removes springs of the particles near the path (particles_near_path). A cut along the path removes the
+// springs whose two ends lie on different sides of the stroke (springs_across), with a rule for points on it, so
+// consecutive strokes miss nothing. Both produce masks of tears, so engines need no code for knives.
+
+struct Tools;
+
+/// Cuts what the pointer has passed since the last call.
+void use_knife(Tools& tools);
+/// Whether it cuts at the pointer once a step, since the cloth moves under it between two frames. A cut along the path
+/// is over with the frame whose path it is.
+bool cuts_between_steps(const Tools& tools);
+/// The springs that a nick at the pointer would cut, if it is free over the viewport.
+std::vector<SpringSite> springs_under_pointer(Tools& tools);
+
+// The wind as an arrow with a draggable tip.
+
+struct Tools;
+
+/// An arrow in space, near the lower right corner of the first picture.
+struct WindArrow {
+  glm::dvec3 base{0}, tip{0};    ///< m
+  double metres_per_newton = 0;  ///< so long is what is drawn of W, unless it would leave its place
+};
+
+/// Whether the arrow is shown: while there is wind, or as it was asked for.
+bool wind_arrow_shown(const Tools& tools);
+/// The arrow of a wind W, N: as long as 80 pixels for the wind of the preset as it was opened, or, where that has
+/// none, for the weight of a particle; shorter where it would leave the picture.
+WindArrow wind_arrow(const Tools& tools, const glm::dvec3& W);
+/// Whether a press at that pixel of the first picture takes the tip.
+bool on_wind_tip(const Tools& tools, glm::vec2 at);
+/// The tip has been pressed, and is dragged: W follows in the plane of the camera; with Shift along the view; with Ctrl
+/// along the nearest axis. Every drag is one change to undo.
+void take_wind(Tools& tools);
+void drag_wind(Tools& tools);
 
 }  // namespace tyglab

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/analysis/reference.h"
-#include "core/model/clocks.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

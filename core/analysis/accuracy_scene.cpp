@@ -1,6 +1,6 @@
-#include "core/analysis/accuracy_scene.h"
+#include "core/analysis/reference.h"
 
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 #include "core/theory/modes.h"
 
 namespace tyglab {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "core/theory/amplification.h"
+#include "core/theory/modes.h"
 
 namespace tyglab {
 namespace {

@@ -7,8 +7,8 @@
 #include "core/analysis/study_run.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
-#include "core/io/text.h"
-#include "core/model/readable.h"
+#include "core/io/terminal.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/analysis/engine_choice.h"
+#include "core/analysis/settings_search.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/engines/opencl/disk_cache.h"
 #include "core/engines/opencl/opencl_devices.h"
+#include "core/engines/opencl/program_text.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 #include "tyglab_version.h"

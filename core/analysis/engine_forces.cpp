@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 
 namespace tyglab {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 
 namespace tyglab {
 namespace {

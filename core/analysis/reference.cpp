@@ -9,7 +9,7 @@
 
 #include "core/analysis/one_weight.h"
 #include "core/analysis/plain_forces.h"
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

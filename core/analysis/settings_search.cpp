@@ -6,11 +6,11 @@
 #include <span>
 
 #include "core/analysis/accuracy.h"
-#include "core/analysis/last_event.h"
+#include "core/analysis/study_run.h"
 #include "core/energy/auto_step.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 #include "core/theory/modes.h"
 
 namespace tyglab {

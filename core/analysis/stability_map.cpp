@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "core/analysis/study_run.h"
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
-#include "core/io/text.h"
-#include "core/model/changes.h"
+#include "core/io/terminal.h"
+#include "core/model/effect.h"
 #include "core/model/notation.h"
 #include "core/simulation.h"
 #include "core/theory/modes.h"

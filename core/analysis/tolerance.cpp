@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {

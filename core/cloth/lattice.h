@@ -1,6 +1,7 @@
 // The lattice: connections between particles, rest lengths, triangles. docs/model.md, "Space and lattice".
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstddef>
@@ -61,5 +62,22 @@ inline constexpr std::array<std::array<std::array<Corner, 3>, 2>, 2> quad_triang
     {{{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {0, 1}}}}},
     {{{{{0, 0}, {1, 0}, {0, 1}}}, {{{1, 0}, {1, 1}, {0, 1}}}}},
 }};
+
+// Selects the particles to draw in a cloth that is finer than the picture.
+
+/// Every n-th row and column of a lattice, the last ones included.
+struct DrawnSites {
+  Lattice whole;
+  int every = 1;
+
+  int rows() const { return count(whole.rows); }
+  int columns() const { return count(whole.columns); }
+  /// Where drawn row i and column j are in the whole cloth.
+  int row(int i) const { return std::min(i * every, whole.rows - 1); }
+  int column(int j) const { return std::min(j * every, whole.columns - 1); }
+
+ private:
+  int count(int all) const { return (all - 1 + every - 1) / every + 1; }
+};
 
 }  // namespace tyglab

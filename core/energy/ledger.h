@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "core/energy/energy.h"
 
@@ -82,6 +83,25 @@ class Ledger {
   double began_ = 0, start_ = 0, own_scale_ = 0;
   double contact_ = 0, tearing_ = 0, edits_ = 0, grabbed_ = 0;
   RunningIntegral damping_, wind_, hand_;
+};
+
+// Updates the energy ledger of a simulation after every step.
+
+class EnergyWatch {
+ public:
+  void begin(const Preset& preset, const EnergyReading& now, double t);
+  /// Records which springs are whole: the energy of those that break in the step is lost.
+  void before_step(const Preset& preset, const Tears& tears);
+  /// One step has led to `state`; `contacts`: what bodies stopped in it.
+  void after_step(const Preset& preset, const Tears& tears, const State& state, const Held& held,
+                  std::span<const Contact> contacts);
+  void edited(const EnergyReading& now, Ledger::Source source) { ledger_.edited(now, source); }
+  const Ledger& ledger() const { return ledger_; }
+
+ private:
+  Ledger ledger_;
+  Tears whole_;   ///< before the step, where springs may break
+  State freely_;  ///< where the cloth would be without bodies
 };
 
 }  // namespace tyglab

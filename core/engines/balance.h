@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/cloth/lattice.h"
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
 #include "core/model/preset.h"
 
 namespace tyglab {

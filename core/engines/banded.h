@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/model/stop.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 

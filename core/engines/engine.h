@@ -6,9 +6,11 @@
 // destroyed.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -20,11 +22,9 @@
 #include <vector>
 
 #include "core/cloth/state.h"
-#include "core/cloth/tears.h"
-#include "core/integrators/solve_counts.h"
+#include "core/integrators/scheme.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
-#include "core/model/stop.h"
 
 namespace tyglab {
 
@@ -224,6 +224,23 @@ std::unique_ptr<Engine> make_engine(const Preset& preset, const Lattice& lattice
 class EngineError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+// Memory for positions that the drawing code lends to an engine, so the engine writes them where they are drawn.
+
+/// Slots of one size, each for the positions of a whole cloth, in the program's own memory. An engine keeps its
+/// positions in any of them and moves from one to another as it steps, but never writes the slot that is being drawn.
+/// So it never waits for the drawing, and nothing is drawn while it is written.
+struct PositionMemory {
+  static constexpr int count = 3;            ///< one is drawn, one is read, one is written
+  static constexpr std::size_t page = 4096;  ///< slots begin at multiples of it, bytes
+  std::array<void*, count> slots{};          ///< filled with zeros
+  std::size_t bytes = 0;                     ///< of each
+  std::atomic<int> shown = -1;  ///< the slot that is being drawn; -1: none. Steps may go on beside the drawing
+  PositionMemory() = default;
+  PositionMemory(const PositionMemory&) = delete;
+  PositionMemory& operator=(const PositionMemory&) = delete;
+  virtual ~PositionMemory() = default;
 };
 
 }  // namespace tyglab

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/forces/contact.h"
-#include "core/simd/row_distances.h"
+#include "core/simd/row_field.h"
 
 namespace tyglab {
 namespace {

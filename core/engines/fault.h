@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/cloth/lattice.h"
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
 #include "core/engines/motion_limit.h"
 #include "core/model/preset.h"
 

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "core/cloth/drawn_sites.h"
+#include "core/cloth/lattice.h"
 
 namespace tyglab {
 
@@ -24,7 +24,7 @@ struct GlBuffers {
 };
 
 /// A particle beside a tear: its index among those that are drawn, i · columns + j, and one bit for each of the eight
-/// triangles around it that is whole (whole_triangles, app/render/vertex_normals.h).
+/// triangles around it that is whole (whole_triangles, app/render/cloth_mesh.h).
 struct TornSite {
   std::uint32_t site, triangles;
 };

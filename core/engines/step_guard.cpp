@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <new>
 
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 namespace tyglab {
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <span>
 
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
 #include "core/engines/engine.h"
 #include "core/engines/fault.h"
 #include "core/engines/motion_limit.h"

@@ -10,7 +10,6 @@
 
 #include "core/engines/engine.h"
 #include "core/engines/gl_vertices.h"
-#include "core/engines/position_memory.h"
 
 namespace tyglab {
 

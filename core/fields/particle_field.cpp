@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fields/spring_fields.h"
-
 namespace tyglab {
 namespace {
 

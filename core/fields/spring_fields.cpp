@@ -5,7 +5,7 @@
 
 #include <functional>
 
-#include "core/fields/spring_fields.h"
+#include "core/fields/particle_field.h"
 #include "core/forces/spring-inl.h"
 #include "core/simd/simd-inl.h"
 

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/cloth/state.h"
-#include "core/cloth/tears.h"
 #include "core/model/preset.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-#include "core/integrators/decay.h"
+#include "core/integrators/stabilized.h"
 
 #include <cmath>
 

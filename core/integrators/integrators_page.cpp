@@ -1,4 +1,4 @@
-#include "core/integrators/integrators_page.h"
+#include "core/integrators/stabilized.h"
 
 #include <sstream>
 

@@ -3,6 +3,7 @@
 // in each engine runs all schemes; a new scheme is one row in schemes.cpp.
 #pragma once
 
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <span>
@@ -152,5 +153,23 @@ inline bool has_step_limit(const Scheme& scheme) {
 }
 /// The scheme of that name; the name must be known (is_integrator).
 const Scheme& scheme(std::string_view name);
+
+// The names of all integrators, separate from the schemes, so presets can be checked without them.
+
+std::span<const std::string_view> integrator_names();
+bool is_integrator(std::string_view name);
+
+// Counts the work of implicit solves, and those that did not converge.
+
+/// Work of implicit methods since the engine was created.
+struct SolveCounts {
+  std::int64_t newton = 0;  ///< iterations of Newton's method, or of the interior-point method in its place
+  std::int64_t linear = 0;  ///< iterations of conjugate gradients within them, or products with a constant matrix
+  std::int64_t force_evaluations = 0;
+  std::int64_t unconverged = 0;  ///< steps whose forces do not balance, in any of their stages
+  std::int64_t ended_early = 0;  ///< steps that ended because their time was up (Engine::limit_steps)
+  double longest_limited = 0;    ///< real time of the longest step that had a limit (Engine::limit_steps), s
+  double worst_residual = 0;     ///< of all steps, in parts of the largest force; may be infinite
+};
 
 }  // namespace tyglab

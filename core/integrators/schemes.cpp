@@ -2,7 +2,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
 #include "core/integrators/scheme_rows.h"
 

@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <string>
 
 #include "core/integrators/scheme.h"
 
@@ -28,5 +29,23 @@ std::size_t table_for(const Scheme& scheme, const Spectrum& spectrum, double h);
 
 /// R(z) of the method of Runge, Kutta and Chebyshev of second order: a step takes y of y' = λy to R(λh) y.
 std::complex<double> rkc2_growth(int stages, std::complex<double> z);
+
+// Exponential decay with identical bits on every system.
+
+/// What an exponential decay keeps and loses, as shares of 1.
+struct Decay {
+  double kept = 1;  ///< e^-x
+  double lost = 0;  ///< 1 - e^-x, with all its digits where x is small
+};
+
+/// The decay over x >= 0, the time divided by the time constant. Both shares are rounded correctly, but for ties within
+/// 2^-80 of their values, by additions and multiplications alone: std::exp and std::expm1 differ in their last bit
+/// between the C libraries of Linux, Windows and browsers.
+Decay decay_over(double x);
+
+// Generates docs/integrators.md from the table of methods.
+
+/// The page, in Markdown.
+std::string integrators_markdown();
 
 }  // namespace tyglab

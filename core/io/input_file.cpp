@@ -1,4 +1,4 @@
-#include "core/io/input_file.h"
+#include "core/io/preset_io.h"
 
 #include <algorithm>
 #include <cerrno>

@@ -3,10 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "core/model/stop.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 
@@ -81,5 +82,34 @@ class OutputFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0, kept_ = 0;  ///< bytes
 };
+
+// Files that are written completely or not at all.
+
+/// A file could not be written.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes a file as a whole (OutputFile); "-" is a file's name here. Throws OutputError.
+void write_atomically(const std::filesystem::path& file, std::string_view text);
+
+// The destination of an output: a file, or standard output, written as "-".
+
+/// Whether that name means standard output: "-", or "/dev/stdout", which would else be opened a second time.
+bool is_standard_output(const std::filesystem::path& file);
+
+/// What to call it in a sentence: "standard output", or the file.
+std::string output_name(const std::filesystem::path& file);
+
+/// What to say of an output that could not be written, errno being `error` (0: not known).
+std::string lost_output(const std::filesystem::path& file, int error);
+
+/// Writes an output in one go (OutputFile). Returns where the bytes are. Throws OutputError.
+std::filesystem::path write_output(const std::filesystem::path& file, std::string_view bytes,
+                                   Reach reach = Reach::whole);
+
+/// Sends what std::cout and stdout still hold on its way. Throws OutputError if any of it was lost.
+void flush_standard_output();
 
 }  // namespace tyglab

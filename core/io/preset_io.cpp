@@ -1,3 +1,4 @@
+
 #include "core/io/preset_io.h"
 
 #include <algorithm>
@@ -10,11 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 #include "core/io/json_tree.h"
+#include "core/io/output_file.h"
 #include "core/model/notation.h"
-#include "core/model/parsed_number.h"
-#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {
@@ -401,6 +401,29 @@ std::string check_preset(const Preset& preset) {
         return "bodies[" + std::to_string(n) + "]." + std::string(row.key) + ": " + problem;
   if (const auto problem = pins_problem(preset); !problem.empty()) return "cloth.pins: " + problem;
   return {};
+}
+
+namespace {
+
+constexpr std::uintmax_t max_file_size = 16u << 20;
+
+}  // namespace
+
+Preset load_preset(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::status(file, error).type() == std::filesystem::file_type::not_found)
+    throw PresetError(file.string() + ": there is no such file; `tyglab presets` lists the shipped ones");
+  std::string text;
+  try {
+    text = read_input(file, "preset", max_file_size);
+  } catch (const InputError& problem) {
+    throw PresetError(problem.what());
+  }
+  return parse_preset(text, file.string(), file.has_parent_path() ? file.parent_path() : ".");
+}
+
+void save_preset(const Preset& preset, const std::filesystem::path& file) {
+  write_atomically(file, preset_to_json(preset));
 }
 
 }  // namespace tyglab

@@ -1,6 +1,7 @@
 // Reads and writes presets: JSON files, `--set KEY=VALUE`. Everything is checked before anything is applied.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -58,5 +59,17 @@ Preset with_parsed_settings(const Preset& preset, const std::vector<Setting>& se
 
 /// What would be wrong with this preset (as edited in a program), or empty. The same checks as for files.
 std::string check_preset(const Preset& preset);
+
+// Reads files that a person may supply: never more than a size limit, and without blocking.
+
+/// A file cannot be read. `what()` names it and says why.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The bytes of a file; `kind` ("preset") is what it should be, of `most_bytes` at most. Throws InputError, also where
+/// the name belongs to a folder, a pipe or a device.
+std::string read_input(const std::filesystem::path& file, const std::string& kind, std::uintmax_t most_bytes);
 
 }  // namespace tyglab

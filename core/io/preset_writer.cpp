@@ -6,9 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/io/preset_io.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 #include "core/model/words.h"
 
 namespace tyglab {

@@ -1,13 +1,14 @@
+
+#include "core/io/system_files.h"
+
 #include <fcntl.h>
 #include <io.h>
 #include <sys/stat.h>
 #include <windows.h>
-
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <thread>
-
-#include "core/io/system_files.h"
 
 namespace tyglab::os {
 
@@ -231,3 +232,24 @@ bool is_terminal(int descriptor) {
 }
 
 }  // namespace tyglab::os
+
+namespace tyglab {
+
+std::string environment(const char* name) {
+  const wchar_t* value = ::_wgetenv(std::filesystem::path(name).c_str());
+  return value != nullptr ? std::filesystem::path(value).string() : std::string();
+}
+
+std::filesystem::path settings_base() {
+  return environment("APPDATA");
+}
+
+std::filesystem::path cache_base() {
+  return environment("LOCALAPPDATA");
+}
+
+std::filesystem::path home_folder() {
+  return environment("USERPROFILE");
+}
+
+}  // namespace tyglab

@@ -1,4 +1,4 @@
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 #include "core/model/fields.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/model/fields.h"
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 
 namespace tyglab {

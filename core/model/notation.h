@@ -2,6 +2,8 @@
 // read it; a new constant is one field in preset.h and one row in notation.cpp.
 #pragma once
 
+#include <charconv>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -80,5 +82,34 @@ Preset nearest_allowed(Preset preset);
 
 /// docs/notation.md, generated.
 std::string notation_markdown();
+
+// Formats numbers and sentences for people: panels, messages, reports.
+
+/// Up to that many significant digits, "310", "0.002", "1.2e-4": without an exponent from 0.001 to 100,000, where every
+/// digit before the point is written.
+std::string short_number(double value, int digits = 4);
+/// "1.20e-04", as printf writes it, as "1.20e-4".
+std::string short_exponent(std::string text);
+/// Rounded to that many significant digits.
+double rounded(double value, int digits);
+/// With a capital at its beginning and a full stop at its end, unless it has one: "it fell" as "It fell.".
+std::string sentence(std::string text);
+/// The texts of a range's elements, one after the other: "cpu, opencl".
+template <class Range, class Text = std::identity>
+std::string joined(Range&& elements, std::string_view between = ", ", const Text& text_of = {}) {
+  std::string all;
+  bool first = true;
+  for (const auto& element : elements) {
+    if (!first) all += between;
+    all += std::invoke(text_of, element);
+    first = false;
+  }
+  return all;
+}
+
+// Reads numbers from text, independently of the locale.
+
+/// std::from_chars, where the library has it for doubles; otherwise the same of what C reads.
+std::from_chars_result read_number(const char* first, const char* last, double& value);
 
 }  // namespace tyglab

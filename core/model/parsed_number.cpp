@@ -1,4 +1,4 @@
-#include "core/model/parsed_number.h"
+#include "core/model/notation.h"
 
 #include <cctype>
 #include <cmath>

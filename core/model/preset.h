@@ -2,6 +2,7 @@
 // notation table (notation.h) defines ranges, symbols and meanings.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <string>
 #include <vector>
@@ -85,5 +86,30 @@ struct Preset {
 
   bool operator==(const Preset&) const = default;
 };
+
+// Changes the number of particles of a cloth and keeps its size, mass and stiffness (docs/model.md, Resolution).
+
+/// Multiplies R-1 and C-1 by q and keeps size, mass and stretch behavior of the cloth.
+Preset with_resolution(const Preset& preset, double q);
+/// Of two resolutions of one cloth: the particle in `to` nearest to where `site` lies in `from`.
+Pins::Site site_in_resolution(Pins::Site site, const Preset& from, const Preset& to);
+
+// Clocks for measuring steps.
+
+/// Processor time of this thread so far, s: what another process takes meanwhile is not in it. Where no clock measures
+/// it, as in a browser, time on the wall stands for it.
+double thread_seconds();
+
+/// A clock on the wall, s: a device's work is not this thread's.
+double wall_seconds();
+
+/// The one that measures an engine's steps: of the processor on the CPU, on the wall on a device.
+double computing_seconds(EngineKind engine);
+
+// Lets long work be stopped from outside: the work checks a question often.
+
+/// Whether to stop. Asked from the threads that work, often and for as long as the work lasts, so it must be quick, may
+/// be called by any thread and keeps its answer once it is yes. Empty: nobody will stop it.
+using Stop = std::function<bool()>;
 
 }  // namespace tyglab

@@ -1,12 +1,10 @@
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <string_view>
-
-#include "core/model/parsed_number.h"
 
 namespace tyglab {
 namespace {

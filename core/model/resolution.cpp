@@ -1,7 +1,10 @@
-#include "core/model/resolution.h"
+
+#include "core/model/preset.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace tyglab {
 
@@ -33,6 +36,20 @@ Pins::Site site_in_resolution(Pins::Site site, const Preset& from, const Preset&
     return count > 1 ? int(std::llround(index * (double(new_count - 1) / (count - 1)))) : 0;
   };
   return {moved(site.i, from.rows, to.rows), moved(site.j, from.columns, to.columns)};
+}
+
+double thread_seconds() {
+  timespec now{};
+  if (clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now) != 0) return wall_seconds();
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+}
+
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double computing_seconds(EngineKind engine) {
+  return engine == EngineKind::cpu ? thread_seconds() : wall_seconds();
 }
 
 }  // namespace tyglab

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/io/files.h"
-#include "core/io/text.h"
+#include "core/io/output_file.h"
+#include "core/io/terminal.h"
 
 namespace tyglab {
 namespace {

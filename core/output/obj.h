@@ -10,7 +10,6 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
-#include "core/cloth/tears.h"
 
 namespace tyglab {
 

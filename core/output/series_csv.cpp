@@ -4,7 +4,6 @@
 
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
-#include "core/io/text.h"
 
 namespace tyglab {
 

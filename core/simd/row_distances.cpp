@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "core/simd/row_distances.h"
+#include "core/simd/row_field.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();

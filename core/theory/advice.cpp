@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/model/notation.h"
-#include "core/model/readable.h"
 #include "core/theory/modes.h"
 #include "core/theory/zones.h"
 

@@ -5,14 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "core/integrators/solve_counts.h"
+#include "core/integrators/scheme.h"
 #include "core/integrators/step_control.h"
 #include "core/model/preset.h"
 
 namespace tyglab {
 
 /// The worst-case limit: largest dt at which the method is stable for any configuration of the cloth, by its
-/// linearisation (worst_modes); 0 where no dt is. From the method's own table (amplification.h). One-sided springs
+/// linearisation (worst_modes); 0 where no dt is. From the method's own table (modes.h). One-sided springs
 /// switch, so it is advice and no guarantee.
 double stable_dt(const Preset& preset, const std::string& integrator);
 

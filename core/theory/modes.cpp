@@ -1,10 +1,13 @@
+
 #include "core/theory/modes.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
-
-#include "core/theory/amplification.h"
+#include <type_traits>
+#include <utility>
 
 namespace tyglab {
 namespace {
@@ -88,6 +91,116 @@ double growth_per_step(const Scheme& scheme, std::span<const Mode> modes, double
     if (const auto [omega, zeta] = oscillator_of(mode); omega > 0)
       most = std::max(most, std::log(spectral_radius(amplification(scheme, omega * dt, zeta))));
   return most;
+}
+
+namespace {
+
+Matrix identity(int size) {
+  Matrix one{size, std::vector<double>(std::size_t(size) * size, 0)};
+  for (int i = 0; i < size; ++i) one.at(i, i) = 1;
+  return one;
+}
+
+/// `size` is an int or a constant of that type: a search for a limit squares tens of thousands of matrices, most of
+/// them small, which is faster where the compiler knows how small.
+template <class Size>
+void square(Size size, const double* a, double* __restrict out) {
+  std::fill_n(out, size * size, 0.0);
+  for (int i = 0; i < size; ++i)
+    for (int k = 0; k < size; ++k)
+      for (int j = 0; j < size; ++j) out[i * size + j] += a[i * size + k] * a[k * size + j];
+}
+
+/// `power`, the matrix, and `squared` are overwritten.
+template <class Size>
+double radius_by_squaring(Size size, double* power, double* squared) {
+  constexpr int squarings = 48;
+  double log_radius = 0, weight = 1;
+  for (int n = 0; n < squarings; ++n) {
+    double norm = 0;
+    for (int e = 0; e < size * size; ++e) norm = std::max(norm, std::abs(power[e]));
+    // A nilpotent matrix is gone after as many squarings as its size has bits. One with a defective eigenvalue (Verlet
+    // at ω·dt = 2) comes close to such a one, and is lost to rounding long after its radius is known.
+    if (norm == 0) return weight * size > 0.5 ? 0 : std::exp(log_radius);
+    for (int e = 0; e < size * size; ++e) power[e] /= norm;
+    log_radius += weight * std::log(norm);
+    square(size, power, squared);
+    std::swap(power, squared);
+    weight /= 2;
+  }
+  return std::exp(log_radius);
+}
+
+template <int size>
+double radius_of_small(const Matrix& matrix) {
+  std::array<double, size * size> power, squared;
+  std::copy(matrix.elements.begin(), matrix.elements.end(), power.begin());
+  return radius_by_squaring(std::integral_constant<int, size>{}, power.data(), squared.data());
+}
+
+bool stable(const Scheme& scheme, double h, double zeta) {
+  return spectral_radius(amplification(scheme, h, zeta)) <= 1 + 1e-12;
+}
+
+}  // namespace
+
+Matrix amplification(const Scheme& scheme, double h, double zeta) {
+  assert(zeta >= 0);
+  const int n = scheme.vectors;
+  Matrix now = identity(n);  // row: a vector's coefficients in terms of the vectors at the beginning of the step
+  std::vector<double> force(std::size_t(n), 0), sum(std::size_t(n), 0);
+  const auto assign = [&](const std::vector<Assignment>& assignments) {
+    for (const Assignment& assignment : assignments) {
+      std::fill(sum.begin(), sum.end(), 0.0);
+      for (const Term& term : assignment.terms)  // dt = 1: no powers of it
+        for (int k = 0; k < n; ++k)
+          sum[std::size_t(k)] +=
+              term.factor * (term.vector == acceleration ? force[std::size_t(k)] : now.at(term.vector, k));
+      for (int k = 0; k < n; ++k) now.at(assignment.target, k) = sum[std::size_t(k)];
+    }
+  };
+  for (const Sweep& sweep : scheme.sweeps) {
+    assign(sweep.before);
+    if (const double b = sweep.solves; b != 0)
+      for (int k = 0; k < n; ++k) {
+        double &x = now.at(sweep.position, k), &v = now.at(sweep.velocity, k);
+        v = (v - b * h * h * x) / (1 + 2 * b * zeta * h + b * b * h * h);
+        x += b * v;
+      }
+    if (sweep.damps != 0)
+      for (int k = 0; k < n; ++k) now.at(sweep.velocity, k) /= 1 + sweep.damps * 2 * zeta * h;
+    for (int k = 0; k < n; ++k)
+      force[std::size_t(k)] = -h * h * now.at(sweep.position, k) - 2 * zeta * h * now.at(sweep.velocity, k);
+    assign(sweep.assignments);
+  }
+  return now;
+}
+
+double spectral_radius(const Matrix& matrix) {
+  if (matrix.size == 2) return radius_of_small<2>(matrix);
+  if (matrix.size == 3) return radius_of_small<3>(matrix);
+  if (matrix.size == 4) return radius_of_small<4>(matrix);
+  if (matrix.size == 5) return radius_of_small<5>(matrix);
+  if (matrix.size == 6) return radius_of_small<6>(matrix);
+  std::vector<double> power = matrix.elements, squared(power.size());
+  return radius_by_squaring(matrix.size, power.data(), squared.data());
+}
+
+double stability_limit(const Scheme& scheme, double zeta) {
+  constexpr double shortest = 1e-5, first = 1e-3, longest = 20, grid = 1.01;
+  double good = first;
+  if (!stable(scheme, good, zeta)) {
+    while (good > shortest && !stable(scheme, good, zeta)) good /= 2;
+    if (good <= shortest) return 0;
+  }
+  double bad = good * grid;
+  while (bad < longest && stable(scheme, bad, zeta)) good = bad, bad *= grid;
+  if (bad >= longest) return std::numeric_limits<double>::infinity();
+  while (bad - good > 1e-9 * good) {
+    const double middle = (good + bad) / 2;
+    (stable(scheme, middle, zeta) ? good : bad) = middle;
+  }
+  return good;
 }
 
 }  // namespace tyglab

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/integrators/scheme.h"
-#include "core/theory/amplification.h"
 #include "core/theory/modes.h"
 
 namespace tyglab {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/model/preset.h"
-#include "core/model/stop.h"
 
 namespace tyglab {
 

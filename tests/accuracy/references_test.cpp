@@ -8,7 +8,7 @@
 #include "core/analysis/accuracy.h"
 #include "core/analysis/engine_forces.h"
 #include "core/analysis/plain_forces.h"
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
 #include "core/theory/modes.h"
 #include "tests/oracle/oracle.h"

@@ -1,5 +1,5 @@
 // Energy over many steps: what `stability drift` measures.
-#include "core/analysis/drift.h"
+#include "tests/bench/drift.h"
 
 #include <doctest/doctest.h>
 

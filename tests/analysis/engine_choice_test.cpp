@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "core/analysis/engine_choice.h"
+#include "core/analysis/settings_search.h"
 #include "tests/support/devices.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"

@@ -9,7 +9,7 @@
 
 #include "core/analysis/boundary.h"
 #include "core/theory/advice.h"
-#include "core/theory/amplification.h"
+#include "core/theory/modes.h"
 #include "core/theory/zones.h"
 #include "tests/support/scenes.h"
 

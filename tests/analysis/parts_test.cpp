@@ -1,9 +1,9 @@
 // Engines compiled without some parts, which `bench skip` measures: they do what the whole engine does while it is off.
 #include <doctest/doctest.h>
 
-#include "core/analysis/skip.h"
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 #include "core/engines/cpu/parts.h"
+#include "tests/bench/skip.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 

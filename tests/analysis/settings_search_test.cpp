@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/analysis/last_event.h"
+#include "core/analysis/study_run.h"
 #include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 

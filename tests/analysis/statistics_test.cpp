@@ -1,5 +1,5 @@
 // Means over time, where a motion cannot be predicted.
-#include "core/analysis/statistics.h"
+#include "core/analysis/study_run.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::statistics_test {

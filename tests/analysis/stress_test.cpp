@@ -1,5 +1,5 @@
 // The random scenes of `stability stress`: valid, repeatable, and over the whole range of every constant.
-#include "core/analysis/stress.h"
+#include "tests/bench/stress.h"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"
 

@@ -1,5 +1,5 @@
 // What the cards of accuracy and stability say and draw.
-#include "app/ui/cards/accuracy_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <doctest/doctest.h>
 

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "app/session/edits.h"
 #include "app/session/motion.h"
+#include "app/session/session.h"
 #include "tests/app/desk.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"

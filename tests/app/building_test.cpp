@@ -6,9 +6,8 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "app/session/edits.h"
 #include "app/session/session.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 #include "tests/support/devices.h"
 #include "tests/support/scenes.h"
 

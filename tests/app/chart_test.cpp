@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <limits>
 
-#include "app/platform/headless_context.h"
+#include "app/platform/platform.h"
 #include "app/render/image.h"
 #include "app/ui/kit/chart.h"
-#include "app/ui/kit/picture_gui.h"
+#include "app/ui/kit/scene_picture.h"
 
 namespace tyglab::chart_test {
 

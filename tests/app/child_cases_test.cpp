@@ -1,5 +1,5 @@
 // Cases in processes of their own: what crashes or hangs becomes a result, and all are told in order.
-#include "app/process/child_cases.h"
+#include "app/process/child.h"
 
 #include <doctest/doctest.h>
 #include <unistd.h>

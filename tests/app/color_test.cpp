@@ -6,12 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/base/preset_files.h"
-#include "app/platform/headless_context.h"
+#include "app/base/files.h"
+#include "app/platform/platform.h"
 #include "app/render/cloth_renderer.h"
-#include "app/render/drawn_cloth.h"
 #include "app/render/field_colors.h"
-#include "app/ui/cards/performance.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/kit/color_legend.h"
 #include "core/io/preset_io.h"
 #include "tests/app/desk.h"

@@ -1,5 +1,5 @@
 // A device that is lost in mid-run.
-#include "app/session/engine_fallback.h"
+#include "app/session/session.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Engines and precisions as they are offered, and what follows from a method that runs on one engine alone.
-#include "app/ui/constants/engine_menu.h"
+#include "app/ui/constants/constants_panel.h"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Figure 3.2 live: what moves beside the one weight.
-#include "app/session/reference_curves.h"
+#include "app/session/recorded.h"
 
 #include <doctest/doctest.h>
 

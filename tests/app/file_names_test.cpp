@@ -1,5 +1,5 @@
 // Names of files that are made of names that people give.
-#include "app/base/file_names.h"
+#include "app/base/files.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "app/base/file_stamp.h"
+#include "app/base/files.h"
 
 #include <doctest/doctest.h>
 #include <chrono>

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/render/cloth_topology.h"
+#include "app/render/cloth_mesh.h"
 #include "app/render/written_vertices.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "tests/app/picture_pair.h"

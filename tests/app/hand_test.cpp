@@ -7,8 +7,8 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "app/render/spring_picking.h"
-#include "app/tools/wind_arrow.h"
+#include "app/render/picking.h"
+#include "app/tools/tools.h"
 #include "app/ui/overlay/overlay.h"
 #include "tests/app/desk.h"
 #include "tests/support/scenes.h"

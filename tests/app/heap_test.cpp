@@ -1,5 +1,5 @@
 // Large blocks of memory go back to the system, however often they are needed.
-#include "app/process/heap.h"
+#include "app/process/process.h"
 
 #include <doctest/doctest.h>
 

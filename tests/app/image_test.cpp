@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "app/render/image.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "tests/support/files.h"
 #include "tests/support/pictures.h"
 #include "tests/support/scenes.h"

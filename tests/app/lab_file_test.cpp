@@ -8,7 +8,6 @@
 #include <fstream>
 #include <thread>
 
-#include "app/session/edits.h"
 #include "app/session/lab_state.h"
 #include "app/session/observables.h"
 #include "app/session/session.h"

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "app/session/edits.h"
 #include "app/session/motion.h"
+#include "app/session/session.h"
 #include "app/studies/job.h"
 #include "core/io/preset_io.h"
 #include "tests/support/sanitized.h"

@@ -1,8 +1,8 @@
 // Links: an experiment's constants at the end of a page's address.
 #include <doctest/doctest.h>
 
-#include "app/base/link.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
+#include "app/base/text.h"
 #include "core/io/preset_io.h"
 
 namespace tyglab::link_test {

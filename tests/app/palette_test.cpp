@@ -1,5 +1,5 @@
 // The palette finds everything by its words, and the table of commands holds all of them.
-#include "app/ui/frame/palette.h"
+#include "app/ui/frame/panels.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -10,8 +10,8 @@
 #include <set>
 
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/keys.h"
-#include "core/integrators/names.h"
+#include "app/ui/frame/frame.h"
+#include "core/integrators/scheme.h"
 #include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "app/ui/cards/performance.h"
+#include "app/ui/cards/cards.h"
 #include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 

@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include "app/platform/headless_context.h"
+#include "app/platform/platform.h"
 #include "app/render/cloth_renderer.h"
 
 namespace tyglab::test {

@@ -4,9 +4,9 @@
 #include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 
-#include "app/session/edits.h"
 #include "app/session/requests.h"
-#include "core/model/resolution.h"
+#include "app/session/session.h"
+#include "core/model/preset.h"
 #include "tests/app/desk.h"
 #include "tests/support/scenes.h"
 

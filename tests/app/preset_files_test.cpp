@@ -1,9 +1,9 @@
 // Presets with textures of the user's: saved beside the file, read from its folder.
 #include <doctest/doctest.h>
 
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/session/document.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "tests/app/desk.h"
 #include "tests/support/files.h"

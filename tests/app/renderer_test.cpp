@@ -4,11 +4,10 @@
 #include <cstdlib>
 #include <span>
 
-#include "app/platform/headless_context.h"
+#include "app/platform/platform.h"
+#include "app/render/cloth_mesh.h"
 #include "app/render/cloth_renderer.h"
-#include "app/render/cloth_topology.h"
-#include "app/render/color_map.h"
-#include "app/render/drawn_cloth.h"
+#include "app/render/field_colors.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"
 #include "tests/support/scenes.h"

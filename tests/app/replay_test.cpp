@@ -1,11 +1,10 @@
 // The last steps before a divergence once more, slowly.
-#include "app/session/replay.h"
+#include "app/session/rewind.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 
-#include "app/session/edits.h"
 #include "app/session/motion.h"
 #include "app/session/requests.h"
 #include "app/session/session.h"

@@ -6,14 +6,13 @@
 #include <limits>
 
 #include "app/base/messages.h"
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/session/history.h"
 #include "app/session/pacing.h"
-#include "app/session/series.h"
-#include "app/ui/kit/curves.h"
-#include "app/ui/kit/plot.h"
-#include "app/ui/kit/symbol.h"
-#include "core/integrators/names.h"
+#include "app/session/recorded.h"
+#include "app/ui/kit/chart.h"
+#include "app/ui/kit/widgets.h"
+#include "core/integrators/scheme.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 

@@ -1,5 +1,5 @@
 // Samples over time, as plots and their files show them.
-#include "app/session/series.h"
+#include "app/session/recorded.h"
 
 #include <doctest/doctest.h>
 

@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "app/base/settings.h"
-#include "app/shell/settings_writer.h"
-#include "core/io/files.h"
+#include "app/shell/sandbox.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
 

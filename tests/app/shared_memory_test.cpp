@@ -1,7 +1,7 @@
 // Positions that a device writes into OpenGL's own memory: the picture is that of copied ones, and nothing is copied.
 #include <doctest/doctest.h>
 
-#include "app/render/graphics_error.h"
+#include "app/render/gl_objects.h"
 #include "app/render/mapped_buffer.h"
 #include "tests/app/picture_pair.h"
 #include "tests/support/devices.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-#include "app/ui/constants/stability_row.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/state/ui.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/advice.h"

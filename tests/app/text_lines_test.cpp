@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 #include "app/session/lab_state.h"
 
 namespace tyglab::text_lines_test {

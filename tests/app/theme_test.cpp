@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "app/ui/cards/accuracy_card.h"
-#include "app/ui/constants/zones.h"
+#include "app/ui/cards/cards.h"
+#include "app/ui/constants/constants_panel.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/curve_plot.h"
-#include "app/ui/kit/curves.h"
-#include "app/ui/kit/map_chart.h"
 #include "app/ui/kit/theme.h"
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab::theme_test {
 

@@ -7,7 +7,7 @@
 
 #include "app/scene/sketch.h"
 #include "app/studies/accuracy_watch.h"
-#include "app/studies/findings.h"
+#include "app/studies/job.h"
 #include "app/studies/map_watch.h"
 #include "app/studies/transfer.h"
 

@@ -4,7 +4,6 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/session/edits.h"
 #include "app/session/motion.h"
 #include "app/session/session.h"
 #include "tests/support/scenes.h"

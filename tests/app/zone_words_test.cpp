@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "app/ui/constants/zones.h"
+#include "app/ui/constants/constants_panel.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::zone_words_test {

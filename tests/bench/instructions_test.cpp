@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/cli/bench_instructions.h"
+#include "tests/bench/instructions.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"
 #include "tests/support/skip.h"

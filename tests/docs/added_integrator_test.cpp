@@ -2,11 +2,10 @@
 // table. order_test.cpp, compiled beside this file, holds its order with those of all others.
 #include <doctest/doctest.h>
 
-#include "core/integrators/integrators_page.h"
-#include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
+#include "core/integrators/stabilized.h"
 #include "core/io/preset_io.h"
-#include "core/theory/amplification.h"
+#include "core/theory/modes.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::added_integrator_test {

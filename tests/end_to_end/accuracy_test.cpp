@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 #include "tests/support/devices.h"
 #include "tests/support/files.h"
 

@@ -7,9 +7,9 @@
 #include <array>
 #include <cstdlib>
 
+#include "core/engines/opencl/card_vertices.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/opencl_engine.h"
-#include "core/engines/opencl/vertex_kernels.h"
 #include "core/integrators/scheme.h"
 #include "core/simulation.h"
 #include "tests/support/scenes.h"

@@ -2,7 +2,6 @@
 // engine says so, and in a session the CPU engine goes on.
 #include <doctest/doctest.h>
 
-#include "app/session/edits.h"
 #include "app/session/session.h"
 #include "tests/faults/cloth.h"
 #include "tests/support/devices.h"

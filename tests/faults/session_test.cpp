@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include "app/session/document.h"
-#include "app/session/edits.h"
 #include "app/session/session.h"
 #include "tests/faults/cloth.h"
 #include "tests/support/faults.h"

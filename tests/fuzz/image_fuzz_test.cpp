@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "app/render/image.h"
-#include "app/render/jpeg.h"
 #include "tests/support/files.h"
 #include "tests/support/pictures.h"
 #include "tests/support/places.h"

@@ -8,7 +8,6 @@
 
 #include "core/engines/newton.h"
 #include "core/engines/opencl/opencl_devices.h"
-#include "core/integrators/names.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 #include "core/model/notation.h"

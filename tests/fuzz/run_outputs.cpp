@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 #include "core/engines/motion_limit.h"
 #include "tests/fuzz/csv_reader.h"
 

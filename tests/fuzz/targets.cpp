@@ -15,7 +15,7 @@
 #include <stdexcept>
 
 #include "app/base/settings.h"
-#include "app/cli/commands/program.h"
+#include "app/cli/commands/commands.h"
 #include "app/render/image.h"
 #include "app/session/lab.h"
 #include "core/io/preset_io.h"

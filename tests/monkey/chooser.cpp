@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/palette.h"
+#include "app/ui/frame/panels.h"
 #include "core/model/notation.h"
 
 namespace tyglab::monkey {

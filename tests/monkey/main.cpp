@@ -12,9 +12,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/platform/headless_context.h"
-#include "app/process/driver_probe.h"
-#include "app/render/graphics_error.h"
+#include "app/platform/platform.h"
+#include "app/process/child.h"
+#include "app/render/gl_objects.h"
 #include "tests/monkey/child.h"
 #include "tests/monkey/chooser.h"
 #include "tests/monkey/player.h"

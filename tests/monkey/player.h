@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/shell/settings_writer.h"
+#include "app/shell/sandbox.h"
 #include "tests/monkey/action.h"
 #include "tests/ui/null_ui.h"
 

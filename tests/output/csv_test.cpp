@@ -6,10 +6,9 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/io/destination.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
-#include "core/io/text.h"
+#include "core/io/terminal.h"
 #include "core/output/obj.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"

@@ -10,11 +10,9 @@
 #include <csignal>
 #include <thread>
 
-#include "core/io/destination.h"
-#include "core/io/files.h"
 #include "core/io/output_file.h"
-#include "core/output/point_cache.h"
 #include "core/output/series_csv.h"
+#include "core/output/state_csv.h"
 #include "tests/support/files.h"
 #include "tests/support/skip.h"
 

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <limits>
 
-#include "core/io/files.h"
-#include "core/output/point_cache.h"
+#include "core/io/output_file.h"
+#include "core/output/state_csv.h"
 #include "tests/support/files.h"
 
 namespace tyglab::pc2_test {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"

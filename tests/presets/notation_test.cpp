@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <set>
 
-#include "core/integrators/integrators_page.h"
 #include "core/integrators/scheme.h"
-#include "core/io/files.h"
+#include "core/integrators/stabilized.h"
+#include "core/io/output_file.h"
 #include "core/model/notation.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/base/glfw_keys.h"
-#include "app/tools/wind_arrow.h"
+#include "app/tools/tools.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::cloth_ui_test {

@@ -6,7 +6,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/session/requests.h"
 #include "core/io/preset_io.h"
-#include "core/model/resolution.h"
+#include "core/model/preset.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::constants_test {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "app/base/glfw_keys.h"
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/state/cloth_style.h"
+#include "app/ui/state/ui.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::copies_ui_test {

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "app/base/glfw_keys.h"
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/render/camera.h"
 #include "app/session/requests.h"
-#include "app/ui/frame/transport.h"
+#include "app/ui/frame/panels.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::divergence_ui_test {
@@ -80,7 +80,7 @@ TEST_CASE("the window tells of energy that errors of the method have added; in a
   begin_lab(student.session, "02_euler");
   student.frames(4);
   student.click("lab.prediction"), student.type("3"), student.key(GLFW_KEY_ENTER);  // the motion waits for it
-  student.session.pacing.playing = true, student.session.pacing.speed = 0.2;  // so that there are many looks
+  student.session.pacing.playing = true, student.session.pacing.speed = 0.2;        // so that there are many looks
   student.until([&] { return student.cloth().excess() > 1.5; }, "Euler to add energy");
   student.session.updates_unlooked = 0;
   student.frames(200);

@@ -1,9 +1,8 @@
 // Presets are saved and opened by dialogs; what is not saved is never lost without a question.
 #include <doctest/doctest.h>
 
-#include "app/base/data_files.h"
+#include "app/base/files.h"
 #include "app/base/glfw_keys.h"
-#include "app/base/preset_files.h"
 #include "app/session/requests.h"
 #include "core/io/preset_io.h"
 #include "tests/ui/null_ui.h"

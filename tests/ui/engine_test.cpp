@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "app/base/glfw_keys.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "tests/support/devices.h"
 #include "tests/ui/null_ui.h"

@@ -9,7 +9,7 @@
 
 #include "app/base/glfw_keys.h"
 #include "app/session/lab_state.h"
-#include "app/ui/frame/dialogs.h"
+#include "app/ui/frame/panels.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::fit_test {

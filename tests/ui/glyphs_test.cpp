@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/session/lab_state.h"
 #include "app/ui/frame/commands.h"
 #include "core/fields/particle_field.h"

@@ -11,8 +11,8 @@
 #include <thread>
 #include <utility>
 
+#include "app/base/files.h"
 #include "app/base/glfw_keys.h"
-#include "app/base/preset_files.h"
 #include "app/session/document.h"
 #include "app/ui/frame/frame.h"
 #include "app/ui/kit/imgui_compat.h"

@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/ui/frame/gui_input.h"
-#include "app/ui/kit/control_places.h"
+#include "app/ui/frame/frame.h"
+#include "app/ui/kit/widgets.h"
 #include "tests/app/desk.h"
 #include "tests/support/files.h"
 

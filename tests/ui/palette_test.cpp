@@ -6,8 +6,7 @@
 
 #include "app/base/glfw_keys.h"
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/palette.h"
-#include "app/ui/frame/tour.h"
+#include "app/ui/frame/panels.h"
 #include "tests/ui/null_ui.h"
 
 namespace tyglab::palette_ui_test {

@@ -1,5 +1,5 @@
 // Linear stability read off the schemes' tables, against closed forms, and against the running code.
-#include "core/theory/amplification.h"
+#include "core/theory/modes.h"
 
 #include <doctest/doctest.h>
 

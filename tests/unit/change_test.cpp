@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
-#include "core/model/resolution.h"
+#include "core/model/preset.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::change_test {

@@ -1,5 +1,5 @@
 // What a change of one field alone asks for, and that a simulation given the change does just that.
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 #include <doctest/doctest.h>
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/theory/advice.h"
-#include "core/theory/amplification.h"
 #include "core/theory/modes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"

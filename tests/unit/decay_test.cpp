@@ -1,5 +1,5 @@
 // The exponential decay against the C library's in a wider type.
-#include "core/integrators/decay.h"
+#include "core/integrators/stabilized.h"
 
 #include <doctest/doctest.h>
 

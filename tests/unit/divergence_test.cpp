@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "core/integrators/names.h"
+#include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
 #include "core/theory/zones.h"
 #include "tests/oracle/oracle.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/forces/gust.h"
+#include "core/forces/contact.h"
 #include "core/lockstep.h"
 #include "core/step_trace.h"
 #include "tests/support/devices.h"

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/cloth/lattice.h"
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::lattice_test {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/theory/amplification.h"
 #include "core/theory/modes.h"
 #include "tests/support/scenes.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/theory/advice.h"
-#include "core/theory/amplification.h"
+#include "core/theory/modes.h"
 #include "tests/support/scenes.h"
 
 namespace tyglab::step_control_test {

@@ -6,18 +6,17 @@
 #include <iostream>
 #include <memory>
 
-#include "app/cli/accuracy_report.h"
 #include "app/cli/bench_output.h"
-#include "app/cli/commands/bench.h"
+#include "app/cli/command_line.h"
+#include "app/cli/commands/commands.h"
 #include "app/cli/outputs.h"
-#include "app/cli/progress.h"
 #include "app/process/interrupt.h"
-#include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"
+#include "core/analysis/study_run.h"
 #include "core/engines/opencl/opencl_devices.h"
-#include "core/integrators/names.h"
-#include "core/io/destination.h"
-#include "core/model/readable.h"
+#include "core/integrators/scheme.h"
+#include "core/io/output_file.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

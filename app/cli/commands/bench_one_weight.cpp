@@ -7,15 +7,14 @@
 #include <memory>
 
 #include "app/cli/bench_output.h"
-#include "app/cli/commands/bench.h"
+#include "app/cli/commands/commands.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/process/interrupt.h"
 #include "app/ui/kit/chart.h"
-#include "app/ui/kit/curves.h"
 #include "core/analysis/one_weight.h"
 #include "core/integrators/scheme.h"
-#include "core/io/destination.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/model/words.h"
 

@@ -1,23 +1,27 @@
-#include "app/cli/commands/devices.h"
+
+#include "app/cli/commands/commands.h"
 
 #include <iostream>
+#include <iterator>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "app/platform/headless_context.h"
-#include "app/process/print_in_child.h"
-#include "app/process/program_trial.h"
-#include "app/render/graphics_error.h"
+#include "app/platform/platform.h"
+#include "app/process/child.h"
+#include "app/process/process.h"
+#include "app/process/program_run.h"
+#include "app/render/gl_objects.h"
 #include "app/render/mapped_buffer.h"
 #include "app/render/written_vertices.h"
 #include "core/analysis/machine.h"
 #include "core/engines/engine.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
-#include "core/io/destination.h"
-#include "core/io/files.h"
-#include "core/model/readable.h"
+#include "core/io/output_file.h"
+#include "core/io/preset_io.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 #include "core/simulation.h"
 
@@ -127,6 +131,29 @@ void add_devices_command(CLI::App& program, Action& action) {
   CLI::App* command = program.add_subcommand("devices", "List the engines and OpenCL devices found, each tested");
   command->footer("Example: tyglab devices");
   command->callback([&action] { action = devices; });
+}
+
+void add_try_opencl_command(CLI::App& program, Action& action) {
+  struct Options {
+    int device = -1;
+    bool contacts = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("try-opencl", "Use all kernels for the preset on standard input once");
+  command->group("");
+  command->add_option("--device", options->device, "Number of the device");
+  command->add_flag("--contacts", options->contacts, "With steps that note what bodies stop");
+  command->callback([options, &action] {
+    action = [options] {
+      leave_crashes_to_parent();
+      set_program_trial({});  // this is it
+      const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+      Preset preset = parse_preset(text, "standard input");
+      preset.device = options->device;
+      use_all_kernels(preset, options->contacts);
+      return int(exit_done);
+    };
+  });
 }
 
 }  // namespace tyglab

@@ -1,15 +1,15 @@
-#include "app/cli/commands/presets.h"
+#include "app/cli/commands/commands.h"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 
-#include "app/base/link.h"
+#include "app/base/text.h"
 #include "app/cli/preset_argument.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/integrators/scheme.h"
-#include "core/io/destination.h"
 #include "core/io/json_tree.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 #include "core/model/notation.h"

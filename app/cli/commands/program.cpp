@@ -1,21 +1,37 @@
-#include "app/cli/commands/program.h"
 
-#include "app/cli/commands/bench.h"
-#include "app/cli/commands/devices.h"
-#include "app/cli/commands/labs.h"
-#include "app/cli/commands/presets.h"
-#include "app/cli/commands/render.h"
-#include "app/cli/commands/run.h"
-#include "app/cli/commands/sandbox.h"
-#include "app/cli/commands/stability.h"
-#include "app/cli/commands/try_opencl.h"
-#include "app/process/driver_probe.h"
-#include "app/process/memory_limit.h"
+#include "app/cli/commands/commands.h"
+
+#include "app/process/child.h"
 #include "app/process/process.h"
-#include "app/process/program_trial.h"
+#include "app/process/program_run.h"
 #include "tyglab_version.h"
 
 namespace tyglab {
+namespace {
+
+void add_bench_command(CLI::App& program, Action& action) {
+  CLI::App* bench = program.add_subcommand("bench", "Measure speed and accuracy on this machine");
+  bench->require_subcommand(1);
+  bench->footer("Example: tyglab bench throughput --quick");
+  add_bench_throughput(*bench, action);
+  add_bench_accuracy(*bench, action);
+  add_bench_skip(*bench, action);
+  add_bench_implicit(*bench, action);
+  add_bench_one_weight(*bench, action);
+  add_bench_convergence(*bench, action);
+}
+
+void add_stability_command(CLI::App& program, Action& action) {
+  CLI::App* stability = program.add_subcommand("stability", "Experiments on the stability of each method");
+  stability->require_subcommand(1);
+  stability->footer("Example: tyglab stability boundary --quick");
+  add_stability_boundary(*stability, action);
+  add_stability_drift(*stability, action);
+  add_stability_stress(*stability, action);
+  add_stability_map(*stability, action);
+}
+
+}  // namespace
 
 void declare_program(CLI::App& program, Action& action) {
   program.set_version_flag("--version", "tyglab " TYGLAB_VERSION);

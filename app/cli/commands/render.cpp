@@ -1,17 +1,16 @@
-#include "app/cli/commands/render.h"
+#include "app/cli/commands/commands.h"
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
-#include "app/cli/color_option.h"
+#include "app/cli/command_line.h"
 #include "app/cli/film.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
-#include "app/cli/size_option.h"
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
-#include "core/io/destination.h"
+#include "core/io/output_file.h"
 #include "core/io/system_files.h"
 #include "core/output/obj.h"
 

@@ -1,4 +1,4 @@
-#include "app/cli/commands/run.h"
+#include "app/cli/commands/commands.h"
 
 #include <chrono>
 #include <cmath>
@@ -11,19 +11,17 @@
 #include "app/cli/preset_argument.h"
 #include "app/cli/stepping.h"
 #include "app/process/interrupt.h"
-#include "app/process/program_trial.h"
-#include "core/analysis/engine_choice.h"
+#include "app/process/program_run.h"
+#include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
-#include "core/io/destination.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 #include "core/model/words.h"
 #include "core/output/obj.h"
-#include "core/output/point_cache.h"
 #include "core/output/series_csv.h"
 #include "core/output/state_csv.h"
-#include "core/output/values_csv.h"
 #include "core/theory/advice.h"
 #include "tyglab_version.h"
 

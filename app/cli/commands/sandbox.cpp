@@ -1,18 +1,17 @@
-#include "app/cli/commands/sandbox.h"
+#include "app/cli/commands/commands.h"
 
 #include <iostream>
 #include <memory>
 
-#include "app/cli/color_option.h"
-#include "app/cli/headless.h"
+#include "app/cli/command_line.h"
+#include "app/cli/film.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
-#include "app/cli/size_option.h"
-#include "app/platform/window.h"
+#include "app/platform/platform.h"
 #include "app/process/process.h"
 #include "app/session/lab_state.h"
 #include "app/shell/sandbox.h"
-#include "core/io/destination.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 namespace {

@@ -7,16 +7,15 @@
 #include <memory>
 
 #include "app/cli/bench_output.h"
-#include "app/cli/commands/stability.h"
+#include "app/cli/command_line.h"
+#include "app/cli/commands/commands.h"
 #include "app/cli/outputs.h"
-#include "app/cli/progress.h"
 #include "app/process/interrupt.h"
 #include "app/ui/kit/chart.h"
-#include "app/ui/kit/curves.h"
 #include "core/analysis/boundary.h"
-#include "core/analysis/in_parallel.h"
 #include "core/analysis/machine.h"
-#include "core/io/destination.h"
+#include "core/analysis/study_run.h"
+#include "core/io/output_file.h"
 
 namespace tyglab {
 namespace {

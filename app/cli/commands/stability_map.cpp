@@ -7,18 +7,18 @@
 #include <memory>
 
 #include "app/cli/bench_output.h"
-#include "app/cli/commands/stability.h"
+#include "app/cli/command_line.h"
+#include "app/cli/commands/commands.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
-#include "app/cli/progress.h"
 #include "app/process/interrupt.h"
-#include "app/ui/kit/map_chart.h"
-#include "core/analysis/in_parallel.h"
+#include "app/ui/kit/chart.h"
 #include "core/analysis/machine.h"
+#include "core/analysis/study_run.h"
 #include "core/integrators/scheme.h"
-#include "core/io/destination.h"
+#include "core/io/output_file.h"
 #include "core/io/terminal.h"
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 #include "core/theory/zones.h"
 
 namespace tyglab {

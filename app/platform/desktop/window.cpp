@@ -1,4 +1,4 @@
-#include "app/platform/window.h"
+#include "app/platform/platform.h"
 
 #include <glad/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -11,11 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "app/platform/advice.h"
-#include "app/platform/current_gl_context.h"
 #include "app/platform/gl/dialect.h"
 #include "app/process/process.h"
-#include "app/render/graphics_error.h"
+#include "app/render/gl_objects.h"
 #include "backends/imgui_impl_glfw.h"
 
 namespace tyglab {

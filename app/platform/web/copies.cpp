@@ -1,4 +1,4 @@
-#include "app/platform/copies.h"
+#include "app/platform/platform.h"
 
 #include <emscripten.h>
 #include <emscripten/threading.h>

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "app/base/glfw_keys.h"
-#include "app/platform/window.h"
+#include "app/platform/platform.h"
 
 namespace tyglab {
 

@@ -1,10 +1,6 @@
 // A page cannot start processes; requests for one end with an error.
 #include "app/process/child.h"
-#include "app/process/child_cases.h"
-#include "app/process/driver_probe.h"
-#include "app/process/print_in_child.h"
 #include "app/process/program_run.h"
-#include "app/process/program_trial.h"
 
 namespace tyglab {
 namespace {

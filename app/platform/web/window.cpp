@@ -1,6 +1,6 @@
 // The canvas of a page as the window. Events of the browser come from app/platform/web/library.js, at any time between
 // frames; keys and buttons have GLFW's numbers.
-#include "app/platform/window.h"
+#include "app/platform/platform.h"
 
 #include <emscripten.h>
 #include <emscripten/html5.h>
@@ -13,7 +13,7 @@
 #include "app/base/glfw_keys.h"
 #include "app/platform/gl/dialect.h"
 #include "app/platform/web/fingers.h"
-#include "app/render/graphics_error.h"
+#include "app/render/gl_objects.h"
 
 // Of app/platform/web/library.js.
 extern "C" {

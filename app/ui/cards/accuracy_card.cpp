@@ -1,19 +1,16 @@
-#include "app/ui/cards/accuracy_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "app/base/numbers.h"
-#include "app/ui/cards/cards.h"
-#include "app/ui/kit/convergence_chart.h"
-#include "app/ui/kit/curves.h"
+#include "app/base/text.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
-#include "core/model/changes.h"
-#include "core/theory/amplification.h"
+#include "core/model/effect.h"
+#include "core/theory/modes.h"
 
 namespace tyglab {
 namespace {

@@ -1,18 +1,14 @@
-#include "app/ui/cards/copies_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "app/base/numbers.h"
-#include "app/ui/cards/cards.h"
-#include "app/ui/cards/time_plot.h"
+#include "app/base/text.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/plot.h"
-#include "app/ui/kit/plot_card.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
-#include "app/ui/state/cloth_style.h"
+#include "app/ui/state/ui.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {

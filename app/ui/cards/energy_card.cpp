@@ -1,12 +1,10 @@
-#include "app/ui/cards/energy_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/numbers.h"
-#include "app/ui/cards/cards.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-#include "app/ui/cards/force_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <array>
@@ -6,12 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/ui/cards/time_plot.h"
-#include "app/ui/kit/curves.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/plot.h"
-#include "app/ui/kit/plot_card.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-#include "app/ui/cards/inside_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <array>
 #include <cmath>
@@ -6,11 +6,9 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
-#include "app/base/numbers.h"
-#include "app/base/text_lines.h"
-#include "app/ui/kit/curves.h"
+#include "app/base/text.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"
 

@@ -1,11 +1,11 @@
-#include "app/ui/cards/map_card.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/map_chart.h"
 #include "app/ui/kit/widgets.h"
 #include "core/theory/zones.h"
 

@@ -1,14 +1,12 @@
-#include "app/ui/cards/performance.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
 
-#include "app/base/numbers.h"
-#include "app/ui/cards/cards.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/engines/vertex_sharing.h"
 

@@ -10,19 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/ui/cards/accuracy_card.h"
 #include "app/ui/cards/cards.h"
-#include "app/ui/cards/copies_card.h"
-#include "app/ui/cards/energy_card.h"
-#include "app/ui/cards/force_card.h"
-#include "app/ui/cards/height_card.h"
-#include "app/ui/cards/inside_card.h"
-#include "app/ui/cards/map_card.h"
-#include "app/ui/cards/performance.h"
-#include "app/ui/cards/plots_panel.h"
-#include "app/ui/kit/card_tabs.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/plot_card.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -3,10 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/base/numbers.h"
-#include "app/ui/cards/accuracy_card.h"
+#include "app/base/text.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/analysis/tolerance.h"
 #include "core/integrators/scheme.h"

@@ -1,4 +1,4 @@
-#include "app/ui/cards/time_plot.h"
+#include "app/ui/cards/cards.h"
 
 #include <algorithm>
 #include <cmath>

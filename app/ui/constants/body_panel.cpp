@@ -4,12 +4,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/base/data_files.h"
-#include "app/tools/wind_arrow.h"
-#include "app/ui/constants/constant_row.h"
+#include "app/base/files.h"
+#include "app/tools/tools.h"
 #include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,15 +1,11 @@
-#include "app/ui/constants/constant_row.h"
+#include "app/ui/constants/constants_panel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "app/base/numbers.h"
-#include "app/ui/constants/resolution_row.h"
-#include "app/ui/constants/zones.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/slider.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

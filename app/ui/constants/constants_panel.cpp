@@ -7,18 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "app/base/numbers.h"
-#include "app/ui/constants/constant_row.h"
+#include "app/base/text.h"
 #include "app/ui/constants/constants_panel.h"
-#include "app/ui/constants/resolution_row.h"
-#include "app/ui/constants/stability_row.h"
-#include "app/ui/kit/curves.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
-#include "core/forces/gust.h"
+#include "core/forces/contact.h"
 #include "core/integrators/scheme.h"
-#include "core/model/readable.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {

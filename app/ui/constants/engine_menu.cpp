@@ -1,9 +1,8 @@
-#include "app/ui/constants/engine_menu.h"
+#include "app/ui/constants/constants_panel.h"
 
 #include <algorithm>
 #include <array>
 
-#include "app/ui/constants/constants_panel.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"

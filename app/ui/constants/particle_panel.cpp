@@ -7,12 +7,10 @@
 #include <span>
 #include <string>
 
-#include "app/base/numbers.h"
-#include "app/ui/constants/constant_row.h"
+#include "app/base/text.h"
 #include "app/ui/constants/constants_panel.h"
-#include "app/ui/kit/curves.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,17 +1,14 @@
-#include "app/ui/constants/resolution_row.h"
+#include "app/ui/constants/constants_panel.h"
 
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
 
-#include "app/base/numbers.h"
-#include "app/base/text_lines.h"
-#include "app/ui/constants/constant_row.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
-#include "core/model/resolution.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 namespace {

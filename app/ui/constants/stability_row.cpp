@@ -1,14 +1,11 @@
-#include "app/ui/constants/stability_row.h"
+#include "app/ui/constants/constants_panel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "app/base/numbers.h"
-#include "app/ui/constants/constant_row.h"
-#include "app/ui/constants/zones.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/integrators/scheme.h"
 

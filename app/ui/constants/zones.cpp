@@ -1,10 +1,9 @@
-#include "app/ui/constants/zones.h"
+#include "app/ui/constants/constants_panel.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/numbers.h"
-#include "app/ui/constants/stability_row.h"
+#include "app/base/text.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {

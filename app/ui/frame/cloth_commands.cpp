@@ -1,5 +1,5 @@
 // Commands for the cloth in the viewport: camera, colors, knife and wind.
-#include "app/tools/wind_arrow.h"
+#include "app/tools/tools.h"
 #include "app/ui/frame/commands.h"
 
 namespace tyglab {

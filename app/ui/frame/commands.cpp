@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/platform/files.h"
-#include "app/ui/frame/dialogs.h"
+#include "app/platform/platform.h"
+#include "app/ui/frame/panels.h"
 
 namespace tyglab {
 namespace {

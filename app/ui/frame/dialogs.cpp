@@ -1,4 +1,4 @@
-#include "app/ui/frame/dialogs.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,20 +6,16 @@
 #include <cstring>
 #include <utility>
 
-#include "app/base/data_files.h"
-#include "app/base/file_names.h"
-#include "app/base/preset_files.h"
-#include "app/base/text_lines.h"
-#include "app/platform/files.h"
+#include "app/base/files.h"
+#include "app/base/text.h"
+#include "app/platform/platform.h"
 #include "app/session/document.h"
-#include "app/session/lab_text.h"
+#include "app/session/lab.h"
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/gallery.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "core/io/preset_io.h"
-#include "core/io/user_folders.h"
+#include "core/io/system_files.h"
 
 namespace tyglab {
 namespace {

@@ -2,7 +2,7 @@
 #include "app/session/document.h"
 #include "app/session/motion.h"
 #include "app/ui/frame/commands.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 namespace tyglab {
 namespace {

@@ -3,14 +3,12 @@
 
 #include "app/session/recorded.h"
 #include "app/ui/frame/commands.h"
-#include "app/ui/kit/curves.h"
-#include "app/ui/kit/map_chart.h"
+#include "app/ui/kit/chart.h"
 #include "core/analysis/machine.h"
-#include "core/io/files.h"
+#include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/output/obj.h"
 #include "core/output/state_csv.h"
-#include "core/output/values_csv.h"
 
 namespace tyglab {
 namespace {

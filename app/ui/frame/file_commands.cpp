@@ -1,12 +1,12 @@
 // Commands for presets and other files.
 #include <imgui.h>
 
-#include "app/base/data_files.h"
-#include "app/base/link.h"
-#include "app/platform/address.h"
+#include "app/base/files.h"
+#include "app/base/text.h"
+#include "app/platform/platform.h"
 #include "app/session/document.h"
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/dialogs.h"
+#include "app/ui/frame/panels.h"
 #include "core/model/notation.h"
 #include "core/model/words.h"
 

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/ui/frame/keys.h"
 #include "app/ui/frame/panels.h"
-#include "app/ui/state/cloth_style.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 namespace {

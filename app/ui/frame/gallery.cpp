@@ -1,15 +1,12 @@
-#include "app/ui/frame/gallery.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <system_error>
 #include <utility>
 
-#include "app/base/data_files.h"
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/session/lab_state.h"
-#include "app/ui/frame/gallery_card.h"
-#include "app/ui/frame/palette.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 #include "core/io/preset_io.h"

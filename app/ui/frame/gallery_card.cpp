@@ -1,11 +1,10 @@
-#include "app/ui/frame/gallery_card.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/scene_picture.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-#include "app/ui/frame/gui_input.h"
+#include "app/ui/frame/frame.h"
 
 #include <imgui.h>
 
@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "app/base/glfw_keys.h"
-#include "app/ui/frame/keys.h"
 #include "app/ui/kit/imgui_compat.h"
 
 namespace tyglab {

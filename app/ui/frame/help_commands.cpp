@@ -1,8 +1,6 @@
 // Commands for help and labs.
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/dialogs.h"
-#include "app/ui/frame/palette.h"
-#include "app/ui/frame/tour.h"
+#include "app/ui/frame/panels.h"
 
 namespace tyglab {
 namespace {

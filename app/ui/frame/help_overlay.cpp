@@ -7,7 +7,6 @@
 
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/panels.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-#include "app/ui/frame/keys.h"
+#include "app/ui/frame/frame.h"
 
 #include "app/base/glfw_keys.h"
 
@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/ui/constants/resolution_row.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/kit/imgui_compat.h"
 

@@ -1,11 +1,10 @@
-#include "app/ui/frame/lab_header.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <string>
 
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

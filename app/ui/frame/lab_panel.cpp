@@ -6,14 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/base/numbers.h"
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 #include "app/session/lab_check.h"
 #include "app/session/observables.h"
-#include "app/ui/frame/lab_header.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

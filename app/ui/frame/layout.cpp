@@ -3,15 +3,12 @@
 #include <cmath>
 #include <utility>
 
-#include "app/ui/cards/plots_panel.h"
+#include "app/ui/cards/cards.h"
 #include "app/ui/constants/constants_panel.h"
-#include "app/ui/frame/dialogs.h"
-#include "app/ui/frame/palette.h"
 #include "app/ui/frame/panels.h"
-#include "app/ui/frame/tour.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
-#include "app/ui/overlay/viewport_panel.h"
+#include "app/ui/overlay/overlay.h"
 
 namespace tyglab {
 namespace {

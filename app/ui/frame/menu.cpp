@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/palette.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"

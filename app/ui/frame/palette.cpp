@@ -1,4 +1,4 @@
-#include "app/ui/frame/palette.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,14 +6,12 @@
 #include <sstream>
 #include <utility>
 
-#include "app/base/preset_files.h"
+#include "app/base/files.h"
 #include "app/ui/constants/constants_panel.h"
-#include "app/ui/constants/engine_menu.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
-#include "app/ui/overlay/viewport_panel.h"
+#include "app/ui/overlay/overlay.h"
 #include "core/integrators/scheme.h"
 #include "core/io/preset_io.h"
 

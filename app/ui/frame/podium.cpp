@@ -3,14 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "app/base/numbers.h"
-#include "app/ui/constants/constant_row.h"
+#include "app/base/text.h"
 #include "app/ui/constants/constants_panel.h"
-#include "app/ui/constants/stability_row.h"
 #include "app/ui/frame/panels.h"
-#include "app/ui/frame/transport.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

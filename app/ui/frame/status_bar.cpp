@@ -6,7 +6,6 @@
 
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

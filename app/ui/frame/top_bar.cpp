@@ -2,14 +2,12 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/session/motion.h"
-#include "app/ui/constants/engine_menu.h"
+#include "app/ui/constants/constants_panel.h"
 #include "app/ui/frame/commands.h"
 #include "app/ui/frame/panels.h"
-#include "app/ui/frame/transport.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

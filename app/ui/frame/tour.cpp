@@ -1,4 +1,4 @@
-#include "app/ui/frame/tour.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

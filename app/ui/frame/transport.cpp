@@ -1,4 +1,4 @@
-#include "app/ui/frame/transport.h"
+#include "app/ui/frame/panels.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/ui/frame/commands.h"
-#include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
 #include "app/ui/kit/widgets.h"
 

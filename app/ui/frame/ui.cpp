@@ -5,7 +5,7 @@
 
 #include "app/ui/cards/cards.h"
 #include "app/ui/constants/constants_panel.h"
-#include "app/ui/frame/dialogs.h"
+#include "app/ui/frame/panels.h"
 
 namespace tyglab {
 

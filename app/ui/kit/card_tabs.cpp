@@ -1,9 +1,8 @@
-#include "app/ui/kit/card_tabs.h"
+#include "app/ui/kit/widgets.h"
 
 #include <algorithm>
 
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/widgets.h"
 
 namespace tyglab {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
 
 namespace tyglab {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/render/color_map.h"
+#include "app/render/field_colors.h"
 #include "app/ui/kit/curve_plot.h"
 #include "core/fields/particle_field.h"
 

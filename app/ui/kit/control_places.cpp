@@ -1,4 +1,4 @@
-#include "app/ui/kit/control_places.h"
+#include "app/ui/kit/widgets.h"
 
 #include <imgui.h>
 #include <imgui_internal.h>  // the window that an item stands in

@@ -1,10 +1,9 @@
-#include "app/ui/kit/convergence_chart.h"
+#include "app/ui/kit/chart.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-#include "app/ui/kit/curves.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {

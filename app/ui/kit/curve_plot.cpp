@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/base/numbers.h"
-#include "app/ui/kit/symbol.h"
+#include "app/base/text.h"
+#include "app/ui/kit/widgets.h"
 
 namespace tyglab {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/ui/kit/curves.h"
+#include "app/ui/kit/chart.h"
 
 namespace tyglab {
 

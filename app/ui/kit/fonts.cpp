@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "app/base/data_files.h"
+#include "app/base/files.h"
 
 namespace tyglab {
 namespace {

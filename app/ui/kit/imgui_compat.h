@@ -42,7 +42,7 @@ inline ImTextureID texture(unsigned id) {
   return (ImTextureID)(std::intptr_t)id;
 }
 
-/// A new context's settings. What happens is shown to it frame by frame (app/ui/frame/gui_input.h), so it need not
+/// A new context's settings. What happens is shown to it frame by frame (app/ui/frame/frame.h), so it need not
 /// spread inputs itself.
 inline void prepare_io(ImGuiIO& io) {
   io.IniFilename = nullptr;

@@ -1,11 +1,11 @@
-#include "app/ui/kit/map_chart.h"
+#include "app/ui/kit/chart.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "app/base/numbers.h"
-#include "app/render/color_map.h"
+#include "app/base/text.h"
+#include "app/render/field_colors.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/zones.h"
 

@@ -1,3 +1,4 @@
+
 #include "app/ui/kit/overlay_layout.h"
 
 #include <algorithm>
@@ -73,6 +74,20 @@ std::optional<std::size_t> choose_place(std::span<const std::optional<Box>> plac
   }
   const bool stands = before && *before < places.size() && places[*before];
   return stands && covered(*places[*before], avoid) <= 2 * least ? before : best;
+}
+
+bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding) {
+  ImGui::SetNextWindowPos(region.at);
+  ImGui::SetNextWindowSize(region.size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, padding);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ground);
+  return ImGui::Begin(name, nullptr, region_flags);
+}
+
+void end_region() {
+  ImGui::End();
+  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
 }
 
 }  // namespace tyglab

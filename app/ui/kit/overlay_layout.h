@@ -8,6 +8,7 @@
 // comes under them. tests/ui/marks_test.cpp checks that no two marks overlap.
 #pragma once
 
+#include <imgui.h>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <span>
@@ -15,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/base/viewport.h"
+#include "app/base/input.h"
 
 namespace tyglab {
 
@@ -62,5 +63,21 @@ class OverlayLayout {
 /// since what stands still is found more easily. None where there is no place.
 std::optional<std::size_t> choose_place(std::span<const std::optional<Box>> places, std::span<const Box> avoid,
                                         std::optional<std::size_t> before);
+
+// A region of the window: a fixed part of it with its own background.
+
+/// Its place, pixels.
+struct Region {
+  ImVec2 at, size;
+};
+
+/// Of a window that stands where it is put, without a frame.
+inline constexpr ImGuiWindowFlags region_flags =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollWithMouse;
+
+/// Starts a region as a fixed window with the given ground.
+bool begin_region(const char* name, const Region& region, ImU32 ground, ImVec2 padding);
+void end_region();
 
 }  // namespace tyglab

@@ -1,11 +1,10 @@
-#include "app/ui/kit/plot.h"
+#include "app/ui/kit/chart.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,7 +1,6 @@
-#include "app/ui/kit/plot_card.h"
+#include "app/ui/kit/chart.h"
 
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 
 namespace tyglab {

@@ -1,4 +1,4 @@
-#include "app/ui/kit/slider.h"
+#include "app/ui/kit/widgets.h"
 
 #include <GLFW/glfw3.h>
 
@@ -9,9 +9,8 @@
 #include <utility>
 #include <variant>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 
 namespace tyglab {
 namespace {

@@ -1,9 +1,9 @@
-#include "app/ui/kit/symbol.h"
+#include "app/ui/kit/widgets.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 
 namespace tyglab {
 namespace {

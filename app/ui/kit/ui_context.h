@@ -14,7 +14,6 @@
 #include "app/base/input.h"
 #include "app/base/messages.h"
 #include "app/base/settings.h"
-#include "app/base/viewport.h"
 #include "app/ui/kit/fonts.h"
 #include "app/ui/kit/overlay_layout.h"
 #include "app/ui/kit/theme.h"

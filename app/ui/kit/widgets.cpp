@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 
 namespace tyglab {
 namespace {

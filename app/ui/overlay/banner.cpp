@@ -6,14 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "app/base/numbers.h"
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/overlay/viewport_panel.h"
-#include "app/ui/state/divergence_details.h"
+#include "app/ui/state/ui.h"
 #include "core/integrators/scheme.h"
 #include "core/theory/advice.h"
 

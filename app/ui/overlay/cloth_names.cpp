@@ -4,13 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "app/base/numbers.h"
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/state/cloth_style.h"
+#include "app/ui/state/ui.h"
 
 namespace tyglab {
 namespace {

@@ -3,14 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 #include "app/ui/kit/color_legend.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/slider.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

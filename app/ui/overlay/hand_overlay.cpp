@@ -5,10 +5,9 @@
 #include <glm/geometric.hpp>
 #include <string>
 
-#include "app/base/numbers.h"
-#include "app/tools/knife.h"
-#include "app/tools/wind_arrow.h"
-#include "app/ui/kit/symbol.h"
+#include "app/base/text.h"
+#include "app/tools/tools.h"
+#include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 
 namespace tyglab {

@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/base/text_lines.h"
+#include "app/base/text.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

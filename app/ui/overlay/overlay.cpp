@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "app/ui/kit/curves.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
-#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

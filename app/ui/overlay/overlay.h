@@ -1,11 +1,13 @@
 // The parts drawn over the cloth; viewport_overlay() in panels.h draws them all.
 #pragma once
 
+#include <array>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <vector>
 
+#include "app/ui/kit/overlay_layout.h"
 #include "app/ui/kit/theme.h"
 #include "app/ui/state/ui.h"
 
@@ -66,5 +68,26 @@ std::vector<Box> drawn_parts(Ui& ui);
 void knife_stroke(Ui& ui, ImDrawList& draw);
 /// What a nick at the pointer would cut.
 void springs_to_cut(Ui& ui, ImDrawList& draw);
+
+// The cloth's picture, and the marks over it.
+
+/// The five views (2.4), in the order of their keys.
+inline constexpr std::array<const char*, 5> view_names{"1 Triangles", "2 Connections", "3 Both", "4 Outlines",
+                                                       "5 Points"};
+
+/// How far below the upper edge what stands under the view buttons begins, pixels at scale 1.
+inline constexpr float under_views_at_1 = 44;
+
+void viewport_panel(Ui& ui, const Region& region);
+/// The list of what can color the cloth, at the cursor, and the legend of what does.
+void color_menu(Ui& ui, float width);
+/// As wide as it should be.
+float color_menu_width(const Ui& ui);
+void color_legend(Ui& ui);
+void banner(Ui& ui, const Box& region);
+/// Height at the foot of a region of that size that is the banner's own, so that it covers no cloth, px; 0 while there
+/// is none.
+float banner_strip(Ui& ui, glm::vec2 region);
+void message_list(Ui& ui);
 
 }  // namespace tyglab

@@ -1,10 +1,14 @@
 // The building blocks of all marks over the cloth.
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 
-#include "app/render/weight_model.h"
-#include "app/tools/wind_arrow.h"
+#include "app/base/text.h"
+#include "app/render/solid_mesh.h"
+#include "app/session/motion.h"
+#include "app/tools/tools.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 
@@ -124,6 +128,28 @@ bool keep_in_picture(const Ui& ui, int tile, ImVec2 from, ImVec2& to) {
   keep(from.x, to.x, lo.x, hi.x), keep(from.y, to.y, lo.y, hi.y);
   to = {from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
   return part < 1;
+}
+
+// The name of the scene in presentation mode.
+
+void scene_name(Ui& ui, ImDrawList& draw, const Box& row) {
+  const Tokens& c = ui.theme.colors;
+  const ImFont &font = *ui.fonts.title, &mono = *ui.fonts.mono;
+  const float pad = ui.theme.px(12), gap = ui.theme.px(14);
+  const Preset& preset = ui.session.preset();
+  const std::string time =
+      ui.time_in_picture ? "t = " + time_number(clock_time(ui.session), preset.dt) + " s" : std::string();
+  const float time_width = time.empty() ? 0 : gap + text_width(mono, time);
+  // PAUSED has its place beside it.
+  const float most = row.hi.x - row.lo.x - pause_mark_size(ui).x - gap;
+  const std::string name = fitted(font, preset.name, most - 2 * pad - time_width);
+  const float name_width = text_width(font, name);
+  const Box box{row.lo, {std::ceil(row.lo.x + 2 * pad + name_width + time_width), row.hi.y}};
+  draw.AddRectFilled(vec(box.lo), vec(box.hi), faded(c.ground, 0.85f), ui.theme.px(6));
+  const float baseline = baseline_at(ui.fonts, (box.lo.y + box.hi.y) / 2);
+  draw_on_baseline(draw, font, {box.lo.x + pad, baseline}, c.text, name);
+  if (!time.empty()) draw_on_baseline(draw, mono, {box.lo.x + pad + name_width + gap, baseline}, c.text, time);
+  ui.placing.take("scene_name", box);
 }
 
 }  // namespace tyglab

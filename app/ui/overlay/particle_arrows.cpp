@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/base/numbers.h"
-#include "app/ui/kit/curves.h"
-#include "app/ui/kit/symbol.h"
+#include "app/base/text.h"
+#include "app/ui/kit/chart.h"
+#include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
 
 namespace tyglab {

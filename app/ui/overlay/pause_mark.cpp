@@ -3,10 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "app/base/numbers.h"
-#include "app/ui/kit/symbol.h"
+#include "app/base/text.h"
+#include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "app/ui/kit/imgui_compat.h"
-#include "app/ui/kit/symbol.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/overlay/overlay.h"
-#include "app/ui/overlay/viewport_panel.h"
 
 namespace tyglab {
 namespace {

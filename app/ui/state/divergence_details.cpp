@@ -1,9 +1,9 @@
-#include "app/ui/state/divergence_details.h"
+#include "app/ui/state/ui.h"
 
 #include <cmath>
 #include <cstdio>
 
-#include "app/base/numbers.h"
+#include "app/base/text.h"
 
 namespace tyglab {
 

@@ -14,8 +14,13 @@
 #include <vector>
 
 #include "app/scene/sketch.h"
+#include "app/session/copies.h"
+#include "app/session/session.h"
 #include "app/tools/tools.h"
+#include "app/ui/kit/chart.h"
 #include "app/ui/kit/ui_context.h"
+#include "core/engines/engine.h"
+#include "core/model/preset.h"
 
 namespace tyglab {
 
@@ -135,7 +140,7 @@ struct Tour {
   Place transport, labs;  ///< where the top bar drew them
 };
 
-/// Rows and columns (x, y) that were typed, until it is said what they mean (resolution_row.h).
+/// Rows and columns (x, y) that were typed, until it is said what they mean (constants_panel.h).
 struct AskedLattice {
   glm::ivec2 of;  ///< of which cloth
   double L;
@@ -232,5 +237,18 @@ struct Ui : UiContext {
   SessionCounts seen_;
   std::optional<std::optional<ParticleField>> color_before_replay_;  ///< none: no replay has set it
 };
+
+// The visual distinction of the cloths while there are copies.
+
+/// Of the n-th cloth (n = Copies::original or a copy), the same in plots, labels and as an overlay.
+inline CurveStyle cloth_style(const Tokens& colors, const Session& session, int n) {
+  return copy_style(colors, cloth_of(session, n).preset().integrator, seat_of_style(session, n));
+}
+
+// The description of a divergence, of the cloth itself or of a copy.
+
+/// When, where and what it was, and the constants `then` that decided it: they may be others by now. `limit`: the
+/// largest dt that was stable in any shape, s; 0 or infinite: there is none.
+std::string what_happened(const Divergence& divergence, const Preset& then, double limit);
 
 }  // namespace tyglab

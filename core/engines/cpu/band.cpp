@@ -8,7 +8,7 @@
 #include "core/engines/cpu/row_update.h"
 #include "core/forces/contact.h"
 #include "core/forces/spring-inl.h"
-#include "core/simd/row_distances.h"
+#include "core/simd/row_field.h"
 
 namespace tyglab::cpu {
 namespace {

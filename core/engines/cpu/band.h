@@ -12,7 +12,6 @@
 
 #include "core/cloth/lattice.h"
 #include "core/cloth/state.h"
-#include "core/cloth/tears.h"
 #include "core/engines/cpu/pair_sweep.h"
 #include "core/engines/cpu/parts.h"
 #include "core/engines/cpu/row_update.h"

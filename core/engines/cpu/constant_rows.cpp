@@ -4,7 +4,7 @@
 #include <hwy/highway.h>
 
 #include "core/cloth/lattice.h"
-#include "core/engines/cpu/constant_rows.h"
+#include "core/engines/cpu/constant_solve.h"
 #include "core/simd/simd-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/engines/cpu/constant_rows.h"
-
 namespace tyglab::cpu {
 namespace {
 

@@ -6,8 +6,8 @@
 #include <new>
 #include <utility>
 
-#include "core/cloth/start.h"
-#include "core/model/changes.h"
+#include "core/cloth/state.h"
+#include "core/model/effect.h"
 
 namespace tyglab::cpu {
 namespace {

@@ -7,7 +7,7 @@
 #include "core/engines/cpu/cpu_engine.h"
 #include "core/forces/readout.h"
 #include "core/forces/spring-inl.h"
-#include "core/simd/row_distances.h"
+#include "core/simd/row_field.h"
 
 namespace tyglab::cpu {
 

@@ -10,7 +10,7 @@
 #include "core/engines/cpu/band.h"
 #include "core/engines/cpu/projection_rows.h"
 #include "core/engines/cpu/team.h"
-#include "core/integrators/decay.h"
+#include "core/integrators/stabilized.h"
 
 namespace tyglab::cpu {
 

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <limits>
 
-#include "core/engines/cpu/register_limit.h"
+#include "core/engines/cpu/row_update.h"
 #include "core/forces/spring-inl.h"
 #include "core/simd/simd-inl.h"
 

@@ -8,8 +8,6 @@
 #include <immintrin.h>
 #endif
 
-#include "core/engines/cpu/wait.h"
-
 namespace tyglab::cpu {
 namespace {
 

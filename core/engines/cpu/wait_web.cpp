@@ -1,4 +1,4 @@
-#include "core/engines/cpu/wait.h"
+#include "core/engines/cpu/team.h"
 
 #include <emscripten/threading.h>
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/engines/implicit/stiffness.h"
-#include "core/model/clocks.h"
+#include "core/model/preset.h"
 
 namespace tyglab::implicit {
 namespace {

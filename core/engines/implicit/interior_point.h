@@ -17,12 +17,12 @@
 #include <vector>
 
 #include "core/cloth/lattice.h"
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
 #include "core/engines/balance.h"
 #include "core/engines/implicit/barrier_rows.h"
 #include "core/engines/implicit/crew.h"
 #include "core/engines/implicit/multigrid.h"
-#include "core/integrators/solve_counts.h"
+#include "core/integrators/scheme.h"
 
 namespace tyglab::implicit {
 

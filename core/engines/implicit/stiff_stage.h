@@ -8,11 +8,11 @@
 #include <span>
 
 #include "core/cloth/lattice.h"
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
 #include "core/engines/balance.h"
 #include "core/engines/implicit/interior_point.h"
 #include "core/engines/newton.h"
-#include "core/integrators/solve_counts.h"
+#include "core/integrators/scheme.h"
 #include "core/model/preset.h"
 
 namespace tyglab::implicit {

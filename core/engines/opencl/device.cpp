@@ -7,8 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/engines/opencl/disk_cache.h"
-#include "core/engines/opencl/driver_loader.h"
+#include "core/engines/opencl/program_text.h"
 
 namespace tyglab::opencl {
 namespace {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/engines/gl_vertices.h"
-#include "core/engines/opencl/gl_context.h"
 #include "core/engines/opencl/handles.h"
 #include "core/engines/opencl/opencl_devices.h"
 
@@ -82,5 +81,35 @@ class Device {
 /// The device of that number among opencl_devices(); -1: the first graphics card, or else the first device. Throws
 /// EngineError, which says what to do.
 std::shared_ptr<Device> open_device(int number);
+
+}  // namespace tyglab::opencl
+
+// Arguments of kernels. Include this only in this folder.
+
+namespace tyglab::opencl {
+
+/// Sets consecutive arguments from number `at` on; returns the number of the next.
+template <class... T>
+int set_arguments(const Kernel& kernel, int at, const T&... values) {
+  // Buffers are arguments as their handles, which are pointers.
+  // NOLINTNEXTLINE(bugprone-sizeof-expression)
+  (check(clSetKernelArg(kernel.get(), cl_uint(at++), sizeof values, &values), "setting an argument"), ...);
+  return at;
+}
+
+}  // namespace tyglab::opencl
+
+// The library that finds OpenCL drivers, and the advice if it or a driver is missing, for each system.
+
+namespace tyglab::opencl {
+
+/// Whether the library is there; until it has been found no function of OpenCL may be called. The program is linked
+/// with it on Linux, and takes it at run time on Windows, where a graphics driver brings it.
+bool driver_loader_is_there();
+
+/// How one gets a device, a sentence.
+std::string_view how_to_get_a_device();
+/// What to do where a driver fails at what it should be able to do: an instruction without its full stop.
+std::string_view how_to_mend_a_driver();
 
 }  // namespace tyglab::opencl

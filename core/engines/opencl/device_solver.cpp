@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/engines/opencl/arguments.h"
+#include "core/engines/opencl/device.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab::opencl {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "core/cloth/lattice.h"
-#include "core/cloth/tears.h"
+#include "core/cloth/state.h"
+#include "core/engines/engine.h"
 #include "core/engines/opencl/device.h"
-#include "core/engines/position_memory.h"
 
 namespace tyglab::opencl {
 

@@ -1,4 +1,5 @@
-#include "core/engines/opencl/disk_cache.h"
+
+#include "core/engines/opencl/program_text.h"
 
 #include <array>
 #include <cstdint>
@@ -7,8 +8,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/io/files.h"
-#include "core/io/user_folders.h"
+#include "core/io/output_file.h"
+#include "core/io/system_files.h"
 
 namespace tyglab::opencl {
 namespace {
@@ -56,6 +57,20 @@ void keep_on_disk(const std::string& key, const std::string& content) {
     write_atomically(file, content);
   } catch (const OutputError&) {  // then it is made again next time
   }
+}
+
+}  // namespace tyglab::opencl
+
+namespace tyglab::opencl {
+
+std::string program_features(const Preset& preset, bool contacts) {
+  std::string text;
+  if (preset.k_d > 0) text += " -D DAMPING";
+  if (preset.kind == Kind::one_weight) return text + " -D ONE_WEIGHT";
+  if (preset.k_b > 0) text += " -D BENDING";
+  if (preset.W != glm::dvec3(0)) text += " -D WIND";
+  if (meets_bodies(preset)) text += contacts ? " -D BODIES -D CONTACTS" : " -D BODIES";
+  return text;
 }
 
 }  // namespace tyglab::opencl

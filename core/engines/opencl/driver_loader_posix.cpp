@@ -1,4 +1,4 @@
-#include "core/engines/opencl/driver_loader.h"
+#include "core/engines/opencl/device.h"
 
 namespace tyglab::opencl {
 

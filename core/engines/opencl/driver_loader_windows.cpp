@@ -1,6 +1,6 @@
 #include <windows.h>
 
-#include "core/engines/opencl/driver_loader.h"
+#include "core/engines/opencl/device.h"
 
 namespace tyglab::opencl {
 

@@ -1,4 +1,4 @@
-#include "core/engines/opencl/gl_context.h"
+#include "core/engines/opencl/opencl_devices.h"
 
 #include <mutex>
 #include <vector>

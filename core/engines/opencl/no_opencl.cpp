@@ -1,6 +1,5 @@
 // Replaces the OpenCL engine in a build without it (TYGLAB_OPENCL=OFF): there is no device, and a request for one is an
 // error that names the reason.
-#include "core/engines/opencl/make_opencl_engine.h"
 #include "core/engines/opencl/opencl_devices.h"
 
 namespace tyglab {

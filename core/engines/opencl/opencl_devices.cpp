@@ -6,9 +6,9 @@
 #include <mutex>
 #include <utility>
 
-#include "core/cloth/start.h"
+#include "core/cloth/state.h"
 #include "core/engines/engine.h"
-#include "core/engines/opencl/program_features.h"
+#include "core/engines/opencl/program_text.h"
 #include "core/integrators/scheme.h"
 
 namespace tyglab {

@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "core/engines/engine.h"
 
 namespace tyglab {
 
@@ -77,5 +80,44 @@ bool opencl_works_in_place(int number);
 bool opencl_offers_gl_sharing(int number);
 /// Why that device does not share buffers with the OpenGL context in use, as part of a sentence; empty if it does.
 std::string opencl_gl_problem(int number);
+
+}  // namespace tyglab
+
+// Creates the OpenCL engine without an OpenCL header.
+
+namespace tyglab::opencl {
+
+/// Throws EngineError where there is no such device, it cannot run the preset, or the program was built without OpenCL.
+/// `width`: particles that a work-item works on at a time, 1, 4, 8 or 16; 0: what suits the device (tests try all).
+std::unique_ptr<Engine> make_opencl_engine(const Preset& preset, const Lattice& lattice, int width = 0);
+
+}  // namespace tyglab::opencl
+
+// The OpenGL context with which devices share buffers. It includes no header of OpenGL or OpenCL; app provides the
+// handles of its window.
+
+namespace tyglab {
+
+/// An OpenGL context by the handles of its window system.
+struct GlContext {
+  void *context = nullptr, *display = nullptr;  ///< GLXContext and Display*, or EGLContext and EGLDisplay
+  bool glx = false;
+  std::uint64_t number = 0;  ///< set by GlContextInUse, since another context may get the same address
+};
+
+/// While it exists, newly opened devices share buffers with that context if they can. The latest one counts.
+class GlContextInUse {
+ public:
+  explicit GlContextInUse(GlContext context);
+  ~GlContextInUse();
+  GlContextInUse(const GlContextInUse&) = delete;
+  GlContextInUse& operator=(const GlContextInUse&) = delete;
+
+ private:
+  std::uint64_t number_;
+};
+
+/// The one in use; its number is 0 if there is none.
+GlContext gl_context_in_use();
 
 }  // namespace tyglab

@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/cloth/start.h"
-#include "core/engines/opencl/arguments.h"
+#include "core/cloth/state.h"
+#include "core/engines/opencl/device.h"
 #include "core/engines/opencl/opencl_devices.h"
 #include "core/engines/opencl/program_text.h"
 #include "core/forces/contact.h"
-#include "core/model/changes.h"
+#include "core/model/effect.h"
 
 namespace tyglab::opencl {
 namespace {

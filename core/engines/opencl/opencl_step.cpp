@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/engines/opencl/arguments.h"
+#include "core/engines/opencl/device.h"
 #include "core/engines/opencl/opencl_engine.h"
 
 namespace tyglab::opencl {

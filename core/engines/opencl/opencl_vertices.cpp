@@ -1,5 +1,5 @@
 // Brings an OpenCL engine's positions to OpenGL: in memory that both use, or in buffers that both open.
-#include "core/engines/opencl/arguments.h"
+#include "core/engines/opencl/device.h"
 
 #include <cassert>
 #include "core/engines/opencl/card_vertices.h"

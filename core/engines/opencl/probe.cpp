@@ -6,10 +6,9 @@
 #include <new>
 #include <vector>
 
-#include "core/engines/opencl/arguments.h"
+#include "core/engines/engine.h"
 #include "core/engines/opencl/device.h"
-#include "core/engines/opencl/kernel_text.h"
-#include "core/engines/position_memory.h"
+#include "core/engines/opencl/program_text.h"
 
 namespace tyglab {
 namespace opencl {

@@ -1,7 +1,5 @@
 #include "core/engines/opencl/program_text.h"
 
-#include "core/engines/opencl/kernel_text.h"
-
 namespace tyglab::opencl {
 namespace {
 

@@ -1,7 +1,0 @@
-#include "app/platform/threads.h"
-
-namespace tyglab {
-
-void lower_own_priority() {}
-
-}  // namespace tyglab

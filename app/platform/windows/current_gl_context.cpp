@@ -1,9 +1,0 @@
-#include "app/platform/current_gl_context.h"
-
-namespace tyglab {
-
-GlContext current_gl_context(void (*(*)(const char* name))()) {
-  return {};  // buffers are shared under EGL and GLX alone; here positions are copied
-}
-
-}  // namespace tyglab
