@@ -34,7 +34,8 @@ class Browser:
         self.process.wait(30)
         shutil.rmtree(self.folder, ignore_errors=True)
 
-    def page(self, address, width=1280, height=720, scale=1, touch=False):
+    def page(self, address, width=1280, height=720, scale=1, touch=False, script="", blocked=()):
+        """`script` runs before the page's own; addresses that match `blocked` do not load."""
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}/json/new?about:blank", method="PUT")
         with urllib.request.urlopen(request) as answer:
             page = Page(json.load(answer)["webSocketDebuggerUrl"])
@@ -43,6 +44,11 @@ class Browser:
             page.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
         page.call("Page.bringToFront")
         page.call("Emulation.setFocusEmulationEnabled", enabled=True)
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=script)
+        if blocked:
+            page.call("Network.setBypassServiceWorker", bypass=True)
+            page.call("Network.setCacheDisabled", cacheDisabled=True)
+            page.call("Network.setBlockedURLs", urls=list(blocked))
         page.call("Page.navigate", url=address)
         return page
 

@@ -32,6 +32,8 @@ def served(folder, threads=False):
             if threads:
                 self.send_header("Cross-Origin-Opener-Policy", "same-origin")
                 self.send_header("Cross-Origin-Embedder-Policy", "require-corp")
+            if "sandboxed" in self.path:
+                self.send_header("Content-Security-Policy", "sandbox allow-scripts")
             super().end_headers()
 
         def log_message(self, *_):
@@ -278,6 +280,38 @@ class Tests:
     def test_broken_link(self):
         page = self.browser.page(f"{self.home}/#nothing")
         page.wait("document.getElementById('words')?.textContent.includes('names no shipped preset')", 120)
+        page.call("Page.close")
+
+    def test_says_what_is_missing(self):
+        """Whatever keeps the page from starting or from going on is said, with a way on."""
+        words, retry = "document.getElementById('words').textContent", "document.getElementById('retry')"
+        for name in ["page.js", "tyglab.js", "tyglab.wasm", "data.bin"]:
+            page = self.browser.page(f"{self.home}/?embed", blocked=[f"*/{name}"])
+            page.wait(f"{words}.includes('{name} did not load') && {retry}.checkVisibility()", 30)
+            page.call("Network.setBlockedURLs", urls=[])
+            page.ask(f"void {retry}.click()")
+            page.started()
+            page.call("Page.close")
+        page = self.browser.page(f"{self.home}/?embed&sandboxed")
+        page.wait(f"{words}.includes('allow-same-origin')", 30)
+        page.call("Page.close")
+        page = self.browser.page(f"{self.home}/?report#hanging&k_s=80")
+        page.started()
+        page.ask("document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()")
+        page.wait(f"{words}.includes('taken the graphics') && {retry}.checkVisibility()", 30)
+        self.shot(page, "lost")
+        page.ask(f"void {retry}.click()")
+        time.sleep(1)
+        page.started()
+        assert report(page)["preset"]["forces"]["k_s"] == 80
+        page.call("Page.close")
+
+    def test_storage_blocked(self):
+        blocked = "".join(f"""Object.defineProperty(window, '{name}', {{
+            get() {{ throw new DOMException('no access', 'SecurityError'); }} }});""" for name in ["localStorage", "sessionStorage"])
+        page = self.open("?report#hanging", script=blocked)
+        before = report(page)["frames"]
+        wait_for(page, "it goes on", lambda now: now["frames"] > before + 10)
         page.call("Page.close")
 
     def test_files(self):

@@ -49,7 +49,7 @@ addToLibrary({
       try {
         const worker = tyglabPage.workers[number] = new Worker(Module.workerAddress);
         worker.onmessage = ({data}) => (data.pieces ? tyglabPage.takeBack(data.pieces) : report(data));
-        worker.onerror = (event) => fail(event.message);
+        worker.onerror = (event) => fail(event.message ?? Module.workerAddress + ' did not load.');
         const pieces = tyglabPage.memoryInPieces();
         worker.postMessage({module: Module.compiled, pieces, parts}, pieces.map((piece) => piece.buffer));
       } catch (error) {
@@ -242,6 +242,7 @@ addToLibrary({
     matchMedia('(pointer: coarse)').addEventListener('change', tyglabPage.resized);  // a mouse is plugged in
     tyglabPage.listenToPointer(canvas);
     tyglabPage.listenToKeys(canvas);
+    canvas.addEventListener('webglcontextlost', () => Module.lost?.());
     window.addEventListener('dragover', (event) => event.preventDefault());
     window.addEventListener('drop', (event) => {
       event.preventDefault();
@@ -323,21 +324,20 @@ addToLibrary({
   // localStorage holds text: JSON as it is, and nothing large. It belongs to the page, whichever thread asks.
   tyglab_keep_files__proxy: 'sync',
   tyglab_keep_files: (folder) => {
-    if (typeof localStorage === 'undefined' || Module.embedded) return;  // a course's page changes nothing
+    if (typeof document === 'undefined' || Module.embedded) return;  // a course's page changes nothing
     const keep = (path) => {
       for (const name of FS.readdir(path)) {
         const inside = path + '/' + name;
         if (name === '.' || name === '..') continue;
         if (FS.isDir(FS.stat(inside).mode)) keep(inside);
-        else if (name.endsWith('.json'))
-          try {
-            localStorage.setItem('tyglab:' + inside, FS.readFile(inside, {encoding: 'utf8'}));
-          } catch (error) {
-            console.warn('Tyglab: ' + inside + ' could not be kept: ' + error.message);
-          }
+        else if (name.endsWith('.json')) localStorage.setItem('tyglab:' + inside, FS.readFile(inside, {encoding: 'utf8'}));
       }
     };
-    keep(UTF8ToString(folder));
+    try {
+      keep(UTF8ToString(folder));
+    } catch (error) {  // where storage is blocked its very name throws
+      console.warn('Tyglab: nothing can be kept: ' + error.message);
+    }
   },
 
   tyglab_page_address: (text, bytes) => {

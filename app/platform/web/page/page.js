@@ -23,15 +23,6 @@ function show(text) {
   words.textContent = text;
 }
 
-/// The program cannot start, or has ended: why, and what to do.
-function end(text) {
-  show(text);
-  progress.hidden = true;
-  document.getElementById('action').hidden = false;
-  document.getElementById('again').href = location.pathname;
-  document.getElementById('start').classList.remove('gone');
-}
-
 /// What a browser must have; a module with one vector instruction is valid where there are any.
 function check_browser() {
   const simd = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15,
@@ -46,10 +37,17 @@ function check_browser() {
 
 let loaded = 0;
 
+/// What comes of a file; where the network breaks off, in words.
+function of_file(name, promise) {
+  return promise.catch((error) => {
+    throw error instanceof TypeError ? new Refusal(missing(name)) : error;
+  });
+}
+
 /// A file, counted as it comes.
 async function fetched(name) {
-  const answer = await fetch(name);
-  if (!answer.ok) throw new Refusal(`${name} could not be loaded (${answer.status} ${answer.statusText}). Load the page again.`);
+  const answer = await of_file(name, fetch(name));
+  if (!answer.ok) throw new Refusal(`${name} did not load: the server answered ${answer.status} ${answer.statusText}.`);
   const counted = answer.body.pipeThrough(new TransformStream({
     transform(bytes, out) {
       loaded += bytes.length;
@@ -124,9 +122,20 @@ function show_bar(tyglab) {
   canvas.ariaLabel += ' F6 leaves the cloth.';
 }
 
+/// The textures; a cloth is gray until they come, however often that takes.
+async function textures() {
+  for (;;)
+    try {
+      return unpack(await (await fetched('textures.bin')).arrayBuffer());
+    } catch (error) {
+      console.warn('Tyglab: ' + error.message);
+      await new Promise((done) => setTimeout(done, 10000));
+    }
+}
+
 /// What is not needed for the first frame.
 async function load_the_rest(tyglab) {
-  for (const [name, bytes] of unpack(await (await fetched('textures.bin')).arrayBuffer())) {
+  for (const [name, bytes] of await textures()) {
     write(tyglab, name, bytes);
     tyglab.tyglabPage.withText(name, tyglab._tyglab_on_drop);
   }
@@ -143,16 +152,16 @@ function threads() {
 
 async function start() {
   check_browser();
-  const data = fetched('data.bin').then((answer) => answer.arrayBuffer());
+  const data = of_file('data.bin', fetched('data.bin').then((answer) => answer.arrayBuffer()));
   const code = new Promise((done, failed) => {
     const script = document.createElement('script');
     script.src = program + '.js';
     script.onload = done;
-    script.onerror = () => failed(new Refusal(`${program}.js could not be loaded. Load the page again.`));
+    script.onerror = () => failed(new Refusal(missing(program + '.js')));
     document.head.append(script);
   });
-  const compiled = await WebAssembly.compileStreaming(fetched(program + '.wasm'));
-  await code;
+  const module = of_file(program + '.wasm', WebAssembly.compileStreaming(fetched(program + '.wasm')));
+  const [compiled, packed] = await Promise.all([module, data, code]);
   show('Starting…');
   let said = '';
   const tyglab = await createTyglab({
@@ -163,6 +172,8 @@ async function start() {
     },
     print: (text) => console.log(text),
     printErr: (text) => { said += text + '\n'; console.log(text); },
+    lost: () => end('The browser has taken the graphics away from this page, as it does when the driver restarts or too many pages ' +
+                    'draw. Try again: the address holds your constants.'),
     firstFrame: () => {
       document.getElementById('start').classList.add('gone');
       performance.mark('tyglab first frame');
@@ -170,7 +181,7 @@ async function start() {
     },
   });
   window.tyglab = tyglab;
-  for (const [name, bytes] of unpack(await data)) write(tyglab, name, bytes);
+  for (const [name, bytes] of unpack(packed)) write(tyglab, name, bytes);
   tyglab.FS.symlink('/tyglab/bin/tyglab', '/proc/self/exe');
   if (!embedded) restore(tyglab);
   else show_bar(tyglab);
