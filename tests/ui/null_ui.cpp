@@ -264,6 +264,11 @@ void NullUi::scroll_to(const std::string& name, const std::string& over) {
   if (!sees(name)) FAIL("the wheel does not bring ", name, " into sight");
 }
 
+void NullUi::turn_to(const std::string& name) {
+  for (int n = 0; n < 9 && !sees(name); ++n) click("lab.page_on");
+  if (!sees(name)) FAIL("no page of the lab has ", name);
+}
+
 void NullUi::type_value(const std::string& constant, std::string_view text, int end) {
   const glm::vec2 at = middle("constants." + constant + ".value");
   apart();
