@@ -124,10 +124,14 @@ void verdict(Ui& ui, Pages& pages, const Prediction& asked, const StepRecord& re
   if (record.looked)
     return marked_line(ui, pages, icon::unknown, "?", c.warning, "Predicted after a look, so not counted: " + said,
                        c.text);
-  if (record.right) return marked_line(ui, pages, icon::check, "+", c.good, "You were right: " + said, c.text);
-  const std::string answer = number ? with_unit(record.answer, asked.unit) : asked.choices[asked.right];
+  // What the step has measured is said beside what was predicted, even if that is near enough.
+  const bool measured = number && !asked.answer.name.empty();
+  const std::string answer = number ? with_unit(rounded(record.answer, 3), asked.unit) : asked.choices[asked.right];
+  if (record.right)
+    return marked_line(ui, pages, icon::check, "+", c.good,
+                       "You were right: " + said + (measured ? "; measured: " + answer : ""), c.text);
   marked_line(ui, pages, icon::close, "x", c.warning, "You predicted: " + said, c.text);
-  marked_line(ui, pages, icon::check, "+", c.good, "Right: " + answer, c.text);
+  marked_line(ui, pages, icon::check, "+", c.good, (measured ? "Measured: " : "Right: ") + answer, c.text);
 }
 
 /// Takes what was typed; what is refused leaves the keyboard to the field.
@@ -245,10 +249,11 @@ CheckState shown_state(const Condition& check, CheckState state) {
 void check_line(Ui& ui, Pages& pages, const LabRun& run, const Condition& check, CheckState state,
                 const CheckMemory& memory) {
   const Tokens& c = ui.theme.colors;
-  if (run.record().done)
-    return marked_line(ui, pages, icon::check, "+", c.good, with_whole_terms(words_of(check) + compared(run, check)),
-                       c.text);
   const std::string words = with_whole_terms(check_in_words(ui.session, check, state, memory));
+  if (run.record().done) {
+    const std::string done = with_whole_terms(words_of(check) + compared(run, check));
+    return marked_line(ui, pages, icon::check, "+", c.good, check.span == Span::narrowed ? words : done, c.text);
+  }
   state = shown_state(check, state);
   // What must hold to the end holds so far, and is nothing that has been done.
   if (state == CheckState::holds && check.span == Span::throughout)
