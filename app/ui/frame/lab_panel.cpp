@@ -62,7 +62,8 @@ class Pages {
   void text(std::string_view words, ImU32 color, const ImFont& font, const char* sign = nullptr, ImU32 sign_color = 0) {
     const float indent = sign != nullptr ? ui_.theme.px(22) : 0, line = font.FontSize;
     std::string_view rest;
-    const std::string lines = in_lines(font, words, width_ - indent);
+    const std::string lines =
+        in_lines(font, ui_.input.by_touch ? for_fingers(words) : std::string(words), width_ - indent);
     for (rest = lines; !rest.empty();) {
       const auto all = std::size_t(std::count(rest.begin(), rest.end(), '\n')) + 1;
       if (y_ > 0 && y_ + line * float(std::min<std::size_t>(all, 2)) > area_.size.y) ++column_, y_ = 0;
