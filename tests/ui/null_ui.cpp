@@ -97,7 +97,7 @@ NullUi::NullUi(const UiOptions& options) : context_(nullptr) {
   gui::prepare_io(io);
   io.DisplaySize = ImVec2(float(options.size.x), float(options.size.y));
   io.DeltaTime = float(frame_time);
-  settings.tour_seen = true;
+  settings.tour_seen = settings.cut_told = true;
   options.settings(settings);
   ui.controls = &places_;
   session.labs.progress = settings.labs;

@@ -69,8 +69,19 @@ void Ui::show_what_to_change() {
   if (const auto rows = checked_constants(*this); !rows.empty()) bring_into_sight(*this, rows.front()->key);
 }
 
+/// A left drag cuts, which a newcomer has not known: how to pull instead, and how to take it back.
+void Ui::tell_of_first_cut() {
+  constexpr double read_in = 8;  // s
+  const auto kind = tools.tool.kind;
+  if (kind == Tool::Kind::grab) cut_hint.reset();
+  if (session.counts.touches == seen_.touches || kind != Tool::Kind::cut || settings.cut_told) return;
+  settings.cut_told = true;
+  cut_hint = CutHint{input.at, now + read_in};
+}
+
 void Ui::follow() {
   const SessionCounts& counts = session.counts;
+  tell_of_first_cut();
   if (counts.documents != seen_.documents) slider = SliderState{}, constants_to_top = true;
   remember_recent();
   follow_replay();

@@ -182,6 +182,12 @@ enum class Side {
   plots
 };
 
+/// What the first cut says beside the pointer.
+struct CutHint {
+  glm::vec2 at;  ///< px
+  double until;  ///< s
+};
+
 struct Ui : UiContext {
   Ui(Session& of, Scene& in, Tools& with, InputQueue& events, Settings& remembered)
       : UiContext(events, remembered, of.messages, in.viewport), session(of), scene(in), tools(with) {}
@@ -217,6 +223,7 @@ struct Ui : UiContext {
   LabField lab_field;
   LabCards lab_cards;
   LabPages lab_pages;
+  std::optional<CutHint> cut_hint;
   float viewport_left = 0;       ///< pixels
   bool time_in_picture = false;  ///< presentation mode has no other place for the simulated time
   Side side = Side::main;
@@ -248,6 +255,7 @@ struct Ui : UiContext {
   void remember_recent();
   void follow_replay();
   void show_what_to_change();
+  void tell_of_first_cut();
   SessionCounts seen_;
   std::optional<std::optional<ParticleField>> color_before_replay_;  ///< none: no replay has set it
 };
