@@ -30,6 +30,9 @@ class Messages {
   void warning(std::string text) { add(Message::Severity::warning, std::move(text)); }
   void error(std::string text) { add(Message::Severity::error, std::move(text)); }
 
+  /// A folder whose name means nothing to the user, as the page's home: of files in it messages say the name alone.
+  std::string unnamed;
+
   /// What was said no longer holds.
   void take_back(const std::string& text) {
     std::erase_if(list_, [&](const Message& m) { return m.text == text; });
@@ -66,6 +69,10 @@ class Messages {
  private:
   static double lifetime(Message::Severity severity) { return severity == Message::Severity::note ? 4 : 8; }
   void add(Message::Severity severity, std::string text) {
+    for (std::size_t at = 0; !unnamed.empty() && (at = text.find(unnamed, at)) != std::string::npos;) {
+      const std::size_t end = std::min(text.find(' ', at), text.size());
+      text.erase(at, text.rfind('/', end - 1) + 1 - at);
+    }
     const bool shown = std::erase_if(list_, [&](const Message& m) { return m.text == text; }) > 0;
     if (severity != Message::Severity::note && !shown) std::cerr << "tyglab: " + text + '\n';
     list_.push_back({severity, std::move(text), -1});

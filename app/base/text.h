@@ -58,6 +58,9 @@ std::optional<double> typed_number(std::string_view text, std::string_view unit 
 /// With no-break spaces within formulas ("F = −k·(x − x₀)") and quantities ("0.5 N").
 std::string with_whole_terms(std::string text);
 
+/// What is to be done with mouse and keys, in the words of a finger on a touch screen.
+std::string for_fingers(std::string_view text);
+
 /// With a capital letter at the start, unless that is a symbol or a key.
 std::string capitalised(std::string text);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace tyglab {
@@ -33,6 +34,33 @@ std::string with_whole_quantities(std::string text) {
   }
   return text;
 }
+
+/// What mouse and keys do, and what a finger does instead; longer ones before those that they contain.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> fingers_do{{
+    {"Press Space to run", "Tap Run at the top"},
+    {"Press Space", "Tap Run at the top"},
+    {"press Space", "tap Run at the top"},
+    {"Right-click a particle", "Tap a particle"},
+    {"right-click a particle", "tap a particle"},
+    {"Double-click the number", "Double-tap the number"},
+    {", with the arrow keys on its slider or by typing,", ""},
+    {"restart with R", "restart"},
+    {"Restart with R", "Restart"},
+    {"restart (R)", "restart"},
+    {"R brings it back there", "Restart brings it back there"},
+    {"Hold the left button and drag across the sheet",
+     "Choose Cut with one finger in the menu, and draw across the sheet"},
+    {"Press W to see the wind's arrow, and drag its tip towards the far side of the sheet: Shift drags in depth, Ctrl "
+     "along one axis. Or type W's third number.",
+     "Type W's third number, the wind along z."},
+    {"Ctrl+L lists all labs", "The cap at the top lists all labs"},
+    {", in Ctrl+P, opens it", ", in the menu, opens it"},
+    {"Ctrl+Z then R", "Undo, then restart"},
+    {"Ctrl+Z undoes it", "Undo takes it back"},
+    {"Ctrl+Z undoes that", "Undo takes it back"},
+    {" (Ctrl+P)", ", in the menu,"},
+    {"Space runs", "Run goes on"},
+}};
 
 std::vector<std::string> split(std::string_view text, std::string_view at) {
   std::vector<std::string> parts;
@@ -157,6 +185,14 @@ std::vector<std::string> name_lines(const std::string& name, const std::string& 
   if (words.size() + more.size() > most) words = {shortened(name, width, measure)};
   words.insert(words.end(), more.begin(), more.end());
   return words;
+}
+
+std::string for_fingers(std::string_view text) {
+  std::string out(text);
+  for (const auto& [mouse, finger] : fingers_do)
+    for (std::size_t at = 0; (at = out.find(mouse, at)) != std::string::npos; at += finger.size())
+      out.replace(at, mouse.size(), finger);
+  return out;
 }
 
 std::string capitalised(std::string text) {

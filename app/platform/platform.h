@@ -124,6 +124,10 @@ bool display_there();
 /// s since some moment of this program: the time of events and frames.
 double window_time();
 
+/// Whether whoever sits there has asked all pages for a light ground, or for little motion; a desktop does not tell.
+bool prefers_light();
+bool prefers_little_motion();
+
 /// One window with a current OpenGL context: 3.3 core, or WebGL 2. Its events go to `queue`, which must outlive it.
 class Window {
  public:
@@ -145,8 +149,8 @@ class Window {
   /// Whether nobody sees it: iconified, or a page in the background.
   bool hidden() const;
   void set_title(const std::string& title);
-  /// What goes on, in words, for screen readers; a page alone can say it.
-  void tell(const std::string& state);
+  /// What goes on, in words, for screen readers: "state", "time" or "messages". A page alone can say it.
+  void tell(const std::string& part, const std::string& words);
   void toggle_full_screen();
   bool full_screen() const;
 

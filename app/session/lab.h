@@ -35,7 +35,8 @@ enum class Span {
   throughout,  ///< at every moment of the motion
   once,        ///< at some moment of it
   lasting,     ///< for the last `seconds` of it
-  when         ///< at the first moment at which another condition holds
+  when,        ///< at the first moment at which another condition holds
+  narrowed     ///< of a constant: found between a value at which another condition comes true, and one at which not
 };
 
 /// What must hold: the observable `name`, related to the operand.
@@ -44,8 +45,9 @@ struct Condition {
   Relation relation = Relation::equal;
   Operand right;
   Span span = Span::now;
-  double seconds = 0;           ///< simulated, of Span::lasting
-  std::vector<Condition> when;  ///< of Span::when: the one that decides the moment
+  double seconds = 0;           ///< simulated, of Span::lasting; of Span::narrowed: after which it has not come true
+  double from = 0;              ///< s, of Span::narrowed: what happens before that simulated time does not count
+  std::vector<Condition> when;  ///< of Span::when and Span::narrowed: the one that decides the moment
   bool to_find = false;         ///< the student is to find out what it asks for, which is shown once the step is done
 };
 

@@ -95,6 +95,18 @@ CheckState judge_when(Session& session, const Condition& check, CheckState now, 
   return memory.holds ? CheckState::holds : CheckState::broken;
 }
 
+/// A value counts once the moment has come with it, or has not in a time that is long enough. What is off says nothing.
+CheckState judge_narrowed(Session& session, const Condition& check, CheckMemory& memory) {
+  const double t = session.simulation->time(), value = observe(session, check.name).value_or(0);
+  const bool off = value == 0 && find_row(check.name)->zero_is_off, early = t < check.from;
+  const bool come = judge_now(session, check.when[0]) == CheckState::holds;
+  if (come && !std::exchange(memory.set, true) && !early) memory.with = value;
+  if (std::exchange(memory.watched, value) != value || early) memory.t = t;
+  const bool lasted = t - memory.t >= check.seconds - 1e-9 || session.asleep();
+  if (!memory.set && !off && !early && lasted) memory.without = value;
+  return narrowed(check, memory) ? CheckState::holds : CheckState::open;
+}
+
 /// "180 N/m or more", "below 215 N/m", "Verlet": what is asked for.
 std::string goal_in_words(Session& session, const Condition& check) {
   if (is_word(check.name)) {
@@ -210,6 +222,15 @@ std::string now_in_words(Session& session, const Condition& check, CheckState st
   return place.empty() ? text : text + " (" + place + ")";
 }
 
+/// "at 198 N/m, not at 150 N/m: come nearer": the values that a check has narrowed its constant down to so far.
+std::string narrowed_in_words(const Condition& check, const CheckMemory& memory) {
+  const auto at = [&](double value) { return "at " + with_unit(value, unit_of(check.name)); };
+  if (!memory.with && !memory.without) return "neither found yet";
+  if (!memory.with) return "not " + at(*memory.without) + "; one at which it does is to be found";
+  if (!memory.without) return at(*memory.with) + "; one near it at which it does not is to be found";
+  return at(*memory.with) + ", not " + at(*memory.without) + (narrowed(check, memory) ? "" : ": come nearer");
+}
+
 /// Whether a check of the step names the constant or one of its components, "W.x".
 bool named(const LabStep& step, std::string_view key) {
   return std::any_of(step.checks.begin(), step.checks.end(), [&](const Condition& check) {
@@ -259,12 +280,23 @@ MotionChange follow_motion(const Session& session, MotionWatch& watch) {
   return steps < before + session.steps_made ? MotionChange::back : MotionChange::taken_up;
 }
 
+bool narrowed(const Condition& check, const CheckMemory& memory) {
+  return memory.with && memory.without &&
+         std::abs(*memory.with - *memory.without) <= check.right.factor * std::abs(*memory.with) * (1 + 1e-9);
+}
+
 CheckMemory begun_late(Session& session, const Condition& check) {
-  if (check.span != Span::when || judge_now(session, check.when[0]) != CheckState::holds) return {};
+  if ((check.span != Span::when && check.span != Span::narrowed) ||
+      judge_now(session, check.when[0]) != CheckState::holds)
+    return {};
   return {true, false, session.simulation->time(), {}};
 }
 
 CheckState judge(Session& session, const Condition& check, MotionChange change, CheckMemory& memory) {
+  if (check.span == Span::narrowed) {
+    if (change == MotionChange::begun || change == MotionChange::back) memory.set = false, memory.watched.reset();
+    return judge_narrowed(session, check, memory);
+  }
   if (change == MotionChange::begun) memory = {};
   if (change == MotionChange::back && memory.t > session.simulation->time()) memory = {};
   if (change == MotionChange::taken_up && check.span == Span::throughout && !memory.set)
@@ -281,12 +313,15 @@ CheckState judge(Session& session, const Condition& check, MotionChange change, 
       return judge_lasting(session, check, now, memory);
     case Span::when:
       return judge_when(session, check, now, memory);
+    case Span::narrowed:
+      break;
   }
   return now;
 }
 
 std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory) {
   if (state == CheckState::broken) return broken_in_words(session, check, memory);
+  if (check.span == Span::narrowed) return words_of(check) + " · " + narrowed_in_words(check, memory);
   const bool holds = state == CheckState::holds;
   if (holds && !check.to_find && check.span == Span::throughout) {
     Condition plain = check;

@@ -25,6 +25,9 @@ struct CheckMemory {
   bool holds = false;    ///< … and this is what came of it,
   double t = 0;          ///< s, at this moment,
   std::string was = {};  ///< at which its quantity was this, in words
+  /// Of Span::narrowed, kept in all motions of the step: the constant's value when the moment came last, and the last
+  /// one at which it did not; and the one that is watched since t.
+  std::optional<double> with = {}, without = {}, watched = {};
 };
 
 /// What is watched of the motion, to tell its beginning.
@@ -55,6 +58,9 @@ CheckState judge(Session& session, const Condition& check, MotionChange change, 
 /// The check as the card says it: what is asked, which number is looked at now and where it is seen, and of a broken
 /// one why it is broken and what to do.
 std::string check_in_words(Session& session, const Condition& check, CheckState state, const CheckMemory& memory);
+
+/// Whether the check has its constant between two values that are near enough.
+bool narrowed(const Condition& check, const CheckMemory& memory);
 
 /// Whether both are bounds of one quantity that is to be found out, which the card lists as one.
 bool found_together(const Condition& one, const Condition& other);

@@ -117,6 +117,20 @@ void check_span(const Condition& given, const std::vector<std::string>& words) {
     throw LabError(given.name + " only grows: write the check without throughout, once and for");
 }
 
+/// "to 5 % in 0.5 s", or also "from 2 s", of a check that has its moment.
+void parse_narrowing(const std::vector<std::string>& words, Condition& given) {
+  const auto number = [&](std::size_t k) { return k < words.size() ? plain_number(words[k]).value_or(0) : 0; };
+  const auto seconds = [&](std::size_t k, std::string_view word) {
+    return words[k] == word && number(k + 1) > 0 && words[k + 2] == "s";
+  };
+  const bool percent = words.size() >= 8 && words[2] == "to" && words[4] == "%" && number(3) > 0 && number(3) <= 50;
+  const bool whole = percent && seconds(5, "in") && (words.size() == 8 || (words.size() == 11 && seconds(8, "from")));
+  if (given.span != Span::when || !whole || find_row(given.name) == nullptr)
+    throw LabError("a constant is narrowed down so: check: k_s narrowed to 5 % in 0.5 s when diverged = yes");
+  given.span = Span::narrowed, given.relation = Relation::at_most;
+  given.right.factor = number(3) / 100, given.seconds = number(6), given.from = number(9);
+}
+
 std::string_view sign_of(Relation relation) {
   return std::find_if(relation_signs.begin(), relation_signs.end(),
                       [&](const RelationSign& s) { return s.relation == relation; })
@@ -135,6 +149,8 @@ std::string words_of_span(const Condition& condition) {
       return " for " + shortest_number(condition.seconds) + " s";
     case Span::when:
       return " when " + (asks_divergence(condition.when[0]) ? "the cloth diverges" : words_of(condition.when[0]));
+    case Span::narrowed:
+      break;
   }
   return "";
 }
@@ -202,6 +218,7 @@ Condition parse_condition(std::string_view value, bool first_step) {
   check_span(given, words);
   if (given.name == "apart" && first_step)
     throw LabError("apart is measured from the step before, and there is none before the first");
+  if (words.size() > 1 && words[1] == "narrowed") return parse_narrowing(words, given), given;
   const auto sign = std::find_if(relation_signs.begin(), relation_signs.end(),
                                  [&](const RelationSign& s) { return words.size() > 1 && s.sign == words[1]; });
   if (sign == relation_signs.end())
@@ -252,6 +269,11 @@ std::string subject_of(const Condition& condition) {
 }
 
 std::string words_of(const Condition& condition) {
+  if (condition.span == Span::narrowed)
+    return label_of(condition.name) + " to within " + shortest_number(100 * condition.right.factor) +
+           " %: a value at which " +
+           (asks_divergence(condition.when[0]) ? "the cloth diverges" : words_of(condition.when[0])) +
+           ", and one at which not in " + shortest_number(condition.seconds) + " s";
   return (is_word(condition.name) ? words_of_word(condition) : words_of_number(condition)) + words_of_span(condition);
 }
 

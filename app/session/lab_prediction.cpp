@@ -54,7 +54,12 @@ void judge_prediction(Session& session, LabRun& run) {
     record.right = record.chosen == int(asked.right);
     return;
   }
-  const auto answer = value_of(session, asked.answer);
+  std::optional<double> answer = value_of(session, asked.answer);
+  // Of a constant that was narrowed down the middle, wherever it stands at this moment.
+  for (std::size_t k = 0; k < record.seen.size(); ++k)
+    if (const Condition& check = run.now().checks[k];
+        check.name == asked.answer.name && narrowed(check, record.seen[k]))
+      answer = (*record.seen[k].with + *record.seen[k].without) / 2;
   const auto said = typed_number(record.typed, asked.unit);
   if (!answer || !said) return;
   record.answer = *answer;

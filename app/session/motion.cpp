@@ -2,6 +2,8 @@
 
 #include "app/base/text.h"
 #include "app/session/session.h"
+#include "core/integrators/scheme.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 namespace {
@@ -144,6 +146,28 @@ void watch_dt(Session& session) {
 double clock_time(const Session& session) {
   const auto& divergence = session.simulation->divergence();
   return divergence ? divergence->t : session.simulation->time();
+}
+
+std::string state_in_words(const Session& session) {
+  const Preset& preset = session.preset();
+  std::string words =
+      preset.name + ", " + std::string(scheme(preset.integrator).title) + ", dt " + short_number(preset.dt) + " s";
+  if (const auto& run = session.labs.run) {
+    words += ". Lab “" + run->lab.title + "”, step " + std::to_string(run->step + 1) + " of " +
+             std::to_string(run->lab.steps.size()) + ": " + run->now().title;
+    words += run->record().done ? ", done" : run->to_be_predicted() ? ", waits for a prediction" : "";
+  }
+  if (const auto& divergence = session.simulation->divergence())
+    return words + ": diverged at t = " + short_number(divergence->t) + " s";
+  if (session.behind_page) return words + ": waits behind the start page";
+  if (session.pacing.playing) return words + (session.asleep() ? ": at rest" : ": running");
+  return words + ": paused at t = " + short_number(session.simulation->time()) + " s";
+}
+
+std::string time_in_words(const Session& session) {
+  const int torn = session.simulation->tears().torn_count();
+  return "t = " + time_number(clock_time(session), session.preset().dt) + " s" +
+         (torn > 0 ? ", " + std::to_string(torn) + " springs torn or cut" : "");
 }
 
 }  // namespace tyglab

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "app/session/session.h"
 
@@ -34,5 +35,9 @@ void move_hand(Session& session, const std::optional<glm::dvec3>& hand, int step
 /// What clocks show, s: the end of the last step or, after a divergence, of the step that diverged, which is also what
 /// sentences about it say.
 double clock_time(const Session& session);
+
+/// For screen readers: the scene, the method, the lab's step, and whether the motion runs, which change seldom.
+std::string state_in_words(const Session& session);
+std::string time_in_words(const Session& session);
 
 }  // namespace tyglab

@@ -1,6 +1,7 @@
 #include "app/shell/sandbox.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <limits>
@@ -14,13 +15,14 @@
 #include "app/render/gl_objects.h"
 #include "app/session/document.h"
 #include "app/session/lab_state.h"
+#include "app/session/motion.h"
 #include "app/shell/start.h"
 #include "app/ui/frame/frame.h"
 #include "app/ui/frame/panels.h"
 #include "app/ui/kit/imgui_compat.h"
-#include "core/integrators/scheme.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
+#include "core/io/system_files.h"
 #include "core/model/notation.h"
 #include "tests/bench/session_report.h"
 
@@ -31,17 +33,6 @@ enum ExitCode { done = 0, no_device = 5, no_output = 6, interrupted = 130 };
 
 constexpr double scripted_frame = 1.0 / 60;  // s; with --frames the same frames come on every machine
 constexpr double settle_time = 0.3;          // s after an event
-
-/// The scene, the method, and whether it runs: what changes seldom, since it is read out.
-std::string state_in_words(const Session& session) {
-  const Preset& preset = session.preset();
-  std::string words =
-      preset.name + ", " + std::string(scheme(preset.integrator).title) + ", dt " + short_number(preset.dt) + " s: ";
-  if (const auto& divergence = session.simulation->divergence())
-    return words + "diverged at t = " + short_number(divergence->t) + " s";
-  return words +
-         (session.pacing.playing ? "running" : "paused at t = " + short_number(session.simulation->time()) + " s");
-}
 
 class Sandbox : public FrameLoop {
  public:
@@ -75,6 +66,7 @@ class Sandbox : public FrameLoop {
   Settings present_settings();
   void remember();
   void show_link();
+  void tell();
   bool idle() const;
 
   SandboxOptions options_;
@@ -96,10 +88,10 @@ class Sandbox : public FrameLoop {
   std::optional<FileStamp> texture_read_;  ///< of the texture that is shown
   std::optional<Preset> linked_;           ///< whose link the page's address shows
   std::uint64_t linked_document_ = 0;
-  std::string linked_lab_;     ///< and the lab that it shows
-  bool address_left_ = false;  ///< the browser has gone to another link
-  std::string told_;           ///< in words
-  double next_link_ = 0;       ///< s, not before which it is looked at again
+  std::string linked_lab_;           ///< and the lab that it shows
+  bool address_left_ = false;        ///< the browser has gone to another link
+  std::array<std::string, 3> told_;  ///< in words
+  double next_link_ = 0;             ///< s, not before which it is looked at again
   Image last_picture_;
   const InterruptGuard guard_;  ///< from the first frame on, Ctrl-C ends it in good order
 };
@@ -117,6 +109,7 @@ Sandbox::Sandbox(const SandboxOptions& options)
   session_.costs.started(StartPart::cloth);
   input_.finger_button = [this](glm::vec2 at) { return finger_button(tools_, at); };
   input_.finger_on_cloth = [this](glm::vec2 at) { return scene_.viewport.takes(at); };
+  if (files_are_handed_out()) session_.messages.unnamed = home_folder().string();
   if (!options_.lab.empty()) ui_.act([lab = options_.lab](Ui& ui) { begin_lab(ui.session, lab); });
   ui_.panels = options_.panels;
   last_time_ = window_time();
@@ -216,13 +209,22 @@ bool Sandbox::due() {
   return !idle() || input_.anything || report_ != nullptr || window_time() >= ui_.draw_by;
 }
 
+/// In words, what changes seldom, the time, and the messages.
+void Sandbox::tell() {
+  static constexpr std::array parts{"state", "time", "messages"};
+  std::array<std::string, 3> words{state_in_words(session_), time_in_words(session_), {}};
+  for (const Message& message : session_.messages.list()) words[2] += capitalised(message.text) + "\n";
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (words[k] != told_[k]) window_.tell(parts[k], told_[k] = std::move(words[k]));
+}
+
 /// Shows the experiment's link in the page's address; a preset that is opened is a step that the browser goes back
 /// from.
 void Sandbox::show_link() {
   // What the browser went to is opened first, or its address would be overwritten.
   if (window_time() < next_link_ || !input_.dropped.empty() || page_address().empty()) return;
   next_link_ = window_time() + 0.5;
-  if (std::string state = state_in_words(session_); state != told_) window_.tell(told_ = std::move(state));
+  tell();
   const Preset preset = session_.requested_preset();
   const std::string lab = session_.labs.run ? session_.labs.run->lab.label : "";
   const bool opened = std::exchange(linked_document_, session_.counts.documents) != session_.counts.documents;

@@ -1,6 +1,7 @@
 #include "app/shell/start.h"
 
 #include "app/base/files.h"
+#include "app/platform/platform.h"
 #include "app/process/program_run.h"
 #include "app/session/document.h"
 #include "core/engines/opencl/opencl_devices.h"
@@ -32,6 +33,8 @@ void take_options(const SandboxOptions& options, Ui& ui) {
   session.scripted = options.frames > 0;
   session.threads = options.threads;
   session.labs.progress = ui.settings.labs;
+  if (!ui.settings.tour_seen && prefers_light()) ui.settings.theme = "light";
+  if (prefers_little_motion()) session.pacing.playing = false;
   // A scripted window is as large as the screen allows, so that a virtual screen sets the size of its picture.
   if (session.scripted) ui.settings.width = 2560, ui.settings.height = 1440;
   ui.plots.log = ui.settings.plot_log;

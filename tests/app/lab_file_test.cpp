@@ -175,6 +175,16 @@ TEST_CASE("a check says over which part of the motion it is judged") {
   CHECK(check("fastest < 0.1 m/s for 0.5").seconds == 0.5);
   CHECK(words_of(check("F_max < 0.1 N when torn > 0")) == "F_max < 0.1 N when torn > 0");
   CHECK(words_of(check("k_s > 185 when diverged = yes")) == "k_s > 185 N/m when the cloth diverges");
+  const Condition narrowed = check("k_s narrowed to 5 % in 0.5 s from 2 s when diverged = yes");
+  CHECK(narrowed.span == Span::narrowed);
+  CHECK(narrowed.right.factor == 0.05);
+  CHECK(narrowed.seconds == 0.5);
+  CHECK(narrowed.from == 2);
+  for (const char* wrong : {"k_s narrowed to 5 % in 0.5 s", "k_s narrowed to 5 in 0.5 s when diverged = yes",
+                            "k_s narrowed to 0 % in 0.5 s when diverged = yes", "k_s narrowed to 5 % in 0.5 s when",
+                            "k_s narrowed when diverged = yes", "energy narrowed to 5 % in 1 s when diverged = yes"})
+    CHECK(problem_in("check: " + std::string(wrong)) != "none");
+  CHECK(says(problem_in("check: energy narrowed to 5 % in 1 s when diverged = yes"), "a constant is narrowed down so"));
   CHECK(words_of(check("untouched = yes throughout")) == "Nothing else changed throughout");
   CHECK(words_of(check("untouched = no")) == "Something else changed");
   CHECK(says(problem_in("check: k_s > 3 N/m thruoghout"), "my.md:8: \"thruoghout\" ends no check; did you mean"));

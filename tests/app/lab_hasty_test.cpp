@@ -17,6 +17,7 @@ using test::LabPlayer;
 std::vector<std::string> asked_constants(const LabStep& step) {
   std::vector<std::string> settings;
   for (const Condition& check : step.checks) {
+    if (check.span == Span::narrowed) continue;  // no value is asked for
     if (check.name == "integrator" || check.name == "engine" || check.name == "precision") {
       settings.push_back(check.name + "=" + check.right.word);
     } else if (find_row(check.name) != nullptr && check.right.name.empty()) {
@@ -80,6 +81,9 @@ TEST_CASE("lab: k_s and the critical time step, done wrongly") {
   CHECK_FALSE(play.done());  // another dt made it explode
   play.restart();
   play.run(5);
+  play.set("k_s=187");
+  play.restart();
+  play.run(0.6);
   REQUIRE(play.done());
   CHECK_FALSE(play.right());
   play.next();
@@ -118,6 +122,8 @@ TEST_CASE("a prediction after constants were changed is marked, and counts neith
   play.set_up_again();
   CHECK(play.lab().record().looked);
   play.predict("200");
+  play.set("k_s=188");
+  play.run(0.6);
   play.set("k_s=195");
   play.run(5);
   REQUIRE(play.done());
@@ -138,7 +144,7 @@ TEST_CASE("lab: an explosion that a k_s beyond the limit began does not count be
   play.run(3);
   REQUIRE(play.session().simulation->divergence());
   CHECK_FALSE(play.done());
-  CHECK(play.card(2).starts_with("k_s was 300 N/m at t = "));
+  CHECK(play.card(1).starts_with("k_s was 300 N/m at t = "));
 }
 
 TEST_CASE("lab: what damping does to the limit, done wrongly") {
@@ -262,7 +268,7 @@ TEST_CASE("lab: tearing, done wrongly") {
   play.predict("0.08");
   play.run(0.1);
   CHECK_FALSE(play.done());  // it tore before the step began
-  CHECK(play.card(1) == "torn ≥ 100 was true before this step began: restart and get there with a higher F_max");
+  CHECK(play.card(0).ends_with(" · neither found yet"));
   play.restart();
   play.set("F_max=0");
   play.run(2.5);
@@ -272,18 +278,19 @@ TEST_CASE("lab: tearing, done wrongly") {
   play.set("F_max=0.08");
   play.run(0.2);
   CHECK_FALSE(play.done());  // it tore at another F_max
-  CHECK(play.card(1).starts_with("F_max was 0.02 N at t = 2."));
+  CHECK(play.card(0).ends_with(" · at 0.02 N; one near it at which it does not is to be found"));
   play.set("F_max=0.085");
   play.restart();
   play.run(3);
   CHECK(*observe(play.session(), "torn") >= 100);
   CHECK_FALSE(play.done());  // the fall tore it
+  CHECK(play.card(0).ends_with(" · at 0.02 N; one near it at which it does not is to be found"));
   play.restart();
   play.set("F_max=0");
   play.run(2.5);
-  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max *= 0.97) {
+  for (double F_max = 0.12; !play.done() && F_max > 0.05; F_max *= 0.96) {
     play.set("F_max=" + std::to_string(F_max));
-    play.run(0.3);
+    play.run(1.1);
   }
   finish(play);
 }

@@ -6,6 +6,8 @@
 
 #include "app/base/text.h"
 #include "app/session/lab_state.h"
+#include "app/session/motion.h"
+#include "app/session/observables.h"
 
 namespace tyglab::text_lines_test {
 
@@ -16,6 +18,54 @@ std::string broken(const std::string& text, float width) {
   std::string lines = broken_into_lines(with_whole_terms(text), width, letters);
   for (std::size_t at = 0; (at = lines.find("\u00a0", at)) != std::string::npos;) lines.replace(at, 2, " ");
   return lines;
+}
+
+/// Keys and buttons of the mouse, as words.
+bool names_keys_or_mouse(const std::string& text) {
+  for (const char* word : {"Space", "click", "Click", "Ctrl", "Shift", "(R)", "with R", "R brings", "Press W",
+                           "arrow key", "left button", "right button", "wheel"})
+    if (text.find(word) != std::string::npos) return true;
+  return false;
+}
+
+TEST_CASE("in the words of a finger no lab asks for a key or a button of the mouse") {
+  CHECK(for_fingers("Press Space, and let it rest.") == "Tap Run at the top, and let it rest.");
+  CHECK(for_fingers("Right-click a particle to pick it.") == "Tap a particle to pick it.");
+  CHECK(names_keys_or_mouse("Press Space."));
+  Session session;
+  for (const Lab& lab : find_labs(session))
+    for (const LabStep& step : lab.steps)
+      for (const Paragraphs& part : {step.text, step.todo, step.explanation})
+        for (const std::string& paragraph : part) {
+          CAPTURE(paragraph);
+          CHECK_FALSE(names_keys_or_mouse(for_fingers(paragraph)));
+        }
+  for (const Observable& row : observables()) CHECK_FALSE(names_keys_or_mouse(for_fingers(row.hint)));
+}
+
+TEST_CASE("messages name no folder that means nothing to the user") {
+  Messages messages;
+  messages.unnamed = "/home/web_user";
+  messages.note("Saved /home/web_user/.config/tyglab/presets/soft.json and its texture soft.png");
+  messages.note("/home/web_user/files/a.json:3: forces.k_s is missing.");
+  CHECK(messages.list()[0].text == "Saved soft.json and its texture soft.png");
+  CHECK(messages.list()[1].text == "a.json:3: forces.k_s is missing.");
+}
+
+TEST_CASE("a screen reader is told the scene, the lab's step and whether the motion runs; the time apart from that") {
+  Session session;
+  Preset preset;
+  preset.name = "A cloth";
+  session.simulation = std::make_shared<Simulation>(preset);
+  CHECK(state_in_words(session) == "A cloth, Verlet, dt 0.001 s: running");
+  CHECK(time_in_words(session).starts_with("t = 0"));
+  session.pacing.playing = false;
+  CHECK(state_in_words(session) == "A cloth, Verlet, dt 0.001 s: paused at t = 0 s");
+  session.behind_page = true;
+  CHECK(state_in_words(session).ends_with(": waits behind the start page"));
+  session.behind_page = false;
+  begin_lab(session, "01_hooke");
+  CHECK(state_in_words(session).find("step 1 of 3: A mass on a spring, waits for a prediction") != std::string::npos);
 }
 
 TEST_CASE("a formula goes to the next line whole") {

@@ -120,6 +120,19 @@ TEST_CASE("a cut with the left button removes springs, while the cloth moves and
   CHECK(window.steps() == 0);
 }
 
+TEST_CASE("the first cut of all says beside the pointer how to pull and how to take it back, and no other does") {
+  test::NullUi window({.settings = [](Settings& settings) { settings.cut_told = false; }});
+  fall(window, 0.5);
+  window.drag({at(window, 0.5, 0.5), at(window, 0.5, 0.6)});
+  REQUIRE(window.torn() > 0);
+  CHECK(window.drew("Right drag pulls. Ctrl+Z undoes the cut."));
+  CHECK(window.settings.cut_told);
+  window.frames(60 * 9);
+  CHECK_FALSE(window.drew("Right drag pulls"));
+  window.drag({at(window, 0.3, 0.5), at(window, 0.3, 0.6)});
+  CHECK_FALSE(window.drew("Right drag pulls"));
+}
+
 /// How much of the n-th picture's cloth is in it, 0 to 1.
 float in_sight(test::NullUi& window, int tile = 0) {
   const glm::vec2 size = window.ui.viewport.size();

@@ -92,6 +92,7 @@ TEST_CASE("in a small window with a lab the details scroll, stand over all else,
   test::NullUi window({.preset = "hanging", .size = {900, 600}});
   begin_lab(window.session, "03_stiffness");
   window.frames(4);
+  window.turn_to("lab.prediction");
   window.click("lab.prediction"), window.type("200"), window.key(GLFW_KEY_ENTER);  // the motion waits for it
   window.type_value("k_s", "100000");
   window.session.pacing.playing = true;

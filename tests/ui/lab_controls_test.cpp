@@ -199,6 +199,7 @@ TEST_CASE("the button under a question's choices is whole in presentation mode, 
     begin(window, "04_damping");
     window.key(GLFW_KEY_F5);
     window.frames(8);
+    window.turn_to("lab.choice.1");
     const auto height = [&](const char* control) {
       const Box box = window.control(control);
       return box.hi.y - box.lo.y;

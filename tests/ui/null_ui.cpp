@@ -97,7 +97,7 @@ NullUi::NullUi(const UiOptions& options) : context_(nullptr) {
   gui::prepare_io(io);
   io.DisplaySize = ImVec2(float(options.size.x), float(options.size.y));
   io.DeltaTime = float(frame_time);
-  settings.tour_seen = true;
+  settings.tour_seen = settings.cut_told = true;
   options.settings(settings);
   ui.controls = &places_;
   session.labs.progress = settings.labs;
@@ -262,6 +262,11 @@ void NullUi::scroll_to(const std::string& name, const std::string& over) {
   move(middle(over));
   for (int n = 0; n < 40 && !sees(name); ++n) wheel(-1), frames(settled);
   if (!sees(name)) FAIL("the wheel does not bring ", name, " into sight");
+}
+
+void NullUi::turn_to(const std::string& name) {
+  for (int n = 0; n < 9 && !sees(name); ++n) click("lab.page_on");
+  if (!sees(name)) FAIL("no page of the lab has ", name);
 }
 
 void NullUi::type_value(const std::string& constant, std::string_view text, int end) {

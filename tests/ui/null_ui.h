@@ -87,6 +87,8 @@ class NullUi : public Desk {
   void click(const std::string& name, int button = 0) { click(middle(name), button); }
   /// The point at that part of a slider, 0 at its left end, 1 at its right.
   glm::vec2 along(const std::string& slider, float part);
+  /// Turns the pages of a lab until the control is seen.
+  void turn_to(const std::string& name);
   /// Turns the wheel over another control, downwards, until the control is seen.
   void scroll_to(const std::string& name, const std::string& over);
   /// Types the value of a constant after Ctrl+click; the key ends it. One that is refused is given up by Escape.

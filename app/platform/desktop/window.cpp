@@ -126,6 +126,14 @@ bool display_there() {
   return display_is_named() && start_glfw();
 }
 
+bool prefers_light() {
+  return false;
+}
+
+bool prefers_little_motion() {
+  return false;
+}
+
 double window_time() {
   return glfwGetTime();
 }
@@ -222,7 +230,7 @@ void Window::set_title(const std::string& title) {
   glfwSetWindowTitle(parts_->window, title.c_str());
 }
 
-void Window::tell(const std::string&) {}
+void Window::tell(const std::string&, const std::string&) {}
 
 void Window::toggle_full_screen() {
   const Parts::Place& old = parts_->windowed;

@@ -259,9 +259,10 @@ addToLibrary({
   tyglab_set_title: (title) => {
     document.title = UTF8ToString(title);
   },
-  tyglab_tell: (state) => {
-    document.getElementById('state').textContent = UTF8ToString(state);
+  tyglab_tell: (part, words) => {
+    document.getElementById(UTF8ToString(part)).textContent = UTF8ToString(words);
   },
+  tyglab_prefers: (query) => (matchMedia(UTF8ToString(query)).matches ? 1 : 0),
   tyglab_full_screen: () => {
     if (document.fullscreenElement) document.exitFullscreen();
     else document.documentElement.requestFullscreen?.();

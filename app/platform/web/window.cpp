@@ -20,7 +20,8 @@ extern "C" {
 int tyglab_has_canvas();
 void tyglab_listen();
 void tyglab_set_title(const char* title);
-void tyglab_tell(const char* state);
+void tyglab_tell(const char* part, const char* words);
+int tyglab_prefers(const char* query);
 void tyglab_full_screen();
 int tyglab_is_full_screen();
 int tyglab_is_hidden();
@@ -147,6 +148,14 @@ bool display_there() {
   return tyglab_has_canvas() != 0;
 }
 
+bool prefers_light() {
+  return tyglab_prefers("(prefers-color-scheme: light)") != 0;
+}
+
+bool prefers_little_motion() {
+  return tyglab_prefers("(prefers-reduced-motion: reduce)") != 0;
+}
+
 double window_time() {
   return emscripten_get_now() / 1000;
 }
@@ -200,8 +209,8 @@ void Window::set_title(const std::string& title) {
   tyglab_set_title(title.c_str());
 }
 
-void Window::tell(const std::string& state) {
-  tyglab_tell(state.c_str());
+void Window::tell(const std::string& part, const std::string& words) {
+  tyglab_tell(part.c_str(), words.c_str());
 }
 
 void Window::toggle_full_screen() {

@@ -16,8 +16,8 @@ bool in_front(const Ui& ui, std::string_view name) {
 
 void show_card(Ui& ui, std::string_view name) {
   Layout& layout = ui.settings.layout;
-  layout.right = ui.panels = ui.side_plots = true;
-  ui.side_cloth = false;
+  layout.right = ui.panels = true;
+  ui.side = Side::plots;
   layout.folded.erase(std::string(name));
   ui.plots.wanted = name;
 }

@@ -22,7 +22,8 @@ double blow_up_span(const Ui& ui, double length) {
 
 const char* why_empty(const Ui& ui) {
   if (ui.session.simulation->divergence()) return "Restart to see curves";
-  return ui.session.pacing.playing ? "Waiting for the first step" : "Press Space to run";
+  if (ui.session.pacing.playing) return "Waiting for the first step";
+  return ui.input.by_touch ? "Tap Run at the top" : "Press Space to run";
 }
 
 namespace {

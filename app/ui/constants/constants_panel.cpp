@@ -181,7 +181,7 @@ bool applies(const PresetRow& row, const Preset& preset) {
 }
 
 void show_constant(Ui& ui, std::string_view key) {
-  ui.panels = ui.settings.layout.left = true, ui.side_plots = ui.side_cloth = false;
+  ui.panels = ui.settings.layout.left = true, ui.side = Side::constants;
   ui.slider.wanted_key = key;
   bring_into_sight(ui, key);
 }

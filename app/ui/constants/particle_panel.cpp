@@ -193,7 +193,9 @@ void particle_panel(Ui& ui) {
   const Tokens& c = ui.theme.colors;
   const ImVec2 lo = ImGui::GetCursorScreenPos();
   const bool open = section(ui, card_title);
-  char where[64] = "none: right-click a particle";
+  char where[64] = "none";
+  if (!ui.session.picked)
+    std::snprintf(where, sizeof where, "none: %s a particle", ui.input.by_touch ? "tap" : "right-click");
   if (ui.session.picked) {
     const bool pinned = ui.session.simulation->pinned(ui.session.picked->i, ui.session.picked->j);
     std::snprintf(where, sizeof where, "(%d, %d)%s", ui.session.picked->i, ui.session.picked->j,

@@ -42,6 +42,7 @@ bool take_look(Ui& ui, float content_scale) {
   // In presentation mode the audience sits far away, whatever the theme.
   const float magnified = ui.presenting ? tyglab::look("projector").magnified : look.magnified;
   const float scale = content_scale * float(ui.settings.ui_scale) * magnified;
+  ui.theme.display = content_scale;
   ui.theme.scale = std::clamp(scale, text_scale_least, text_scale_most);
   apply_style(ui.theme);
   ui.scene.scale = ui.theme.scale;

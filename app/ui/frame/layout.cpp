@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "app/ui/cards/cards.h"
 #include "app/ui/constants/constants_panel.h"
@@ -17,6 +18,9 @@ namespace {
 constexpr float least_plots = 180;      // height of their column beside a lab's strip
 constexpr float low_with_lab = 300;     // a lab's strip takes the status line's place in a window lower than that
 constexpr float narrowest_cloth = 240;  // beside both columns
+constexpr float wide_strip = 544;       // of a lab: in two columns
+constexpr float least_constants = 240;  // width of their column beside a lab's
+constexpr float tabs_at_1 = 42;         // height of what chooses between columns
 
 /// A border that drags: changes `width` (at scale 1) of the region on its left (sign 1) or right (sign -1).
 void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& width, float sign) {
@@ -41,28 +45,36 @@ void splitter(Ui& ui, const char* id, float x, float top, float bottom, float& w
   ui.viewport.covers.push_back({{region.at.x, top}, {region.at.x + grip, bottom}});
 }
 
-/// Chooses which of the two columns stands in the place that they share; or, where the cloth has none beside it
-/// (`all`), which of the three. `lab`: it is seen with the constants, not with the plots.
-void side_tabs(Ui& ui, const Region& region, bool all, bool lab) {
-  const char* const names[] = {lab ? "Constants, lab" : "Constants", "Plots", "Cloth"};
-  if (begin_region("side", region, ui.theme.colors.panel, {ui.theme.px(16), ui.theme.px(8)})) {
-    const int now = all && ui.side_cloth ? 2 : ui.side_plots ? 1 : 0;
-    const int k = segments(ui, "columns", names, all ? 3 : 2, now);
-    if (k == 0 || k == 1) ui.side_plots = k == 1;
-    if (k >= 0) ui.side_cloth = k == 2;
-    tooltip(ui, gui::item_id(),
-            "The window is too narrow for all columns at once; Ctrl+- makes text and panels smaller.");
-  }
-  end_region();
-}
-
 /// Where the regions are; what has no width or no height is not there.
 struct LayoutPlan {
   Region viewport, lab, top, status, constants, plots, podium;
-  Region tabs;                 ///< which choose between columns
-  bool in_turn = false;        ///< the cloth is one of those
-  bool lab_with_side = false;  ///< the lab stands with the constants, not with the plots
+  Region tabs;                          ///< which choose between columns
+  std::vector<Side> turns;              ///< in their order
+  bool lab_column = false;              ///< the lab stands beside the cloth
+  bool lab_with_constants_tab = false;  ///< below it, with the constants but not with the plots
 };
+
+/// Choose what stands in the place that the columns share, or also the cloth where that has no room beside them.
+void side_tabs(Ui& ui, const LayoutPlan& plan) {
+  if (begin_region("side", plan.tabs, ui.theme.colors.panel, {ui.theme.px(16), ui.theme.px(8)})) {
+    std::vector<const char*> names;
+    int now = 0;
+    for (const Side side : plan.turns) {
+      if (side == ui.side) now = int(names.size());
+      const char* const constants = plan.lab_with_constants_tab ? "Constants, lab" : "Constants";
+      names.push_back(side == Side::plots       ? "Plots"
+                      : side == Side::constants ? constants
+                      : plan.lab_column         ? "Lab"
+                                                : "Cloth");
+    }
+    if (const int k = segments(ui, "columns", names.data(), int(names.size()), now); k >= 0)
+      ui.side = plan.turns[std::size_t(k)];
+    if (!plan.lab_column)
+      tooltip(ui, gui::item_id(),
+              "The window is too narrow for all columns at once; Ctrl+- makes text and panels smaller.");
+  }
+  end_region();
+}
 
 }  // namespace
 
@@ -73,29 +85,66 @@ float presented_card_width(const Ui& ui, float window) {
 
 namespace {
 
-/// The cloth, below it the few controls, and beside it one card where there is room.
+/// The lab beside the cloth, in turn with the plots and, where these have no column, the constants.
+void plan_lab_column(const Ui& ui, LayoutPlan& plan, const Region& column, bool with_constants) {
+  const float strip = ui.theme.px(tabs_at_1);
+  plan.lab_column = true;
+  plan.tabs = {column.at, {column.size.x, strip}};
+  plan.turns = {Side::main};
+  if (with_constants) plan.turns.push_back(Side::constants);
+  plan.turns.push_back(Side::plots);
+  Region& shown = ui.side == Side::plots                         ? plan.plots
+                  : ui.side == Side::constants && with_constants ? plan.constants
+                                                                 : plan.lab;
+  shown = {{column.at.x, column.at.y + strip}, {column.size.x, std::max(column.size.y - strip, 1.f)}};
+}
+
+/// The cloth, below it the few controls, and beside it the lab, or one card where there is room.
 LayoutPlan plan_presentation(const Ui& ui, ImVec2 window) {
   LayoutPlan plan;
+  const bool lab = ui.session.labs.run.has_value();
   const float low = podium_height(ui), height = std::max(window.y - low, 1.f);
-  const float lab = lab_panel_height(ui, height);
-  const float right = ui.presented_card ? presented_card_width(ui, window.x) : 0;
-  plan.viewport = {{0, 0}, {window.x - right, std::max(height - lab, 1.f)}};
-  plan.lab = {{0, height - lab}, {window.x - right, lab}};
+  const float column = lab ? lab_column_width(ui, window.x) : 0;
+  const float strip = lab && column == 0 ? lab_strip_height(ui, window.y, height) : 0;
+  const float card = ui.presented_card ? presented_card_width(ui, window.x) : 0, right = column > 0 ? column : card;
+  plan.viewport = {{0, 0}, {window.x - right, std::max(height - strip, 1.f)}};
+  plan.lab = {{0, height - strip}, {window.x - right, strip}};
   plan.podium = {{0, height}, {window.x, low}};
-  if (right > 0) plan.plots = {{window.x - right, 0}, {right, height}};
+  const Region side{{window.x - right, 0}, {right, height}};
+  if (column > 0)
+    plan_lab_column(ui, plan, side, false);
+  else if (right > 0)
+    plan.plots = side;
+  return plan;
+}
+
+/// Beside the lab's column, which has its text in reading width, come the constants if the cloth keeps enough.
+LayoutPlan plan_beside_lab(const Ui& ui, ImVec2 window, float top, float bottom) {
+  LayoutPlan plan;
+  const Layout& layout = ui.settings.layout;
+  const float lab = lab_column_width(ui, window.x), spare = room_beside_cloth(window.x) - lab;
+  float left = layout.left ? std::round(std::min(layout.left_width * ui.theme.scale, spare)) : 0;
+  if (left < ui.theme.px(least_constants)) left = 0;
+  const float middle = window.x - left - lab, height = std::max(window.y - top, 1.f);
+  plan.viewport = {{left, top}, {middle, std::max(height - bottom, 1.f)}};
+  plan.top = {{0, 0}, {window.x, top}};
+  plan.status = {{left, window.y - bottom}, {middle, bottom}};
+  plan.constants = {{0, top}, {left, height}};
+  plan_lab_column(ui, plan, {{window.x - lab, top}, {lab, height}}, left == 0);
   return plan;
 }
 
 LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   if (ui.presenting && ui.panels) return plan_presentation(ui, window);
   const Layout& layout = ui.settings.layout;
-  const bool panels = ui.panels;
+  const bool panels = ui.panels, has_lab = panels && ui.session.labs.run;
   const float top = panels ? ui.theme.px(48) : 0;
-  const bool lab_in_low = ui.session.labs.run && window.y < ui.theme.px(low_with_lab);
+  const bool lab_in_low = has_lab && window.y < ui.theme.px(low_with_lab);
   const float bottom = panels && layout.status && !lab_in_low ? ui.theme.px(30) : 0;
+  if (has_lab && lab_column_width(ui, window.x) > 0) return plan_beside_lab(ui, window, top, bottom);
   const float height = std::max(window.y - top - bottom, 1.f);
   // In a narrow window, or with large text, the sides share what the viewport can spare; a lab's strip needs it wide.
-  const float least = ui.session.labs.run ? lab_two_columns : narrowest_cloth;
+  const float least = has_lab ? wide_strip : narrowest_cloth;
   const float spare = window.x - ui.theme.px(least), most = std::max(spare / 2, ui.theme.px(240));
   float left = panels && layout.left ? std::round(std::min(layout.left_width * ui.theme.scale, most)) : 0;
   float right = panels && layout.right ? std::round(std::min(layout.right_width * ui.theme.scale, most)) : 0;
@@ -106,30 +155,37 @@ LayoutPlan plan_layout(const Ui& ui, ImVec2 window) {
   // Where not even one has room beside the cloth, all three do. For a finger sliders must not be short.
   const bool short_sliders = ui.input.by_touch && left < ui.theme.px(280);
   const bool in_turn = left > 0 && (short_sliders || left + ui.theme.px(200) > window.x);
-  if (in_turn) left = ui.side_cloth ? 0 : window.x;
+  if (in_turn) left = ui.side == Side::main ? 0 : window.x;
 
-  float lab = panels ? lab_panel_height(ui, height) : 0;
-  const float middle = window.x - left - right, strip = ui.theme.px(42);
+  float lab = has_lab ? lab_strip_height(ui, window.y, height) : 0;
+  const float middle = window.x - left - right, strip = ui.theme.px(tabs_at_1);
   // Where the viewport is too narrow for a lab's two columns, the strip reaches below the constants, which scroll;
   // plots that would be too low above it take its place.
-  const bool narrow = middle < ui.theme.px(lab_two_columns);
+  const bool narrow = middle < ui.theme.px(wide_strip);
   const bool apart = lab > 0 && narrow && (shared || in_turn) && height - lab - strip < ui.theme.px(least_plots);
-  if (apart && left > 0 && ui.side_plots) lab = 0;
+  if (apart && left > 0 && ui.side == Side::plots) lab = 0;
   const bool below = lab > 0 && left > 0 && narrow;
   const float low = below ? 0 : left, column = window.y - top - (below ? lab + bottom : 0);
   const float over_cloth = in_turn ? strip : 0, tabs = shared || in_turn ? strip : 0;
 
   LayoutPlan plan;
-  plan.in_turn = in_turn, plan.lab_with_side = apart;
+  plan.lab_with_constants_tab = apart;
   plan.viewport = {{left, top + over_cloth}, {middle, std::max(height - lab - over_cloth, 1.f)}};
   plan.lab = {{low, top + height - lab}, {left + middle - low, lab}};
   plan.top = {{0, 0}, {window.x, top}};
   plan.status = {{low, window.y - bottom}, {left + middle - low, bottom}};
   plan.tabs = {{0, top}, {in_turn ? window.x : left, tabs}};
+  if (tabs > 0) plan.turns = {Side::constants, Side::plots};
+  if (in_turn) plan.turns.push_back(Side::main);
   const Region side{{0, top + tabs}, {left, column - tabs}};
-  (shared && ui.side_plots ? plan.plots : plan.constants) = side;
+  (shared && ui.side == Side::plots ? plan.plots : plan.constants) = side;
   if (right > 0) plan.plots = {{window.x - right, top}, {right, window.y - top}};
   return plan;
+}
+
+/// A lab's step has its constants with it where no column and no podium shows them.
+bool lab_has_constants(const LayoutPlan& plan) {
+  return plan.lab.size.y > 0 && plan.constants.size.x <= 0 && plan.podium.size.y <= 0;
 }
 
 }  // namespace
@@ -147,19 +203,19 @@ void draw_layout(Ui& ui, ImVec2 window) {
     ui.viewport.box = {};
     ui.viewport.covers.clear();
   }
-  if (plan.lab.size.y > 0) lab_panel(ui, plan.lab);
+  if (plan.lab.size.y > 0) lab_panel(ui, plan.lab, plan.lab_column, lab_has_constants(plan));
   if (plan.top.size.y > 0) top_bar(ui, plan.top);
-  if (plan.tabs.size.y > 0) side_tabs(ui, plan.tabs, plan.in_turn, plan.lab_with_side);
+  if (plan.tabs.size.y > 0) side_tabs(ui, plan);
   if (plan.constants.size.x > 0) constants_panel(ui, plan.constants);
   if (plan.plots.size.x > 0) plots_panel(ui, plan.plots);
   if (plan.status.size.y > 0) status_bar(ui, plan.status);
   if (plan.podium.size.y > 0) podium(ui, plan.podium);
   const float top = plan.top.size.y;
-  if (left > 0 && !plan.in_turn) {
-    const Region& side = plan.constants.size.x > 0 ? plan.constants : plan.plots;
+  if (left > 0 && viewport.size.x > 0) {
+    const Region& side = plan.constants.size.x > 0 && plan.constants.at.x == 0 ? plan.constants : plan.plots;
     splitter(ui, "left border", left, top, side.at.y + side.size.y, layout.left_width, 1);
   }
-  if (right < window.x && plan.podium.size.y == 0)
+  if (right < window.x && plan.podium.size.y == 0 && !plan.lab_column)
     splitter(ui, "right border", right, top, window.y, layout.right_width, -1);
   tour_card(ui);
   help_overlay(ui);
@@ -174,7 +230,7 @@ Wants layout_wants(const Ui& ui, ImVec2 window) {
   const LayoutPlan plan = plan_layout(ui, window);
   Wants wants;
   wants = plots_want(ui, plan.plots.size, plan.tabs.size.y > 0);
-  if (plan.constants.size.x > 0 || plan.podium.size.y > 0)
+  if (plan.constants.size.x > 0 || plan.podium.size.y > 0 || lab_has_constants(plan))
     wants.stability = true;  // the gauge under dt, the zones under sliders
   return wants;
 }

@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session/lab_state.h"
 #include "app/ui/kit/overlay_layout.h"
 #include "app/ui/kit/widgets.h"
 #include "app/ui/state/ui.h"
+#include "core/model/notation.h"
 
 namespace tyglab {
 
@@ -21,11 +21,16 @@ void status_bar(Ui& ui, const Region& region);
 void help_overlay(Ui& ui);
 /// Everything that can be done, while the popup of that name is open.
 void application_menu(Ui& ui, const char* id);
-/// The current lab, below the viewport; its height is 0 where there is none.
-void lab_panel(Ui& ui, const Region& region);
-float lab_panel_height(const Ui& ui, float available);
-/// From this width on (pixels at scale 1) it has two columns.
-inline constexpr float lab_two_columns = 544;
+/// The current lab, in a column beside the cloth or in a strip below it; with the constants that its step checks where
+/// they are not in sight.
+void lab_panel(Ui& ui, const Region& region, bool column, bool with_constants);
+/// px; 0 in a window in which it is a strip.
+float lab_column_width(const Ui& ui, float window);
+float lab_strip_height(const Ui& ui, float window, float available);
+/// What a lab leaves to all columns together in a window of that width, px.
+float room_beside_cloth(float window);
+/// The constants that the lab's step checks, in its order.
+std::vector<const PresetRow*> checked_constants(const Ui& ui);
 
 /// What presentation mode has in place of bars and columns, below the cloth.
 void podium(Ui& ui, const Region& region);
@@ -89,13 +94,6 @@ std::string goal_in_lines(const ImFont& font, const std::string& text, float wid
 
 /// Draws it from that corner on, with the height of its row, px; `lit`: under the pointer, or chosen by keys.
 void draw_gallery_card(Ui& ui, const GalleryCard& card, ImVec2 lo, const CardShape& shape, float height, bool lit);
-
-// The header of a lab's strip, and the buttons for its steps.
-
-/// Back and on, which keep their places from step to step, what goes past a step, and what sets it up again.
-void step_buttons(Ui& ui, LabRun& run, ImVec2 at);
-/// The title, the buttons where `with_buttons`, and the cross. Returns whether the step's title had room.
-bool lab_header(Ui& ui, LabRun& run, const Region& region, bool with_buttons);
 
 // Ctrl+P: finds commands, presets, integrators, labs, constants and views by typing.
 

@@ -79,16 +79,10 @@ void podium_column(Ui& ui, const char* id, ImVec2 at, float width, const Rows& r
 /// Beside dt: the constants that the lab's step asks for, or else the stiffness.
 std::vector<const PresetRow*> constants_at_hand(const Ui& ui) {
   constexpr std::size_t most = 2;  // rows of a column
-  const Preset& preset = ui.session.requested_preset();
-  std::vector<const PresetRow*> rows;
-  if (ui.session.labs.run)
-    for (const Condition& check : ui.session.labs.run->now().checks) {
-      const PresetRow* row = find_row(check.name.substr(0, check.name.find('.')));
-      const bool known = std::find(rows.begin(), rows.end(), row) != rows.end();
-      if (row != nullptr && !known && row->key != "dt" && applies(*row, preset) && rows.size() < most)
-        rows.push_back(row);
-    }
-  if (rows.empty()) rows.push_back(find_row(preset.kind == Kind::one_weight ? "k" : "k_s"));
+  std::vector<const PresetRow*> rows = checked_constants(ui);
+  std::erase_if(rows, [](const PresetRow* row) { return row->key == "dt"; });
+  if (rows.size() > most) rows.resize(most);
+  if (rows.empty()) rows.push_back(find_row(ui.session.requested_preset().kind == Kind::one_weight ? "k" : "k_s"));
   return rows;
 }
 
@@ -120,7 +114,8 @@ void podium(Ui& ui, const Region& region) {
   const float top = region.at.y + ui.theme.px(podium_margin_at_1);
   const bool speeds = room_for_speeds(ui, width);
   large_transport(ui, {region.at.x + margin, top}, !speeds);
-  podium_buttons(ui, {region.at.x + width - margin - ui.theme.px(28), top}, presented_card_width(ui, width) > 0);
+  podium_buttons(ui, {region.at.x + width - margin - ui.theme.px(28), top},
+                 presented_card_width(ui, width) > 0 && !(ui.session.labs.run && lab_column_width(ui, width) > 0));
 
   // What has no room is left out or made smaller, the speeds first, then the stiffness or what a lab asks for.
   float x = transport_end(ui, region.at.x), room = middle_room(ui, width);

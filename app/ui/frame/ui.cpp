@@ -52,15 +52,36 @@ void Ui::remember_recent() {
   recent.resize(std::min(recent.size(), most));
 }
 
+std::vector<const PresetRow*> checked_constants(const Ui& ui) {
+  std::vector<const PresetRow*> rows;
+  if (!ui.session.labs.run) return rows;
+  for (const Condition& check : ui.session.labs.run->now().checks) {
+    const PresetRow* row = find_row(check.name.substr(0, check.name.find('.')));
+    if (row != nullptr && applies(*row, ui.session.requested_preset()) &&
+        std::count(rows.begin(), rows.end(), row) == 0)
+      rows.push_back(row);
+  }
+  return rows;
+}
+
 /// What a step of a lab tells to change is to be in sight, in a low column too: the first constant that it checks.
 void Ui::show_what_to_change() {
-  for (const Condition& check : session.labs.run->now().checks)
-    if (const PresetRow* row = find_row(check.name); row != nullptr && applies(*row, session.preset()))
-      return bring_into_sight(*this, check.name);
+  if (const auto rows = checked_constants(*this); !rows.empty()) bring_into_sight(*this, rows.front()->key);
+}
+
+/// A left drag cuts, which a newcomer has not known: how to pull instead, and how to take it back.
+void Ui::tell_of_first_cut() {
+  constexpr double read_in = 8;  // s
+  const auto kind = tools.tool.kind;
+  if (kind == Tool::Kind::grab) cut_hint.reset();
+  if (session.counts.touches == seen_.touches || kind != Tool::Kind::cut || settings.cut_told) return;
+  settings.cut_told = true;
+  cut_hint = CutHint{input.at, now + read_in};
 }
 
 void Ui::follow() {
   const SessionCounts& counts = session.counts;
+  tell_of_first_cut();
   if (counts.documents != seen_.documents) slider = SliderState{}, constants_to_top = true;
   remember_recent();
   follow_replay();
@@ -70,7 +91,7 @@ void Ui::follow() {
   }
   const bool lab_begins = counts.labs_begun != seen_.labs_begun;
   if (!session.labs.run || lab_begins) close_lab_cards(*this);
-  if (lab_begins) side_plots = false;  // in whose place the lab's text may stand
+  if (lab_begins) side = Side::main;
   if (counts.lab_steps != seen_.lab_steps && session.labs.run) {
     // Begun at a later step, it lacks the card that one before has opened.
     show_for_lab(*this, lab_begins ? session.labs.run->shown() : session.labs.run->now().show);

@@ -46,6 +46,7 @@ inline constexpr const char* warning = "\xEF\x81\xB1";
 inline constexpr const char* error = "\xEF\x81\x97";
 inline constexpr const char* info = "\xEF\x81\x9A";
 inline constexpr const char* down = "\xEF\x84\x87";
+inline constexpr const char* left = "\xEF\x84\x84";
 inline constexpr const char* right = "\xEF\x84\x85";
 inline constexpr const char* plus = "\xEF\x81\xA7";
 inline constexpr const char* trash = "\xEF\x87\xB8";
@@ -59,10 +60,10 @@ inline constexpr const char* circle = "\xEF\x84\x8C";
 inline constexpr const char* screen = "\xEF\x84\x88";  // a display
 inline constexpr const char* unknown = "\xEF\x84\xA8";
 /// Every icon above: only these are drawn into the atlas.
-inline constexpr const char* all[] = {play,     pause,   step,   restart, undo,     redo,    scissors, expand,
-                                      compress, help,    open,   save,    download, warning, error,    info,
-                                      down,     right,   plus,   trash,   close,    hand,    move,     labs,
-                                      check,    picture, circle, screen,  unknown};
+inline constexpr const char* all[] = {play,     pause, step,    restart, undo,     redo,    scissors, expand,
+                                      compress, help,  open,    save,    download, warning, error,    info,
+                                      down,     left,  right,   plus,    trash,    close,   hand,     move,
+                                      labs,     check, picture, circle,  screen,   unknown};
 }  // namespace icon
 
 /// The icon, or the word where the icon font is missing.

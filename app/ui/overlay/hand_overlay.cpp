@@ -90,6 +90,23 @@ void knife_stroke(Ui& ui, ImDrawList& draw) {
     if (!stroke[k].begins) stroke_part(ui, draw, stroke[k - 1], stroke[k]);
 }
 
+void first_cut_hint(Ui& ui, ImDrawList& draw) {
+  if (ui.cut_hint && ui.now >= ui.cut_hint->until) ui.cut_hint.reset();
+  if (!ui.cut_hint) return;
+  ui.draw_by = std::min(ui.draw_by, ui.cut_hint->until);
+  const ImFont& font = *ui.fonts.text;
+  const char* const words =
+      ui.input.by_touch ? "You cut the cloth. Undo takes it back." : "Right drag pulls. Ctrl+Z undoes the cut.";
+  const float pad = ui.theme.px(10);
+  const auto box = place_of_label(ui, ui.cut_hint->at,
+                                  glm::ceil(glm::vec2(text_width(font, words) + 2 * pad, font.FontSize + 1.4f * pad)));
+  if (!box) return;
+  ui.placing.take("cut", *box);
+  draw.AddRectFilled(vec(box->lo), vec(box->hi), ui.theme.colors.panel, ui.theme.px(6));
+  draw.AddRect(vec(box->lo), vec(box->hi), ui.theme.colors.accent, ui.theme.px(6));
+  draw_text(draw, font, vec(box->lo + glm::vec2(pad, 0.7f * pad)), ui.theme.colors.text, words);
+}
+
 void springs_to_cut(Ui& ui, ImDrawList& draw) {
   const int tile = ui.viewport.tile_at(ui.input.at);
   const Tokens& c = ui.theme.colors;

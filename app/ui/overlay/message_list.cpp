@@ -31,7 +31,8 @@ std::vector<Note> notes_in_lines(const Ui& ui) {
   std::vector<Note> notes;
   const std::vector<Message>& list = ui.session.messages.list();
   for (std::size_t k = 0; k < list.size(); ++k) {
-    std::string text = in_lines(font, capitalised(list[k].text), most - beside);
+    const std::string& said = list[k].text;
+    std::string text = in_lines(font, capitalised(ui.input.by_touch ? for_fingers(said) : said), most - beside);
     const float width = font.CalcTextSizeA(font.FontSize, 1e9f, 0, text.c_str()).x;
     const float height = std::max(height_of(font, text) + 2 * ui.theme.px(above_at_1), ui.theme.px(lowest_at_1));
     notes.push_back({k, std::move(text), {std::min(std::ceil(width) + beside, most), height}});

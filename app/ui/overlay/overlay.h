@@ -66,6 +66,8 @@ void danger_ground(Ui& ui, const Box& box, const char* mark);
 std::vector<Box> drawn_parts(Ui& ui);
 /// Where a knife has just gone along its path, fading.
 void knife_stroke(Ui& ui, ImDrawList& draw);
+/// After the first cut of all, how to pull instead and how to take it back.
+void first_cut_hint(Ui& ui, ImDrawList& draw);
 /// What a nick at the pointer would cut.
 void springs_to_cut(Ui& ui, ImDrawList& draw);
 

@@ -148,6 +148,7 @@ void marks(Ui& ui, ImDrawList& draw, const Region& region) {
     copy_details(ui, {lo, {hi.x, hi.y - banner_strip(ui, hi - lo)}});
     draw.ChannelsSetCurrent(pointer);
     knife_stroke(ui, draw);
+    first_cut_hint(ui, draw);
     pointer_overlay(ui, draw);
     draw.ChannelsSetCurrent(fixed);
   }

@@ -167,6 +167,27 @@ struct LabField {
   bool seen = false;   ///< it is drawn in this frame
 };
 
+/// The pages of a lab's step.
+struct LabPages {
+  std::string step = {};  ///< whose they are
+  int at = 0, count = 1;  ///< the one that is shown
+  bool asks = false;      ///< the step waits for a prediction
+  float wheel = 0;        ///< turns of the wheel that have not made up a page yet
+};
+
+/// What is shown where columns take turns.
+enum class Side {
+  main,  ///< the lab's text or, where not even one column has room beside it, the cloth
+  constants,
+  plots
+};
+
+/// What the first cut says beside the pointer.
+struct CutHint {
+  glm::vec2 at;  ///< px
+  double until;  ///< s
+};
+
 struct Ui : UiContext {
   Ui(Session& of, Scene& in, Tools& with, InputQueue& events, Settings& remembered)
       : UiContext(events, remembered, of.messages, in.viewport), session(of), scene(in), tools(with) {}
@@ -201,11 +222,11 @@ struct Ui : UiContext {
   std::optional<AskedLattice> asked_lattice;
   LabField lab_field;
   LabCards lab_cards;
+  LabPages lab_pages;
+  std::optional<CutHint> cut_hint;
   float viewport_left = 0;       ///< pixels
-  float lab_needs = 0;           ///< height of a lab's strip that shows all of its step, pixels; 0: not known yet
   bool time_in_picture = false;  ///< presentation mode has no other place for the simulated time
-  bool side_plots = false;       ///< where both columns have no room, the plots stand in the constants' place
-  bool side_cloth = true;        ///< where not even one has room beside the cloth: the cloth is shown, and neither
+  Side side = Side::main;
 
   std::optional<PictureOrder> picture;  ///< to be taken of this frame
   bool full_screen = false;             ///< as the window is
@@ -234,6 +255,7 @@ struct Ui : UiContext {
   void remember_recent();
   void follow_replay();
   void show_what_to_change();
+  void tell_of_first_cut();
   SessionCounts seen_;
   std::optional<std::optional<ParticleField>> color_before_replay_;  ///< none: no replay has set it
 };

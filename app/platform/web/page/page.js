@@ -93,6 +93,11 @@ function arguments_of_address() {
   return words;
 }
 
+/// What the program printed, without the commands of a terminal that it advises.
+function without_commands(said) {
+  return said.replace(/^tyglab: /, '').replace(/[;.]? `tyglab [^`]*`[^.;\n]*/g, '').trim();
+}
+
 /// The bar below an embedded canvas: the way to the whole page and, where the cloth is alone, what its panels would offer.
 function show_bar(tyglab) {
   const bar = document.getElementById('bar'), whole = document.getElementById('whole');
@@ -186,7 +191,7 @@ async function start() {
   if (!embedded) restore(tyglab);
   else show_bar(tyglab);
   const code_of_end = tyglab.callMain(arguments_of_address());
-  if (code_of_end) throw new Refusal(said.replace(/^tyglab: /, '').trim());
+  if (code_of_end) throw new Refusal(without_commands(said));
 }
 
 start().catch((error) => {

@@ -1,0 +1,247 @@
+// The numbers of the labs' checks: what is typed instead of measured does not count, values just outside the right
+// interval are refused and those just inside are accepted, and the interval is where a simulation puts it.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/session/observables.h"
+#include "core/model/notation.h"
+#include "tests/app/desk.h"
+#include "tests/app/lab_player.h"
+
+namespace tyglab::lab_bounds_test {
+
+using test::LabPlayer;
+
+/// A lab at a step, with a prediction that is some number or the first choice.
+LabPlayer at_step(const std::string& label, int step) {
+  LabPlayer play(label);
+  for (int n = 0; n < step; ++n) play.skip();
+  if (const auto& asked = play.lab().now().prediction) asked->choices.empty() ? play.predict("0.001") : play.choose(0);
+  return play;
+}
+
+std::string setting(const std::string& key, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%s=%.9g", key.c_str(), value);
+  return text;
+}
+
+/// Sets the constants, and lets the motion begin with them.
+void run_from_start(LabPlayer& play, const std::vector<std::string>& settings, double seconds) {
+  for (const std::string& each : settings) play.set(each);
+  play.restart();
+  play.run(seconds);
+}
+
+TEST_CASE(
+    "a constant that a step asks for counts up to its bounds, and not "
+    "beyond them") {
+  struct Case {
+    const char* lab;
+    int step;
+    const char* key;
+    double inside, outside;
+    double seconds;                 ///< of the motion
+    std::vector<std::string> with;  ///< other constants
+  };
+  const std::vector<Case> cases{
+      {"01_hooke", 1, "k", 20, 20.01, 10, {}},
+      {"01_hooke", 1, "k", 20, 19.99, 10, {}},
+      {"03_stiffness", 1, "k_s", 180, 179.9, 2.1, {}},
+      {"04_damping", 2, "k_d", 0.5, 0.4999, 0.6, {}},
+      {"07_implicit", 0, "dt", 0.01, 0.00999, 1, {}},
+      {"11_bending", 2, "k_b", 1000, 999, 10, {}},
+      {"11_bending", 3, "k_s", 600, 599, 10, {}},
+      {"13_stiff", 0, "dt", 0.000142, 0.000144, 0.6, {}},
+      {"13_stiff", 0, "dt", 0.000121, 0.000119, 0.6, {}},
+      {"13_stiff", 2, "dt", 0.001, 0.00099, 1.1, {"integrator=damped_verlet"}},
+      {"13_stiff", 4, "dt", 0.01, 0.0099, 1.1, {"integrator=rkc2"}},
+  };
+  for (const Case& each : cases)
+    for (const bool inside : {false, true}) {
+      CAPTURE(std::string(each.lab));
+      CAPTURE(each.step);
+      CAPTURE(inside);
+      LabPlayer play = at_step(each.lab, each.step);
+      std::vector<std::string> settings = each.with;
+      settings.push_back(setting(each.key, inside ? each.inside : each.outside));
+      run_from_start(play, settings, each.seconds);
+      CHECK(play.done() == inside);
+    }
+}
+
+/// What becomes of the step's cloth with that value from the start on.
+bool diverges(const std::string& label, int step, const std::vector<std::string>& settings, double seconds) {
+  LabPlayer play = at_step(label, step);
+  run_from_start(play, settings, seconds);
+  return play.session().simulation->divergence().has_value();
+}
+
+TEST_CASE(
+    "where a cloth explodes is found by an explosion and by a motion "
+    "without one that are near each other") {
+  struct Case {
+    const char* lab;
+    int step;
+    const char* key;
+    double stable, explodes, far;  ///< `far` from the explosion: too far
+    double seconds, hasty;         ///< of a motion; too few
+    std::vector<std::string> with;
+  };
+  const std::vector<Case> cases{{"03_stiffness", 0, "k_s", 190, 194, 183, 0.55, 0.4, {}},
+                                {"03_stiffness", 2, "dt", 0.00048, 0.0005, 0.00044, 1.05, 0.8, {"k_s=800"}},
+                                {"04_damping", 1, "k_d", 0.0505, 0.055, 0.049, 1.05, 0.8, {}}};
+  for (const Case& each : cases) {
+    CAPTURE(std::string(each.lab));
+    CAPTURE(each.step);
+    const auto with = [&](double value) {
+      std::vector<std::string> settings = each.with;
+      settings.push_back(setting(each.key, value));
+      return settings;
+    };
+    // The right interval: the simulation itself.
+    CHECK_FALSE(diverges(each.lab, each.step, with(each.stable), 4));
+    CHECK(diverges(each.lab, each.step, with(each.explodes), 4));
+
+    LabPlayer play = at_step(each.lab, each.step);
+    run_from_start(play, with(each.explodes), 4);
+    CHECK_FALSE(play.done());  // an explosion alone
+    run_from_start(play, with(each.far), each.seconds);
+    CHECK_FALSE(play.done());
+    run_from_start(play, with(each.stable), each.hasty);
+    CHECK_FALSE(play.done());  // not long enough
+    play.run(each.seconds - each.hasty + 0.02);
+    REQUIRE(play.done());
+    CHECK(play.lab().record().answer == doctest::Approx((each.stable + each.explodes) / 2));
+
+    LabPlayer typed = at_step(each.lab, each.step);
+    run_from_start(typed, with(each.stable), each.seconds);
+    CHECK_FALSE(typed.done());  // a stable motion alone
+    run_from_start(typed, with(each.explodes), 4);
+    CHECK(typed.done());
+  }
+}
+
+/// The sheet of the lab on tearing at rest, in the step that looks for F_max.
+LabPlayer sheet_at_rest() {
+  LabPlayer play = at_step("09_tearing", 0);
+  play.run(30);
+  REQUIRE(play.done());
+  play.next();
+  play.predict("0.065");
+  return play;
+}
+
+double torn(LabPlayer& play) {
+  return *observe(play.session(), "torn");
+}
+
+TEST_CASE(
+    "no F_max that is typed at once is confirmed: a value that holds and "
+    "one that tears are measured") {
+  for (const double F_max : {0.06, 0.065, 0.07, 0.08, 0.085}) {
+    CAPTURE(F_max);
+    LabPlayer play = sheet_at_rest();
+    play.set(setting("F_max", F_max));
+    play.run(1.5);
+    CHECK(torn(play) >= 100);
+    CHECK_FALSE(play.done());
+  }
+  LabPlayer play = sheet_at_rest();
+  play.set(setting("F_max", 0.092));
+  play.run(1.5);
+  CHECK(torn(play) < 100);  // it holds
+  CHECK_FALSE(play.done());
+  play.set(setting("F_max", 0.085));
+  play.run(1.5);
+  CHECK(torn(play) >= 100);
+  REQUIRE(play.done());
+  CHECK_FALSE(play.right());  // 0.065 N
+  CHECK(play.lab().record().answer == doctest::Approx(0.0885));
+
+  // The tear is where theory puts it: between half and all of the weight that hangs below.
+  const double weight = 39 * 0.0003 * 9.82;
+  CHECK(play.lab().record().answer > weight / 2);
+  CHECK(play.lab().record().answer < weight);
+}
+
+TEST_CASE("what a fall tears does not count as the F_max of a sheet at rest") {
+  LabPlayer play = sheet_at_rest();
+  run_from_start(play, {setting("F_max", 0.1)}, 3);
+  CHECK(torn(play) >= 100);
+  run_from_start(play, {setting("F_max", 0)}, 3);
+  play.set(setting("F_max", 0.105));
+  play.run(1.5);
+  CHECK(torn(play) < 100);
+  CHECK_FALSE(play.done());
+}
+
+/// No other machine's rounding decides.
+TEST_CASE(
+    "what the motion measures lies well inside the bounds of the labs' "
+    "checks") {
+  struct Case {
+    const char* lab;
+    int step;
+    double seconds;
+    std::vector<std::string> settings;
+  };
+  const std::vector<Case> cases{{"01_hooke", 0, 10, {}},
+                                {"01_hooke", 1, 10, {"k=20"}},
+                                {"02_euler", 0, 2, {}},
+                                {"02_euler", 2, 11, {}},
+                                {"07_implicit", 2, 2, {}},
+                                {"11_bending", 0, 10, {}},
+                                {"11_bending", 1, 10, {}},
+                                {"12_wind", 0, 12, {"W=[0,0,0.0009]"}},
+                                {"12_wind", 2, 15, {"gust_period=1.6"}}};
+  for (const Case& each : cases) {
+    CAPTURE(std::string(each.lab));
+    CAPTURE(each.step);
+    LabPlayer play = at_step(each.lab, each.step);
+    run_from_start(play, each.settings, each.seconds);
+    REQUIRE(play.done());
+    for (const Condition& check : play.lab().now().checks) {
+      const bool bounds = check.relation != Relation::equal && check.right.name.empty() && !is_word(check.name);
+      if (!bounds || !check.to_find) continue;
+      CAPTURE(words_of(check));
+      const auto value = observe(play.session(), check.name);
+      REQUIRE(value.has_value());
+      const double margin = (*value - check.right.factor) / check.right.factor;
+      const bool below = check.relation == Relation::less || check.relation == Relation::at_most;
+      CHECK((below ? -margin : margin) > 1e-3);
+    }
+  }
+}
+
+TEST_CASE(
+    "gusts swing the sheet above the height that is asked for only near "
+    "its own period") {
+  const auto highest = [](double period) {
+    LabPlayer play = at_step("12_wind", 2);
+    run_from_start(play, {setting("gust_period", period)}, 15);
+    return play.done();
+  };
+  CHECK(highest(1.6));
+  CHECK_FALSE(highest(1.39));
+  CHECK_FALSE(highest(1.81));
+  CHECK_FALSE(highest(0.8));
+}
+
+TEST_CASE(
+    "where a wind blows a sheet is judged by its height, and the answer "
+    "is the wind that was measured") {
+  LabPlayer play = at_step("12_wind", 0);
+  run_from_start(play, {"W=[0,0,0.00075]"}, 12);
+  CHECK_FALSE(play.done());
+  run_from_start(play, {"W=[0,0,0.0011]"}, 12);
+  CHECK_FALSE(play.done());
+  run_from_start(play, {"W=[0,0,0.00091]"}, 12);
+  REQUIRE(play.done());
+  CHECK(play.lab().record().answer == 0.00091);
+}
+
+}  // namespace tyglab::lab_bounds_test
