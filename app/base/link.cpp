@@ -20,8 +20,8 @@ std::string excerpt(std::string_view text, std::size_t most = 60) {
 }
 
 [[noreturn]] void fail(std::string_view link, const std::string& why) {
-  throw PresetError("The link " + excerpt(link, 200) + " " + why +
-                    " Copy it again, whole; links look like #hanging&k_s=300.");
+  throw PresetError("The link " + excerpt(link, 200) + " " + why + " Copy it again, whole; links look like " +
+                    std::string(example_link) + ".");
 }
 
 /// Of a hexadecimal digit; below 0: it is none.
@@ -66,6 +66,27 @@ bool is_shipped_preset(const std::string& name) {
   return std::binary_search(names.begin(), names.end(), name);
 }
 
+/// "https" of an address that begins with https://, in lower case; empty if the text is no address.
+std::string scheme_of(std::string_view text) {
+  std::string scheme(text.substr(0, std::min(text.find("://"), text.size())));
+  const auto is_letter = [](unsigned char letter) { return std::isalpha(letter) != 0; };
+  if (scheme.size() == text.size() || !std::all_of(scheme.begin(), scheme.end(), is_letter)) return {};
+  for (char& letter : scheme) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+  return scheme;
+}
+
+/// Of an address that holds no experiment.
+[[noreturn]] void refuse_address(std::string_view address) {
+  std::string cure =
+      "Tyglab downloads nothing: download the file first, then open that file. A link to an experiment "
+      "has it after a #: https://…/" +
+      std::string(example_link) + ".";
+  if (scheme_of(address) == "file")
+    cure = "Open the file by its path: " +
+           excerpt(decoded(address.substr(std::min(address.find('/', 7), address.size())), address), 200) + ".";
+  throw PresetError("The address " + excerpt(address, 200) + " holds no experiment. " + cure);
+}
+
 /// The preset that an address names before its #, as in ?embed&preset=flag&panels=0; empty if it names none. Where no #
 /// follows (`alone`), nothing else may stand there that means an experiment.
 std::string framed_preset(std::string_view address, std::string_view link, bool alone) {
@@ -82,6 +103,7 @@ std::string framed_preset(std::string_view address, std::string_view link, bool 
       throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
                         in_one_line(value) + ".");
     } else if (alone && key != "embed" && key != "panels") {
+      if (name.empty()) refuse_address(link);
       fail(link, "has no # before its constants, such as " + excerpt(part) + ".");
     }
   }
@@ -92,20 +114,15 @@ std::string framed_preset(std::string_view address, std::string_view link, bool 
 }  // namespace
 
 bool is_link(std::string_view text) {
-  const auto begins = [&](std::string_view scheme) {
-    return std::equal(scheme.begin(), scheme.end(), text.begin(), text.begin() + std::min(text.size(), scheme.size()),
-                      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-  };
-  return text.starts_with('#') || begins("http://") || begins("https://");
+  return text.starts_with('#') || !scheme_of(text).empty();
 }
 
 LinkedPreset read_link(std::string_view text) {
   const std::size_t hash = std::min(text.find('#'), text.size());
   const bool alone = hash == text.size();
   const std::string framed = hash > 0 ? framed_preset(text.substr(0, hash), text, alone) : std::string();
-  // The page's own address is that of its first experiment; what else it says was meant for another place.
-  if (alone && framed.empty() && text.find_first_of("&=%") != std::string_view::npos)
-    fail(text, "has no #, after which the experiment stands.");
+  const bool file = text.substr(0, std::min(text.find('?'), hash)).ends_with(".json");
+  if (file || (hash > 0 && framed.empty() && hash + 1 >= text.size())) refuse_address(text);
   LinkedPreset linked{framed.empty() ? default_preset : framed, {}};
   std::string_view rest = text.substr(std::min(hash + 1, text.size()));
   for (bool first = true; !rest.empty(); first = false) {

@@ -63,7 +63,9 @@ TEST_CASE("a page's link is a preset; 3: one that is broken") {
   CHECK(state({"#flag&k_s=90&W=[0,0,0.01]", "--set", "k_s=80"}) == typed);
   check_calls({{{"run", "#nothing", "--steps", "1"}, 3, "names no shipped preset: 'nothing'"},
                {{"run", "https://example.org/#flag&k_s=x%", "--steps", "1"}, 3, "hexadecimal"},
-               {{"run", "#flag&k_s=-1", "--steps", "1"}, 3, "The link's k_s=-1"}},
+               {{"run", "#flag&k_s=-1", "--steps", "1"}, 3, "The link's k_s=-1"},
+               {{"run", "https://example.org/my_preset.json", "--steps", "1"}, 3, "download the file first"},
+               {{"https://example.org/my_preset.json", "--frames", "1"}, 3, "download the file first"}},
               folder.path());
 }
 
