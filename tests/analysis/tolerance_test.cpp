@@ -166,9 +166,11 @@ TEST_CASE("a refusal never contradicts its figures, and what it offers can be ha
         return std::stod(words.substr(words.find(before) + std::string(before).size()));
       };
       if (words.find("differ by ") != std::string::npos) {
-        CHECK(figure_after("differ by ") * figure_after("at least ") > tolerance), ++differ;
+        CHECK(figure_after("differ by ") * figure_after("at least ") > tolerance);
+        ++differ;
       } else if (words.find("; the best was") != std::string::npos) {
-        CHECK(2 * figure_after(" double with ") > tolerance), ++best;
+        CHECK(2 * figure_after(" double with ") > tolerance);
+        ++best;
       }
       if (!refusal.tightest) continue;
       CHECK(*refusal.tightest > tolerance);
