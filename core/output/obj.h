@@ -25,8 +25,8 @@ struct ObjFrame {
 /// particle in no whole triangle (or only in triangles without area) has (0, 0, 1).
 std::vector<glm::dvec3> vertex_normals(const Tears& tears, const VectorField<double>& x);
 
-/// The mesh as text: v, vt and vn of every particle in row order, and every whole triangle as f v/vt/vn,
-/// counter-clockwise seen from the front. Positions in m.
+/// The mesh as text: v, vt and vn of every particle in row order, every whole triangle as f v/vt/vn, counter-clockwise
+/// seen from the front, and every whole stretch spring without a whole triangle as l v v. Positions in m.
 std::string obj_text(const Tears& tears, const VectorField<double>& x, const ObjFrame& frame);
 
 /// Writes it, whole or not at all. Throws OutputError.

@@ -8,6 +8,7 @@ import inspect
 import os
 import pathlib
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -112,6 +113,24 @@ class Simulations(unittest.TestCase):
                     own = pathlib.Path(folder) / "own.csv"
                     simulation.save_state(own)
                     self.assertEqual(own.read_bytes(), text)
+
+    def test_csv_files_are_read_as_the_page_of_files_says(self):
+        page = (ROOT / "docs" / "presets.md").read_text()
+        reading = re.search(r"^data = numpy\.genfromtxt\((.*)\)$", page, re.MULTILINE).group(1)
+        with tempfile.TemporaryDirectory() as folder:
+            files = {name: str(pathlib.Path(folder) / f"{name}.csv") for name in ("state", "series", "ledger", "values")}
+            subprocess.run([PROGRAM, "run", "hanging", "--steps", "100", "--set", "rows=8", "--set", "columns=8",
+                            *[word for name, file in files.items() for word in (f"--{name}", file)]],
+                           check=True, capture_output=True)
+            read = {}
+            for name, file in files.items():
+                read[name] = eval(f"numpy.genfromtxt({reading})".replace("forces.csv", file), {"numpy": np})
+                self.assertTrue(np.isfinite(read[name].view(np.float64)).all(), name)
+            self.assertEqual(read["state"].dtype.names, ("i", "j", "x", "y", "z", "vx", "vy", "vz"))
+            self.assertEqual(len(read["state"]), 64)
+            self.assertAlmostEqual(read["series"]["y_min_m"][-1], read["state"]["y"].min(), delta=1e-6)
+            self.assertEqual(read["series"]["t"][0], 0)
+            self.assertIn("sum_F_N", read["series"].dtype.names)
 
     def test_arrays_share_the_memory_and_follow_the_steps(self):
         simulation = tyglab.Simulation(tyglab.Preset(rows=5, columns=7))
