@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/base/files.h"
+#include "core/io/json_tree.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
 
@@ -14,13 +15,13 @@ namespace {
 
 constexpr auto default_preset = "hanging";
 
-/// A part of a link in a sentence, of which a link may have megabytes.
-std::string excerpt(std::string_view text, std::size_t most = 60) {
-  return "'" + in_one_line(std::string(text.substr(0, most))) + (text.size() > most ? "…" : "") + "'";
+/// A part of a link in a sentence.
+std::string cited(std::string_view text, std::size_t most = 60) {
+  return "'" + in_one_line(excerpt(text, most)) + "'";
 }
 
 [[noreturn]] void fail(std::string_view link, const std::string& why) {
-  throw PresetError("The link " + excerpt(link, 200) + " " + why + " Copy it again, whole; links look like " +
+  throw PresetError("The link " + cited(link, 200) + " " + why + " Copy it again, whole; links look like " +
                     std::string(example_link) + ".");
 }
 
@@ -83,8 +84,8 @@ std::string scheme_of(std::string_view text) {
       std::string(example_link) + ".";
   if (scheme_of(address) == "file")
     cure = "Open the file by its path: " +
-           excerpt(decoded(address.substr(std::min(address.find('/', 7), address.size())), address), 200) + ".";
-  throw PresetError("The address " + excerpt(address, 200) + " holds no experiment. " + cure);
+           cited(decoded(address.substr(std::min(address.find('/', 7), address.size())), address), 200) + ".";
+  throw PresetError("The address " + cited(address, 200) + " holds no experiment. " + cure);
 }
 
 /// The preset that an address names before its #, as in ?embed&preset=flag&panels=0; empty if it names none. Where no #
@@ -101,13 +102,13 @@ std::string framed_preset(std::string_view address, std::string_view link, bool 
       name = value;
     } else if (alone && key == "lab") {
       throw PresetError("The link opens a lab, not a preset: begin it in the window with tyglab --lab " +
-                        in_one_line(value) + ".");
+                        in_one_line(excerpt(value)) + ".");
     } else if (alone && key != "embed" && key != "panels") {
       if (name.empty()) refuse_address(link);
-      fail(link, "has no # before its constants, such as " + excerpt(part) + ".");
+      fail(link, "has no # before its constants, such as " + cited(part) + ".");
     }
   }
-  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: " + excerpt(name) + ".");
+  if (!name.empty() && !is_shipped_preset(name)) fail(link, "names no shipped preset: " + cited(name) + ".");
   return name;
 }
 
@@ -130,10 +131,10 @@ LinkedPreset read_link(std::string_view text) {
     const std::string part = decoded(rest.substr(0, end), text);
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (first && part.find('=') == std::string::npos) {
-      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: " + excerpt(part) + ".");
+      if (!is_shipped_preset(part)) fail(text, "names no shipped preset: " + cited(part) + ".");
       linked.name = part;
     } else if (part.find('=') == std::string::npos || part.starts_with('=')) {
-      fail(text, "has a part that is not KEY=VALUE: " + excerpt(part) + ".");
+      fail(text, "has a part that is not KEY=VALUE: " + cited(part) + ".");
     } else {
       linked.settings.push_back(part);
     }
@@ -145,13 +146,12 @@ Preset linked_preset(const LinkedPreset& link) {
   std::vector<Setting> settings;
   for (const std::string& text : link.settings) {
     Setting setting = parse_setting(text);
-    setting.typed = "The link's " + in_one_line(text);
+    setting.typed = "The link's " + in_one_line(excerpt(text, 200));
     settings.push_back(std::move(setting));
   }
   Preset preset = with_parsed_settings(read_preset(find_preset(link.name).file), settings);
   if (!preset.texture.empty() && !is_shipped_texture(preset.texture))
-    throw PresetError("The link's texture " + in_one_line(preset.texture) +
-                      " is not a shipped one; a link holds no image.");
+    throw PresetError("The link's texture " + cited(preset.texture) + " is not a shipped one; a link holds no image.");
   return preset;
 }
 

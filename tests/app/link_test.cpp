@@ -125,7 +125,15 @@ TEST_CASE("a body's JSON stands in a link without spaces, and of a long link the
   const std::string link = link_to(preset, "hanging");
   CHECK(link.find("%20") == std::string::npos);
   CHECK(link.find("bodies=[%7B%22shape%22:%22plane%22") != std::string::npos);
-  CHECK(problem_of("#" + std::string(5000, 'x')).size() < 600);
+  const std::string much(40000, '1');
+  for (const std::string& long_link :
+       {"#" + much, "#hanging&" + much, "#hanging&k_s=" + much, "#hanging&" + much + "=3",
+        "#hanging&integrator=" + much, "#hanging&name=" + much, "#hanging&bodies=" + much,
+        "#hanging&bodies=[{\"" + much + "\":1}]", "#hanging&texture=" + much, "#hanging&" + much + "=%",
+        "https://example.org/" + much, "https://example.org/?preset=" + much, "https://example.org/?lab=" + much})
+    CHECK(problem_of(long_link).size() < 900);
+  for (const std::string& word : {much, much + ".json"})
+    CHECK_THROWS_WITH_AS(find_preset(word), doctest::Contains("…"), PresetError);
 }
 
 TEST_CASE("what is wrong with a link is named") {
