@@ -105,10 +105,13 @@ class Outputs {
     if (options_.wants_frames() && frame_ < plan_.count() && step == plan_.step_of(frame_)) {
       const VectorField<double>& x = simulation.read().x;
       if (cache_) cache_->add(x);
-      if (!options_.obj.empty())
+      if (!options_.obj.empty()) {
+        std::optional<InterruptExit> at_once;
+        if (takes_long_to_show(simulation)) at_once.emplace();
         write_obj(fs::path(options_.obj) / frame_name(scene_.source.label, frame_, plan_.count(), "obj"),
                   simulation.tears(), x,
                   {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps()});
+      }
       ++frame_;
     }
     if ((series_ || ledger_) && step == next_row()) {
@@ -134,6 +137,10 @@ class Outputs {
       add("obj", options_.obj)["frames"] = frame_;
       if (!interrupted) warn_of_older_frames({options_.obj, scene_.source.label, "obj", plan_.count(), frame_});
     }
+    const bool slow = takes_long_to_show(simulation);
+    if (slow && interrupted) return files;
+    std::optional<InterruptExit> at_once;
+    if (slow) at_once.emplace();
     const Reach moment = interrupted ? Reach::stopped : Reach::whole;
     if (!options_.state.empty()) add("state", write_output(options_.state, state_csv(simulation), moment));
     if (!options_.values.empty()) add("values", write_output(options_.values, values_csv(simulation, nullptr), moment));
@@ -348,7 +355,8 @@ int run(const RunOptions& options) {
 
   const bool diverged = simulation.divergence().has_value();
   const double particle_steps = double(simulation.steps()) * simulation.lattice().size();
-  const double excess_at_end = simulation.excess();
+  const bool in_haste = stepper.interrupted() && takes_long_to_show(simulation);
+  const double excess_at_end = in_haste ? 0 : simulation.excess();
   const Json report = summary(simulation, scene,
                               diverged                ? "diverged"
                               : stepper.interrupted() ? "interrupted"
@@ -361,6 +369,10 @@ int run(const RunOptions& options) {
         write_output(options.json, json_text(report), stepper.interrupted() ? Reach::stopped : Reach::whole));
 
   people(options.outputs()) << closing(report, summary_name) << std::endl;
+  if (in_haste)
+    end_interrupted(options.state.empty() && options.values.empty()
+                        ? ""
+                        : "The last state was left out, since a cloth of this size takes long to write.");
   if (diverged)
     std::cerr << "tyglab: " << in_one_line(scene.source.label) << ' ' << simulation.divergence()->in_words() << '\n';
   if (const std::string excess = energy_in_excess(excess_at_end, simulation.preset()); !excess.empty())
