@@ -111,7 +111,9 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
     append_number(text, frame.fps, 9);
     text += " frames per second";
   }
-  text += "\no cloth\n";
+  text += '\n';
+  if (!frame.material.empty()) text += "mtllib " + frame.material + '\n';
+  text += "o cloth\n";
 
   for (std::size_t p = 0; p < std::size_t(lattice.size()); ++p) {
     for (const double value : {x.x[p], x.y[p], x.z[p]}) float_coordinate(value);
@@ -122,6 +124,7 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
       append_line(text, "vt",
                   {lattice.columns > 1 ? double(j) / (lattice.columns - 1) : 0.0, 1 - double(i) / (lattice.rows - 1)});
   for (const glm::dvec3& n : vertex_normals(tears, x)) append_line(text, "vn", {n.x, n.y, n.z});
+  if (!frame.material.empty()) text += "usemtl cloth\n";
   for_whole_triangles(tears, [&](std::size_t a, std::size_t b, std::size_t c) {
     text += 'f';
     for (const std::size_t p : {a, b, c}) {
@@ -134,6 +137,10 @@ std::string obj_text(const Tears& tears, const VectorField<double>& x, const Obj
     text += "l " + std::to_string(a + 1) + ' ' + std::to_string(b + 1) + '\n';
   });
   return text;
+}
+
+std::string material_text(const std::string& image) {
+  return "# Tyglab\nnewmtl cloth\nKd 1 1 1\n" + (image.empty() ? "" : "map_Kd " + image + '\n');
 }
 
 void write_obj(const std::filesystem::path& file, const Tears& tears, const VectorField<double>& x,

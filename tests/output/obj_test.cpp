@@ -204,6 +204,18 @@ TEST_CASE("threads in no whole triangle are lines, which assimp and tinyobjloade
   }
 }
 
+TEST_CASE("a material with its image is read by tinyobjloader") {
+  const test::TemporaryFolder folder;
+  Simulation simulation(test::quiet_cloth(3, 3));
+  test::write_file(folder / "cloth.mtl", material_text("cloth.png"));
+  write_obj(folder / "cloth.obj", simulation.tears(), simulation.read().x, {"A cloth", 0, 0, 25, "cloth.mtl"});
+  const auto reader = read_obj(folder / "cloth.obj");
+  REQUIRE(reader.GetMaterials().size() == 1);
+  CHECK(reader.GetMaterials()[0].diffuse_texname == "cloth.png");
+  for (const int material : reader.GetShapes()[0].mesh.material_ids) CHECK(material == 0);
+  CHECK(material_text("").find("map_Kd") == std::string::npos);
+}
+
 TEST_CASE("the comments tell frame, time and frame rate, whatever the preset is called") {
   Simulation simulation(test::quiet_cloth(3, 3));
   const std::string text = obj_text(simulation.tears(), simulation.read().x, {"Evil\nv 9 9 9\r\nname", 12, 0.5, 30});

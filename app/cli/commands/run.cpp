@@ -1,5 +1,6 @@
 #include "app/cli/commands/commands.h"
 
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/base/files.h"
 #include "app/cli/outputs.h"
 #include "app/cli/preset_argument.h"
 #include "app/cli/stepping.h"
@@ -14,6 +16,7 @@
 #include "app/process/program_run.h"
 #include "core/analysis/settings_search.h"
 #include "core/analysis/tolerance.h"
+#include "core/integrators/scheme.h"
 #include "core/io/output_file.h"
 #include "core/io/preset_io.h"
 #include "core/io/terminal.h"
@@ -37,6 +40,7 @@ struct RunOptions {
   std::string state, values, series, ledger, obj, pc2, json;
   std::optional<double> fps;
   std::optional<std::int64_t> series_every;
+  bool material = false;
   double step_limit_ms = 0;  ///< 0: none
 
   /// All but --obj, which names a folder.
@@ -49,6 +53,7 @@ struct RunOptions {
   /// An option that would do nothing is a mistake of whoever typed it. Throws UsageError.
   void check_combination() const {
     const bool rows = !series.empty() || !ledger.empty();
+    if (material && obj.empty()) throw UsageError("--mtl: writes the material of --obj; add --obj DIR");
     if (series_every && !rows)
       throw UsageError("--series-every: sets how often --series and --ledger write a row; add --series F.csv");
     if (fps && !wants_frames() && !(rows && !series_every))
@@ -86,6 +91,7 @@ class Outputs {
       series_ = std::make_unique<SeriesCsv>(options_.series, series_columns(preset.kind), preset_hash(preset));
     if (!options_.ledger.empty())
       ledger_ = std::make_unique<SeriesCsv>(options_.ledger, ledger_columns(), preset_hash(preset));
+    if (options_.material) write_material(preset);
     if (!options_.pc2.empty()) cache_ = std::make_unique<PointCache>(options_.pc2, simulation.lattice().size());
   }
 
@@ -110,7 +116,7 @@ class Outputs {
         if (takes_long_to_show(simulation)) at_once.emplace();
         write_obj(fs::path(options_.obj) / frame_name(scene_.source.label, frame_, plan_.count(), "obj"),
                   simulation.tears(), x,
-                  {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps()});
+                  {simulation.preset().name, static_cast<int>(frame_), simulation.time(), plan_.fps(), material_});
       }
       ++frame_;
     }
@@ -148,6 +154,20 @@ class Outputs {
   }
 
  private:
+  /// The material, and its image, beside the frames.
+  void write_material(const Preset& preset) {
+    std::string name = scene_.source.label, image;  // without what would end a name in these files
+    for (char& c : name)
+      if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '-') c = '_';
+    if (const fs::path file = texture_file(preset.texture); !preset.texture.empty() && fs::is_regular_file(file)) {
+      constexpr std::uintmax_t most_bytes = 1 << 28;
+      image = name + file.extension().string();
+      write_atomically(fs::path(options_.obj) / image, read_input(file, "texture", most_bytes));
+    }
+    material_ = name + ".mtl";
+    write_atomically(fs::path(options_.obj) / material_, material_text(image));
+  }
+
   /// Whether an output has the name that a frame of --obj may get.
   bool is_frame(const std::string& output) const {
     const fs::path file(output);
@@ -164,6 +184,7 @@ class Outputs {
   FramePlan plan_;
   std::unique_ptr<SeriesCsv> series_, ledger_;
   std::unique_ptr<PointCache> cache_;
+  std::string material_;    ///< its file's name in the folder of --obj; empty: none
   std::int64_t frame_ = 0;  ///< frames written
   std::int64_t row_ = 0;    ///< rows written
 };
@@ -415,6 +436,7 @@ void add_run_command(CLI::App& program, Action& action) {
       ->type_name("N")
       ->transform(whole_number_between(1, 1'000'000'000'000));
   add_output(*command, "--obj", options->obj, "Write a mesh per frame: DIR/PRESET_0000.obj, …")->type_name("DIR");
+  command->add_flag("--mtl", options->material, "Write the cloth's material and texture beside the meshes");
   add_output(*command, "--pc2", options->pc2, "Write a point cache of all frames")->type_name("F.pc2");
   command
       ->add_option(
